@@ -1,0 +1,53 @@
+// Every diagnostic code of Weft and its one-line title. One table for all rooms; docs/errors.md has one section per
+// code, and tests/bad_graphs (or the room's tests) one failing input per code. A ctest holds the three together.
+//
+// Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
+// W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs.
+// Numbers are never reused. Does not hold the message texts: those stand where the mistake is found.
+#pragma once
+
+#include <cstdint>
+
+namespace weft::base {
+
+// clang-format off
+#define WEFT_CODES(X)                                                     \
+  X(1,   "file cannot be read")                                           \
+  X(2,   "not a JSON document")                                           \
+  X(3,   "wrong type of value")                                           \
+  X(4,   "unknown key")                                                   \
+  X(5,   "missing key")                                                   \
+  X(6,   "duplicate key")                                                 \
+  /* expressions and references */                                        \
+  X(20,  "expression cannot be parsed")                                   \
+  X(21,  "reference cannot be parsed")                                    \
+  /* graph */                                                             \
+  X(40,  "unknown resource")                                              \
+  /* shaders and GL */                                                    \
+  X(100, "shader file cannot be read")                                    \
+  /* assets and scenes */                                                 \
+  X(150, "image cannot be read")                                          \
+  /* command line, runtime, outputs */                                    \
+  X(180, "output cannot be written")
+// clang-format on
+
+// A diagnostic code; the numeric value is what follows the W in "W040".
+enum class Code : std::uint16_t {
+#define WEFT_CODE_ENUM(number, title) W##number = number,
+  WEFT_CODES(WEFT_CODE_ENUM)
+#undef WEFT_CODE_ENUM
+};
+
+// The title of a code as it stands in the table above.
+constexpr const char* titleOf(Code code) {
+  switch (code) {
+#define WEFT_CODE_CASE(number, title) \
+  case Code::W##number:               \
+    return title;
+    WEFT_CODES(WEFT_CODE_CASE)
+#undef WEFT_CODE_CASE
+  }
+  return "";
+}
+
+}  // namespace weft::base

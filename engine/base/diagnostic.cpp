@@ -1,0 +1,91 @@
+#include "engine/base/diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace weft::base {
+
+namespace {
+
+const std::string& fileOf(const Diagnostic& diagnostic) {
+  static const std::string none;
+  return diagnostic.place.file ? *diagnostic.place.file : none;
+}
+
+auto keyOf(const Diagnostic& d) { return std::tie(fileOf(d), d.place.line, d.place.column); }
+
+bool sameText(const Diagnostic& a, const Diagnostic& b) {
+  return a.code == b.code && a.severity == b.severity && keyOf(a) == keyOf(b) && a.message == b.message;
+}
+
+}  // namespace
+
+std::string nameOf(Code code) { return fmt::format("W{:03}", static_cast<unsigned>(code)); }
+
+std::string format(const Diagnostic& d) {
+  std::string out;
+  if (d.place.file && !d.place.file->empty()) {
+    out += *d.place.file;
+    if (d.place.line > 0) out += fmt::format(":{}:{}", d.place.line, d.place.column);
+    out += ": ";
+  }
+  const char* severity = d.severity == Severity::error     ? "error"
+                         : d.severity == Severity::warning ? "warning"
+                                                           : "note";
+  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), d.message);
+  const auto line = [&](const char* label, const std::string& text) {
+    if (!text.empty()) out += fmt::format("\n    {}: {}", label, text);
+  };
+  line("pass", d.pass);
+  line("resource", d.resource);
+  line("expected", d.expected);
+  line("found", d.found);
+  line("fix", d.hint);
+  return out;
+}
+
+Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
+  if (diagnostic.severity == Severity::error) ++errors_;
+  items_.push_back(std::move(diagnostic));
+  return items_.back();
+}
+
+Diagnostic& Diagnostics::error(Code code, Place place, std::string message) {
+  return add({.severity = Severity::error, .code = code, .message = std::move(message), .place = std::move(place)});
+}
+
+Diagnostic& Diagnostics::warning(Code code, Place place, std::string message) {
+  return add({.severity = Severity::warning, .code = code, .message = std::move(message), .place = std::move(place)});
+}
+
+void Diagnostics::append(const Diagnostics& others) {
+  items_.insert(items_.end(), others.items_.begin(), others.items_.end());
+  errors_ += others.errors_;
+}
+
+bool Diagnostics::contains(Code code) const {
+  return std::any_of(items_.begin(), items_.end(), [&](const Diagnostic& d) { return d.code == code; });
+}
+
+void Diagnostics::clear() {
+  items_.clear();
+  errors_ = 0;
+}
+
+void Diagnostics::sortByPlace() {
+  std::stable_sort(items_.begin(), items_.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return keyOf(a) < keyOf(b); });
+  items_.erase(std::unique(items_.begin(), items_.end(), sameText), items_.end());
+  errors_ = static_cast<std::size_t>(std::count_if(
+      items_.begin(), items_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; }));
+}
+
+std::string Diagnostics::text() const {
+  std::string out;
+  for (const Diagnostic& d : items_) out += format(d) + "\n";
+  return out;
+}
+
+}  // namespace weft::base

@@ -1,0 +1,70 @@
+#include "engine/base/file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+namespace weft::base {
+
+namespace {
+
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
+
+}  // namespace
+
+std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code, const Place& place) {
+  const auto fail = [&](const std::string& reason, const std::string& hint) {
+    Place where = place;
+    if (!where.file) where.file = std::make_shared<const std::string>(path);
+    diagnostics.error(code, where, fmt::format("cannot read '{}': {}", path, reason)).hint = hint;
+    return std::nullopt;
+  };
+  std::error_code ec;
+  const auto status = std::filesystem::status(path, ec);
+  if (status.type() == std::filesystem::file_type::not_found) return fail("no such file", "check the path");
+  if (status.type() == std::filesystem::file_type::directory) return fail("it is a directory", "name a file inside it");
+  const FilePtr file(std::fopen(path.c_str(), "rb"));
+  if (!file) return fail(std::strerror(errno), "");
+  std::string bytes;
+  char chunk[65536];
+  std::size_t got = 0;
+  while ((got = std::fread(chunk, 1, sizeof chunk, file.get())) > 0) bytes.append(chunk, got);
+  if (std::ferror(file.get())) return fail(std::strerror(errno), "");
+  return bytes;
+}
+
+bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics) {
+  const auto fail = [&](const std::string& reason) {
+    diagnostics
+        .error(Code::W180, {std::make_shared<const std::string>(path), 0, 0},
+               fmt::format("cannot write '{}': {}", path, reason))
+        .hint = "name a file in an existing folder that can be written to";
+    return false;
+  };
+  if (std::filesystem::is_directory(path)) return fail("it is a directory");
+  const std::string temporary = fmt::format("{}.{}.tmp", path, ::getpid());
+  FilePtr file(std::fopen(temporary.c_str(), "wb"));
+  if (!file) return fail(std::strerror(errno));
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
+                       std::fflush(file.get()) == 0;
+  const int error = errno;
+  file.reset();
+  std::error_code ec;
+  if (written) std::filesystem::rename(temporary, path, ec);
+  if (!written || ec) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    return fail(written ? ec.message() : std::strerror(error));
+  }
+  return true;
+}
+
+}  // namespace weft::base

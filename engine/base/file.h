@@ -1,0 +1,21 @@
+// Whole files in and out, with diagnostics instead of exceptions. Directories, missing files and unreadable files are
+// told apart. Does not: watch, memory-map or decode anything.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/base/diagnostic.h"
+
+namespace weft::base {
+
+// The bytes of the file at `path`. On failure reports `code` at `place` (or at the file itself when `place` is empty).
+std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code = Code::W1,
+                                    const Place& place = {});
+
+// Writes through a temporary file beside `path` and renames it, so that a failure never leaves half a file.
+// Reports Code::W180 and returns false when it cannot.
+bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics);
+
+}  // namespace weft::base

@@ -1,0 +1,184 @@
+// GraphDesc: what a graph file says, file by file, with the place of everything; nothing resolved, expanded or checked
+// against anything outside the file. Plain aggregates. Made by readGraph (read.h), consumed by expandGraph (expand.h).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/expr.h"
+#include "engine/graph/value.h"
+
+namespace weft::graph {
+
+using base::Place;
+
+// How a pass touches a resource.
+enum class Access : std::uint8_t { read, write, modify };
+// What the hardware does with it (design: Kinds).
+enum class Kind : std::uint8_t { sampled, image, uniform, storage, vertex, index, indirect, color, depth, copy };
+enum class Cadence : std::uint8_t { always, on_change, once };
+
+struct Sampler {
+  bool linear = false;   // else nearest; with more than one level the levels are filtered the same way
+  bool wrap = false;     // repeat in s, t and r; else clamp to edge
+  bool compare = false;  // depth comparison (GL_LEQUAL... the pass's depth_test decides at run time), implies linear
+};
+
+// `a..b` inside a selector; both ends inclusive; absent ends mean the first and the last.
+struct SpanDesc {
+  Expr first, last;
+  bool range = false;  // false: `first` alone
+};
+
+// source = name selectors @-n as words if condition ?
+struct RefDesc {
+  std::string text;            // as written
+  Place place;
+  std::string pointer;
+  std::string name;            // dotted, without the leading @
+  bool import = false;         // written with @
+  std::optional<SpanDesc> mip, layer, face;
+  std::optional<Expr> element; // [k]
+  bool stencil = false;
+  int history = 0;             // n of @-n
+  std::optional<Kind> kind;    // `as depth`
+  Sampler sampler;             // `as linear wrap`
+  Expr condition;              // `if …`; absent means true
+  bool optional = false;       // trailing ?
+};
+
+struct ParameterDesc {
+  enum class Type : std::uint8_t { boolean, integer, number, vec2, vec3, vec4, choice, file };
+  std::string name;
+  Place place;
+  std::string pointer;
+  Type type = Type::number;
+  Value initial;
+  std::optional<double> min, max, step;
+  std::string label, doc;
+  std::vector<std::string> choices;
+  bool define = false;         // selects a variant instead of being a uniform
+};
+
+struct NamedExpr {
+  std::string name;
+  Place place;                 // of the name
+  std::string pointer;
+  Expr expr;
+};
+
+struct ImportDesc {
+  std::string type;            // "probes", "camera", "draw_order"
+  std::vector<NamedExpr> arguments;
+};
+
+struct ResourceDesc {
+  enum class Kind : std::uint8_t { texture, buffer, import, input, alternatives };
+  std::string name;
+  Place place;
+  std::string pointer;
+  Kind kind = Kind::texture;
+  // texture
+  std::string format;
+  Place formatPlace;
+  Expr size;                   // number or list of 2 (or 3: a 3D texture), texels
+  Expr mips;                   // absent: 1
+  bool fullMips = false;       // "mips": "full"
+  Expr layers, array, samples; // absent: none
+  std::string view;            // "", "2d_array", "cube", "cube_array", "3d"
+  Place viewPlace;
+  // buffer
+  Expr bytes;
+  // both
+  Expr clear;                  // version zero
+  Expr history;                // depth n, absent: 0
+  Expr first;                  // what @-n holds before n publications
+  std::vector<RefDesc> resetRefs;   // "@cut", "camera if $progressive"
+  std::vector<Expr> resetValues;    // "size(hdr)"
+  // others
+  ImportDesc import;
+  std::string input;           // "texture" or "buffer"
+  std::vector<RefDesc> alternatives;
+};
+
+struct SlotDesc {
+  std::string name;
+  Place place;
+  std::string pointer;
+  Access access = Access::read;
+  RefDesc ref;
+};
+
+struct RangeDesc {
+  std::string index;
+  Place place;
+  Expr first, last, step;      // step absent: 1
+};
+
+// A pass parameter is either a value computed by the graph or a parameter declared on the spot.
+struct PassParameterDesc {
+  std::string name;
+  Place place;
+  std::string pointer;
+  Expr value;                              // when not declared
+  std::optional<ParameterDesc> declared;
+};
+
+struct IncludeDesc {
+  std::string file;            // as written, relative to the including file
+  std::string as;              // prefix; never empty after reading
+  std::vector<std::pair<std::string, RefDesc>> binds;
+  std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
+};
+
+struct PassDesc {
+  std::string name;            // for an include: its prefix
+  Place place;                 // of the stanza's opening brace
+  Place namePlace;
+  std::string pointer;
+  std::optional<IncludeDesc> include;
+  std::string type;
+  Place typePlace;
+  std::string shader;
+  Place shaderPlace;
+  Expr enabled;                // absent: true
+  std::vector<RangeDesc> repeat;
+  std::vector<SlotDesc> slots; // in file order
+  std::vector<PassParameterDesc> parameters;
+  std::vector<NamedExpr> defines;
+  std::vector<NamedExpr> state;            // "depth_test", "cull", "blend" (all slots), "blend.radiance" (one slot), …
+  Cadence cadence = Cadence::always;
+  std::string group;
+  Expr slices, threads, instances;
+  std::string list;
+  Place listPlace;
+  std::string geometry;        // "quad", "mesh", "icosphere"
+  std::vector<Expr> geometryArguments;
+  Place geometryPlace;
+  std::optional<RefDesc> view;
+  bool feedback = false;
+  bool sideEffect = false;
+};
+
+struct OutputDesc {
+  std::string name;
+  RefDesc ref;
+};
+
+struct GraphDesc {
+  std::string path;            // as opened; "" for text without a file
+  std::string name;
+  Place place;
+  std::vector<ParameterDesc> parameters;
+  std::vector<NamedExpr> lets;
+  std::vector<ResourceDesc> resources;
+  std::vector<PassDesc> passes;
+  std::optional<RefDesc> present;
+  std::vector<OutputDesc> outputs;
+  std::vector<std::string> files;          // this file and every file included below it, for watching
+};
+
+}  // namespace weft::graph

@@ -1,0 +1,29 @@
+// GraphDesc to FlatGraph: scopes of includes, parameters, repeats, conditions, alternatives, disabled passes, renames,
+// versions, sizes and every check of the design's "Diagnostics". Pure: no clock, no device, no files.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/flat_graph.h"
+#include "engine/graph/registry.h"
+
+namespace weft::graph {
+
+struct Settings {
+  std::uint32_t screenWidth = 1280, screenHeight = 720;
+  bool software = false;                                     // device.software
+  std::vector<std::pair<std::string, std::string>> sets;     // --set NAME=VALUE; NAME is any unique suffix
+  std::vector<std::string> disables;                         // --disable NAME; any unique suffix, all its repeats
+};
+
+// The expanded graph, or null after errors. Warnings leave a graph.
+std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry, const Settings& settings,
+                                             base::Diagnostics& diagnostics);
+
+}  // namespace weft::graph

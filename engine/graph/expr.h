@@ -1,0 +1,71 @@
+// Expressions of graph files: parsed once into a shared immutable tree, evaluated against a scope.
+// Grammar in docs/graph-format.md. Errors are diagnostics at the expression's place (column of the offending token
+// inside the string where known). Does not know resources or files: the scope answers for every name.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/value.h"
+
+namespace weft::graph {
+
+struct ExprNode;  // engine/graph/expr.cpp
+
+enum class Fact : std::uint8_t { size, mips, count, has, age };
+
+// Answers for names while an expression is evaluated. nullopt means "no such name"; evaluate() then reports it with
+// the nearest of candidates(). A scope that already reported an error of its own returns Value{} (type none), which
+// makes the whole result none without a second message.
+class EvalScope {
+ public:
+  enum class NameKind : std::uint8_t { variable, fact_argument, builtin };
+  virtual ~EvalScope() = default;
+  virtual std::optional<Value> variable(std::string_view name) = 0;  // $name or $pass.parameter, also `let` names
+  virtual std::optional<Value> index(std::string_view name) = 0;     // a bare repeat index
+  virtual std::optional<Value> builtin(std::string_view name) = 0;   // "screen", "device.software"
+  virtual std::optional<Value> fact(Fact fact, std::string_view resource, const base::Place& place) = 0;
+  // The choices of a choice parameter, or empty: `$draw == bilboard` is then an error with the nearest choice.
+  virtual std::vector<std::string> choicesOf(std::string_view variable) = 0;
+  virtual std::vector<std::string> candidates(NameKind kind) = 0;
+  // A key by which a folded age() finds its resource at run time; nullopt for an unknown resource.
+  virtual std::optional<std::uint32_t> ageKey(std::string_view resource) = 0;
+};
+
+// A parsed expression, or a literal. Copies share the tree. Default-constructed: absent.
+class Expr {
+ public:
+  Expr() = default;
+  static Expr constant(Value value, base::Place place);
+  static Expr listOf(std::vector<Expr> items, base::Place place);
+  // Parses `text`, which stands at `place` (the place of the string's first character after the quote).
+  static std::optional<Expr> parse(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics);
+
+  bool present() const { return root_ != nullptr; }
+  // True when it contains age(): its value changes from frame to frame.
+  bool dynamic() const;
+  // Canonical text, fit to be parsed again.
+  std::string text() const;
+  const base::Place& place() const;
+  // Every $variable it names (for culling conditions, hot reload and `explain`).
+  std::vector<std::string> variables() const;
+
+  // The value, or type none after an error was reported. age() is an error here unless `scope.fact` answers it.
+  Value evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  // Everything but age() replaced by its value; age nodes carry scope.ageKey(name).
+  Expr fold(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  // Evaluates a folded expression; no heap allocation for numbers and lists. `age` gives seconds since publication.
+  Value evaluateFolded(const std::function<double(std::uint32_t key)>& age) const;
+
+  const ExprNode* root() const { return root_.get(); }
+
+ private:
+  std::shared_ptr<const ExprNode> root_;
+};
+
+}  // namespace weft::graph

@@ -1,0 +1,86 @@
+// Plan: what will happen in a frame. Immutable; equal inputs give equal plans, byte for byte.
+// compile() is linear in passes + uses and touches only the flat arrays of FlatGraph.
+// Does not: know GL enums (barrier bits are the graph's own), own GL objects, or read the clock.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/graph/flat_graph.h"
+
+namespace weft::graph {
+
+// One bit per glMemoryBarrier bit that a plan can need (OpenGL 4.5 core, 7.12.2); the runtime maps them.
+enum BarrierBit : std::uint16_t {
+  kBarrierVertex = 1 << 0,          // VERTEX_ATTRIB_ARRAY
+  kBarrierIndex = 1 << 1,           // ELEMENT_ARRAY
+  kBarrierUniform = 1 << 2,         // UNIFORM
+  kBarrierTexture = 1 << 3,         // TEXTURE_FETCH
+  kBarrierImage = 1 << 4,           // SHADER_IMAGE_ACCESS
+  kBarrierCommand = 1 << 5,         // COMMAND
+  kBarrierTextureUpdate = 1 << 6,   // TEXTURE_UPDATE: clears and sub-image writes
+  kBarrierBufferUpdate = 1 << 7,    // BUFFER_UPDATE: buffer clears and copies
+  kBarrierFramebuffer = 1 << 8,     // FRAMEBUFFER: attachments, blits, read-back of textures
+  kBarrierStorage = 1 << 9,         // SHADER_STORAGE
+};
+constexpr int kBarrierBitCount = 10;
+const char* barrierName(BarrierBit bit);
+
+// Before a step's pass runs: `barriers` is issued, then `clears`, then the pass. Barriers are issued also in frames in
+// which the pass itself is skipped by its cadence, so that any subset of cadences is free of hazards.
+struct Step {
+  std::uint32_t pass = 0;                       // index into FlatGraph::passes
+  std::uint16_t barriers = 0;
+  std::uint32_t firstClear = 0, clearCount = 0; // into Plan::clears: version zero of what this pass touches first
+};
+
+struct ClearOp {
+  FlatUse use;                                  // range to clear; kind copy, access write
+};
+
+// A physical texture (history: `copies` of them in a row count as one Storage).
+struct Storage {
+  Target target = Target::texture_2d;
+  std::uint8_t samples = 1;
+  std::uint16_t layers = 1, mips = 1;
+  std::uint32_t width = 1, height = 1, depth = 1;
+  std::uint16_t viewClass = 0;
+  Format format = Format::none;                 // of its first resource; others are views
+  std::uint8_t copies = 1;
+  bool shared = false;                          // used by more than one resource
+  bool persistent = false;                      // history, or written by a pass that is not always
+  std::uint64_t bytes = 0;                      // of all copies
+};
+
+enum class CullReason : std::uint8_t { live, no_reader };
+
+struct Plan {
+  std::shared_ptr<const FlatGraph> graph;
+  std::vector<Step> steps;                      // execution order
+  std::vector<ClearOp> clears;
+  std::vector<std::uint32_t> stepOf;            // per pass: index into steps, kNone when culled
+  std::vector<std::uint8_t> attached;           // per use: 1 when the use is live (a dead output is not attached)
+  std::vector<std::uint32_t> storageOf;         // per resource: index into storages, kNone for buffers, imports, dead
+  std::vector<std::uint64_t> bufferOffsetOf;    // per resource: offset in the transient arena; kNoOffset otherwise
+  std::vector<std::uint32_t> firstStep, lastStep;  // per resource: lifetime; kNone when dead
+  std::vector<std::uint8_t> persistent;         // per resource: own storage kept across frames
+  std::vector<Storage> storages;
+  std::uint64_t arenaBytes = 0;                 // transient buffers, packed by offset (alignment 256)
+  std::uint16_t finalBarriers = 0;              // before present blit and read-back of outputs
+  std::uint64_t bytesDeclared = 0;              // all transient and persistent resources of live passes, each with storage of its own
+  std::uint64_t bytesAllocated = 0;
+  std::uint64_t bytesLowerBound = 0;            // sum over classes of the greatest number alive at once
+  std::uint64_t bytesBound = 0;                 // sum over steps of the bytes a pass touches
+  static constexpr std::uint64_t kNoOffset = ~0ull;
+};
+
+struct CompileOptions {
+  bool share = true;                            // false: every resource its own storage (fuzz)
+  std::uint64_t orderSeed = 0;                  // not 0: a random legal order instead of the declared one (fuzz)
+};
+
+Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});
+
+}  // namespace weft::graph

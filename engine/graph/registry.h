@@ -1,0 +1,74 @@
+// What the graph core must know of things that live in other rooms: pass types (engine/passes reflects them) and
+// imports (engine/runtime provides them). Plain data, so that a graph is validated without a device.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/format.h"
+
+namespace weft::graph {
+
+enum class ShaderShape : std::uint8_t { none, fragment, compute, draw };
+
+struct FixedSlot {              // for pass types without a shader (blit, mipmap)
+  std::string name;
+  Access access = Access::read;
+  std::string doc;
+};
+
+struct PassType {
+  std::string name;             // "fullscreen"
+  std::string doc;              // one paragraph
+  ShaderShape shader = ShaderShape::none;
+  Kind defaultReadTexture = Kind::sampled;
+  Kind defaultWriteTexture = Kind::color;   // a depth format becomes Kind::depth when this is color
+  std::vector<std::string> keys;            // pass keys it takes besides those every pass takes: "threads", "list", …
+  std::vector<FixedSlot> fixedSlots;        // empty: slots are the author's
+};
+
+enum class ImportKind : std::uint8_t { texture, buffer, view, list, event };
+
+struct ImportArgument {
+  std::string name;
+  Value initial;                // default; type none means required
+  std::vector<std::string> choices;
+  std::string doc;
+};
+
+struct ImportType {
+  std::string name;             // "environment", "spheres", "camera", "cut"
+  ImportKind kind = ImportKind::texture;
+  std::string doc;
+  std::vector<ImportArgument> arguments;
+};
+
+// An import with its arguments evaluated. Two requests with equal type and arguments are one import.
+struct ImportRequest {
+  std::string type;
+  std::vector<std::pair<std::string, Value>> arguments;   // in the order of ImportType::arguments, defaults filled in
+  friend bool operator==(const ImportRequest&, const ImportRequest&) = default;
+};
+
+// What is known of an import before anything runs.
+struct ImportFacts {
+  bool exists = false;          // false: has() is 0, `?` slots lose it, alternatives skip it
+  Format format = Format::none; // textures
+  std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
+  std::uint64_t bytes = 0;      // buffers; 0 when not yet known
+  double count = 0;             // count(x): rows of a list or buffer
+};
+
+struct Registry {
+  std::vector<PassType> passTypes;
+  std::vector<ImportType> imports;
+  std::vector<std::string> drawLists;       // "spheres", "opaque", …
+  std::vector<std::string> geometries;      // "quad", "icosphere", "mesh", "triangle"
+  std::function<ImportFacts(const ImportRequest&)> factsOf;
+};
+
+}  // namespace weft::graph

@@ -1,0 +1,35 @@
+#include "engine/base/diagnostic.h"
+
+#include <doctest/doctest.h>
+
+using namespace weft::base;
+
+static Place at(std::uint32_t line, std::uint32_t column) {
+  return {std::make_shared<const std::string>("a.json"), line, column};
+}
+
+TEST_CASE("a diagnostic prints place, code, message and its details") {
+  Diagnostics all;
+  Diagnostic& d = all.error(Code::W40, at(12, 7), "pass 'fxaa' reads unknown resource 'ldrr'");
+  d.pass = "fxaa";
+  d.hint = "did you mean 'ldr'?";
+  CHECK(format(all.items()[0]) ==
+        "a.json:12:7: error[W040]: pass 'fxaa' reads unknown resource 'ldrr'\n"
+        "    pass: fxaa\n"
+        "    fix: did you mean 'ldr'?");
+  CHECK(all.hasErrors());
+  CHECK(all.contains(Code::W40));
+}
+
+TEST_CASE("warnings are no errors; sorting drops repeats and keeps the count right") {
+  Diagnostics all;
+  all.warning(Code::W40, at(1, 1), "w");
+  CHECK_FALSE(all.hasErrors());
+  all.error(Code::W1, at(9, 1), "late");
+  all.error(Code::W1, at(2, 1), "early");
+  all.error(Code::W1, at(9, 1), "late");
+  all.sortByPlace();
+  REQUIRE(all.size() == 3);
+  CHECK(all.errorCount() == 2);
+  CHECK(all.items()[1].message == "early");
+}

@@ -1,0 +1,28 @@
+#include "engine/base/file.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+using namespace weft::base;
+
+TEST_CASE("a missing file, a directory and an unwritable place are told apart") {
+  Diagnostics all;
+  CHECK_FALSE(readFile("no/such/file", all));
+  CHECK_FALSE(readFile(std::filesystem::temp_directory_path().string(), all, Code::W150));
+  CHECK_FALSE(writeFile("/no_such_folder/x", std::string_view("x"), all));
+  REQUIRE(all.size() == 3);
+  CHECK(all.items()[0].message.find("no such file") != std::string::npos);
+  CHECK(all.items()[1].code == Code::W150);
+  CHECK(all.items()[1].message.find("directory") != std::string::npos);
+  CHECK(all.items()[2].code == Code::W180);
+}
+
+TEST_CASE("what is written is read back") {
+  const std::string path = (std::filesystem::temp_directory_path() / "weft_file_test.bin").string();
+  Diagnostics all;
+  const std::string bytes("a\0b", 3);
+  REQUIRE(writeFile(path, bytes, all));
+  CHECK(readFile(path, all) == bytes);
+  std::filesystem::remove(path);
+}
