@@ -27,6 +27,15 @@ namespace weft::base {
   X(100, "shader file cannot be read")                                    \
   /* assets and scenes */                                                 \
   X(150, "image cannot be read")                                          \
+  X(151, "unknown kind of image file")                                    \
+  X(152, "image is empty or too large")                                   \
+  X(153, "texels were replaced")                                          \
+  X(154, "not a .cube table")                                             \
+  X(155, "material value out of range")                                   \
+  X(156, "duplicate material name")                                       \
+  X(160, "scene value out of range")                                      \
+  X(161, "unknown material")                                              \
+  X(162, "unknown draw list")                                             \
   /* command line, runtime, outputs */                                    \
   X(180, "output cannot be written")
 // clang-format on
