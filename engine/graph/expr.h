@@ -16,6 +16,7 @@
 namespace weft::graph {
 
 struct ExprNode;  // engine/graph/expr.cpp
+class Expr;
 
 enum class Fact : std::uint8_t { size, mips, count, has, age };
 
@@ -35,6 +36,9 @@ class EvalScope {
   virtual std::vector<std::string> candidates(NameKind kind) = 0;
   // A key by which a folded age() finds its resource at run time; nullopt for an unknown resource.
   virtual std::optional<std::uint32_t> ageKey(std::string_view resource) = 0;
+  // A `let` that changes from frame to frame (it contains age(), perhaps through another `let`), already folded in the
+  // scope it stands in; null for every other name. fold() asks this before variable() and puts the tree in its place.
+  virtual const Expr* folded([[maybe_unused]] std::string_view variable) { return nullptr; }
 };
 
 // A parsed expression, or a literal. Copies share the tree. Default-constructed: absent.
