@@ -25,6 +25,19 @@ namespace weft::base {
   X(40,  "unknown resource")                                              \
   /* shaders and GL */                                                    \
   X(100, "shader file cannot be read")                                    \
+  X(101, "included file not found")                                       \
+  X(102, "shaders include each other in a cycle")                         \
+  X(103, "malformed #include")                                            \
+  X(104, "shader does not compile")                                       \
+  X(105, "program does not link")                                         \
+  X(106, "#version in a shader file")                                     \
+  X(110, "no OpenGL context could be opened")                             \
+  X(111, "OpenGL is older than 4.5 core")                                 \
+  X(115, "framebuffer is incomplete")                                     \
+  X(116, "texture cannot be created")                                     \
+  X(117, "buffer cannot be created")                                      \
+  X(118, "texture view cannot be created")                                \
+  X(120, "message from the OpenGL driver")                                \
   /* assets and scenes */                                                 \
   X(150, "image cannot be read")                                          \
   X(151, "unknown kind of image file")                                    \

@@ -1,0 +1,76 @@
+// KHR_debug: the driver's messages as diagnostics (W120), debug groups and object labels. A message that repeats is
+// kept once with a count. Groups name the pass in which a message was raised, and show in apitrace and RenderDoc.
+// Does not: print, abort, or turn GL errors into exceptions.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+
+namespace weft::gl {
+
+struct DebugMessage {
+  GLenum source = 0, type = 0, severity = 0;  // GL_DEBUG_*
+  GLuint id = 0;
+  std::string text;
+  std::string group;       // innermost debug group when it was first raised (the pass), or empty
+  std::uint64_t count = 1;
+};
+
+// Messages of one context. Safe to be called from a driver's thread.
+class DebugLog {
+ public:
+  DebugLog() = default;
+  DebugLog(const DebugLog&) = delete;
+  DebugLog& operator=(const DebugLog&) = delete;
+
+  // Registers with the current context, which must not outlive this log; synchronous, group markers filtered out.
+  void install();
+  // What the callback does; open to tests.
+  void record(GLenum source, GLenum type, GLuint id, GLenum severity, std::string_view text);
+
+  // Any message above GL_DEBUG_SEVERITY_NOTIFICATION since construction or clear()?
+  bool hasAboveNotification() const;
+  std::vector<DebugMessage> messages() const;
+  // Adds one W120 per message that is new since the last drain: high severity or type error: error; medium and low:
+  // warning; notifications: note when `notifications`. Repeats seen by then are said in the text ("seen 12 times").
+  void drain(base::Diagnostics& diagnostics, bool notifications = false);
+  void clear();
+
+ private:
+  friend class DebugGroup;
+  mutable std::mutex mutex_;
+  std::vector<DebugMessage> messages_;
+  std::size_t drained_ = 0;
+  std::vector<std::string_view> groups_;
+};
+
+// A debug group for the lifetime of the object. `name` must outlive it. Groups nest in order of construction.
+class DebugGroup {
+ public:
+  DebugGroup(DebugLog& log, std::string_view name);
+  ~DebugGroup();
+  DebugGroup(const DebugGroup&) = delete;
+  DebugGroup& operator=(const DebugGroup&) = delete;
+
+ private:
+  DebugLog& log_;
+};
+
+// glObjectLabel, cut to the driver's greatest length. `identifier` is GL_TEXTURE, GL_BUFFER, …; the object must exist
+// (bound once, or made by glCreate*).
+void labelObject(GLenum identifier, GLuint id, std::string_view label);
+
+// "GL_INVALID_OPERATION", "GL_RGBA16F", …: the enums this room meets; "0x1234" for others.
+std::string enumName(GLenum value);
+
+// Reads and clears glGetError; the names of all flags, joined by ", ", or "".
+std::string takeErrors();
+
+}  // namespace weft::gl

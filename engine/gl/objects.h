@@ -1,0 +1,233 @@
+// Move-only owners of GL objects, labelled for debug tools and counted per kind (leak tests). Creation that depends on
+// the machine or on an author's numbers returns an optional and a diagnostic; everything else asserts. All functions
+// act on the current context, in which the objects must also die; an object moved from or default-made owns nothing.
+// Does not: cache, pool, bind for drawing, or know the engine's formats (internal formats are GLenum).
+#pragma once
+
+#include <glad/gl.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+
+namespace weft::gl {
+
+enum class ObjectKind : std::uint8_t { texture, view, buffer, framebuffer, sampler, vertex_array, query, fence, program, count_ };
+
+// Objects of this process that are alive, per kind.
+struct LiveObjects {
+  std::array<std::int64_t, static_cast<std::size_t>(ObjectKind::count_)> counts{};
+  std::int64_t of(ObjectKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
+  std::int64_t total() const;
+  friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
+};
+LiveObjects liveObjects();
+// "2 textures, 1 buffer" or "none".
+std::string toText(const LiveObjects& objects);
+
+// Shared ownership mechanics: an id that is deleted with its owner.
+template <ObjectKind kKind>
+class Owner {
+ public:
+  Owner() = default;
+  Owner(Owner&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  Owner& operator=(Owner&& other) noexcept {
+    if (this != &other) {
+      reset();
+      id_ = std::exchange(other.id_, 0);
+    }
+    return *this;
+  }
+  ~Owner() { reset(); }
+  GLuint id() const { return id_; }
+  explicit operator bool() const { return id_ != 0; }
+  void reset();
+
+ protected:
+  explicit Owner(GLuint id);  // counts it
+  GLuint id_ = 0;
+};
+
+// Immutable storage. layers counts array layers, for cubes six per cube (6 for GL_TEXTURE_CUBE_MAP).
+struct TextureDesc {
+  GLenum target = GL_TEXTURE_2D;  // 2D, 2D_ARRAY, CUBE_MAP, CUBE_MAP_ARRAY, 3D, 2D_MULTISAMPLE, 2D_MULTISAMPLE_ARRAY
+  GLenum format = GL_RGBA8;       // sized internal format
+  std::uint32_t width = 1, height = 1, depth = 1;  // depth: 3D only
+  std::uint32_t layers = 1, mips = 1, samples = 1;
+  friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
+};
+
+// What a texture or a view of one looks like to those who bind, attach, upload and read.
+struct TextureRef {
+  GLuint id = 0;
+  TextureDesc desc;
+};
+
+class Texture : public Owner<ObjectKind::texture> {
+ public:
+  // W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp to edge,
+  // GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
+  static std::optional<Texture> create(const TextureDesc& desc, std::string_view label, base::Diagnostics& diagnostics);
+  const TextureDesc& desc() const { return desc_; }
+  TextureRef ref() const { return {id_, desc_}; }
+
+ private:
+  using Owner::Owner;
+  TextureDesc desc_;
+};
+
+struct ViewDesc {
+  GLenum target = GL_TEXTURE_2D;
+  GLenum format = 0;              // 0: the texture's own; others must be in its view class (depth: its own only)
+  std::uint32_t mip = 0, mips = 1, layer = 0, layers = 1;
+  bool stencil = false;           // sampling yields the stencil index (usampler) of a depth-stencil texture
+  friend bool operator==(const ViewDesc&, const ViewDesc&) = default;
+};
+
+// A texture that shares another's storage. It keeps the storage alive by itself.
+class TextureView : public Owner<ObjectKind::view> {
+ public:
+  // W118 when the driver rejects it (range, target, class).
+  static std::optional<TextureView> create(const TextureRef& of, const ViewDesc& view, std::string_view label,
+                                           base::Diagnostics& diagnostics);
+  const TextureDesc& desc() const { return desc_; }  // sizes of the view's level 0
+  TextureRef ref() const { return {id_, desc_}; }
+
+ private:
+  using Owner::Owner;
+  TextureDesc desc_;
+};
+
+class Buffer : public Owner<ObjectKind::buffer> {
+ public:
+  // Immutable storage of `bytes` (> 0); flags as for glNamedBufferStorage. `data` may be null: undefined contents.
+  // W117 when memory is out.
+  static std::optional<Buffer> create(std::uint64_t bytes, GLbitfield flags, std::string_view label,
+                                      base::Diagnostics& diagnostics, const void* data = nullptr);
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  using Owner::Owner;
+  std::uint64_t bytes_ = 0;
+};
+
+struct Attachment {
+  GLenum point = GL_COLOR_ATTACHMENT0;  // or GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT, GL_DEPTH_STENCIL_ATTACHMENT
+  GLuint texture = 0;
+  std::uint32_t mip = 0;
+  std::int32_t layer = -1;              // -1: the whole level (layered when it has layers); else one layer, face or slice
+  friend bool operator==(const Attachment&, const Attachment&) = default;
+};
+
+class Framebuffer : public Owner<ObjectKind::framebuffer> {
+ public:
+  // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached and nothing otherwise. Without attachments,
+  // width and height say how much is rasterised. W115 with the reason spelled out when it is incomplete.
+  static std::optional<Framebuffer> create(std::span<const Attachment> attachments, std::string_view label,
+                                           base::Diagnostics& diagnostics, std::uint32_t width = 0,
+                                           std::uint32_t height = 0);
+
+ private:
+  using Owner::Owner;
+};
+
+struct SamplerDesc {
+  GLenum minFilter = GL_NEAREST, magFilter = GL_NEAREST;
+  GLenum wrap = GL_CLAMP_TO_EDGE;  // s, t and r
+  GLenum compare = 0;              // GL_LEQUAL, …; 0: no comparison
+  friend bool operator==(const SamplerDesc&, const SamplerDesc&) = default;
+};
+
+class SamplerObject : public Owner<ObjectKind::sampler> {
+ public:
+  static SamplerObject create(const SamplerDesc& desc, std::string_view label);
+
+ private:
+  using Owner::Owner;
+};
+
+struct VertexAttribute {
+  GLuint location = 0;
+  GLint components = 3;
+  GLenum type = GL_FLOAT;
+  std::uint32_t offset = 0;  // bytes into a vertex
+  bool integer = false;
+};
+
+class VertexArray : public Owner<ObjectKind::vertex_array> {
+ public:
+  static VertexArray create(std::string_view label);
+  // All attributes from one interleaved buffer binding; indices may be 0. The buffers are not owned.
+  void setVertices(GLuint buffer, std::uint64_t offset, std::uint32_t stride, std::span<const VertexAttribute> attributes);
+  void setIndices(GLuint buffer);
+
+ private:
+  using Owner::Owner;
+};
+
+class Query : public Owner<ObjectKind::query> {
+ public:
+  static Query create(GLenum target, std::string_view label);  // GL_TIMESTAMP, GL_TIME_ELAPSED, …
+  bool available() const;
+  std::uint64_t result() const;  // waits when not available
+
+ private:
+  using Owner::Owner;
+};
+
+// A fence sync object. Default-made: nothing was inserted and isSignalled() is true.
+class Fence {
+ public:
+  Fence() = default;
+  static Fence insert();
+  Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
+  Fence& operator=(Fence&& other) noexcept;
+  ~Fence() { reset(); }
+  explicit operator bool() const { return sync_ != nullptr; }
+  bool isSignalled() const;                      // never waits; flushes so that it gets done some day
+  bool wait(std::uint64_t nanoseconds) const;    // true when signalled within that time
+  void reset();
+
+ private:
+  GLsync sync_ = nullptr;
+};
+
+// ---- texels and bytes, synchronous ---------------------------------------------------------------------------------
+// `layer` is an array layer, a cube's layer * 6 + face, or a 3D slice. Rows are bottom first and tightly packed.
+
+struct Extent {
+  std::uint32_t width = 1, height = 1, layers = 1;  // layers: array layers, faces, or slices of this level
+};
+Extent extentOf(const TextureDesc& desc, std::uint32_t mip);
+
+// Writes one layer of one level; data holds exactly width * height texels of (format, type).
+void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
+                   std::span<const std::byte> data);
+// One layer of one level as bytes of (format, type).
+std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type);
+// The same as floats, four per texel (missing channels 0, alpha 1); depth formats: one per texel; integer formats are
+// converted from their exact values.
+std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip = 0, std::uint32_t layer = 0);
+// Floats per texel of readFloats: 4, or 1 for depth.
+std::uint32_t floatChannelsOf(GLenum internalFormat);
+// Starts a read-back into `buffer` at `offset`; finished when a fence inserted afterwards is signalled.
+void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
+                     GLuint buffer, std::uint64_t offset, std::uint64_t bytes);
+
+void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data);
+std::vector<std::byte> readBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes);
+
+// Bytes per texel of a client format and type, such as GL_RGBA and GL_HALF_FLOAT.
+std::uint32_t texelBytes(GLenum format, GLenum type);
+// Whether an internal format holds unsigned or signed integers, depth, or depth and stencil.
+enum class FormatClass : std::uint8_t { floating, unsigned_integer, signed_integer, depth, depth_stencil };
+FormatClass classOf(GLenum internalFormat);
+
+}  // namespace weft::gl

@@ -1,0 +1,86 @@
+// Variants by (source text, defines, outputs, stages, driver, backend): in memory the most recently used ones, on disk
+// all of them as program binaries. A broken, foreign or rejected binary is a miss and is written anew.
+// A variant that does not compile gives its diagnostics and null, and the caller keeps the program it has; the failure is
+// remembered until the sources change, so that asking again compiles nothing.
+// Does not: compile in the background, delete old binaries, or watch files (SourceLoader looks at times).
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/context.h"
+#include "engine/gl/program.h"
+#include "engine/gl/shader_source.h"
+
+namespace weft::gl {
+
+struct ProgramRequest {
+  struct Stage {
+    GLenum stage = GL_FRAGMENT_SHADER;
+    std::string file;   // found by SourceLoader; a name for messages when `text` is given
+    std::string text;   // not empty: GLSL that the engine itself supplies
+  };
+  std::vector<Stage> stages;
+  std::vector<Define> defines;
+  std::vector<std::string> outputs;  // see Program::compile
+  std::string label;                 // debug label; not part of the key
+  base::Place place;                 // of the graph's "shader" value
+  std::string pass;                  // written into diagnostics
+};
+
+// A program and the sources it was made from, for checking names against them.
+struct Variant {
+  Program program;
+  std::vector<StageSource> stages;
+  // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no error).
+  bool mentions(std::string_view name) const;
+};
+
+struct ProgramCacheStats {
+  std::uint64_t hits = 0, misses = 0, evictions = 0;
+  std::uint64_t compilations = 0;     // from source, failed ones included
+  std::uint64_t failures = 0;         // of those
+  std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0;
+};
+
+class ProgramCache {
+ public:
+  struct Options {
+    std::size_t capacity = 32;   // at least 1
+    std::string folder;          // of binaries, made when absent; "": no disk cache
+  };
+  // `device` and `loader` must outlive the cache.
+  ProgramCache(const DeviceInfo& device, SourceLoader& loader, Options options);
+
+  // The variant, or null after errors. It stays valid when evicted or when its sources change.
+  std::shared_ptr<const Variant> get(const ProgramRequest& request, base::Diagnostics& diagnostics);
+
+  const ProgramCacheStats& stats() const { return stats_; }
+  std::size_t size() const { return order_.size(); }
+  // Drops the variants in memory; those held elsewhere live on.
+  void clear();
+
+ private:
+  struct Entry {
+    std::string key;
+    std::shared_ptr<const Variant> variant;
+  };
+  std::optional<Program> loadBinary(const std::string& key, std::string_view label);
+  void storeBinary(const std::string& key, const Program& program);
+  std::string pathOf(const std::string& key) const;
+
+  const DeviceInfo& device_;
+  SourceLoader& loader_;
+  Options options_;
+  ProgramCacheStats stats_;
+  std::list<Entry> order_;  // most recently used first
+  std::unordered_map<std::string, std::list<Entry>::iterator> index_;
+  std::unordered_map<std::string, base::Diagnostics> failures_;
+};
+
+}  // namespace weft::gl
