@@ -18,9 +18,22 @@ namespace weft::base {
   X(4,   "unknown key")                                                   \
   X(5,   "missing key")                                                   \
   X(6,   "duplicate key")                                                 \
+  X(7,   "nested too deeply")                                             \
+  X(8,   "file includes itself")                                          \
+  X(9,   "duplicate name")                                                \
+  X(10,  "overlays are not supported yet")                                \
+  X(11,  "unknown word")                                                  \
+  X(12,  "not a name")                                                    \
+  X(13,  "value out of its range")                                        \
+  X(14,  "keys that exclude each other")                                  \
   /* expressions and references */                                        \
   X(20,  "expression cannot be parsed")                                   \
   X(21,  "reference cannot be parsed")                                    \
+  X(22,  "unknown name in an expression")                                 \
+  X(23,  "operands that do not fit")                                      \
+  X(24,  "no finite result")                                              \
+  X(25,  "not one of the choices")                                        \
+  X(26,  "wrong function call")                                           \
   /* graph */                                                             \
   X(40,  "unknown resource")                                              \
   /* shaders and GL */                                                    \

@@ -1,0 +1,255 @@
+#include "engine/graph/expr.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "engine/graph/expr_node.h"
+
+namespace weft::graph {
+
+OpInfo infoOf(ExprOp op) {
+  switch (op) {
+    case ExprOp::conditional:
+      return {"?", 1};
+    case ExprOp::logical_or:
+      return {"||", 2};
+    case ExprOp::logical_and:
+      return {"&&", 3};
+    case ExprOp::equal:
+      return {"==", 4};
+    case ExprOp::not_equal:
+      return {"!=", 4};
+    case ExprOp::less:
+      return {"<", 4};
+    case ExprOp::less_equal:
+      return {"<=", 4};
+    case ExprOp::greater:
+      return {">", 4};
+    case ExprOp::greater_equal:
+      return {">=", 4};
+    case ExprOp::add:
+      return {"+", 5};
+    case ExprOp::subtract:
+      return {"-", 5};
+    case ExprOp::multiply:
+      return {"*", 6};
+    case ExprOp::divide:
+      return {"/", 6};
+    case ExprOp::modulo:
+      return {"%", 6};
+    case ExprOp::negate:
+      return {"-", 7};
+    case ExprOp::logical_not:
+      return {"!", 7};
+    case ExprOp::component:
+      return {".", 8};
+    case ExprOp::minimum:
+      return {"min", 0};
+    case ExprOp::maximum:
+      return {"max", 0};
+    case ExprOp::ceil:
+      return {"ceil", 0};
+    case ExprOp::floor:
+      return {"floor", 0};
+    case ExprOp::log2ceil:
+      return {"log2ceil", 0};
+    case ExprOp::pow2ceil:
+      return {"pow2ceil", 0};
+    case ExprOp::abs:
+      return {"abs", 0};
+    default:
+      return {"", 0};
+  }
+}
+
+const char* nameOf(Fact fact) {
+  static constexpr const char* kNames[] = {"size", "mips", "count", "has", "age"};
+  return kNames[static_cast<int>(fact)];
+}
+
+int heightOver(const std::vector<ExprPtr>& children) {
+  int height = 0;
+  for (const ExprPtr& child : children) height = std::max<int>(height, child->height);
+  return height + 1;
+}
+
+ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children) {
+  auto node = std::make_shared<ExprNode>();
+  node->op = op;
+  node->place = std::move(place);
+  const int height = heightOver(children);
+  assert(height <= kMaxExprHeight + 1);
+  node->height = static_cast<std::uint8_t>(height);
+  node->dynamic = std::any_of(children.begin(), children.end(), [](const ExprPtr& c) { return c->dynamic; });
+  node->children = std::move(children);
+  return node;
+}
+
+ExprPtr makeConstant(Value value, base::Place place) {
+  auto node = std::make_shared<ExprNode>();
+  node->value = std::move(value);
+  node->place = std::move(place);
+  return node;
+}
+
+ExprPtr withStart(const ExprPtr& root, const base::Place& start) {
+  auto copy = std::make_shared<ExprNode>(*root);
+  copy->start = start;
+  return copy;
+}
+
+namespace {
+
+// Canonical text; parentheses only where the grammar needs them. `outer` is the precedence of the
+// surroundings.
+void print(const ExprNode& node, int outer, std::string& out) {
+  const OpInfo info = infoOf(node.op);
+  const bool parens = info.precedence > 0 && info.precedence < outer;
+  const auto commaSeparated = [&] {
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      if (i > 0) out += ", ";
+      print(*node.children[i], 0, out);
+    }
+  };
+  if (parens) out += '(';
+  switch (node.op) {
+    case ExprOp::constant: {
+      // A negative constant binds like a unary minus.
+      const bool wrap = node.value.type == Value::Type::number && node.value.v[0] < 0 && outer > 7;
+      out += wrap ? "(" + toText(node.value) + ")" : toText(node.value);
+      break;
+    }
+    case ExprOp::list:
+      out += '[';
+      commaSeparated();
+      out += ']';
+      break;
+    case ExprOp::variable:
+      out += '$' + node.name;
+      break;
+    case ExprOp::identifier:
+    case ExprOp::builtin:
+      out += node.name;
+      break;
+    case ExprOp::fact:
+      out += fmt::format("{}({})", nameOf(node.fact), node.name);
+      break;
+    case ExprOp::age_key:
+      out += fmt::format("age(#{})", node.key);
+      break;
+    case ExprOp::component:
+      print(*node.children[0], info.precedence, out);
+      out += '.';
+      out += "xyzw"[node.key];
+      break;
+    case ExprOp::negate:
+    case ExprOp::logical_not:
+      out += info.spelling;
+      print(*node.children[0], info.precedence + 1, out);
+      break;
+    case ExprOp::conditional:
+      print(*node.children[0], 2, out);
+      out += " ? ";
+      print(*node.children[1], 0, out);
+      out += " : ";
+      print(*node.children[2], 1, out);
+      break;
+    default:
+      if (info.precedence == 0) {
+        out += info.spelling;
+        out += '(';
+        commaSeparated();
+        out += ')';
+        break;
+      }
+      // Comparisons do not chain, so both their sides need a tighter operator.
+      print(*node.children[0], info.precedence + (info.precedence == 4 ? 1 : 0), out);
+      out += fmt::format(" {} ", info.spelling);
+      print(*node.children[1], info.precedence + 1, out);
+  }
+  if (parens) out += ')';
+}
+
+void collectVariables(const ExprNode& node, std::vector<std::string>& out) {
+  if (node.op == ExprOp::variable && std::find(out.begin(), out.end(), node.name) == out.end())
+    out.push_back(node.name);
+  for (const ExprPtr& child : node.children) collectVariables(*child, out);
+}
+
+void collectFacts(const ExprNode& node, std::vector<std::pair<Fact, std::string>>& out) {
+  if (node.op == ExprOp::fact) out.emplace_back(node.fact, node.name);
+  for (const ExprPtr& child : node.children) collectFacts(*child, out);
+}
+
+}  // namespace
+
+Expr Expr::constant(Value value, base::Place place) {
+  Expr expr;
+  ExprPtr node = makeConstant(std::move(value), place);
+  expr.root_ = withStart(node, place);
+  return expr;
+}
+
+Expr Expr::listOf(std::vector<Expr> items, base::Place place) {
+  assert(!items.empty() && items.size() <= 4);
+  std::vector<ExprPtr> children;
+  children.reserve(items.size());
+  bool numbers = true;
+  Value value;
+  value.type = Value::Type::list;
+  for (const Expr& item : items) {
+    assert(item.present() && item.root_->height < kMaxExprHeight);
+    const bool number = item.root_->op == ExprOp::constant && item.root_->value.type == Value::Type::number;
+    numbers = numbers && number;
+    if (number) value.v[value.count++] = item.root_->value.v[0];
+    children.push_back(item.root_);
+  }
+  if (numbers) return constant(std::move(value), std::move(place));
+  Expr expr;
+  expr.root_ = withStart(makeNode(ExprOp::list, place, std::move(children)), place);
+  return expr;
+}
+
+std::optional<Expr> Expr::parse(std::string_view text, const base::Place& place,
+                                base::Diagnostics& diagnostics) {
+  const ExprPtr root = parseExprTree(text, place, diagnostics);
+  if (!root) return std::nullopt;
+  Expr expr;
+  expr.root_ = withStart(root, place);
+  return expr;
+}
+
+bool Expr::dynamic() const {
+  return root_ && root_->dynamic;
+}
+
+std::string Expr::text() const {
+  std::string out;
+  if (root_) print(*root_, 0, out);
+  return out;
+}
+
+const base::Place& Expr::place() const {
+  static const base::Place none;
+  return root_ ? root_->start : none;
+}
+
+std::vector<std::string> Expr::variables() const {
+  std::vector<std::string> out;
+  if (root_) collectVariables(*root_, out);
+  return out;
+}
+
+std::vector<std::pair<Fact, std::string>> Expr::facts() const {
+  std::vector<std::pair<Fact, std::string>> out;
+  if (root_) collectFacts(*root_, out);
+  return out;
+}
+
+bool Expr::isConstant() const {
+  return root_ && root_->op == ExprOp::constant;
+}
+
+}  // namespace weft::graph

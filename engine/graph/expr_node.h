@@ -1,0 +1,89 @@
+// The tree behind Expr, shared by the parser, the evaluator and the printer. Private to
+// engine/graph/expr*.cpp. Nodes are immutable once built; `height` bounds every recursion over them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/expr.h"
+#include "engine/graph/value.h"
+
+namespace weft::graph {
+
+enum class ExprOp : std::uint8_t {
+  constant,
+  list,        // children: 1..4 items
+  variable,    // name: "bloom", "composite.fog"
+  identifier,  // name: a repeat index, else a symbol
+  builtin,     // name: "screen", "device.software"
+  fact,        // name: the resource, with its @ if written; fact
+  age_key,     // key: a folded age()
+  component,   // children: the list; key: 0..3
+  negate,
+  logical_not,
+  add,
+  subtract,
+  multiply,
+  divide,
+  modulo,
+  equal,
+  not_equal,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  logical_and,
+  logical_or,
+  conditional,  // children: condition, then, else
+  minimum,
+  maximum,
+  ceil,
+  floor,
+  log2ceil,
+  pow2ceil,
+  abs,
+};
+
+struct ExprNode : std::enable_shared_from_this<ExprNode> {
+  ExprOp op = ExprOp::constant;
+  Fact fact = Fact::size;
+  std::uint8_t height = 1;  // 1 for leaves; never above kMaxExprHeight
+  bool dynamic = false;     // contains age()
+  std::uint32_t key = 0;
+  base::Place place;  // of the token to blame: the operator, the name, the function
+  base::Place start;  // of the whole expression; set on roots only
+  Value value{};
+  std::string name{};
+  std::vector<std::shared_ptr<const ExprNode>> children{};
+};
+
+using ExprPtr = std::shared_ptr<const ExprNode>;
+
+constexpr int kMaxExprHeight = 200;
+
+struct OpInfo {
+  const char* spelling;
+  std::uint8_t precedence;  // 0: not an infix operator; larger binds tighter
+};
+
+// "+" and 5 for add; the function's name for calls.
+OpInfo infoOf(ExprOp op);
+
+// "size", "mips", "count", "has", "age".
+const char* nameOf(Fact fact);
+
+// A node over `children`, with height and dynamic filled in. The caller has checked the height.
+ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children);
+ExprPtr makeConstant(Value value, base::Place place);
+// 1 + the greatest height among `children`.
+int heightOver(const std::vector<ExprPtr>& children);
+// A copy of `root` that knows where the whole expression starts.
+ExprPtr withStart(const ExprPtr& root, const base::Place& start);
+
+// The trees of Expr::parse; null after an error.
+ExprPtr parseExprTree(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics);
+
+}  // namespace weft::graph

@@ -1,0 +1,41 @@
+// What a name of a graph file looks like: identifiers, dotted names, and the words that names may not use.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace weft::graph {
+
+constexpr bool isSpace(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+constexpr bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+constexpr bool isIdentStart(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+constexpr bool isIdentChar(char c) {
+  return isIdentStart(c) || isDigit(c);
+}
+
+constexpr bool isIdent(std::string_view text) {
+  return !text.empty() && isIdentStart(text[0]) && std::all_of(text.begin(), text.end(), isIdentChar);
+}
+
+// 0..3 for x y z w, else -1.
+constexpr int componentIndex(std::string_view word) {
+  constexpr std::string_view kComponents = "xyzw";
+  const std::size_t found = word.size() == 1 ? kComponents.find(word[0]) : std::string_view::npos;
+  return found == std::string_view::npos ? -1 : static_cast<int>(found);
+}
+
+// Words that may stand in no name, because they select a sub-resource or a component after a dot.
+constexpr std::array<std::string_view, 8> kReservedWords = {"mip", "layer", "face", "stencil",
+                                                            "x",   "y",     "z",    "w"};
+constexpr bool isReservedWord(std::string_view word) {
+  return std::find(kReservedWords.begin(), kReservedWords.end(), word) != kReservedWords.end();
+}
+
+}  // namespace weft::graph
