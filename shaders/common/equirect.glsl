@@ -1,0 +1,49 @@
+// Equirectangular maps: u = atan2(z, x) / 2pi + 1/2, v = 1/2 - asin(y) / pi, row 0 at the top (+Y).
+// Samplers are expected `as linear wrap`: u wraps, and v is kept half a texel inside so that the poles do not wrap too.
+// Every lookup names its level, so no derivative is taken where u jumps from 1 to 0 and there is no seam.
+#ifndef COMMON_EQUIRECT_GLSL
+#define COMMON_EQUIRECT_GLSL
+
+const float kPi = 3.14159265358979;
+
+// atan(y, x) with an error below 1.1e-5 rad (a sixth of a percent of a texel of a 1024 map); x and y not both zero.
+// Odd polynomial of degree 11 on [0, 1]: Hastings, "Approximations for Digital Computers", 1955, sheet 11.
+float fastAtan(float y, float x) {
+  float ax = abs(x), ay = abs(y);
+  float t = min(ax, ay) / max(max(ax, ay), 1e-30);
+  float s = t * t;
+  float r = ((((-0.01172120 * s + 0.05265332) * s - 0.11643287) * s + 0.19354346) * s - 0.33262347) * s + 0.99997726;
+  r *= t;
+  r = ay > ax ? 0.5 * kPi - r : r;
+  r = x < 0.0 ? kPi - r : r;
+  return y < 0.0 ? -r : r;
+}
+
+// The direction need not be normalised.
+vec2 equirectUv(vec3 direction) {
+  float u = fastAtan(direction.z, direction.x) * (0.5 / kPi) + 0.5;
+  float v = 0.5 - fastAtan(direction.y, length(direction.xz)) / kPi;
+  return vec2(u, v);
+}
+
+// Unit direction of a point of the map.
+vec3 equirectDirection(vec2 map_uv) {
+  float phi = (map_uv.x - 0.5) * 2.0 * kPi;
+  float theta = map_uv.y * kPi;
+  return vec3(cos(phi) * sin(theta), cos(theta), sin(phi) * sin(theta));
+}
+
+// Level at which a texel of the map at the equator is as wide as `angle` radians; 0 when the map is magnified.
+float equirectLevel(float base_width, float angle) {
+  return max(log2(angle * base_width * (0.5 / kPi)), 0.0);
+}
+
+// Linear lookup at a level; `height` is the height of level 0.
+vec4 sampleEquirect(sampler2D map, vec3 direction, float level, float height) {
+  vec2 p = equirectUv(direction);
+  float half_texel = 0.5 * exp2(ceil(level)) / height;
+  p.y = clamp(p.y, half_texel, 1.0 - half_texel);
+  return textureLod(map, p, level);
+}
+
+#endif

@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Every shader named by a graph is valid GLSL, in the variants its slots, parameters and defines can ask for.
+
+Usage: shaders_compile.py SOURCE_DIR [GRAPH...]; default: every .json with passes in graphs/, tests/golden and tests/theory.
+Per pass: everything connected, then each optional input, each output and each parameter left out alone, all optional
+ones left out together, and each value of each define. Needs glslangValidator; exits 77 (skipped) without it.
+"""
+import itertools
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOP = pathlib.Path(sys.argv[1]).resolve()
+STAGES = ("vert", "frag", "comp")
+
+
+def strip_comments(text):
+    pattern = r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/'
+    return re.sub(pattern, lambda m: m.group(0) if m.group(0)[0] == '"' else " ", text, flags=re.S)
+
+
+def shader_folders(graph):
+    return [graph.parent / "shaders", graph.parent.parent / "shaders", TOP / "shaders"]
+
+
+def find_shader(graph, name):
+    for folder in shader_folders(graph):
+        if (folder / name).is_file():
+            return folder / name
+    return None
+
+
+def expand(path, roots, seen_stack=()):
+    """Text of a shader with its includes in place and #line marks that count files."""
+    if path in seen_stack:
+        raise ValueError(f"{path}: includes itself")
+    out = []
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        found = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
+        if not found:
+            out.append(line)
+            continue
+        options = [root / found.group(1) for root in [path.parent, *roots]]
+        target = next((option for option in options if option.is_file()), None)
+        if target is None:
+            raise ValueError(f"{path}:{number}: no file {found.group(1)}")
+        out += expand(target, roots, (*seen_stack, path))
+    return out
+
+
+def define_name(name):
+    return re.sub(r"\W", "_", name).upper()
+
+
+def passes_of(graph):
+    desc = json.loads(strip_comments(graph.read_text()))
+    for stanza in desc.get("passes", []):
+        if "shader" in stanza:
+            yield stanza, desc
+
+
+def variants(stanza, desc):
+    """Dictionaries of defines."""
+    slots, optional = [], []
+    for access in ("read", "write", "modify"):
+        for slot, ref in stanza.get(access, {}).items():
+            slots.append(slot)
+            if access != "read" or str(ref).rstrip().endswith("?"):
+                optional.append(slot)
+    parameters, choices = [], {}
+    for name, value in stanza.get("parameters", {}).items():
+        if isinstance(value, dict) and value.get("define"):
+            choices[define_name(name)] = [{define_name(name): "0"}, {define_name(name): "1"}]
+        else:
+            parameters.append(name)
+    for name, value in stanza.get("defines", {}).items():
+        name = define_name(name)
+        source = desc.get("parameters", {}).get(str(value).lstrip("$"), {}) if str(value).startswith("$") else {}
+        if "choices" in source:
+            named = {f"{name}_{define_name(c)}": str(i) for i, c in enumerate(source["choices"])}
+            choices[name] = [{name: str(i), **named} for i in range(len(source["choices"]))]
+        else:
+            choices[name] = [{name: "0"}, {name: "1"}]
+    everything = {f"HAS_{define_name(n)}": "1" for n in slots + parameters}
+    base = [everything]
+    for left_out in optional + parameters:
+        base.append({k: v for k, v in everything.items() if k != f"HAS_{define_name(left_out)}"})
+    dropped = {f"HAS_{define_name(n)}" for n in optional + parameters}
+    base.append({k: v for k, v in everything.items() if k not in dropped})
+    for combination in itertools.product(*choices.values()):
+        extra = {k: v for part in combination for k, v in part.items()}
+        for has in base:
+            yield {**has, **extra}
+
+
+def check(files, stage, defines, roots, folder):
+    text = ["#version 450 core", *(f"#define {k} {v}" for k, v in defines.items()), *expand(files, roots)]
+    path = folder / f"shader.{stage}"
+    path.write_text("\n".join(text) + "\n")
+    result = subprocess.run(["glslangValidator", str(path)], capture_output=True, text=True)
+    if result.returncode == 0:
+        return None
+    lines = [line for line in result.stdout.splitlines() if "ERROR" in line][:6]
+    context = []
+    for line in lines:
+        at = re.search(r":(\d+):", line)
+        if at and int(at.group(1)) <= len(text):
+            context.append(f"    {line.strip()}\n      > {text[int(at.group(1)) - 1].strip()}")
+        else:
+            context.append(f"    {line.strip()}")
+    return "\n".join(context)
+
+
+def main():
+    if not shutil.which("glslangValidator"):
+        print("shaders_compile: skipped, glslangValidator is not installed")
+        return 77
+    graphs = [pathlib.Path(g).resolve() for g in sys.argv[2:]]
+    if not graphs:
+        for folder in ("graphs", "tests/golden", "tests/theory"):
+            graphs += sorted(g for g in (TOP / folder).glob("*.json") if '"passes"' in g.read_text())
+    done, problems, used = set(), [], set()
+    with tempfile.TemporaryDirectory() as temporary:
+        for graph in graphs:
+            roots = shader_folders(graph)
+            for stanza, desc in passes_of(graph):
+                name, where = stanza["shader"], f"{graph.relative_to(TOP)}: pass {stanza['name']}"
+                names = [f"{name}.vert.glsl", f"{name}.frag.glsl"] if stanza["type"] == "draw" else [name]
+                for one in names:
+                    path = find_shader(graph, one)
+                    if path is None:
+                        problems.append(f"{where}: no shader {one}")
+                        continue
+                    used.add(path)
+                    stage = path.name.split(".")[-2]
+                    if stage not in STAGES:
+                        problems.append(f"{where}: {one}: no stage in the name")
+                        continue
+                    for defines in variants(stanza, desc):
+                        key = (path, tuple(sorted(defines.items())))
+                        if key in done:
+                            continue
+                        done.add(key)
+                        try:
+                            error = check(path, stage, defines, roots, pathlib.Path(temporary))
+                        except ValueError as reason:
+                            error = f"    {reason}"
+                        if error:
+                            problems.append(f"{where}: {path.relative_to(TOP)} with {defines}\n{error}")
+    unused = sorted(p for p in (TOP / "shaders").rglob("*.*.glsl") if p.name.split(".")[-2] in STAGES and p not in used)
+    problems += [f"{p.relative_to(TOP)}: no graph uses it" for p in unused]
+    print("\n".join(problems) or f"shaders_compile: {len(used)} shaders, {len(done)} variants")
+    return 1 if problems or not done else 0
+
+
+sys.exit(main())
