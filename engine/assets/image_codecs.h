@@ -1,0 +1,27 @@
+// The decoders and encoders behind image.h, one pair per library. Internal to the room.
+// `name` is the path as the person wrote it; failures are added with the place set to it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/assets/image.h"
+
+namespace weft::assets {
+
+enum class ImageKind : std::uint8_t { unknown, hdr, exr, eight_bit };
+ImageKind kindOfName(const std::string& name);
+
+// Adds "cannot read NAME: WHY" as W150, or W152 for sizes.
+void reportUnreadable(base::Diagnostics& diagnostics, const std::string& name, const std::string& why);
+// True when the size is sound; else adds W152.
+bool checkSize(base::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
+
+std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const std::string& name,
+                                  base::Diagnostics& diagnostics);
+
+}  // namespace weft::assets

@@ -1,0 +1,110 @@
+#include "engine/scene/camera.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace weft::scene {
+
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+glm::dvec3 turnAboutY(glm::dvec3 v, double radians) {
+  const double c = std::cos(radians), s = std::sin(radians);
+  return {v.x * c + v.z * s, v.y, v.z * c - v.x * s};
+}
+
+// Radical inverse of `index` in `base` (Halton 1964).
+double radicalInverse(std::uint32_t index, std::uint32_t base) {
+  double result = 0, digit = 1.0 / base;
+  for (; index > 0; index /= base, digit /= base) result += digit * (index % base);
+  return result;
+}
+
+}  // namespace
+
+CameraPose poseAt(const Camera& camera, double time) {
+  CameraPose pose = camera.pose;
+  if (!camera.path.empty()) {
+    const auto after = std::upper_bound(camera.path.begin(), camera.path.end(), time,
+                                        [](double t, const CameraKey& key) { return t < key.time; });
+    const CameraKey& b = after == camera.path.end() ? camera.path.back() : *after;
+    const CameraKey& a = after == camera.path.begin() ? camera.path.front() : *(after - 1);
+    const double f = b.time > a.time ? (time - a.time) / (b.time - a.time) : 0;
+    pose.position = a.position + (b.position - a.position) * f;
+    pose.target = a.target + (b.target - a.target) * f;
+    pose.fovDegrees = a.fovDegrees + (b.fovDegrees - a.fovDegrees) * f;
+    return pose;
+  }
+  if (camera.orbitDegreesPerSecond != 0 && time != 0) {
+    const double radians = std::fmod(camera.orbitDegreesPerSecond * time, 360.0) * kRadiansPerDegree;
+    pose.position = pose.target + turnAboutY(pose.position - pose.target, radians);
+  }
+  return pose;
+}
+
+bool isMoving(const Camera& camera) { return camera.path.size() > 1 || camera.orbitDegreesPerSecond != 0; }
+
+glm::dmat4 viewMatrix(const CameraPose& pose) {
+  const glm::dvec3 back = glm::normalize(pose.position - pose.target);
+  glm::dvec3 up(0, 1, 0);
+  if (std::abs(back.y) > 1 - 1e-12) up = {0, 0, back.y > 0 ? -1 : 1};
+  const glm::dvec3 right = glm::normalize(glm::cross(up, back));
+  const glm::dvec3 above = glm::cross(back, right);
+  glm::dmat4 view(1);
+  for (int i = 0; i < 3; ++i) {
+    view[i][0] = right[i];
+    view[i][1] = above[i];
+    view[i][2] = back[i];
+  }
+  view[3] = {-glm::dot(right, pose.position), -glm::dot(above, pose.position), -glm::dot(back, pose.position), 1};
+  return view;
+}
+
+// Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012: reversed, far plane at infinity.
+glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane, glm::dvec2 jitterNdc) {
+  assert(fovDegrees > 0 && fovDegrees < 180 && aspect > 0 && nearPlane > 0);
+  const double f = 1 / std::tan(fovDegrees * kRadiansPerDegree / 2);
+  glm::dmat4 projection(0);
+  projection[0][0] = f / aspect;
+  projection[1][1] = f;
+  projection[2] = {-jitterNdc.x, -jitterNdc.y, 0, -1};
+  projection[3][2] = nearPlane;
+  return projection;
+}
+
+ViewData makeView(const ViewRequest& request) {
+  assert(request.viewport.x > 0 && request.viewport.y > 0);
+  const glm::dvec2 size(request.viewport);
+  const glm::dvec2 jitter = glm::dvec2(request.jitter) * 2.0 / size;
+  const auto projectionOf = [&](const CameraPose& pose) {
+    return projectionMatrix(pose.fovDegrees, size.x / size.y, pose.nearPlane, jitter);
+  };
+  const glm::dmat4 view = viewMatrix(request.pose), projection = projectionOf(request.pose);
+
+  ViewData data;
+  data.view = glm::mat4(view);
+  data.projection = glm::mat4(projection);
+  data.view_projection = glm::mat4(projection * view);
+  data.inverse_view_projection = glm::mat4(glm::inverse(view) * glm::inverse(projection));
+  data.previous_view_projection = glm::mat4(projectionOf(request.previousPose) * viewMatrix(request.previousPose));
+  data.eye = glm::vec3(request.pose.position);
+  data.previous_eye = glm::vec3(request.previousPose.position);
+  data.near_plane = static_cast<float>(request.pose.nearPlane);
+  data.viewport = glm::vec2(request.viewport);
+  data.jitter = request.jitter;
+  data.frame = request.frame;
+  data.time = static_cast<float>(request.time);
+  data.delta_time = static_cast<float>(request.deltaTime);
+  return data;
+}
+
+glm::vec2 jitterAt(std::uint32_t frame, std::uint32_t count) {
+  if (count <= 1) return {0, 0};
+  const std::uint32_t index = frame % count + 1;  // element 0 of the sequence is the corner
+  return {static_cast<float>(radicalInverse(index, 2) - 0.5), static_cast<float>(radicalInverse(index, 3) - 0.5)};
+}
+
+}  // namespace weft::scene

@@ -1,0 +1,52 @@
+#include "engine/scene/scene.h"
+
+#include <algorithm>
+
+namespace weft::scene {
+
+const std::vector<std::string>& drawListNames() {
+  static const std::vector<std::string> names = {"spheres", "opaque", "shadow_casters", "transparent_spheres"};
+  return names;
+}
+
+std::optional<DrawList> findDrawList(std::string_view name) {
+  const std::vector<std::string>& names = drawListNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return static_cast<DrawList>(found - names.begin());
+}
+
+const Camera* findCamera(const Scene& scene, std::string_view name) {
+  for (const Camera& camera : scene.cameras.rows())
+    if (name.empty() || camera.name == name) return &camera;
+  return nullptr;
+}
+
+std::size_t countInstances(const Scene& scene, DrawList list) {
+  const std::span<const Sphere> spheres = scene.spheres.rows();
+  return static_cast<std::size_t>(
+      std::count_if(spheres.begin(), spheres.end(), [&](const Sphere& s) { return (s.lists & maskOf(list)) != 0; }));
+}
+
+bool isMoving(const Scene& scene, DrawList list) {
+  const std::span<const Sphere> spheres = scene.spheres.rows();
+  return std::any_of(spheres.begin(), spheres.end(), [&](const Sphere& s) {
+    return (s.lists & maskOf(list)) != 0 && s.velocity != glm::vec3(0);
+  });
+}
+
+void fillInstances(const Scene& scene, DrawList list, double time, double previousTime, std::vector<Instance>& out) {
+  out.clear();
+  out.reserve(countInstances(scene, list));
+  const float now = static_cast<float>(time), before = static_cast<float>(previousTime);
+  static const Material kNoMaterial{};
+  for (const Sphere& sphere : scene.spheres.rows()) {
+    if ((sphere.lists & maskOf(list)) == 0) continue;
+    const Material* found = scene.materials.find(sphere.material);
+    const Material& material = found ? *found : kNoMaterial;
+    out.push_back({sphere.center + sphere.velocity * now, sphere.radius, sphere.center + sphere.velocity * before,
+                   material.roughness, material.albedo, material.metallic});
+  }
+}
+
+}  // namespace weft::scene

@@ -1,0 +1,78 @@
+#include "engine/assets/cube_lut.h"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "tests/assets/temporary.h"
+
+using namespace weft;
+using assets::CubeLut;
+
+static std::optional<CubeLut> read(std::string_view text, base::Diagnostics& diagnostics) {
+  return assets::readCubeLut(text, "test.cube", diagnostics);
+}
+
+// The one diagnostic of a text that must fail.
+static base::Diagnostic failureOf(std::string_view text) {
+  base::Diagnostics diagnostics;
+  CHECK_FALSE(read(text, diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == base::Code::W154);
+  return diagnostics.items()[0];
+}
+
+TEST_CASE("a 3D table with comments, a title, a domain and carriage returns") {
+  base::Diagnostics diagnostics;
+  std::string text = "# by hand\r\nTITLE \"warm look\"\r\nLUT_3D_SIZE 2\r\nDOMAIN_MIN 0 -1 0\r\nDOMAIN_MAX 1 +2.5 4e0\r\n\r\n";
+  for (int i = 0; i < 8; ++i) text += fmt::format("{} {} {}\r\n", i & 1, (i >> 1) & 1, (i >> 2) * 0.5);
+  const auto lut = read(text, diagnostics);
+  REQUIRE(lut);
+  CHECK(diagnostics.empty());
+  CHECK(lut->title == "warm look");
+  CHECK(lut->dimensions == 3);
+  CHECK(lut->size == 2);
+  CHECK(lut->domainMin == std::array<float, 3>{0, -1, 0});
+  CHECK(lut->domainMax == std::array<float, 3>{1, 2.5f, 4});
+  REQUIRE(lut->texels.size() == 24);
+  CHECK(lut->texels[3] == 1);       // red is fastest
+  CHECK(lut->texels[23] == 0.5f);
+}
+
+TEST_CASE("a 1D table, without a final newline, from a file") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  const auto lut = assets::loadCubeLut(folder.write("a.cube", "LUT_1D_SIZE 3\nLUT_1D_INPUT_RANGE 0 2\n0 0 0\n.5 .5 .5\n1 1 1"), diagnostics);
+  REQUIRE(lut);
+  CHECK(lut->dimensions == 1);
+  CHECK(lut->domainMax[2] == 2);
+  CHECK(lut->texels.size() == 9);
+  CHECK_FALSE(assets::loadCubeLut(folder.at("missing.cube"), diagnostics));
+  CHECK(diagnostics.contains(base::Code::W1));
+}
+
+TEST_CASE("every mistake names its line") {
+  CHECK(failureOf("").message.find("neither") != std::string::npos);
+  CHECK(failureOf("LUT_3D_SIZE 2\n0 0 0\n").message.find("8 rows") != std::string::npos);
+  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\n1 1 1\n2 2 2\n").place.line == 4);
+  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\n1 x 1\n").place.line == 3);
+  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\n1 x 1\n").place.column == 3);
+  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\n1 nan 1\n").found == "nan");
+  CHECK(failureOf("LUT_1D_SIZE 2\n0 0\n1 1 1\n").place.line == 2);
+  CHECK(failureOf("LUT_1D_SIZE 2\nLUT_1D_SIZE 2\n0 0 0\n1 1 1\n").place.line == 2);
+  CHECK(failureOf("0 0 0\n").message.find("before") != std::string::npos);
+  CHECK(failureOf("LUT_2D_SIZE 4\n").message.find("LUT_2D_SIZE") != std::string::npos);
+  CHECK(failureOf("LUT_3D_SIZE 1000000000\n").message.find("256") != std::string::npos);
+  CHECK(failureOf("LUT_3D_SIZE 2.5\n").found == "2.5");
+  CHECK(failureOf("LUT_1D_SIZE 2\nDOMAIN_MIN 1 1 1\n0 0 0\n1 1 1\n").message.find("DOMAIN_MIN") != std::string::npos);
+  CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\nDOMAIN_MIN 0 0 0\n1 1 1\n").place.line == 3);
+  CHECK(failureOf("TITLE no quotes\n").place.line == 1);
+}
+
+TEST_CASE("a file of rubbish gives a bounded list") {
+  base::Diagnostics diagnostics;
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "rubbish\n";
+  CHECK_FALSE(read(text, diagnostics));
+  CHECK(diagnostics.size() <= 20);
+  CHECK(diagnostics.items()[1].place.line == 2);
+}

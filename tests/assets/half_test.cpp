@@ -1,0 +1,78 @@
+#include "engine/assets/half.h"
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace weft::assets;
+
+TEST_CASE("every half survives the way to float and back, by element and in bulk") {
+  std::vector<std::uint16_t> all(65536), bulkBack(65536);
+  std::vector<float> floats(65536);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint16_t>(i);
+  halvesToFloats(all, floats);
+  floatsToHalves(floats, bulkBack);
+  int wrong = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool nan = (i & 0x7c00) == 0x7c00 && (i & 0x3ff) != 0;
+    const std::uint16_t expected = static_cast<std::uint16_t>(nan ? i | 0x200 : i);
+    wrong += std::bit_cast<std::uint32_t>(halfToFloat(all[i])) != std::bit_cast<std::uint32_t>(floats[i]);
+    wrong += floatToHalf(floats[i]) != expected;
+    wrong += bulkBack[i] != expected;
+  }
+  CHECK(wrong == 0);
+  MESSAGE("bulk path: " << std::string(halfConversionPath()));
+}
+
+TEST_CASE("known conversions") {
+  CHECK(floatToHalf(0.0f) == 0);
+  CHECK(floatToHalf(-0.0f) == 0x8000);
+  CHECK(floatToHalf(1.0f) == 0x3c00);
+  CHECK(floatToHalf(65504.0f) == 0x7bff);
+  CHECK(floatToHalf(65519.996f) == 0x7bff);
+  CHECK(floatToHalf(65520.0f) == 0x7c00);
+  CHECK(floatToHalf(-std::numeric_limits<float>::infinity()) == 0xfc00);
+  CHECK(floatToHalf(0x1p-24f) == 1);
+  CHECK(floatToHalf(0x1p-25f) == 0);                       // a tie goes to even
+  CHECK(floatToHalf(std::nextafter(0x1p-25f, 1.0f)) == 1);
+  CHECK(floatToHalf(1.0f + 0x1p-11f) == 0x3c00);           // tie, even below
+  CHECK(floatToHalf(1.0f + 3 * 0x1p-11f) == 0x3c02);       // tie, even above
+  CHECK(halfToFloat(0x3555) == doctest::Approx(0.33325195));
+}
+
+TEST_CASE("the bulk path gives the bits of the scalar for random floats, ties, NaNs and every tail length") {
+  std::mt19937 random(7);
+  std::vector<float> from;
+  for (int i = 0; i < 400000; ++i) from.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
+  for (std::uint32_t exponent = 0; exponent < 256; ++exponent)        // around every rounding tie of every binade
+    for (std::uint32_t i = 0; i < 64; ++i)
+      from.push_back(std::bit_cast<float>(exponent << 23 | (i / 4) << 12 | (i % 4 == 0 ? 0u : i % 4 == 1 ? 1u : 0xfffu)));
+  std::vector<std::uint16_t> to(from.size());
+  floatsToHalves(from, to);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) wrong += to[i] != floatToHalf(from[i]);
+  CHECK(wrong == 0);
+  for (std::size_t length = 0; length < 40; ++length) {
+    std::vector<std::uint16_t> part(length);
+    floatsToHalves(std::span(from).first(length), part);
+    for (std::size_t i = 0; i < length; ++i) wrong += part[i] != floatToHalf(from[i]);
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("rounding is to the nearest half, by search") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> exponent(-26, 15.9f);
+  for (int i = 0; i < 20000; ++i) {
+    const float x = std::exp2(exponent(random));
+    const std::uint16_t h = floatToHalf(x);
+    const double error = std::abs(static_cast<double>(halfToFloat(h)) - x);
+    if (h > 0) REQUIRE(error <= std::abs(static_cast<double>(halfToFloat(static_cast<std::uint16_t>(h - 1))) - x));
+    if (h < 0x7bff) REQUIRE(error <= std::abs(static_cast<double>(halfToFloat(static_cast<std::uint16_t>(h + 1))) - x));
+  }
+}

@@ -1,0 +1,163 @@
+// Files that are wrong in every way a file can be: each gives a diagnostic, none crashes (the sanitizers watch).
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <random>
+
+#include <stb/stb_image_write.h>
+
+#include "engine/assets/image.h"
+#include "engine/base/file.h"
+#include "tests/assets/temporary.h"
+
+using namespace weft;
+using namespace weft::assets;
+
+namespace {
+
+// The one error of a load that must fail.
+base::Diagnostic failureOf(const std::string& path) {
+  base::Diagnostics diagnostics;
+  CHECK_FALSE(loadImage(path, diagnostics));
+  REQUIRE_MESSAGE(diagnostics.errorCount() == 1, path << "\n" << diagnostics.text());
+  CHECK(diagnostics.items()[0].message.find(path) != std::string::npos);
+  return diagnostics.items()[0];
+}
+
+std::string bytesOf(const std::string& path) {
+  base::Diagnostics diagnostics;
+  return base::readFile(path, diagnostics).value();
+}
+
+// A valid file of each kind: name and bytes.
+struct Sample {
+  std::string name, bytes;
+};
+
+std::string tga(int width, int height, bool runLength) {
+  std::string bytes(18, '\0');
+  bytes[2] = runLength ? 10 : 2;
+  bytes[12] = static_cast<char>(width);
+  bytes[14] = static_cast<char>(height);
+  bytes[16] = 24;
+  for (int y = 0; y < height; ++y) {
+    if (runLength) {
+      bytes += static_cast<char>(128 + width - 1);
+      bytes += "abc";
+    } else {
+      for (int x = 0; x < width; ++x) bytes += "xyz";
+    }
+  }
+  return bytes;
+}
+
+std::vector<Sample> makeSamples(const TemporaryFolder& folder) {
+  base::Diagnostics diagnostics;
+  std::mt19937 random(3);
+  ImageF image{40, 24, 3, {}};
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i < 40 * 24 * 3; ++i) {
+    image.texels.push_back(static_cast<float>(random() % 1000) / 37.0f);
+    bytes.push_back(static_cast<std::uint8_t>(random()));
+  }
+  ImageF narrow{5, 4, 3, std::vector<float>(60, 0.5f)};
+  REQUIRE(saveHdr(folder.at("wide.hdr"), image, diagnostics));
+  REQUIRE(saveHdr(folder.at("narrow.hdr"), narrow, diagnostics));
+  REQUIRE(saveExr(folder.at("a.exr"), image, diagnostics));
+  REQUIRE(savePng8(folder.at("a.png"), 40, 24, 3, bytes, diagnostics));
+  std::string jpeg;
+  stbi_write_jpg_to_func(
+      [](void* out, void* data, int count) { static_cast<std::string*>(out)->append(static_cast<char*>(data), static_cast<std::size_t>(count)); },
+      &jpeg, 40, 24, 3, bytes.data(), 90);
+  folder.write("a.jpg", jpeg);
+  folder.write("flat.tga", tga(40, 24, false));
+  folder.write("runs.tga", tga(40, 24, true));
+  std::vector<Sample> samples;
+  for (const char* name : {"wide.hdr", "narrow.hdr", "a.exr", "a.png", "a.jpg", "flat.tga", "runs.tga"})
+    samples.push_back({name, bytesOf(folder.at(name))});
+  return samples;
+}
+
+}  // namespace
+
+TEST_CASE("missing, directory, empty, unknown and foreign files") {
+  const TemporaryFolder folder;
+  CHECK(failureOf(folder.at("missing.hdr")).code == base::Code::W150);
+  std::filesystem::create_directory(folder.at("folder.hdr"));
+  CHECK(failureOf(folder.at("folder.hdr")).message.find("directory") != std::string::npos);
+  for (const char* name : {"empty.hdr", "empty.exr", "empty.png", "empty.jpg", "empty.tga"})
+    CHECK(failureOf(folder.write(name, "")).message.find("empty") != std::string::npos);
+  const base::Diagnostic unknown = failureOf(folder.write("a.webp", "RIFF"));
+  CHECK(unknown.code == base::Code::W151);
+  CHECK(unknown.found == ".webp");
+  CHECK(failureOf(folder.write("noextension", "x")).code == base::Code::W151);
+  for (const char* name : {"text.hdr", "text.exr", "text.png", "text.jpg", "text.tga"})
+    CHECK(failureOf(folder.write(name, "this is a text, and not a picture at all")).code == base::Code::W150);
+  CHECK(failureOf(folder.write("radiance.png", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd")).message.find("Radiance") !=
+        std::string::npos);
+}
+
+TEST_CASE("an 8-bit load of a float file says what it takes") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  CHECK_FALSE(loadImage8(folder.write("a.exr", "x"), 3, diagnostics));
+  CHECK(diagnostics.contains(base::Code::W151));
+}
+
+TEST_CASE("the samples are sound, and each cut anywhere is refused") {
+  const TemporaryFolder folder;
+  for (const Sample& sample : makeSamples(folder)) {
+    base::Diagnostics diagnostics;
+    CHECK_MESSAGE(decodeImage(sample.bytes, sample.name, diagnostics), diagnostics.text());
+    for (std::size_t cut = 1; cut <= 60; ++cut) {
+      const std::size_t length = sample.bytes.size() * cut / 61;
+      // The end of a PNG is a marker behind the texels, of an EXR its last block.
+      diagnostics.clear();
+      const auto image = decodeImage(std::string_view(sample.bytes).substr(0, length), sample.name, diagnostics);
+      CHECK_MESSAGE(!image, sample.name << " cut to " << length << " of " << sample.bytes.size());
+      CHECK(diagnostics.errorCount() == 1);
+    }
+  }
+}
+
+TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
+  const TemporaryFolder folder;
+  const auto hdr = [](const char* size) { return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nabcd"; };
+  CHECK(failureOf(folder.write("a.hdr", hdr("-Y 1000000000 +X 1000000000"))).code == base::Code::W152);
+  CHECK(failureOf(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == base::Code::W152);
+  CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == base::Code::W152);
+  CHECK(failureOf(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == base::Code::W150);
+  CHECK(failureOf(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == base::Code::W150);
+  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == base::Code::W152);
+}
+
+TEST_CASE("ten thousand files with random bytes changed: an image or an error, and no crash") {
+  const TemporaryFolder folder;
+  std::mt19937 random(5);
+  int images = 0, errors = 0;
+  for (const Sample& sample : makeSamples(folder)) {
+    for (int i = 0; i < 10000 / 7; ++i) {
+      std::string bytes = sample.bytes;
+      const std::size_t changes = 1 + random() % 8;
+      for (std::size_t k = 0; k < changes; ++k) {
+        // Half of the changes hit the header.
+        const std::size_t range = random() % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 400);
+        bytes[random() % range] = static_cast<char>(random());
+      }
+      if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+      base::Diagnostics diagnostics;
+      const auto image = decodeImage(bytes, sample.name, diagnostics);
+      REQUIRE(image.has_value() == !diagnostics.hasErrors());
+      if (image) {
+        REQUIRE(image->texels.size() == static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height) *
+                                            static_cast<std::size_t>(image->channels));
+        ++images;
+      } else {
+        ++errors;
+      }
+    }
+  }
+  MESSAGE(images << " images, " << errors << " refused");
+  CHECK(images > 0);
+  CHECK(errors > 0);
+}

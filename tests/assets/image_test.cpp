@@ -1,0 +1,155 @@
+#include "engine/assets/image.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "engine/assets/half.h"
+#include "tests/assets/temporary.h"
+
+using namespace weft;
+using namespace weft::assets;
+
+static ImageF makeRamp(int width, int height, int channels) {
+  ImageF image{width, height, channels, {}};
+  for (int i = 0; i < width * height * channels; ++i) image.texels.push_back(static_cast<float>(i) * 0.125f);
+  return image;
+}
+
+TEST_CASE("PNG bytes come back as they were, for every channel count, top row first") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  for (int channels = 1; channels <= 4; ++channels) {
+    std::vector<std::uint8_t> texels;
+    for (int i = 0; i < 5 * 3 * channels; ++i) texels.push_back(static_cast<std::uint8_t>(i * 37 + 11));
+    REQUIRE(savePng8(folder.at("a.png"), 5, 3, channels, texels, diagnostics));
+    const auto image = loadImage8(folder.at("a.png"), 0, diagnostics);
+    REQUIRE(image);
+    CHECK(image->width == 5);
+    CHECK(image->height == 3);
+    CHECK(image->channels == channels);
+    CHECK(image->texels == texels);
+  }
+  CHECK(loadImage8(folder.at("a.png"), 3, diagnostics)->channels == 3);
+  CHECK(diagnostics.empty());
+}
+
+TEST_CASE("a PNG as floats is decoded from sRGB, its alpha is not") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  const std::vector<std::uint8_t> texels = {0, 10, 188, 128, 255, 255, 255, 255};
+  REQUIRE(savePng8(folder.at("a.PNG"), 2, 1, 4, texels, diagnostics));
+  const auto image = loadImage(folder.at("a.PNG"), diagnostics);
+  REQUIRE(image);
+  CHECK(image->texels[0] == 0);
+  CHECK(image->texels[1] == doctest::Approx(10 / 255.0 / 12.92));
+  CHECK(image->texels[2] == doctest::Approx(0.502886).epsilon(1e-5));
+  CHECK(image->texels[3] == doctest::Approx(128 / 255.0));
+  CHECK(image->texels[4] == 1);
+  for (int i = 0; i <= 100; ++i) CHECK(encodeSrgb(decodeSrgb(static_cast<float>(i) / 100)) == doctest::Approx(i / 100.0).epsilon(1e-5));
+}
+
+TEST_CASE("EXR keeps floats exactly, for 1, 3 and 4 channels") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  for (const int channels : {1, 3, 4}) {
+    const ImageF image = makeRamp(33, 17, channels);
+    REQUIRE(saveExr(folder.at("a.exr"), image, diagnostics));
+    const auto loaded = loadImage(folder.at("a.exr"), diagnostics);
+    REQUIRE(loaded);
+    REQUIRE(loaded->channels == 4);
+    CHECK(loaded->width == 33);
+    CHECK(loaded->height == 17);
+    int wrong = 0;
+    for (std::size_t i = 0; i < 33 * 17; ++i) {
+      for (std::size_t c = 0; c < 3; ++c)
+        wrong += loaded->texels[i * 4 + c] != image.texels[i * static_cast<std::size_t>(channels) + (channels == 1 ? 0 : c)];
+      wrong += loaded->texels[i * 4 + 3] != (channels == 4 ? image.texels[i * 4 + 3] : 1.0f);
+    }
+    CHECK(wrong == 0);
+  }
+  CHECK(diagnostics.empty());
+}
+
+TEST_CASE("Radiance keeps values to its 8-bit mantissa, narrow (flat) and wide (run-length) lines") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  for (const int width : {5, 64}) {
+    const ImageF image = makeRamp(width, 9, 3);
+    REQUIRE(saveHdr(folder.at("a.hdr"), image, diagnostics));
+    const auto loaded = loadImage(folder.at("a.hdr"), diagnostics);
+    REQUIRE(loaded);
+    CHECK(loaded->channels == 3);
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+      const float largest = image.texels[i / 3 * 3 + 2];
+      CHECK(std::abs(loaded->texels[i] - image.texels[i]) <= largest / 128 + 1e-6f);
+    }
+  }
+}
+
+TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how much was replaced") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  ImageF image = makeRamp(4, 2, 3);
+  image.texels[0] = nan;
+  image.texels[1] = -1;
+  image.texels[2] = -infinity;
+  image.texels[3] = infinity;
+  image.texels[4] = 1e6f;
+  image.texels[5] = kHalfMax;
+  REQUIRE(saveExr(folder.at("a.exr"), image, diagnostics));
+  const auto environment = loadEnvironment(folder.at("a.exr"), diagnostics);
+  REQUIRE(environment);
+  REQUIRE(environment->channels == 4);
+  CHECK(environment->texels[0] == 0);
+  CHECK(environment->texels[1] == 0);
+  CHECK(environment->texels[2] == 0);
+  CHECK(environment->texels[3] == 1);
+  CHECK(environment->texels[4] == kHalfMax);
+  CHECK(environment->texels[5] == kHalfMax);
+  CHECK(environment->texels[6] == kHalfMax);
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == base::Code::W153);
+  CHECK_FALSE(diagnostics.hasErrors());
+  CHECK(diagnostics.items()[0].found.find("1 not a number, 2 negative") != std::string::npos);
+  CHECK(diagnostics.items()[0].found.find("2 infinite") != std::string::npos);
+
+  diagnostics.clear();
+  REQUIRE(saveHdr(folder.at("clean.hdr"), makeRamp(16, 8, 3), diagnostics));
+  CHECK(loadEnvironment(folder.at("clean.hdr"), diagnostics));
+  CHECK(diagnostics.empty());
+}
+
+TEST_CASE("an output that cannot be written is W180") {
+  base::Diagnostics diagnostics;
+  const std::vector<std::uint8_t> texels(3);
+  CHECK_FALSE(savePng8("/no_such_folder/a.png", 1, 1, 3, texels, diagnostics));
+  CHECK_FALSE(saveExr("/no_such_folder/a.exr", makeRamp(1, 1, 3), diagnostics));
+  CHECK_FALSE(saveHdr("/no_such_folder/a.hdr", makeRamp(1, 1, 3), diagnostics));
+  CHECK(diagnostics.errorCount() == 3);
+  for (const base::Diagnostic& d : diagnostics.items()) CHECK(d.code == base::Code::W180);
+}
+
+TEST_CASE("the real environment loads clean") {
+  const std::string path = WEFT_SOURCE_DIR "/../shared/data/hdr/spiaggia_di_mondello_1k.hdr";
+  if (!std::filesystem::exists(path)) {
+    MESSAGE("skipped: no " << path);
+    return;
+  }
+  base::Diagnostics diagnostics;
+  const auto environment = loadEnvironment(path, diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(environment);
+  CHECK_FALSE(diagnostics.hasErrors());
+  CHECK(environment->width == 1024);
+  CHECK(environment->height == 512);
+  double top = 0, bottom = 0;   // sky over sea: the sky is the brighter half
+  for (std::size_t i = 0; i < 1024 * 256; ++i) {
+    top += environment->texels[i * 4 + 1];
+    bottom += environment->texels[(1024 * 256 + i) * 4 + 1];
+  }
+  CHECK(top > bottom);
+}

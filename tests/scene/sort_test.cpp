@@ -1,0 +1,112 @@
+#include "engine/scene/sort.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace weft::scene;
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+std::vector<SortElement> keysOf(const std::vector<float>& depths) {
+  std::vector<SortElement> elements;
+  for (std::size_t i = 0; i < depths.size(); ++i) elements.push_back({depthKey(depths[i]), static_cast<std::uint32_t>(i)});
+  return elements;
+}
+
+// The order by the meaning of depth alone: farthest first, NaN last, equal depths by index.
+std::vector<std::uint32_t> orderByMeaning(const std::vector<float>& depths) {
+  std::vector<std::uint32_t> order(depths.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (std::isnan(depths[a]) || std::isnan(depths[b])) return !std::isnan(depths[a]) && std::isnan(depths[b]);
+    return depths[a] > depths[b];
+  });
+  return order;
+}
+
+void checkBoth(const std::vector<float>& depths) {
+  std::vector<SortElement> byStd = keysOf(depths), byRadix = byStd, scratch;
+  sortElements(byStd, SortMethod::cpu_std, scratch);
+  sortElements(byRadix, SortMethod::cpu_radix, scratch);
+  REQUIRE(byStd == byRadix);
+  REQUIRE(std::is_sorted(byStd.begin(), byStd.end()));
+  const std::vector<std::uint32_t> expected = orderByMeaning(depths);
+  for (std::size_t i = 0; i < expected.size(); ++i) REQUIRE(byStd[i].index == expected[i]);
+}
+
+}  // namespace
+
+TEST_CASE("keys ascend as depth descends; zeros are one; NaN is last; padding follows everything") {
+  const std::vector<float> descending = {kInfinity, 3e38f, 2, 1, 1e-40f, 0, -1e-40f, -1, -3e38f, -kInfinity};
+  for (std::size_t i = 1; i < descending.size(); ++i) CHECK(depthKey(descending[i - 1]) < depthKey(descending[i]));
+  CHECK(depthKey(0.0f) == depthKey(-0.0f));
+  CHECK(depthKey(kNan) == 0xffffffffu);
+  CHECK(depthKey(-kNan) == 0xffffffffu);
+  CHECK(depthKey(-kInfinity) < 0xffffffffu);
+  CHECK(depthKey(1.0f) == 0x407fffffu);   // the documented mapping, by hand: ~(0x3f800000 | 0x80000000)
+  CHECK(depthKey(-1.0f) == 0xbf800000u);  // ~(~0xbf800000)
+}
+
+TEST_CASE("both methods give the order of the depths, for every count to 2000") {
+  std::mt19937 random(1);
+  std::vector<float> depths;
+  for (std::size_t n = 0; n <= 2000; ++n) {
+    depths.resize(n);
+    const bool few = n % 3 == 0;  // many equal keys
+    for (float& d : depths) d = few ? static_cast<float>(random() % 7) - 3 : std::uniform_real_distribution<float>(-100, 100)(random);
+    for (std::size_t special = 0; special < n / 8; ++special) {
+      constexpr float kSpecials[] = {kInfinity, -kInfinity, 0.0f, -0.0f, kNan, -kNan};
+      depths[random() % n] = kSpecials[random() % 6];
+    }
+    checkBoth(depths);
+  }
+}
+
+TEST_CASE("a hundred thousand, of any bits, all equal, sorted and reversed") {
+  std::mt19937 random(2);
+  std::vector<float> depths(100000);
+  for (float& d : depths) d = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+  checkBoth(depths);
+  std::fill(depths.begin(), depths.end(), 4.0f);
+  checkBoth(depths);
+  for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = static_cast<float>(i);
+  checkBoth(depths);
+  std::reverse(depths.begin(), depths.end());
+  checkBoth(depths);
+}
+
+TEST_CASE("the draw order of instances is back to front in view depth") {
+  CameraPose pose{{0, 0, 20}, {0, 0, 0}, 60, 0.1};
+  const glm::mat4 view(viewMatrix(pose));
+  CHECK(viewDepth(view, {5, -3, 0}) == doctest::Approx(20));
+  CHECK(viewDepth(view, {0, 0, 25}) == doctest::Approx(-5));
+  std::vector<Instance> instances(4);
+  instances[0].center = {0, 0, 1};
+  instances[1].center = {9, 9, -5};
+  instances[2].center = {-2, 0, 1};
+  instances[3].center = {0, 0, 7};
+  std::vector<SortElement> order, scratch;
+  for (const SortMethod method : {SortMethod::cpu_std, SortMethod::cpu_radix}) {
+    drawOrder(instances, view, method, order, scratch);
+    REQUIRE(order.size() == 4);
+    CHECK(order[0].index == 1);
+    CHECK(order[1].index == 0);
+    CHECK(order[2].index == 2);
+    CHECK(order[3].index == 3);
+  }
+  drawOrder({}, view, SortMethod::cpu_radix, order, scratch);
+  CHECK(order.empty());
+}
+
+TEST_CASE("methods are found by name") {
+  CHECK(findSortMethod("cpu_radix") == SortMethod::cpu_radix);
+  CHECK(findSortMethod("cpu_std") == SortMethod::cpu_std);
+  CHECK_FALSE(findSortMethod("gpu_bitonic"));
+}
