@@ -32,7 +32,8 @@ struct FlatResource {
   std::uint32_t width = 1, height = 1, depth = 1;
   std::uint64_t bytes = 0;        // of one copy, all levels and layers; history multiplies by n + 1
   std::uint8_t history = 0;       // depth n: n + 1 copies, persistent
-  bool hasClear = false;          // has a version zero
+  bool hasClear = false;          // has a version zero: whatever touches a sub-resource first in a frame finds it
+                                  // cleared, a first `write` too (it need not cover everything)
   std::uint32_t import = kNone;   // index into FlatGraph::imports
 };
 

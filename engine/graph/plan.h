@@ -28,12 +28,16 @@ enum BarrierBit : std::uint16_t {
 constexpr int kBarrierBitCount = 10;
 const char* barrierName(BarrierBit bit);
 
-// Before a step's pass runs: `barriers` is issued, then `clears`, then the pass. Barriers are issued also in frames in
-// which the pass itself is skipped by its cadence, so that any subset of cadences is free of hazards.
+// In this order: `barriers`, the clears, `barriersAfterClears`, the pass. Both masks are issued also in frames in which
+// the pass is skipped by its cadence, so that any subset of cadences is free of hazards; the clears run with the pass
+// and are skipped with it. `barriersAfterClears` is not 0 only when the pass stores by image or buffer what it clears
+// (7.12.2: a store waits for earlier accesses only behind its own bit).
+// A history resource rotates (x becomes x@-1) at the start of every frame in which one of its writers runs.
 struct Step {
   std::uint32_t pass = 0;                       // index into FlatGraph::passes
   std::uint16_t barriers = 0;
-  std::uint32_t firstClear = 0, clearCount = 0; // into Plan::clears: version zero of what this pass touches first
+  std::uint16_t barriersAfterClears = 0;
+  std::uint32_t firstClear = 0, clearCount = 0; // into Plan::clears: version zero of what this step touches first
 };
 
 struct ClearOp {
@@ -62,9 +66,12 @@ struct Plan {
   std::vector<ClearOp> clears;
   std::vector<std::uint32_t> stepOf;            // per pass: index into steps, kNone when culled
   std::vector<std::uint8_t> attached;           // per use: 1 when the use is live (a dead output is not attached)
+  std::vector<std::uint8_t> outputLive;         // per output: 1 when its final version is made; 0: nothing to read back
   std::vector<std::uint32_t> storageOf;         // per resource: index into storages, kNone for buffers, imports, dead
   std::vector<std::uint64_t> bufferOffsetOf;    // per resource: offset in the transient arena; kNoOffset otherwise
-  std::vector<std::uint32_t> firstStep, lastStep;  // per resource: lifetime; kNone when dead
+  // Per resource: the steps that touch it first (write, clear) and last; steps.size() means present or read-back after
+  // the last step; kNone when dead. A transient's storage holds nothing before firstStep: invalidate it there.
+  std::vector<std::uint32_t> firstStep, lastStep;
   std::vector<std::uint8_t> persistent;         // per resource: own storage kept across frames
   std::vector<Storage> storages;
   std::uint64_t arenaBytes = 0;                 // transient buffers, packed by offset (alignment 256)
@@ -81,6 +88,11 @@ struct CompileOptions {
   std::uint64_t orderSeed = 0;                  // not 0: a random legal order instead of the declared one (fuzz)
 };
 
+// The graph must be valid (expandGraph, or validateFlat for neutral graphs): indices and ranges are asserted, not
+// reported. The order is the declared order of the live passes: it is always legal, because a use refers to the latest
+// version before it, and the person reads it in the file. The second form reuses the working memory of earlier calls.
+struct CompileScratch;  // compile_scratch.h
 Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});
+Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options, CompileScratch& scratch);
 
 }  // namespace weft::graph

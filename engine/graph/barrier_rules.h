@@ -1,0 +1,51 @@
+// Which glMemoryBarrier bit each kind of use needs (OpenGL 4.5 core, 7.12.2), as the compiler applies it. The oracle in
+// the tests has a table of its own, written from the specification.
+//
+// Two rules make every barrier of a plan:
+//  (a) an incoherent store (image or buffer store of a shader) before a later use of the same physical sub-resource
+//      needs that use's bit in between. A later overwrite excuses nothing: it may be skipped by its cadence, and need
+//      not cover every texel.
+//  (b) any access before a later image or buffer store to the same physical storage needs SHADER_IMAGE_ACCESS or
+//      SHADER_STORAGE in between, also when the two resources only share storage.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/graph/plan.h"
+#include "engine/graph/subresource.h"
+
+namespace weft::graph {
+
+inline bool isStore(const FlatUse& use) {
+  return use.access != Access::read && (use.kind == Kind::image || use.kind == Kind::storage);
+}
+
+// The bit a store itself waits behind, rule (b).
+inline std::uint16_t storeBit(const FlatUse& use) {
+  return use.kind == Kind::storage ? kBarrierStorage : kBarrierImage;
+}
+
+// The bits a use of a pass needs after an earlier store, rule (a). `copy` on a texture means framebuffer blits.
+inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
+  switch (use.kind) {
+    case Kind::sampled: return kBarrierTexture;
+    case Kind::image: return kBarrierImage;
+    case Kind::uniform: return kBarrierUniform;
+    case Kind::storage: return kBarrierStorage;
+    case Kind::vertex: return kBarrierVertex;
+    case Kind::index: return kBarrierIndex;
+    case Kind::indirect: return kBarrierCommand;
+    case Kind::color:
+    case Kind::depth: return use.feedback ? kBarrierFramebuffer | kBarrierTexture : kBarrierFramebuffer;
+    case Kind::copy: return buffer ? kBarrierBufferUpdate : kBarrierFramebuffer;
+  }
+  return 0;
+}
+
+// glClearTexSubImage, glClearNamedBufferSubData
+inline std::uint16_t clearBit(bool buffer) { return buffer ? kBarrierBufferUpdate : kBarrierTextureUpdate; }
+
+// The present blit and glReadPixels; a buffer is copied out.
+inline std::uint16_t readBackBit(bool buffer) { return buffer ? kBarrierBufferUpdate : kBarrierFramebuffer; }
+
+}  // namespace weft::graph

@@ -1,0 +1,45 @@
+#include "engine/graph/plan.h"
+
+#include <utility>
+
+#include "engine/graph/compile_scratch.h"
+#include "engine/graph/compile_steps.h"
+
+namespace weft::graph {
+
+Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options) {
+  CompileScratch scratch;
+  return compile(std::move(graph), options, scratch);
+}
+
+Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options, CompileScratch& scratch) {
+  Plan plan;
+  const FlatGraph& g = *graph;
+  plan.graph = std::move(graph);
+  steps::indexCells(g, scratch);
+  steps::linkVersions(g, scratch);
+  steps::findLive(g, plan, scratch);
+  steps::orderPasses(g, options.orderSeed, plan, scratch);
+  steps::findLifetimes(g, plan, scratch);
+  steps::placeStorage(g, options.share, plan, scratch);
+  if (scratch.anyStore) steps::placeBarriers(g, plan, scratch);
+  return plan;
+}
+
+const char* barrierName(BarrierBit bit) {
+  switch (bit) {
+    case kBarrierVertex: return "vertex";
+    case kBarrierIndex: return "index";
+    case kBarrierUniform: return "uniform";
+    case kBarrierTexture: return "texture_fetch";
+    case kBarrierImage: return "image_access";
+    case kBarrierCommand: return "command";
+    case kBarrierTextureUpdate: return "texture_update";
+    case kBarrierBufferUpdate: return "buffer_update";
+    case kBarrierFramebuffer: return "framebuffer";
+    case kBarrierStorage: return "shader_storage";
+  }
+  return "";
+}
+
+}  // namespace weft::graph
