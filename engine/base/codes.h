@@ -45,7 +45,6 @@ namespace weft::base {
   X(105, "program does not link")                                         \
   X(106, "#version in a shader file")                                     \
   X(110, "no OpenGL context could be opened")                             \
-  X(111, "OpenGL is older than 4.5 core")                                 \
   X(115, "framebuffer is incomplete")                                     \
   X(116, "texture cannot be created")                                     \
   X(117, "buffer cannot be created")                                      \

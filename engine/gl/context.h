@@ -89,8 +89,8 @@ class Context {
   friend std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diagnostics& diagnostics);
 };
 
-// A current context, or null with a W110 diagnostic that lists every platform that was tried and why it failed (W111:
-// opened, but older than 4.5 core). Destroy GL objects before the context.
+// A current context, or null with a W110 diagnostic that lists every platform that was tried and why it failed.
+// Destroy GL objects before the context.
 std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diagnostics& diagnostics);
 
 }  // namespace weft::gl

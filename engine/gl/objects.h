@@ -221,6 +221,7 @@ std::uint32_t floatChannelsOf(GLenum internalFormat);
 void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
                      GLuint buffer, std::uint64_t offset, std::uint64_t bytes);
 
+// The buffer was created with GL_DYNAMIC_STORAGE_BIT.
 void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data);
 std::vector<std::byte> readBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes);
 

@@ -1,0 +1,52 @@
+// A context for one test executable, and the check every GL test ends with: no GL error, no message above notification.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "engine/gl/context.h"
+#include "engine/gl/objects.h"
+
+namespace weft::gl::test {
+
+// The executable's OSMesa context, opened once. Exits with an error when there is none: the package is required.
+inline Context& context() {
+  static const std::unique_ptr<Context> opened = [] {
+    base::Diagnostics diagnostics;
+    auto made = createContext({.backend = Backend::osmesa}, diagnostics);
+    if (!made) {
+      std::fprintf(stderr, "%s", diagnostics.text().c_str());
+      std::exit(1);
+    }
+    return made;
+  }();
+  return *opened;
+}
+
+// Put first in a test case: opens the context, and at the end of the scope holds GL to "no error, nothing leaked".
+class CleanScope {
+ public:
+  CleanScope() : log_(context().debugLog()), before_(liveObjects()) {}
+  ~CleanScope() {
+    CHECK(takeErrors() == "");
+    base::Diagnostics diagnostics;
+    log_.drain(diagnostics);
+    CHECK_MESSAGE(!log_.hasAboveNotification(), diagnostics.text());
+    CHECK_MESSAGE(liveObjects() == before_, "alive: " << toText(liveObjects()));
+    log_.clear();
+  }
+  // For tests that provoke errors: forgets those seen so far.
+  void forgive() {
+    takeErrors();
+    log_.clear();
+  }
+
+ private:
+  DebugLog& log_;
+  LiveObjects before_;
+};
+
+}  // namespace weft::gl::test
