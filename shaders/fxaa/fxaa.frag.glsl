@@ -1,0 +1,75 @@
+// Fast approximate anti-aliasing of display-referred, encoded values, after the tone curve (Lottes, FXAA 3.11).
+// read    source   encoded picture, `as linear`
+// write   result   encoded picture
+// params  edge_threshold       contrast, relative to the brightest neighbour, below which a pixel is left alone
+//         edge_threshold_min   the same, absolute: nothing is done in the dark
+//         subpixel             how much single pixels are softened, 0..1
+uniform sampler2D source;
+layout(std140) uniform Parameters {
+  float edge_threshold;
+  float edge_threshold_min;
+  float subpixel;
+};
+in vec2 uv;
+out vec4 result;
+
+const int kSteps = 8;
+const float kStride[8] = float[8](1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 4.0, 8.0);
+
+float luma(vec3 c) { return dot(c, vec3(0.299, 0.587, 0.114)); }
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
+  vec3 center = texelFetch(source, at, 0).rgb;
+  result = vec4(center, 1.0);
+  float m = luma(center);
+  float n = luma(texelFetch(source, ivec2(at.x, min(at.y + 1, last.y)), 0).rgb);
+  float s = luma(texelFetch(source, ivec2(at.x, max(at.y - 1, 0)), 0).rgb);
+  float e = luma(texelFetch(source, ivec2(min(at.x + 1, last.x), at.y), 0).rgb);
+  float w = luma(texelFetch(source, ivec2(max(at.x - 1, 0), at.y), 0).rgb);
+  float high = max(max(max(n, s), max(e, w)), m), low = min(min(min(n, s), min(e, w)), m);
+  float range = high - low;
+  if (range < max(edge_threshold_min, high * edge_threshold)) return;
+
+  float ne = luma(texelFetch(source, min(at + 1, last), 0).rgb);
+  float sw = luma(texelFetch(source, max(at - 1, ivec2(0)), 0).rgb);
+  float nw = luma(texelFetch(source, ivec2(max(at.x - 1, 0), min(at.y + 1, last.y)), 0).rgb);
+  float se = luma(texelFetch(source, ivec2(min(at.x + 1, last.x), max(at.y - 1, 0)), 0).rgb);
+
+  float average = (2.0 * (n + s + e + w) + ne + nw + se + sw) / 12.0;
+  float blur = clamp(abs(average - m) / range, 0.0, 1.0);
+  blur = blur * blur * (3.0 - 2.0 * blur);
+  blur = blur * blur * subpixel;
+
+  float horizontal = abs(nw + sw - 2.0 * w) + 2.0 * abs(n + s - 2.0 * m) + abs(ne + se - 2.0 * e);
+  float vertical = abs(nw + ne - 2.0 * n) + 2.0 * abs(w + e - 2.0 * m) + abs(sw + se - 2.0 * s);
+  bool is_horizontal = horizontal >= vertical;
+  float before = is_horizontal ? s : w, after = is_horizontal ? n : e;
+  float toward = abs(before - m) >= abs(after - m) ? -1.0 : 1.0;
+  float other = toward < 0.0 ? before : after;
+  float contrast = 0.25 * abs(other - m), edge_luma = 0.5 * (other + m);
+
+  vec2 texel = 1.0 / vec2(last + 1);
+  vec2 across = is_horizontal ? vec2(0.0, texel.y) : vec2(texel.x, 0.0);
+  vec2 along = is_horizontal ? vec2(texel.x, 0.0) : vec2(0.0, texel.y);
+  vec2 start = uv + across * toward * 0.5;
+  float reach_back = 0.0, reach_on = 0.0, end_back = 0.0, end_on = 0.0;
+  bool done_back = false, done_on = false;
+  for (int i = 0; i < kSteps && !(done_back && done_on); ++i) {
+    if (!done_back) {
+      reach_back += kStride[i];
+      end_back = luma(textureLod(source, start - along * reach_back, 0.0).rgb) - edge_luma;
+      done_back = abs(end_back) >= contrast;
+    }
+    if (!done_on) {
+      reach_on += kStride[i];
+      end_on = luma(textureLod(source, start + along * reach_on, 0.0).rgb) - edge_luma;
+      done_on = abs(end_on) >= contrast;
+    }
+  }
+  // Only the nearer end, and only when the edge turns towards this pixel there, moves it.
+  float near_end = reach_back < reach_on ? end_back : end_on;
+  float shift = (near_end < 0.0) != (m < edge_luma) ? 0.5 - min(reach_back, reach_on) / (reach_back + reach_on) : 0.0;
+  shift = max(shift, blur);
+  result = vec4(textureLod(source, uv + across * toward * shift, 0.0).rgb, 1.0);
+}

@@ -1,0 +1,72 @@
+// A screen-space rectangle around each sphere: the bounds by the sphere's tangent planes through the eye (Mara and
+// McGuire, JCGT 2013), one pixel wider for the soft edge. Handles the eye outside, inside and beside, and spheres behind.
+// read    order?   uvec2(key, index) per instance: the instance to draw i-th is element i's index
+#include "common/view.glsl"
+#include "scene/instances.glsl"
+
+#ifdef HAS_ORDER
+layout(std430) readonly buffer order { uvec2 order_element[]; };
+#endif
+
+const float kPi = 3.14159265358979;
+
+flat out vec4 sphere;       // centre in view space, radius
+flat out vec3 anchor;       // slope that pixel offsets count from; z is 1 when it is the centre's, 0 when it is the axis
+flat out vec2 anchor_pixel;
+flat out vec2 edge;         // shift of the silhouette in pixels and factor of the coverage, see below
+flat out vec4 albedo_roughness;
+flat out vec4 motion_metallic;
+
+// Slopes x / -z between the two tangents from the eye to the circle at (x, z = distance in front).
+vec2 slopeBounds(float x, float z, float r) {
+  float tangent2 = x * x + z * z - r * r;
+  if (tangent2 <= 0.0) return vec2(-1e9, 1e9);
+  float tangent = sqrt(tangent2);
+  vec2 left = vec2(x * tangent - z * r, z * tangent + x * r), right = vec2(x * tangent + z * r, z * tangent - x * r);
+  return vec2(left.y > 0.0 ? max(left.x / left.y, -1e9) : -1e9, right.y > 0.0 ? min(right.x / right.y, 1e9) : 1e9);
+}
+
+// The coverage ramp, one pixel wide, adds pi/12 square pixels to any convex shape (Steiner's formula: the variance of a
+// unit box is 1/12). The silhouette is moved inwards by the shift that takes exactly that away again, a root of
+// pi s^2 - L s + pi/12 = 0 with L the perimeter. Below 1/sqrt(3) pixel no such silhouette is left: a cone of radius 1 with the
+// right volume stands for it.
+vec2 edgeOf(float major, float minor) {
+  float radius = sqrt(major * minor);
+  if (radius < 0.57735027) return vec2(radius - 0.5, 3.0 * radius * radius);
+  float perimeter = kPi * (3.0 * (major + minor) - sqrt((3.0 * major + minor) * (major + 3.0 * minor)));  // Ramanujan
+  return vec2(kPi / 6.0 / (perimeter + sqrt(max(perimeter * perimeter - kPi * kPi / 3.0, 0.0))), 1.0);
+}
+
+void main() {
+#ifdef HAS_ORDER
+  Instance self = instance[order_element[gl_InstanceID].y];
+#else
+  Instance self = instance[gl_InstanceID];
+#endif
+  vec3 c = (view * vec4(self.center, 1.0)).xyz;
+  float r = self.radius, z = -c.z;
+  sphere = vec4(c, r);
+  albedo_roughness = vec4(self.albedo, self.roughness);
+  motion_metallic = vec4(self.center - self.previous_center, self.metallic);
+
+  vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
+  bool in_front = z > r * 1.0001;
+  anchor = in_front ? vec3(c.xy / z, 1.0) : vec3(0.0);
+  anchor_pixel = ((anchor.xy * vec2(projection[0].x, projection[1].y) - projection[2].xy) * 0.5 + 0.5) * viewport;
+  edge = vec2(0.0, 1.0);
+  float d2 = dot(c, c), r2 = r * r;
+  if (in_front) {
+    float f = sqrt(focal.x * focal.y), depth2 = z * z - r2;
+    edge = edgeOf(f * r * sqrt(d2 - r2) / depth2, f * r * inversesqrt(depth2));
+  }
+
+  vec2 bounds_x = slopeBounds(c.x, z, r), bounds_y = slopeBounds(c.y, z, r);
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  vec2 slope = vec2(corner.x == 0.0 ? bounds_x.x : bounds_x.y, corner.y == 0.0 ? bounds_y.x : bounds_y.y);
+  vec2 ndc = slope * vec2(projection[0].x, projection[1].y) - projection[2].xy;
+  ndc += (corner * 2.0 - 1.0) * (2.0 / viewport);
+  ndc = clamp(ndc, -1.0, 1.0);
+  // Behind the near plane, without extent or not a number: nothing to draw.
+  bool visible = z + r > near_plane && r > 0.0 && d2 < 1e30;
+  gl_Position = visible ? vec4(ndc, 0.5, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+}
