@@ -109,7 +109,7 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
   for (std::uint32_t t = 0; t < plan.steps.size(); ++t) {
     Step& step = plan.steps[t];
     const FlatPass& pass = graph.passes[step.pass];
-    const std::uint8_t persistent = pass.cadence == Cadence::always ? 0 : Scratch::kPersistent;
+    const std::uint8_t byCadence = pass.cadence == Cadence::always ? Scratch::kWrittenAlways : Scratch::kPersistent;
     step.firstClear = static_cast<std::uint32_t>(plan.clears.size());
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
       if (plan.attached[u] == 0) continue;
@@ -119,7 +119,7 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
       bound += bytesOf(use, r);
       std::uint8_t& flags = scratch.flags[use.resource];
       if (use.access != Access::read) {
-        flags |= persistent;
+        flags |= byCadence;
         if (use.kind == Kind::image || use.kind == Kind::storage) flags |= stored = Scratch::kStored;
       }
       if ((flags & Scratch::kClear) != 0 && use.history == 0) clearCells(use, r, plan, scratch);

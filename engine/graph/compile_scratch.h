@@ -21,6 +21,7 @@ struct CompileScratch {
     kGranular = 16,     // more than one cell
     kPersistent = 32,   // history, or a live writer that is not always
     kStored = 64,       // a live pass stores to it by image or buffer
+    kWrittenAlways = 128,  // a live writer is always: a history rotates in every frame
   };
   std::vector<std::uint8_t> flags;         // per resource
   std::vector<std::uint32_t> cellBase;     // per resource: its first cell

@@ -210,8 +210,10 @@ class Collector {
         demand(bits, current.access);
       } else {
         demand(bits, current.store);
-        // Read before this frame's write, in a frame without one: no rotation, so the store was in the frame before.
-        if (use.access == Access::read && current.store < 0) demand(bits, back(stored, circle_));
+        // In a frame in which every writer is skipped nothing rotates, and the store was in the frame before.
+        if (use.access == Access::read && current.store < 0 &&
+            (scratch_.flags[use.resource] & Scratch::kWrittenAlways) == 0)
+          demand(bits, back(stored, circle_));
       }
     };
     if (count == 1)

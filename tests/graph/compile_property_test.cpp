@@ -1,0 +1,87 @@
+// Properties of every plan, over random graphs of mixed kinds.
+#include <doctest/doctest.h>
+
+#include "tests/graph/hazard_oracle.h"
+#include "tests/graph/random_graph.h"
+
+using namespace weft::graph;
+
+namespace {
+
+constexpr std::uint64_t kGraphs = 2500;
+
+// The corner of barrier_rules.h in which a bit is there for a cadence alone.
+bool hasHistoryWithoutAlwaysWriter(const Plan& plan) {
+  const FlatGraph& graph = *plan.graph;
+  for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
+    if (graph.resources[r].history == 0 || plan.firstStep[r] == kNone) continue;
+    bool always = false;
+    for (const Step& step : plan.steps) {
+      const FlatPass& pass = graph.passes[step.pass];
+      for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+        always = always || (plan.attached[u] != 0 && graph.uses[u].resource == r &&
+                            graph.uses[u].access != Access::read && pass.cadence == Cadence::always);
+    }
+    if (!always) return true;
+  }
+  return false;
+}
+
+// How often the graphs reach the interesting cases.
+struct Coverage {
+  std::size_t shared = 0, overlapping = 0, histories = 0, persistent = 0, splitClears = 0, feedback = 0, parts = 0;
+
+  void add(const Plan& plan) {
+    const FlatGraph& graph = *plan.graph;
+    for (const Storage& s : plan.storages) shared += s.shared ? 1 : 0;
+    std::uint64_t buffers = 0;
+    for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
+      if (plan.firstStep[r] == kNone) continue;
+      histories += graph.resources[r].history > 0 ? 1 : 0;
+      persistent += plan.persistent[r];
+      if (plan.bufferOffsetOf[r] != Plan::kNoOffset) buffers += (graph.resources[r].bytes + 255) / 256 * 256;
+    }
+    overlapping += buffers > plan.arenaBytes ? 1 : 0;
+    for (const Step& step : plan.steps) splitClears += step.barriersAfterClears != 0 ? 1 : 0;
+    for (std::size_t u = 0; u < graph.uses.size(); ++u) {
+      if (plan.attached[u] == 0) continue;
+      feedback += graph.uses[u].feedback ? 1 : 0;
+      parts += isWhole(graph.uses[u], graph.resources[graph.uses[u].resource]) ? 0 : 1;
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the random graphs reach every kind of case") {
+  Coverage c;
+  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) c.add(randomGraph(seed).compiled());
+  MESSAGE("shared " << c.shared << ", overlapping arenas " << c.overlapping << ", histories " << c.histories
+                    << ", persistent " << c.persistent << ", split clears " << c.splitClears << ", feedback "
+                    << c.feedback << ", parts " << c.parts);
+  for (const std::size_t n : {c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
+    CHECK(n > kGraphs / 25);
+}
+
+TEST_CASE("no hazard is left under any cadence, and no bit is to spare") {
+  std::size_t bits = 0, steps = 0, byCadenceOnly = 0, failures = 0;
+  const auto judge = [&](const Plan& plan, std::uint64_t seed, std::size_t samples, const char* how) {
+    const oracle::Verdict verdict = oracle::judgeBarriers(plan, seed, samples);
+    bits += verdict.bits;
+    steps += plan.steps.size();
+    byCadenceOnly += verdict.byCadenceOnly;
+    const bool excused = verdict.byCadenceOnly == 0 || hasHistoryWithoutAlwaysWriter(plan);
+    if ((!verdict.complaint.empty() || !excused) && ++failures < 10)
+      FAIL_CHECK("graph " << seed << how << ": " << verdict.complaint);
+  };
+  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
+    const FlatBuilder b = randomGraph(seed);
+    judge(b.compiled(), seed, 24, "");
+    judge(b.compiled({.share = true, .orderSeed = seed}), seed, 6, " reordered");
+    if (seed % 4 == 0) judge(b.compiled({.share = false}), seed, 6, " unshared");
+  }
+  CHECK(failures == 0);
+  MESSAGE(kGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly << " by cadence only");
+  CHECK(bits > kGraphs * 8);  // the graphs do need barriers
+  CHECK(byCadenceOnly * 1000 < bits);
+}
