@@ -1,7 +1,8 @@
 // GLSL files to text a driver takes: #include expansion, #line tables, and the way back from a driver's log to the true
 // file, line and column (docs/shaders.md). Pure text work: needs no context and makes no GL call.
+// A file enters a stage once: a later #include of it is dropped, or guarded when the first stands inside an #if.
 // Names are checked by a conservative token scan, not by a preprocessor: an identifier counts as present when it stands
-// outside comments and directives anywhere in the expanded text, also inside an #if that is not taken.
+// outside comments anywhere in the expanded text, also in a directive or inside an #if that is not taken.
 // Does not: evaluate conditionals or macros, compile, or watch files.
 #pragma once
 
@@ -42,7 +43,7 @@ class SourceLoader {
   // `roots` are searched in order for includes that are not found beside the including file.
   explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
-  // The stage file `path`: as it is, else below the first root that has it. `place` is who asked (the graph file), used
+  // The stage file `path`: below the first root that has it, else as it is. `place` is who asked (the graph file), used
   // when the file itself cannot be read (W100). Problems inside (W101 include not found, W102 include cycle, W103
   // malformed include, W106 #version) are reported all at once and give null. An unchanged file (size and modification
   // time of every file that took part) is expanded once.
@@ -60,7 +61,7 @@ class SourceLoader {
   std::uint64_t expansions() const { return expansions_; }
 
  private:
-  struct Stamp {
+  struct Stamp {  // of a file that took part
     std::string path;
     std::int64_t time = 0;
     std::uint64_t bytes = 0;
@@ -69,6 +70,7 @@ class SourceLoader {
     std::shared_ptr<const ShaderSource> source;
     std::vector<Stamp> stamps;
   };
+  std::shared_ptr<const ShaderSource> answer(const std::string& key) const;
   std::vector<std::string> roots_;
   std::unordered_map<std::string, Entry> cache_;
   std::uint64_t expansions_ = 0;

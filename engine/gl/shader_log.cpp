@@ -1,0 +1,138 @@
+// A driver's compile or link log to diagnostics with true places.
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "engine/gl/shader_source.h"
+
+namespace weft::gl {
+
+namespace {
+
+// One message of a log: "file:line(column)" as numbers, severity and text.
+struct LogLine {
+  bool placed = false;
+  std::uint32_t file = 0, line = 0, column = 0;
+  base::Severity severity = base::Severity::error;
+  std::string_view text;
+};
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\0')) text.remove_suffix(1);
+  return text;
+}
+
+bool takeNumber(std::string_view& text, std::uint32_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+bool take(std::string_view& text, std::string_view token) {
+  if (!text.starts_with(token)) return false;
+  text.remove_prefix(token.size());
+  return true;
+}
+
+// "error: text", "preprocessor warning: text", "error C1234: text", "ERROR: text"; false when no severity stands there.
+bool takeSeverity(std::string_view& text, base::Severity& severity) {
+  std::string_view rest = trim(text);
+  take(rest, "preprocessor ");
+  if (take(rest, "error") || take(rest, "ERROR") || take(rest, "fatal error")) {
+    severity = base::Severity::error;
+  } else if (take(rest, "warning") || take(rest, "WARNING")) {
+    severity = base::Severity::warning;
+  } else if (take(rest, "note")) {
+    severity = base::Severity::note;
+  } else {
+    return false;
+  }
+  const std::size_t colon = rest.find(':');
+  if (colon == std::string_view::npos || colon > 8) return false;
+  const std::string_view number = trim(rest.substr(0, colon));
+  if (!number.empty() && number.front() != 'C') return false;
+  text = trim(rest.substr(colon + 1));
+  return true;
+}
+
+std::optional<LogLine> parseLine(std::string_view raw) {
+  LogLine line;
+  std::string_view rest = raw;
+  // Mesa: 0:12(5): error: text
+  if (takeNumber(rest, line.file) && take(rest, ":") && takeNumber(rest, line.line) && take(rest, "(") &&
+      takeNumber(rest, line.column) && take(rest, "):") && takeSeverity(rest, line.severity)) {
+    line.placed = true;
+    line.text = rest;
+    return line;
+  }
+  // NVIDIA: 0(12) : error C1234: text
+  line = {};
+  rest = raw;
+  if (takeNumber(rest, line.file) && take(rest, "(") && takeNumber(rest, line.line) && take(rest, ")")) {
+    rest = trim(rest);
+    if (take(rest, ":") && takeSeverity(rest, line.severity)) {
+      line.placed = true;
+      line.text = rest;
+      return line;
+    }
+  }
+  // ERROR: 0:12: text, or a severity without a place
+  line = {};
+  rest = raw;
+  if (takeSeverity(rest, line.severity)) {
+    std::string_view after = rest;
+    if (takeNumber(after, line.file) && take(after, ":") && takeNumber(after, line.line) && take(after, ":")) {
+      line.placed = true;
+      line.text = trim(after);
+    } else {
+      line.file = line.line = 0;
+      line.text = rest;
+    }
+    return line;
+  }
+  return std::nullopt;
+}
+
+// Headings and rules of NVIDIA's logs.
+bool isOrnament(std::string_view text) {
+  return text.empty() || text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
+         text == "Fragment info" || text == "Compute info" || text == "Link info";
+}
+
+}  // namespace
+
+std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code, base::Diagnostics& diagnostics) {
+  std::size_t added = 0;
+  base::Diagnostic pending;
+  const auto flush = [&] {
+    if (!pending.message.empty()) {
+      diagnostics.add(pending);
+      ++added;
+    }
+    pending = {};
+  };
+  while (!log.empty()) {
+    const std::size_t end = log.find('\n');
+    const std::string_view raw = trim(log.substr(0, end));
+    log = end == std::string_view::npos ? std::string_view() : log.substr(end + 1);
+    if (isOrnament(raw)) continue;
+    const std::optional<LogLine> line = parseLine(raw);
+    if (!line && !pending.message.empty()) {
+      pending.message += fmt::format(" {}", raw);
+      continue;
+    }
+    flush();
+    pending.code = code;
+    pending.severity = line ? line->severity : base::Severity::error;
+    pending.message = std::string(line ? line->text : raw);
+    pending.place.file = source.file;
+    if (line && line->placed && line->file < source.files.size())
+      pending.place = {source.files[line->file], line->line, line->column};
+  }
+  flush();
+  return added;
+}
+
+}  // namespace weft::gl

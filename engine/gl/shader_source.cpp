@@ -1,0 +1,245 @@
+#include "engine/gl/shader_source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/nearest.h"
+#include "engine/gl/shader_scan.h"
+
+namespace weft::gl {
+
+namespace fs = std::filesystem;
+using base::Code;
+using base::Diagnostics;
+using base::Place;
+
+namespace {
+
+constexpr std::size_t kMostText = std::size_t{16} << 20;  // of one stage; a guarded include may repeat its text
+
+std::int64_t timeOf(const std::string& path) {
+  std::error_code ec;
+  const auto time = fs::last_write_time(path, ec);
+  return ec ? -1 : static_cast<std::int64_t>(time.time_since_epoch().count());
+}
+
+std::uint64_t bytesOf(const std::string& path) {
+  std::error_code ec;
+  const auto size = fs::file_size(path, ec);
+  return ec ? ~0ull : size;
+}
+
+std::string folderOf(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+// Paths below the folders, relative to them, of every GLSL file: what an include could have meant.
+std::vector<std::string> listShaders(const std::vector<std::string>& folders) {
+  std::vector<std::string> names;
+  for (const std::string& folder : folders) {
+    std::error_code ec;
+    for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
+         !ec && it != end && names.size() < 10000; it.increment(ec))
+      if (it->path().extension() == ".glsl") names.push_back(it->path().lexically_relative(folder).generic_string());
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+}  // namespace
+
+// One expansion: the text built so far, the files met, and the chain of includes that leads to the current one.
+class IncludeExpander {
+ public:
+  IncludeExpander(const std::vector<std::string>& roots, Diagnostics& diagnostics) : roots_(roots), diagnostics_(diagnostics) {
+    source_->files.push_back(std::make_shared<const std::string>("<defines>"));
+  }
+
+  // `folder` is where includes are searched first; "" for text without a file.
+  void expandRoot(const std::string& path, const std::string& folder, std::string_view text) {
+    const std::size_t number = addFile(path);
+    source_->file = source_->files[number];
+    expandFile(number, folder, text, 0);
+  }
+
+  std::shared_ptr<ShaderSource> finish() {
+    source_->hash = base::hashBytes(source_->text);
+    scanNames(source_->text, source_->identifiers, source_->declared);
+    return source_;
+  }
+
+  const std::vector<std::string>& paths() const { return paths_; }
+
+ private:
+  std::size_t addFile(const std::string& path) {
+    source_->files.push_back(std::make_shared<const std::string>(path));
+    paths_.push_back(path);
+    unconditional_.push_back(false);
+    return source_->files.size() - 1;
+  }
+
+  // `depth`: how many #if surround the whole file.
+  void expandFile(std::size_t number, const std::string& folder, std::string_view text, int depth) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    stack_.push_back(number);
+    std::string& out = source_->text;
+    out += fmt::format("#line 1 {}\n", number);
+    LineScanner scanner(text);
+    while (scanner.next()) {
+      const Directive directive = scanner.directive();
+      const Place place{source_->files[number], scanner.number(), directive.column};
+      if (directive.name == "include") {
+        include(directive, place, folder, depth + scanner.depth());
+        out += fmt::format("#line {} {}\n", scanner.number() + 1, number);
+        continue;
+      }
+      if (directive.name == "version")
+        diagnostics_.error(Code::W106, place, "a shader file has no #version").hint =
+            "remove the line; the engine writes '#version 450 core'";
+      if (directive.name == "version" || (directive.name == "pragma" && directive.rest == "once"))
+        out += '\n';
+      else
+        out.append(scanner.line()).append("\n");
+    }
+    stack_.pop_back();
+  }
+
+  void include(const Directive& directive, const Place& place, const std::string& folder, int depth) {
+    std::string_view rest = directive.rest;
+    if (rest.size() < 3 || rest.front() != '"' || rest.find('"', 1) != rest.size() - 1) {
+      base::Diagnostic& error = diagnostics_.error(Code::W103, place, "#include needs a file name in double quotes");
+      error.expected = "#include \"common/view.glsl\"";
+      error.found = fmt::format("#include {}", rest);
+      return;
+    }
+    const std::string name(rest.substr(1, rest.size() - 2));
+    const std::optional<std::string> path = resolve(name, folder);
+    if (!path) {
+      std::vector<std::string> folders = roots_;
+      if (!folder.empty()) folders.push_back(folder);
+      base::Diagnostic& error = diagnostics_.error(Code::W101, place, fmt::format("included file '{}' not found", name));
+      error.expected = fmt::format("a file beside the including one or below {}", fmt::join(roots_, ", "));
+      error.hint = base::nearestHint(name, listShaders(folders));
+      return;
+    }
+    const auto position = std::find(paths_.begin(), paths_.end(), *path);
+    const bool known = position != paths_.end();
+    std::size_t number = static_cast<std::size_t>(position - paths_.begin()) + 1;
+    if (known) {
+      if (const auto at = std::find(stack_.begin(), stack_.end(), number); at != stack_.end()) return reportCycle(at, place);
+      if (unconditional_[number - 1]) return;
+    }
+    const std::optional<std::string> text = base::readFile(*path, diagnostics_, Code::W101, place);
+    if (!text) return;
+    if (source_->text.size() + text->size() > kMostText) {
+      diagnostics_.error(Code::W103, place, fmt::format("includes expand to more than {} MiB", kMostText >> 20)).hint =
+          "include the file once, outside #if";
+      return;
+    }
+    if (!known) number = addFile(*path);
+    unconditional_[number - 1] = depth == 0;
+    // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the first
+    // text outside every #if asks for that guard and makes all later ones superfluous.
+    if (known || depth > 0) source_->text += fmt::format("#ifndef WEFT_INCLUDED_{}\n", number);
+    if (depth > 0) source_->text += fmt::format("#define WEFT_INCLUDED_{}\n", number);
+    expandFile(number, folderOf(*path), *text, depth);
+    if (known || depth > 0) source_->text += "#endif\n";
+  }
+
+  void reportCycle(std::vector<std::size_t>::const_iterator first, const Place& place) {
+    std::string chain;
+    for (auto it = first; it != stack_.end(); ++it) chain += *source_->files[*it] + " -> ";
+    chain += *source_->files[*first];
+    diagnostics_.error(Code::W102, place, fmt::format("shaders include each other in a cycle: {}", chain)).hint =
+        "move what both need into a third file";
+  }
+
+  std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
+    std::vector<fs::path> candidates;
+    if (!folder.empty()) candidates.push_back(fs::path(folder) / name);
+    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / name);
+    for (const fs::path& candidate : candidates) {
+      std::error_code ec;
+      if (fs::is_regular_file(candidate, ec)) return candidate.lexically_normal().string();
+    }
+    return std::nullopt;
+  }
+
+  const std::vector<std::string>& roots_;
+  Diagnostics& diagnostics_;
+  std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
+  std::vector<std::string> paths_;         // by file number - 1
+  std::vector<bool> unconditional_;        // by file number - 1: stands in the text outside every #if
+  std::vector<std::size_t> stack_;
+};
+
+std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) const {
+  const auto found = cache_.find(key);
+  if (found == cache_.end()) return nullptr;
+  const auto same = [](const Stamp& s) { return timeOf(s.path) == s.time && bytesOf(s.path) == s.bytes; };
+  return std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same) ? found->second.source : nullptr;
+}
+
+std::optional<std::string> SourceLoader::locate(const std::string& path) const {
+  std::error_code ec;
+  if (!fs::path(path).is_absolute())
+    for (const std::string& root : roots_)
+      if (const fs::path candidate = fs::path(root) / path; fs::exists(candidate, ec)) return candidate.lexically_normal().string();
+  if (fs::exists(path, ec)) return fs::path(path).lexically_normal().string();
+  return std::nullopt;
+}
+
+std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics, const Place& place) {
+  const std::optional<std::string> where = locate(path);
+  if (!where) {
+    base::Diagnostic& error = diagnostics.error(Code::W100, place, fmt::format("shader '{}' not found", path));
+    error.expected = roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
+    error.hint = base::nearestHint(path, listShaders(roots_));
+    return nullptr;
+  }
+  if (auto source = answer(*where)) return source;
+  // The stamps are taken before reading: a file that changes meanwhile is read again next time.
+  const Stamp own{*where, timeOf(*where), bytesOf(*where)};
+  const std::optional<std::string> text = base::readFile(*where, diagnostics, Code::W100, place);
+  if (!text) return nullptr;
+  ++expansions_;
+  Diagnostics found;
+  IncludeExpander expander(roots_, found);
+  expander.expandRoot(*where, folderOf(*where), *text);
+  diagnostics.append(found);
+  if (found.hasErrors()) return nullptr;
+  Entry entry{expander.finish(), {own}};
+  for (std::size_t i = 1; i < expander.paths().size(); ++i)
+    entry.stamps.push_back({expander.paths()[i], timeOf(expander.paths()[i]), bytesOf(expander.paths()[i])});
+  return (cache_[*where] = std::move(entry)).source;
+}
+
+std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
+  const std::string key = fmt::format("<text>{}:{:016x}", name, base::hashBytes(text));
+  if (auto source = answer(key)) return source;
+  ++expansions_;
+  Diagnostics found;
+  IncludeExpander expander(roots_, found);
+  expander.expandRoot(name, "", text);
+  diagnostics.append(found);
+  if (found.hasErrors()) return nullptr;
+  Entry entry{expander.finish(), {}};
+  for (std::size_t i = 1; i < expander.paths().size(); ++i)
+    entry.stamps.push_back({expander.paths()[i], timeOf(expander.paths()[i]), bytesOf(expander.paths()[i])});
+  return (cache_[key] = std::move(entry)).source;
+}
+
+std::string assembleSource(const ShaderSource& source, std::span<const Define> defines) {
+  std::string text = "#version 450 core\n";
+  for (const Define& define : defines) text += fmt::format("#define {} {}\n", define.name, define.value);
+  return text + source.text;
+}
+
+}  // namespace weft::gl

@@ -1,0 +1,249 @@
+#include "engine/gl/shader_source.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/gl/temp_folder.h"
+
+using namespace weft::gl;
+using weft::base::Code;
+using weft::base::Diagnostic;
+using weft::base::Diagnostics;
+using weft::base::Severity;
+using weft::gl::test::TempFolder;
+
+namespace {
+
+std::size_t occurrences(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+// The place of the line of the assembled text that contains `what`, following #line as a driver does.
+std::pair<std::string, std::uint32_t> driverPlace(const ShaderSource& source, const std::string& what) {
+  std::uint32_t file = 0, line = 0;
+  std::string rest = source.text;
+  while (!rest.empty()) {
+    const auto end = rest.find('\n');
+    const std::string text = rest.substr(0, end);
+    rest = end == std::string::npos ? "" : rest.substr(end + 1);
+    if (text.starts_with("#line ")) {
+      std::sscanf(text.c_str(), "#line %u %u", &line, &file);
+      continue;
+    }
+    if (text.find(what) != std::string::npos) return {*source.files.at(file), line};
+    ++line;
+  }
+  return {"", 0};
+}
+
+}  // namespace
+
+TEST_CASE("includes are found beside the includer and below the roots, once each, with true lines") {
+  TempFolder folder;
+  folder.write("common/a.glsl", "#pragma once\n#include \"deep/b.glsl\"\nfloat a() { return b(); }\n");
+  folder.write("common/deep/b.glsl", "// first line\nfloat b() { return 1.0; }\n");
+  folder.write("fx/x.frag.glsl",
+               "#include \"common/a.glsl\"\n#include \"local.glsl\"\n#include \"common/deep/b.glsl\"\nvoid main() { a(); }\n");
+  folder.write("fx/local.glsl", "float local_value;");  // no newline at the end
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("fx/x.frag.glsl", diagnostics);
+  REQUIRE_MESSAGE(source, diagnostics.text());
+  CHECK(diagnostics.empty());
+  CHECK(occurrences(source->text, "float b()") == 1);
+  CHECK(driverPlace(*source, "float b()") == std::pair(folder.path("common/deep/b.glsl"), 2u));
+  CHECK(driverPlace(*source, "float a()") == std::pair(folder.path("common/a.glsl"), 3u));
+  CHECK(driverPlace(*source, "local_value") == std::pair(folder.path("fx/local.glsl"), 1u));
+  CHECK(driverPlace(*source, "void main") == std::pair(folder.path("fx/x.frag.glsl"), 4u));
+  CHECK(*source->file == folder.path("fx/x.frag.glsl"));
+}
+
+TEST_CASE("a file included inside an #if is still there when it is included again") {
+  TempFolder folder;
+  folder.write("v.glsl", "float v;\n");
+  folder.write("x.frag.glsl", "#ifdef A\n#include \"v.glsl\"\n#endif\n#include \"v.glsl\"\n#include \"v.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(source);
+  CHECK(occurrences(source->text, "float v;") == 2);       // the third is superfluous
+  CHECK(occurrences(source->text, "#ifndef WEFT_INCLUDED_2") == 2);
+  CHECK(occurrences(source->text, "#define WEFT_INCLUDED_2") == 1);
+}
+
+TEST_CASE("cycles are reported with their path, once, at the include that closes them") {
+  TempFolder folder;
+  folder.write("a.glsl", "#include \"b.glsl\"\n");
+  folder.write("b.glsl", "\n\n  #include \"a.glsl\"\n");
+  folder.write("x.frag.glsl", "#include \"a.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  const Diagnostic& cycle = diagnostics.items()[0];
+  CHECK(cycle.code == Code::W102);
+  CHECK(*cycle.place.file == folder.path("b.glsl"));
+  CHECK(cycle.place.line == 3);
+  CHECK(cycle.place.column == 3);
+  const std::string chain = folder.path("a.glsl") + " -> " + folder.path("b.glsl") + " -> " + folder.path("a.glsl");
+  CHECK(cycle.message.find(chain) != std::string::npos);
+  folder.write("self.frag.glsl", "#include \"self.frag.glsl\"\n");
+  Diagnostics itself;
+  CHECK_FALSE(loader.load("self.frag.glsl", itself));
+  CHECK(itself.contains(Code::W102));
+}
+
+TEST_CASE("everything wrong with the directives is reported at once, with places and the nearest file") {
+  TempFolder folder;
+  folder.write("common/view.glsl", "");
+  folder.write("x.frag.glsl",
+               "#version 330\n#include \"common/veiw.glsl\"\n#include <common/view.glsl>\n// #include \"no.glsl\"\n"
+               "/*\n#include \"no.glsl\"\n*/\n#include\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
+  REQUIRE_MESSAGE(diagnostics.size() == 4, diagnostics.text());
+  const auto& items = diagnostics.items();
+  CHECK(items[0].code == Code::W106);
+  CHECK(items[0].place.line == 1);
+  CHECK(items[1].code == Code::W101);
+  CHECK(items[1].place.line == 2);
+  CHECK(items[1].hint == "did you mean 'common/view.glsl'?");
+  CHECK(items[2].code == Code::W103);
+  CHECK(items[2].place.line == 3);
+  CHECK(items[3].code == Code::W103);
+  CHECK(items[3].place.line == 8);
+}
+
+TEST_CASE("a missing shader is reported at the one who named it, a directory as a directory") {
+  TempFolder folder;
+  folder.write("sky/sky.frag.glsl", "void main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const weft::base::Place graph{std::make_shared<const std::string>("studio.json"), 12, 40};
+  CHECK_FALSE(loader.load("sky/skye.frag.glsl", diagnostics, graph));
+  CHECK_FALSE(loader.load("sky", diagnostics, graph));
+  REQUIRE(diagnostics.size() == 2);
+  CHECK(diagnostics.items()[0].code == Code::W100);
+  CHECK(*diagnostics.items()[0].place.file == "studio.json");
+  CHECK(diagnostics.items()[0].place.line == 12);
+  CHECK(diagnostics.items()[0].hint == "did you mean 'sky/sky.frag.glsl'?");
+  CHECK(diagnostics.items()[1].message.find("directory") != std::string::npos);
+}
+
+TEST_CASE("an unchanged file is expanded once, a changed include again") {
+  TempFolder folder;
+  folder.write("a.glsl", "float one;\n");
+  folder.write("x.frag.glsl", "#include \"a.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto first = loader.load("x.frag.glsl", diagnostics);
+  CHECK(loader.load("x.frag.glsl", diagnostics) == first);
+  CHECK(loader.expansions() == 1);
+  folder.write("a.glsl", "float two;\n");  // same size, other time
+  const auto second = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(second);
+  CHECK(loader.expansions() == 2);
+  CHECK(second->hash != first->hash);
+  CHECK(second->mentions("two"));
+  folder.write("a.glsl", "#include \"gone.glsl\"\n");
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));  // failures are not remembered: the file may appear
+  folder.write("gone.glsl", "float three;\n");
+  diagnostics.clear();
+  CHECK(loader.load("x.frag.glsl", diagnostics));
+  CHECK(diagnostics.empty());
+}
+
+TEST_CASE("text in memory includes from the roots only, and the prefix holds version and defines in order") {
+  TempFolder folder;
+  folder.write("a.glsl", "float a;\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics);
+  REQUIRE(source);
+  CHECK(loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics) == source);
+  const Define defines[] = {{"HAS_BLOOM", "1"}, {"CURVE", "2"}};
+  CHECK(assembleSource(*source, defines).starts_with("#version 450 core\n#define HAS_BLOOM 1\n#define CURVE 2\n#line 1 1\n"));
+}
+
+TEST_CASE("the scan knows comments, and finds what is declared") {
+  TempFolder folder;
+  folder.write("x.frag.glsl", R"(
+// uniform sampler2D commented;
+/* out vec4 also_commented; */
+uniform sampler2D source, second;
+uniform sampler3D sh[7];
+layout(rgba16f) uniform writeonly image2D map;
+layout(std430) readonly buffer keys { uvec2 sort_keys[]; };
+layout(std140) uniform Parameters { float threshold; vec3 tint[2]; } named;
+layout(location = 0) out vec4 result;
+#ifdef HAS_BLOOM
+uniform sampler2D bloom;
+#endif
+in vec2 uv;
+struct Row { vec3 center; };
+float helper(in float parameter_x, out float y) { float local_z = 1.0; y = local_z; return parameter_x; }
+void main() { int loose; result = texture(source, uv); }
+)");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(source);
+  for (const char* name : {"source", "second", "sh", "map", "keys", "sort_keys", "Parameters", "threshold", "tint", "result",
+                           "bloom", "uv"}) {
+    CHECK_MESSAGE(source->mentions(name), name);
+    CHECK_MESSAGE(source->declared.contains(name), name);
+  }
+  CHECK(source->mentions("HAS_BLOOM"));
+  CHECK(source->mentions("helper"));
+  CHECK_FALSE(source->mentions("commented"));
+  CHECK_FALSE(source->mentions("also_commented"));
+  for (const char* name : {"helper", "parameter_x", "local_z", "loose", "main", "center", "HAS_BLOOM", "in", "out"})
+    CHECK_MESSAGE(!source->declared.contains(name), name);
+}
+
+TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column") {
+  TempFolder folder;
+  folder.write("a.glsl", "float a;\n");
+  folder.write("x.frag.glsl", "#include \"a.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics none;
+  const auto source = loader.load("x.frag.glsl", none);
+  REQUIRE(source);
+
+  Diagnostics mesa;
+  CHECK(mapLog("2:12(5): error: `foo' undeclared\n1:3(1): warning: `bar' used uninitialized\n0:2(9): preprocessor error: bad\n",
+               *source, Code::W104, mesa) == 3);
+  REQUIRE(mesa.size() == 3);
+  CHECK(*mesa.items()[0].place.file == folder.path("a.glsl"));
+  CHECK(mesa.items()[0].place.line == 12);
+  CHECK(mesa.items()[0].place.column == 5);
+  CHECK(mesa.items()[0].message == "`foo' undeclared");
+  CHECK(*mesa.items()[1].place.file == folder.path("x.frag.glsl"));
+  CHECK(mesa.items()[1].severity == Severity::warning);
+  CHECK(*mesa.items()[2].place.file == "<defines>");
+  CHECK(mesa.items()[2].severity == Severity::error);
+
+  Diagnostics nvidia;
+  CHECK(mapLog("Fragment info\n-------------\n2(12) : error C1503: undefined variable \"foo\"\n"
+               "1(7) : warning C7050: \"x\" might be used before being initialized\n",
+               *source, Code::W104, nvidia) == 2);
+  CHECK(*nvidia.items()[0].place.file == folder.path("a.glsl"));
+  CHECK(nvidia.items()[0].place.line == 12);
+  CHECK(nvidia.items()[0].place.column == 0);
+  CHECK(nvidia.items()[0].message == "undefined variable \"foo\"");
+  CHECK(nvidia.items()[1].severity == Severity::warning);
+  CHECK(nvidia.items()[1].place.line == 7);
+
+  Diagnostics others;
+  CHECK(mapLog("ERROR: 2:4: 'foo' : undeclared identifier\nerror: fragment shader lacks main\n  which is needed\n77:1(1): error: x\n",
+               *source, Code::W105, others) == 3);
+  CHECK(others.items()[0].place.line == 4);
+  CHECK(others.items()[1].message == "fragment shader lacks main which is needed");
+  CHECK(others.items()[1].place.line == 0);
+  CHECK(others.items()[2].place.line == 0);  // a file the table lacks
+}
