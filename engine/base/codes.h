@@ -62,7 +62,15 @@ namespace weft::base {
   X(161, "unknown material")                                              \
   X(162, "unknown draw list")                                             \
   /* command line, runtime, outputs */                                    \
-  X(180, "output cannot be written")
+  X(180, "output cannot be written")                                        \
+  X(181, "slot is not in the shader")                                     \
+  X(182, "parameter is not in the shader, or gets no value")              \
+  X(183, "slot and shader type do not fit")                               \
+  X(184, "parameter and shader type do not fit")                          \
+  X(185, "unknown member of the View block")                              \
+  X(186, "storage block is no instance table")                            \
+  X(187, "shader uses what its pass does not name")                       \
+  X(188, "graph presents nothing")
 // clang-format on
 
 // A diagnostic code; the numeric value is what follows the W in "W040".

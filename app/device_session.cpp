@@ -1,0 +1,71 @@
+#include "app/device_session.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/session.h"
+
+namespace weft::app {
+
+namespace {
+
+std::string cacheFolderOf(const Options& options) {
+  if (options.cacheFolder == "none") return {};
+  if (!options.cacheFolder.empty()) return options.cacheFolder;
+  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return std::string(folder) + "/weft/programs";
+  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/weft/programs";
+  return {};
+}
+
+}  // namespace
+
+std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics) {
+  const bool window = options.command == "view";
+  gl::ContextOptions wanted;
+  wanted.backend = gl::findBackend(options.backend).value_or(gl::Backend::automatic);
+  if (window && wanted.backend == gl::Backend::automatic) wanted.backend = gl::Backend::glfw;
+  wanted.title = "weft: " + options.graph;
+  wanted.width = options.width;
+  wanted.height = options.height;
+  wanted.visible = window;
+  auto context = gl::createContext(wanted, diagnostics);
+  if (!context) return nullptr;
+  gl::Context& current = *context;
+  return std::unique_ptr<DeviceSession>(
+      new DeviceSession{std::move(context), runtime::Renderer(current, options.graph,
+                                                              {.dataFolder = dataFolder(), .cacheFolder = cacheFolderOf(options)})});
+}
+
+void printStats(DeviceSession& session, nlohmann::ordered_json times) {
+  const gl::ProgramCacheStats& programs = session.renderer.device().programs.stats();
+  const gl::DeviceInfo& device = session.context->device();
+  nlohmann::ordered_json out;
+  out["device"] = {{"renderer", device.renderer}, {"version", device.version}, {"platform", device.platform},
+                   {"software", device.software}};
+  out["times"] = std::move(times);
+  out["programs"] = {{"hits", programs.hits},
+                     {"misses", programs.misses},
+                     {"evictions", programs.evictions},
+                     {"compilations", programs.compilations},
+                     {"binary_loads", programs.binaryLoads},
+                     {"binary_rejects", programs.binaryRejects}};
+  runtime::Execution* execution = session.renderer.execution();
+  const graph::Plan& plan = execution->plan();
+  out["bytes"] = {{"declared", plan.bytesDeclared}, {"allocated", plan.bytesAllocated}, {"lower_bound", plan.bytesLowerBound}};
+  gl::PassTimers& timers = session.renderer.device().timers;
+  if (timers.enabled()) {
+    timers.finish();
+    nlohmann::ordered_json passes;
+    for (std::size_t step = 0; step < timers.results().size() && step < plan.steps.size(); ++step) {
+      const gl::PassTime& time = timers.results()[step];
+      if (time.ran) passes.push_back({{"pass", plan.graph->passNames[plan.steps[step].pass]}, {"gpu_ms", time.gpu}, {"cpu_ms", time.cpu}});
+    }
+    out["passes"] = std::move(passes);
+  }
+  fmt::print(stderr, "{}\n", out.dump(2));
+}
+
+}  // namespace weft::app

@@ -1,0 +1,122 @@
+#include "app/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+
+namespace weft::app {
+
+namespace {
+
+bool parseNumber(const std::string& text, std::uint32_t& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b) {
+  const std::size_t at = text.find(separator);
+  return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
+}
+
+std::string checkSize(const std::string& text) {
+  std::uint32_t width = 0, height = 0;
+  const bool good = parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= 16384 && height <= 16384;
+  return good ? "" : "expected WIDTHxHEIGHT, each from 1 to 16384, found '" + text + "'";
+}
+
+std::string checkFrames(const std::string& text) {
+  std::uint32_t first = 0, last = 0;
+  const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
+                                                        : parsePair(text, ':', first, last) && first <= last;
+  return good ? "" : "expected FRAME or FIRST:LAST with FIRST <= LAST, found '" + text + "'";
+}
+
+std::string checkSet(const std::string& text) {
+  const std::size_t at = text.find('=');
+  return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
+}
+
+struct Raw {
+  std::string size = "1280x720", frames = "0";
+  std::vector<std::string> sets;
+};
+
+void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
+  command.add_option("graph", options.graph, "graph file (JSON)")->required();
+  command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
+  command.add_option("--environment", options.environment, "environment map, .hdr or .exr");
+  command.add_option("--size", raw.size, "size of the screen in pixels")->check(CLI::Validator(checkSize, "WxH"));
+  command.add_option("--disable", options.disables, "disable a pass (any unique suffix of its name); repeatable");
+  command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
+      ->check(CLI::Validator(checkSet, "NAME=VALUE"));
+}
+
+void addDeviceOptions(CLI::App& command, Options& options) {
+  command.add_option("--backend", options.backend, "where OpenGL comes from")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
+  command.add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'");
+  command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
+  command.add_flag("--profile", options.profile, "measure each pass (slower: waits for the GPU after every pass on software)");
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
+  Options options;
+  Raw raw;
+  CLI::App app("Weft: a frame is a JSON file", "weft");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "weft 0.1.0");
+
+  CLI::App* render = app.add_subcommand("render", "render frames of a graph to image files, without a display");
+  addGraphOptions(*render, options, raw);
+  addDeviceOptions(*render, options);
+  render->add_option("-o,--output", options.output, "image to write, .png or .exr; for several frames a pattern: f_%04d.png")
+      ->required();
+  render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")->check(CLI::Validator(checkFrames, "A:B"));
+  render->add_option("--fps", options.fps, "frames per second of the clock")->check(CLI::Range(1.0, 1000.0));
+  render->add_flag("--quiet", options.quiet, "no progress bar");
+
+  CLI::App* view = app.add_subcommand("view", "open a window and run a graph in it");
+  addGraphOptions(*view, options, raw);
+  addDeviceOptions(*view, options);
+  view->add_option("--max-frames", options.maxFrames, "close after this many frames (0: when the window is closed)");
+  view->add_option("--screenshot", options.screenshot, "PNG to write of the last frame before closing");
+
+  CLI::App* check = app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");
+  addGraphOptions(*check, options, raw);
+  check->add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
+
+  CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
+  addGraphOptions(*dot, options, raw);
+
+  CLI::App* plan = app.add_subcommand("plan", "print the compiled plan: order, barriers, storage, bytes");
+  addGraphOptions(*plan, options, raw);
+  plan->add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+
+  CLI::App* bench = app.add_subcommand("bench", "measure; prints JSON");
+  bench->add_option("--workload", options.workloads, "neutral workload files ({textures, passes}); repeatable");
+
+  app.add_subcommand("schema", "print the JSON Schema of graph files");
+  app.add_subcommand("types", "print the pass types and imports a graph may use");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exitCode = app.exit(error) == 0 ? 0 : 2;
+    return std::nullopt;
+  }
+  options.command = app.get_subcommands().front()->get_name();
+  parsePair(raw.size, 'x', options.width, options.height);
+  if (!parsePair(raw.frames, ':', options.firstFrame, options.lastFrame)) {
+    parseNumber(raw.frames, options.firstFrame);
+    options.lastFrame = options.firstFrame;
+  }
+  for (const std::string& set : raw.sets) {
+    const std::size_t at = set.find('=');
+    options.sets.emplace_back(set.substr(0, at), set.substr(at + 1));
+  }
+  return options;
+}
+
+}  // namespace weft::app

@@ -1,0 +1,36 @@
+// The command line as plain data. Parsing, help and the messages for wrong arguments are CLI11's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace weft::app {
+
+struct Options {
+  std::string command;                       // "render", "view", "check", "dot", "plan", "bench", "schema", "types"
+  std::string graph;                         // path of the graph file
+  std::string scene, environment;            // empty: the bundled spheres, no environment
+  std::string output;                        // -o
+  std::uint32_t width = 1280, height = 720;  // --size
+  std::uint32_t firstFrame = 0, lastFrame = 0;
+  double fps = 60;
+  std::vector<std::string> disables;
+  std::vector<std::pair<std::string, std::string>> sets;
+  std::string backend = "auto";
+  std::string cacheFolder;                   // program binaries; empty: the user's cache folder, "none": none
+  bool stats = false, profile = false, quiet = false;
+  bool shaders = true;                       // check: compile every shader too
+  std::string format = "text";               // plan: text or json
+  std::vector<std::string> workloads;        // bench
+  std::string frameGraph;                    // bench --frame
+  std::uint32_t maxFrames = 0;               // view: stop after this many frames; 0: until closed
+  std::string screenshot;                    // view: written at the end
+};
+
+// Empty and `exitCode` set when the program should stop (help, a wrong argument; the text is already printed).
+std::optional<Options> parseOptions(int argc, char** argv, int& exitCode);
+
+}  // namespace weft::app

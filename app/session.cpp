@@ -1,0 +1,57 @@
+#include "app/session.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "engine/graph/read.h"
+#include "engine/scene/scene_file.h"
+
+namespace weft::app {
+
+std::string dataFolder() {
+  if (const char* folder = std::getenv("WEFT_DATA")) return folder;
+  if (std::filesystem::is_directory(WEFT_DATA_SOURCE)) return WEFT_DATA_SOURCE;
+  return WEFT_DATA_INSTALLED;
+}
+
+graph::Settings settingsOf(const Options& options, bool software) {
+  return {.screenWidth = options.width,
+          .screenHeight = options.height,
+          .software = software,
+          .sets = options.sets,
+          .disables = options.disables};
+}
+
+std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics) {
+  const std::string path = options.scene.empty() ? dataFolder() + "/scenes/spheres.json" : options.scene;
+  auto scene = scene::loadScene(path, diagnostics);
+  std::shared_ptr<const assets::ImageF> environment;
+  if (!options.environment.empty())
+    if (auto image = assets::loadEnvironment(options.environment, diagnostics))
+      environment = std::make_shared<const assets::ImageF>(std::move(*image));
+  if (!scene || diagnostics.hasErrors()) return std::nullopt;
+  runtime::World world(std::move(*scene));
+  if (environment) world.setEnvironment(std::move(environment));
+  return world;
+}
+
+std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts, bool software,
+                                            base::Diagnostics& diagnostics) {
+  const auto desc = graph::readGraph(options.graph, diagnostics);
+  if (!desc) return nullptr;
+  const auto registry = runtime::makeRegistry(passes::PassRegistry::builtin(), facts);
+  const auto flat = graph::expandGraph(*desc, registry, settingsOf(options, software), diagnostics);
+  if (!flat || diagnostics.hasErrors()) return nullptr;
+  return std::make_shared<const graph::Plan>(graph::compile(flat));
+}
+
+int report(base::Diagnostics& diagnostics) {
+  diagnostics.sortByPlace();
+  std::fputs(diagnostics.text().c_str(), stderr);
+  return diagnostics.hasErrors() ? 1 : 0;
+}
+
+}  // namespace weft::app

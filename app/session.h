@@ -1,0 +1,33 @@
+// From command-line options to the things every command starts with: the world, the graph's description, its plan.
+// All of it without a GL context.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+#include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/expand.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/world.h"
+
+namespace weft::app {
+
+// The folder that holds graphs/, shaders/, materials/ and scenes/: beside the build, or where it was installed.
+std::string dataFolder();
+
+graph::Settings settingsOf(const Options& options, bool software);
+
+// The scene and the environment that the options name.
+std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);
+
+// Reads, expands and compiles. Null after errors.
+std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts, bool software,
+                                            base::Diagnostics& diagnostics);
+
+// Prints all diagnostics to standard error. Returns 1 when there is an error among them, else 0.
+int report(base::Diagnostics& diagnostics);
+
+}  // namespace weft::app

@@ -1,0 +1,24 @@
+#include "engine/passes/blit/blit.h"
+
+namespace weft::passes {
+
+graph::PassType Blit::reflect() const {
+  return {.name = "blit",
+          .doc = "Copies `source` to `destination`, scaling when the sizes differ (`\"source\": \"x as linear\"` filters).",
+          .shader = graph::ShaderShape::none,
+          .defaultReadTexture = graph::Kind::copy,
+          .defaultWriteTexture = graph::Kind::copy,
+          .fixedSlots = {{"source", graph::Access::read, "the level and layer to copy from"},
+                         {"destination", graph::Access::write, "the level and layer to copy to"}}};
+}
+
+void Blit::execute(const PassContext& context) const {
+  const BoundTexture& from = context.source;
+  const BoundTexture& to = context.destination;
+  const bool linear = context.linear && from.planes == GL_COLOR_BUFFER_BIT;
+  glBlitNamedFramebuffer(from.framebuffer, to.framebuffer, 0, 0, static_cast<GLint>(from.width),
+                         static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(to.width),
+                         static_cast<GLint>(to.height), from.planes & to.planes, linear ? GL_LINEAR : GL_NEAREST);
+}
+
+}  // namespace weft::passes

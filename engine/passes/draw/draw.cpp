@@ -1,0 +1,24 @@
+#include "engine/passes/draw/draw.h"
+
+namespace weft::passes {
+
+graph::PassType Draw::reflect() const {
+  return {.name = "draw",
+          .doc = "Draws the instances of `list` (or `instances` copies) as `geometry`, seen from `view`, with NAME.vert.glsl and "
+                 "NAME.frag.glsl. Written slots are attachments; a depth format is the depth attachment.",
+          .shader = graph::ShaderShape::draw,
+          .keys = {"list", "geometry", "instances", "view", "state", "feedback"}};
+}
+
+void Draw::execute(const PassContext& context) const {
+  if (context.instances == 0) return;
+  const Geometry& geometry = context.geometry;
+  const auto instances = static_cast<GLsizei>(context.instances);
+  glBindVertexArray(geometry.vertexArray);
+  if (geometry.indexType)
+    glDrawElementsInstanced(geometry.mode, geometry.count, geometry.indexType, nullptr, instances);
+  else
+    glDrawArraysInstanced(geometry.mode, 0, geometry.count, instances);
+}
+
+}  // namespace weft::passes

@@ -1,0 +1,40 @@
+#include "engine/passes/pass_registry.h"
+
+#include <cassert>
+
+#include "engine/passes/blit/blit.h"
+#include "engine/passes/compute/compute.h"
+#include "engine/passes/draw/draw.h"
+#include "engine/passes/fullscreen/fullscreen.h"
+#include "engine/passes/mipmap/mipmap.h"
+
+namespace weft::passes {
+
+PassRegistry PassRegistry::builtin() {
+  PassRegistry registry;
+  registry.add(std::make_unique<Fullscreen>());
+  registry.add(std::make_unique<Compute>());
+  registry.add(std::make_unique<Draw>());
+  registry.add(std::make_unique<Blit>());
+  registry.add(std::make_unique<Mipmap>());
+  return registry;
+}
+
+void PassRegistry::add(std::unique_ptr<PassType> type) {
+  assert(!find(type->reflect().name) && "a pass type of this name is already registered");
+  types_.push_back(std::move(type));
+}
+
+const PassType* PassRegistry::find(std::string_view name) const {
+  for (const auto& type : types_)
+    if (type->reflect().name == name) return type.get();
+  return nullptr;
+}
+
+std::vector<graph::PassType> PassRegistry::reflect() const {
+  std::vector<graph::PassType> all;
+  for (const auto& type : types_) all.push_back(type->reflect());
+  return all;
+}
+
+}  // namespace weft::passes

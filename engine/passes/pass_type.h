@@ -1,0 +1,48 @@
+// A pass type: what a graph may say of it (reflect) and the GL calls that do it (execute). The executor has already
+// bound program, textures, buffers, framebuffer, viewport and fixed-function state when execute() is called.
+// Knows nothing of windows, input, scheduling or files. To add one: a folder here, a class, a line in pass_registry.cpp.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+
+#include "engine/graph/flat_graph.h"
+#include "engine/graph/registry.h"
+
+namespace weft::passes {
+
+// A range of levels and layers of a texture, as bound for a pass type without a shader.
+struct BoundTexture {
+  GLuint name = 0;               // a view of exactly the levels and layers below, or the texture itself
+  GLuint framebuffer = 0;        // with level 0 of that range attached; 0 when the type does not blit
+  std::uint32_t width = 1, height = 1;
+  GLbitfield planes = GL_COLOR_BUFFER_BIT;
+};
+
+// Vertices of a draw.
+struct Geometry {
+  GLuint vertexArray = 0;
+  GLenum mode = GL_TRIANGLES;
+  GLsizei count = 0;             // indices, or vertices when indexType is 0
+  GLenum indexType = 0;
+};
+
+struct PassContext {
+  const graph::PassSpec* spec = nullptr;
+  std::uint32_t groupSize[3] = {1, 1, 1};    // compute: the program's local size
+  std::uint32_t maxGroups[3] = {65535, 65535, 65535};
+  BoundTexture source, destination;          // blit, mipmap
+  bool linear = false;                       // blit: filter of the source slot
+  Geometry geometry;
+  std::uint32_t instances = 0;               // draw
+};
+
+class PassType {
+ public:
+  virtual ~PassType() = default;
+  virtual graph::PassType reflect() const = 0;
+  virtual void execute(const PassContext& context) const = 0;
+};
+
+}  // namespace weft::passes

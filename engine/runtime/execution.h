@@ -1,0 +1,105 @@
+// Execution: a Plan happening on the GPU, frame after frame. Owns the plan's storage, prepared passes, framebuffers and
+// uniform bytes; issues barriers, clears, bindings and pass executions; keeps cadence, history and publication times.
+// A new plan is prepared beside the running one and takes over its persistent storage only once it is known to be good.
+// Does not: read files, decide what runs in which order (the plan did), or own the context. An unchanged plan's frame
+// allocates nothing on the heap.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/gl/context.h"
+#include "engine/gl/program_cache.h"
+#include "engine/gl/timers.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/cadence.h"
+#include "engine/runtime/framebuffer_cache.h"
+#include "engine/runtime/imports.h"
+#include "engine/runtime/prepared_pass.h"
+#include "engine/runtime/resource_pool.h"
+
+namespace weft::runtime {
+
+// GL things that outlive a plan.
+struct Device {
+  Device(gl::Context& context, std::vector<std::string> shaderRoots, std::string cacheFolder);
+  gl::Context& context;
+  gl::SourceLoader sources;
+  gl::ProgramCache programs;
+  Geometries geometries;
+  Imports imports;
+  passes::PassRegistry passTypes = passes::PassRegistry::builtin();
+  gl::PassTimers timers;
+  GLuint sampler(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare);
+
+ private:
+  struct CachedSampler {
+    gl::SamplerDesc desc;
+    gl::SamplerObject object;
+  };
+  std::vector<CachedSampler> samplers_;
+};
+
+struct FrameReport {
+  std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
+};
+
+class Execution {
+ public:
+  // Prepares `plan`. Null after errors, and `before` (may be null) is untouched then; otherwise `before` has given up its
+  // storage and must not run again.
+  static std::unique_ptr<Execution> create(Device& device, std::shared_ptr<const graph::Plan> plan, Execution* before,
+                                           base::Diagnostics& diagnostics);
+
+  FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
+
+  const graph::Plan& plan() const { return *plan_; }
+  // What is presented: level and layer of a texture; id 0 when the graph presents nothing.
+  gl::TextureRef presented();
+  // The whole texture behind it, with all its levels.
+  gl::TextureRef presentedWhole();
+  // The current texture or buffer of a resource by its name in the graph ("hdr", "ibl.brdf"), for tests and inspectors:
+  // the last version of that name, or nothing when it is not alive.
+  gl::TextureRef texture(std::string_view resource);
+  BufferRef buffer(std::string_view resource, std::uint64_t& offset);
+  bool ran(std::string_view pass) const;   // in the last frame
+
+ private:
+  Execution(Device& device, std::shared_ptr<const graph::Plan> plan) : device_(device), plan_(std::move(plan)) {}
+  bool prepare(Execution* before, base::Diagnostics& diagnostics);
+  void layoutUniforms(base::Diagnostics& diagnostics);
+  void carryOver(Execution& before);
+  void refreshImports(base::Diagnostics& diagnostics);
+  void refreshUniforms();
+  void refreshOwnHashes();
+  void resetHistories(base::Diagnostics& diagnostics);
+  void runStep(std::size_t step, base::Diagnostics& diagnostics);
+  void rotateWritten(const PreparedPass& pass);
+  void bind(PreparedPass& pass, base::Diagnostics& diagnostics);
+  GLuint framebufferOf(PreparedPass& pass, base::Diagnostics& diagnostics);
+  std::uint32_t lastVersionOf(std::string_view name) const;
+
+  Device& device_;
+  std::shared_ptr<const graph::Plan> plan_;
+  std::unique_ptr<ResourcePool> pool_;
+  std::vector<PreparedPass> passes_;             // per step
+  std::unique_ptr<Cadence> cadence_;
+  FramebufferCache framebuffers_;
+  std::vector<gl::Attachment> attachmentScratch_;
+  gl::Buffer uniforms_;
+  std::vector<std::byte> uniformBytes_;
+  bool uniformsDirty_ = true;
+  std::vector<std::uint64_t> generations_;       // per resource
+  std::uint64_t nextGeneration_ = 1;
+  std::vector<std::uint64_t> own_;               // per step
+  std::vector<std::uint8_t> rotated_;            // per resource, this frame
+  std::vector<std::uint64_t> resetState_;        // per history: hash of what resets it
+  FrameInput input_;
+  const World* world_ = nullptr;
+  std::uint64_t framesRun_ = 0;
+};
+
+}  // namespace weft::runtime

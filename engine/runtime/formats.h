@@ -1,0 +1,35 @@
+// The graph's formats, targets and barrier bits as GL enums. The one place where the two vocabularies meet.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <array>
+#include <cstdint>
+
+#include "engine/graph/flat_graph.h"
+#include "engine/graph/plan.h"
+
+namespace weft::runtime {
+
+struct GlFormat {
+  GLenum internal = GL_NONE;  // sized internal format
+  GLenum format = GL_NONE;    // client format and type for read-back
+  GLenum type = GL_NONE;
+};
+
+const GlFormat& glFormatOf(graph::Format format);
+GLenum glTargetOf(graph::Target target);
+GLbitfield glBarriersOf(std::uint16_t barriers);
+GLenum glCompareOf(graph::Compare compare);
+
+// One texel for glClearTexImage: a number fills every channel, a list gives them in order with 0 for the missing ones;
+// a depth-stencil list is [depth, stencil].
+struct ClearTexel {
+  GLenum format = GL_NONE, type = GL_NONE;
+  std::array<std::uint8_t, 16> bytes{};
+};
+ClearTexel clearTexelOf(graph::Format format, const graph::Value& value);
+// The four channels the same value means, as floats.
+std::array<float, 4> clearChannelsOf(const graph::Value& value);
+
+}  // namespace weft::runtime

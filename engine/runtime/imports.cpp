@@ -1,0 +1,154 @@
+#include "engine/runtime/imports.h"
+
+#include <algorithm>
+
+#include "engine/runtime/registry.h"
+
+namespace weft::runtime {
+
+void Imports::beginFrame(const World& world, const FrameInput& input) {
+  world_ = &world;
+  input_ = input;
+  ++frames_;
+  for (CachedView& view : views_) view.stale = true;
+}
+
+void Imports::setEnvironmentFallback(gl::TextureRef texture, std::uint64_t generation) {
+  fallback_ = texture;
+  fallbackGeneration_ = generation;
+}
+
+gl::TextureRef Imports::texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+  if (import.request.type != "environment") return {};
+  const assets::ImageF* image = world_->environment();
+  if (!image) return fallback_;
+  if (environmentGeneration_ != world_->environmentGeneration()) {
+    const auto width = static_cast<std::uint32_t>(image->width), height = static_cast<std::uint32_t>(image->height);
+    const gl::TextureDesc desc{
+        .format = GL_RGBA16F, .width = width, .height = height, .mips = fullMips(width, height)};
+    auto texture = gl::Texture::create(desc, "@environment", diagnostics);
+    if (!texture) return environment_ ? environment_.ref() : gl::TextureRef{};
+    // Row 0 of the image is its top row, and row 0 of the texture is +Y: the same order.
+    gl::uploadTexture(texture->ref(), 0, 0, image->channels == 4 ? GL_RGBA : GL_RGB, GL_FLOAT,
+                      std::as_bytes(std::span(image->texels)));
+    glGenerateTextureMipmap(texture->id());
+    environment_ = std::move(*texture);
+    environmentGeneration_ = world_->environmentGeneration();
+  }
+  return environment_.ref();
+}
+
+const std::vector<scene::Instance>& Imports::instancesOf(scene::DrawList list) {
+  CpuInstances& cpu = cpu_[static_cast<std::size_t>(list)];
+  const std::uint64_t wanted = listGeneration(list);
+  if (cpu.generation != wanted) {
+    scene::fillInstances(world_->scene(), list, input_.time, input_.time - input_.deltaTime, cpu.rows);
+    cpu.generation = wanted;
+  }
+  return cpu.rows;
+}
+
+std::uint64_t Imports::listGeneration(scene::DrawList list) const {
+  const std::uint64_t still = world_->sceneGeneration() << 32;
+  return scene::isMoving(world_->scene(), list) ? still + frames_ : still;
+}
+
+std::uint32_t Imports::countOf(scene::DrawList list) const {
+  return static_cast<std::uint32_t>(scene::countInstances(world_->scene(), list));
+}
+
+BufferRef Imports::instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics) {
+  Table* table = nullptr;
+  for (auto& each : tables_)
+    if (each->list == list && each->layout == layout) table = each.get();
+  if (!table) {
+    tables_.push_back(std::make_unique<Table>());
+    table = tables_.back().get();
+    table->list = list;
+    table->layout = layout;
+  }
+  const std::uint64_t wanted = listGeneration(list);
+  if (table->generation != wanted) {
+    writeInstances(layout, instancesOf(list), bytes_);
+    if (bytes_.empty()) bytes_.assign(std::max(layout.stride, 16u), std::byte{0});
+    if (!table->buffer || table->buffer.bytes() != bytes_.size()) {
+      auto buffer = gl::Buffer::create(bytes_.size(), GL_DYNAMIC_STORAGE_BIT,
+                                       scene::drawListNames()[static_cast<std::size_t>(list)], diagnostics);
+      if (!buffer) return {};
+      table->buffer = std::move(*buffer);
+    }
+    gl::uploadBuffer(table->buffer.id(), 0, bytes_);
+    table->generation = wanted;
+  }
+  return {table->buffer.id(), table->buffer.bytes()};
+}
+
+BufferRef Imports::order(scene::DrawList list, scene::SortMethod method, base::Diagnostics& diagnostics) {
+  Order* order = nullptr;
+  for (auto& each : orders_)
+    if (each->list == list && each->method == method) order = each.get();
+  if (!order) {
+    orders_.push_back(std::make_unique<Order>());
+    order = orders_.back().get();
+    order->list = list;
+    order->method = method;
+  }
+  if (order->generation != frames_) {
+    scene::drawOrder(instancesOf(list), view(nullptr, 1, 1).view, method, elements_, scratch_);
+    const std::uint64_t bytes = std::max<std::size_t>(elements_.size(), 1) * sizeof(scene::SortElement);
+    if (!order->buffer || order->buffer.bytes() != bytes) {
+      auto buffer = gl::Buffer::create(bytes, GL_DYNAMIC_STORAGE_BIT, "draw order", diagnostics);
+      if (!buffer) return {};
+      order->buffer = std::move(*buffer);
+    }
+    if (!elements_.empty()) gl::uploadBuffer(order->buffer.id(), 0, std::as_bytes(std::span(elements_)));
+    order->generation = frames_;
+  }
+  return {order->buffer.id(), order->buffer.bytes()};
+}
+
+BufferRef Imports::buffer(const graph::ImportSpec& import, const InstanceLayout& layout,
+                          base::Diagnostics& diagnostics) {
+  if (import.request.type == "spheres") return instances(scene::DrawList::spheres, layout, diagnostics);
+  if (import.request.type == "draw_order") {
+    const auto list = scene::findDrawList(import.request.arguments[0].second.symbol);
+    const auto method = scene::findSortMethod(import.request.arguments[2].second.symbol);
+    if (list && method) return order(*list, *method, diagnostics);
+  }
+  return {};
+}
+
+const scene::ViewData& Imports::view(const graph::ImportSpec* import, std::uint32_t width, std::uint32_t height) {
+  std::uint32_t jitter = 0;
+  if (import)
+    for (const auto& [name, value] : import->request.arguments)
+      if (name == "jitter") jitter = static_cast<std::uint32_t>(std::max(0.0, value.v[0]));
+  CachedView* cached = nullptr;
+  for (CachedView& each : views_)
+    if (each.jitter == jitter && each.width == width && each.height == height) cached = &each;
+  if (!cached) {
+    views_.push_back({.jitter = jitter, .width = width, .height = height, .data = {}});
+    cached = &views_.back();
+  }
+  if (cached->stale) {
+    cached->data = scene::makeView({.pose = input_.pose,
+                                    .previousPose = input_.previousPose,
+                                    .viewport = {width, height},
+                                    .jitter = scene::jitterAt(input_.frame, jitter),
+                                    .frame = input_.frame,
+                                    .time = input_.time,
+                                    .deltaTime = input_.deltaTime});
+    cached->stale = false;
+  }
+  return cached->data;
+}
+
+std::uint64_t Imports::generation(const graph::ImportSpec& import) const {
+  const std::string& type = import.request.type;
+  if (type == "environment") return world_->environment() ? world_->environmentGeneration() : fallbackGeneration_ << 32;
+  if (type == "spheres") return listGeneration(scene::DrawList::spheres);
+  if (type == "cut") return input_.cutGeneration;
+  return frames_;
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,90 @@
+// The GPU side of what graphs import from the world: the environment texture, instance tables, draw orders, views.
+// Lives across plans; everything is made on first use and renewed when the world's generation moves.
+// Does not: decode files (World holds decoded images) or know passes.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects.h"
+#include "engine/graph/flat_graph.h"
+#include "engine/runtime/block_writer.h"
+#include "engine/runtime/world.h"
+#include "engine/scene/sort.h"
+
+namespace weft::runtime {
+
+struct BufferRef {
+  GLuint id = 0;
+  std::uint64_t bytes = 0;
+};
+
+class Imports {
+ public:
+  // Takes the frame's inputs; uploads happen in texture() and buffer(). Call once per frame before anything else.
+  void beginFrame(const World& world, const FrameInput& input);
+
+  // The environment, or the fallback when none is loaded; id 0 when there is neither.
+  gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
+  // Used while the world has no environment: a texture made by a graph of its own. Not owned.
+  void setEnvironmentFallback(gl::TextureRef texture, std::uint64_t generation);
+
+  // A buffer import: instance tables need the layout of the block that reads them, draw orders do not.
+  BufferRef buffer(const graph::ImportSpec& import, const InstanceLayout& layout, base::Diagnostics& diagnostics);
+  BufferRef instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics);
+  std::uint32_t countOf(scene::DrawList list) const;
+
+  // The camera with its jitter, for a screen of width x height pixels. Null import: the default camera.
+  const scene::ViewData& view(const graph::ImportSpec* import, std::uint32_t width, std::uint32_t height);
+
+  // Moves whenever what the import stands for changed.
+  std::uint64_t generation(const graph::ImportSpec& import) const;
+
+ private:
+  struct Table {
+    scene::DrawList list{};
+    InstanceLayout layout;
+    gl::Buffer buffer;
+    std::uint64_t generation = 0;
+  };
+  struct Order {
+    scene::DrawList list{};
+    scene::SortMethod method{};
+    gl::Buffer buffer;
+    std::uint32_t frame = ~0u;
+    std::uint64_t generation = 0;
+  };
+  struct CachedView {
+    std::uint32_t jitter = 0, width = 0, height = 0;
+    bool stale = true;
+    scene::ViewData data;
+  };
+  std::uint64_t listGeneration(scene::DrawList list) const;
+  BufferRef order(scene::DrawList list, scene::SortMethod method, base::Diagnostics& diagnostics);
+  const std::vector<scene::Instance>& instancesOf(scene::DrawList list);
+
+  const World* world_ = nullptr;
+  FrameInput input_;
+  std::uint64_t frames_ = 0;
+  gl::Texture environment_;
+  std::uint64_t environmentGeneration_ = 0;
+  gl::TextureRef fallback_;
+  std::uint64_t fallbackGeneration_ = 0;
+  std::vector<std::unique_ptr<Table>> tables_;
+  std::vector<std::unique_ptr<Order>> orders_;
+  std::vector<CachedView> views_;
+  struct CpuInstances {
+    std::vector<scene::Instance> rows;
+    std::uint64_t generation = 0;
+  };
+  CpuInstances cpu_[scene::kDrawListCount];
+  std::vector<std::byte> bytes_;
+  std::vector<scene::SortElement> elements_, scratch_;
+};
+
+}  // namespace weft::runtime

@@ -1,0 +1,276 @@
+// What a pass asks of its shader, and whether the shader agrees: the variant's request, and slots and parameters held
+// against introspection. Declared names must stand in the source; those that the linker dropped are fine.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/nearest.h"
+#include "engine/gl/objects.h"
+#include "engine/runtime/prepared_pass.h"
+#include "engine/runtime/sampler_types.h"
+
+namespace weft::runtime {
+
+using base::Code;
+using graph::Access;
+using graph::FlatGraph;
+using graph::FlatResource;
+using graph::FlatUse;
+using graph::Kind;
+using graph::PassSpec;
+using graph::Plan;
+using graph::ShaderShape;
+using graph::SlotSpec;
+
+namespace {
+
+// z = 0 is the far plane (reversed Z), so that a depth test "equal" against a cleared buffer finds the background.
+constexpr const char* kFullscreenVertex = R"(
+out vec2 uv;
+void main() {
+  uv = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
+  gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+std::string upper(std::string text) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  return text;
+}
+
+class Checker {
+ public:
+  Checker(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, base::Diagnostics& diagnostics)
+      : plan_(plan),
+        graph_(*plan.graph),
+        spec_(graph_.specs[pass]),
+        variant_(variant),
+        reflection_(variant.program.reflection()),
+        diagnostics_(diagnostics) {}
+
+  bool run() {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
+    checkParameters();
+    checkRest();
+    return good_;
+  }
+
+ private:
+  base::Diagnostic& fail(Code code, const base::Place& place, std::string message) {
+    good_ = false;
+    base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
+    d.pass = spec_.name;
+    return d;
+  }
+
+  std::vector<std::string> declaredNames() const {
+    std::vector<std::string> names;
+    for (const gl::StageSource& stage : variant_.stages)
+      names.insert(names.end(), stage.source->declared.begin(), stage.source->declared.end());
+    return names;
+  }
+
+  void missing(const SlotSpec& slot, const char* what, const std::string& other) {
+    base::Diagnostic& d = fail(Code::W181, slot.place,
+                               fmt::format("slot '{}' is not in the shader '{}'", slot.name, spec_.shader));
+    d.expected = fmt::format("{} named '{}'", what, slot.name);
+    if (!other.empty()) {
+      d.found = other;
+      return;
+    }
+    d.hint = base::nearestHint(slot.name, declaredNames());
+  }
+
+  // What else carries the name, for the message.
+  std::string otherUse(const std::string& name) const {
+    if (reflection_.findSampler(name)) return fmt::format("a sampler '{}'", name);
+    if (reflection_.findImage(name)) return fmt::format("an image '{}'", name);
+    if (reflection_.findUniformBlock(name)) return fmt::format("a uniform block '{}'", name);
+    if (reflection_.findStorageBlock(name)) return fmt::format("a storage block '{}'", name);
+    if (reflection_.findOutput(name)) return fmt::format("an output '{}'", name);
+    return {};
+  }
+
+  void checkSlot(const SlotSpec& slot) {
+    if (slot.useCount == 0) return;
+    const FlatUse& use = graph_.uses[slot.firstUse];
+    if (slot.access != Access::read && !plan_.attached[slot.firstUse]) return;
+    switch (slot.kind) {
+      case Kind::sampled: return checkSampler(slot, use);
+      case Kind::image: return checkImage(slot, use);
+      case Kind::uniform: return checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block");
+      case Kind::storage: return checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block");
+      case Kind::color:
+        if (!reflection_.findOutput(slot.name) && (!mentioned(slot) || !otherUse(slot.name).empty()))
+          missing(slot, "an output", otherUse(slot.name));
+        return;
+      case Kind::depth: case Kind::copy: case Kind::vertex: case Kind::index: case Kind::indirect: return;
+    }
+  }
+
+  bool mentioned(const SlotSpec& slot) const { return variant_.mentions(slot.name); }
+
+  void checkBlock(const SlotSpec& slot, const gl::Block* block, const char* what) {
+    if (!block && (!mentioned(slot) || !otherUse(slot.name).empty())) missing(slot, what, otherUse(slot.name));
+  }
+
+  void checkSampler(const SlotSpec& slot, const FlatUse& use) {
+    const gl::OpaqueUniform* sampler = reflection_.findSampler(slot.name);
+    if (!sampler) {
+      if (!mentioned(slot) || !otherUse(slot.name).empty()) missing(slot, "a sampler", otherUse(slot.name));
+      return;
+    }
+    checkOpaque(slot, use, *sampler, slot.sampler.compare);
+  }
+
+  void checkImage(const SlotSpec& slot, const FlatUse& use) {
+    const gl::OpaqueUniform* image = reflection_.findImage(slot.name);
+    if (!image) {
+      if (!mentioned(slot) || !otherUse(slot.name).empty()) missing(slot, "an image", otherUse(slot.name));
+      return;
+    }
+    checkOpaque(slot, use, *image, false);
+  }
+
+  void checkOpaque(const SlotSpec& slot, const FlatUse& use, const gl::OpaqueUniform& uniform, bool compare) {
+    const OpaqueType type = opaqueTypeOf(uniform.type);
+    const FlatResource& resource = graph_.resources[use.resource];
+    const std::string problem = opaqueMismatch(type, resource, use, compare);
+    if (!problem.empty()) {
+      base::Diagnostic& d = fail(Code::W183, slot.place,
+                                 fmt::format("slot '{}' and the shader's {} do not fit", slot.name,
+                                             gl::glslTypeName(uniform.type)));
+      d.resource = graph_.resourceNames[use.resource];
+      d.expected = problem;
+      d.found = gl::glslTypeName(uniform.type);
+    }
+    if (uniform.arraySize < slot.useCount || (!slot.array && uniform.arraySize > 1)) {
+      base::Diagnostic& d = fail(Code::W183, slot.place, fmt::format("slot '{}' has {} textures and the shader an array of {}",
+                                                                     slot.name, slot.useCount, uniform.arraySize));
+      d.expected = fmt::format("{}[{}]", slot.name, slot.useCount);
+    }
+  }
+
+  void checkParameters() {
+    const gl::Block* block = reflection_.findUniformBlock("Parameters");
+    for (const graph::UniformSpec& uniform : spec_.uniforms) {
+      const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
+      if (!member) {
+        if (variant_.mentions(uniform.name)) continue;
+        fail(Code::W182, uniform.place, fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, spec_.shader))
+            .hint = "declare it in `layout(std140) uniform Parameters { … };`" + withNearest(uniform.name);
+        continue;
+      }
+      std::string expected;
+      graph::Value value = uniform.value;
+      if (uniform.dynamic.present()) value = uniform.dynamic.evaluateFolded([](std::uint32_t) { return 0.0; });
+      if (!memberTakes(*member, value, expected)) {
+        base::Diagnostic& d = fail(Code::W184, uniform.place,
+                                   fmt::format("parameter '{}' does not fit the shader's {}", uniform.name,
+                                               gl::glslTypeName(member->type)));
+        d.expected = expected;
+        d.found = graph::toText(value);
+      }
+    }
+    if (!block) return;
+    for (const gl::BlockMember& member : block->members) {
+      const auto given = [&](const graph::UniformSpec& u) { return u.name == member.name; };
+      if (std::ranges::none_of(spec_.uniforms, given)) {
+        std::vector<std::string> names;
+        for (const graph::UniformSpec& u : spec_.uniforms) names.push_back(u.name);
+        fail(Code::W182, spec_.shaderPlace,
+             fmt::format("the shader's parameter '{}' gets no value from pass '{}'", member.name, spec_.name))
+            .hint = fmt::format("add \"{}\" to the pass's \"parameters\"", member.name);
+      }
+    }
+  }
+
+  std::string withNearest(const std::string& name) const {
+    const std::string nearest = base::nearestName(name, declaredNames());
+    return nearest.empty() ? "" : fmt::format(", or did you mean '{}'?", nearest);
+  }
+
+  bool isSlot(const std::string& name) const {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
+      if (graph_.slots[spec_.firstSlot + i].name == name) return true;
+    return false;
+  }
+
+  void unfed(const char* what, const std::string& name) {
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) names.push_back(graph_.slots[spec_.firstSlot + i].name);
+    fail(Code::W187, spec_.shaderPlace,
+         fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", spec_.shader, what, name, spec_.name))
+        .hint = base::nearestHint(name, names);
+  }
+
+  void checkRest() {
+    for (const auto& sampler : reflection_.samplers)
+      if (!isSlot(sampler.name)) unfed("a sampler", sampler.name);
+    for (const auto& image : reflection_.images)
+      if (!isSlot(image.name)) unfed("an image", image.name);
+    for (const auto& block : reflection_.storageBlocks)
+      if (!isSlot(block.name) && !(block.name == "instances" && !spec_.list.empty())) unfed("a storage block", block.name);
+    for (const auto& block : reflection_.uniformBlocks) {
+      if (block.name == "View") {
+        for (const gl::BlockMember& member : block.members)
+          if (!isViewMember(member.name))
+            fail(Code::W185, spec_.shaderPlace,
+                 fmt::format("the View block of '{}' has an unknown member '{}'", spec_.shader, member.name))
+                .hint = base::nearestHint(member.name, viewMemberNames());
+      } else if (block.name != "Parameters" && !isSlot(block.name)) {
+        unfed("a uniform block", block.name);
+      }
+    }
+    for (const auto& loose : reflection_.looseUniforms)
+      fail(Code::W182, spec_.shaderPlace,
+           fmt::format("the shader '{}' has a uniform '{}' outside a block", spec_.shader, loose.name))
+          .hint = "move it into `layout(std140) uniform Parameters { … };`";
+  }
+
+  const Plan& plan_;
+  const FlatGraph& graph_;
+  const PassSpec& spec_;
+  const gl::Variant& variant_;
+  const gl::Reflection& reflection_;
+  base::Diagnostics& diagnostics_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,
+                                    const graph::PassType& type) {
+  const PassSpec& spec = graph.specs[pass];
+  gl::ProgramRequest request;
+  request.label = spec.name;
+  request.pass = spec.name;
+  request.place = spec.shaderPlace;
+  switch (type.shader) {
+    case ShaderShape::none: return request;
+    case ShaderShape::fragment:
+      request.stages = {{GL_VERTEX_SHADER, "fullscreen.vert.glsl", kFullscreenVertex},
+                        {GL_FRAGMENT_SHADER, spec.shader, ""}};
+      break;
+    case ShaderShape::compute: request.stages = {{GL_COMPUTE_SHADER, spec.shader, ""}}; break;
+    case ShaderShape::draw:
+      request.stages = {{GL_VERTEX_SHADER, spec.shader + ".vert.glsl", ""},
+                        {GL_FRAGMENT_SHADER, spec.shader + ".frag.glsl", ""}};
+      break;
+  }
+  for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
+    const SlotSpec& slot = graph.slots[spec.firstSlot + i];
+    if (slot.useCount == 0) continue;
+    if (slot.access != Access::read && !plan.attached[slot.firstUse]) continue;
+    request.defines.push_back({"HAS_" + upper(slot.name), "1"});
+    if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
+  }
+  for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
+  return request;
+}
+
+bool checkProgram(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, base::Diagnostics& diagnostics) {
+  return Checker(plan, pass, variant, diagnostics).run();
+}
+
+}  // namespace weft::runtime

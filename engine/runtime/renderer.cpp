@@ -1,0 +1,131 @@
+#include "engine/runtime/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/graph/read.h"
+#include "engine/runtime/formats.h"
+#include "engine/runtime/gl_state.h"
+
+namespace weft::runtime {
+
+std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder) {
+  const std::filesystem::path folder = std::filesystem::path(graphPath).parent_path();
+  std::vector<std::string> roots;
+  for (const std::filesystem::path& candidate :
+       {folder / "shaders", folder / ".." / "shaders", std::filesystem::path(dataFolder) / "shaders"}) {
+    std::error_code ignored;
+    const std::string text = candidate.lexically_normal().string();
+    if (std::filesystem::is_directory(candidate, ignored) && std::ranges::find(roots, text) == roots.end())
+      roots.push_back(text);
+  }
+  return roots;
+}
+
+Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
+    : graphPath_(graphPath),
+      options_(std::move(options)),
+      device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder) {}
+
+bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
+  const auto desc = graph::readGraph(graphPath_, diagnostics);
+  if (!desc || diagnostics.hasErrors()) return false;
+  const graph::Registry registry = makeRegistry(device_.passTypes, world.facts());
+  const auto flat = graph::expandGraph(*desc, registry, settings, diagnostics);
+  if (!flat || diagnostics.hasErrors()) return false;
+  auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+  const bool wantsEnvironment = std::ranges::any_of(
+      flat->imports, [](const graph::ImportSpec& import) { return import.request.type == "environment"; });
+  if (wantsEnvironment && !world.environment() && !prepareFallback(world, diagnostics)) return false;
+  auto made = Execution::create(device_, std::move(plan), execution_.get(), diagnostics);
+  if (!made) return false;
+  execution_ = std::move(made);
+  return true;
+}
+
+bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostics) {
+  if (fallback_) return true;
+  const std::string path = options_.dataFolder + "/graphs/daylight.json";
+  const auto desc = graph::readGraph(path, diagnostics);
+  if (!desc || diagnostics.hasErrors()) return false;
+  graph::Settings settings;
+  settings.software = device_.context.device().software;
+  const auto flat = graph::expandGraph(*desc, makeRegistry(device_.passTypes, world.facts()), settings, diagnostics);
+  if (!flat || diagnostics.hasErrors()) return false;
+  fallbackDevice_ = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder), options_.cacheFolder);
+  fallback_ = Execution::create(*fallbackDevice_, std::make_shared<const graph::Plan>(graph::compile(flat)), nullptr,
+                                diagnostics);
+  if (!fallback_) return false;
+  fallback_->frame(world, headlessFrame(world, 0, 60), diagnostics);
+  device_.imports.setEnvironmentFallback(fallback_->presentedWhole(), 1);
+  return !diagnostics.hasErrors();
+}
+
+FrameReport Renderer::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
+  return execution_ ? execution_->frame(world, input, diagnostics) : FrameReport{};
+}
+
+std::optional<assets::ImageF> Renderer::readPresentedFloat() {
+  const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
+  if (texture.id == 0) return std::nullopt;
+  const gl::Extent extent = gl::extentOf(texture.desc, 0);
+  const std::vector<float> texels = gl::readFloats(texture);
+  const std::size_t channels = gl::floatChannelsOf(texture.desc.format);
+  assets::ImageF image{static_cast<int>(extent.width), static_cast<int>(extent.height), static_cast<int>(channels), {}};
+  image.texels.resize(texels.size());
+  const std::size_t row = extent.width * channels;
+  for (std::size_t y = 0; y < extent.height; ++y)
+    std::copy_n(texels.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row), row,
+                image.texels.begin() + static_cast<std::ptrdiff_t>(y * row));
+  return image;
+}
+
+std::optional<assets::Image8> Renderer::readPresented8() {
+  const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
+  if (texture.id == 0) return std::nullopt;
+  const gl::Extent extent = gl::extentOf(texture.desc, 0);
+  assets::Image8 image{static_cast<int>(extent.width), static_cast<int>(extent.height), 4, {}};
+  const std::size_t row = std::size_t{extent.width} * 4;
+  image.texels.resize(row * extent.height);
+  std::vector<std::uint8_t> bytes(image.texels.size());
+  if (texture.desc.format == GL_RGBA8) {
+    const std::vector<std::byte> exact = gl::readTexture(texture, 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
+    std::transform(exact.begin(), exact.end(), bytes.begin(), [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
+  } else {
+    const std::vector<float> texels = gl::readFloats(texture);
+    const std::size_t channels = gl::floatChannelsOf(texture.desc.format);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      const std::size_t c = i % 4;
+      const float value = c < channels ? texels[i / 4 * channels + c] : c == 3 ? 1.0f : texels[i / 4 * channels];
+      bytes[i] = static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * 255.0f));
+    }
+  }
+  for (std::size_t y = 0; y < extent.height; ++y)
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row), row,
+                image.texels.begin() + static_cast<std::ptrdiff_t>(y * row));
+  return image;
+}
+
+void Renderer::present(std::uint32_t width, std::uint32_t height) {
+  const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
+  openMasks();
+  if (texture.id == 0) {
+    const float black[4] = {0, 0, 0, 1};
+    glClearNamedFramebufferfv(0, GL_COLOR, 0, black);
+    return;
+  }
+  if (presentTexture_ != texture.id) {
+    base::Diagnostics ignored;
+    const gl::Attachment attachment{.texture = texture.id};
+    if (auto made = gl::Framebuffer::create({&attachment, 1}, "present", ignored)) presentSource_ = std::move(*made);
+    presentTexture_ = texture.id;
+  }
+  const gl::Extent from = gl::extentOf(texture.desc, 0);
+  const bool same = from.width == width && from.height == height;
+  glBlitNamedFramebuffer(presentSource_.id(), 0, 0, 0, static_cast<GLint>(from.width), static_cast<GLint>(from.height), 0,
+                         0, static_cast<GLint>(width), static_cast<GLint>(height), GL_COLOR_BUFFER_BIT,
+                         same ? GL_NEAREST : GL_LINEAR);
+}
+
+}  // namespace weft::runtime

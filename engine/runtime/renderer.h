@@ -1,0 +1,56 @@
+// A graph file running on a device: read, expand, compile, prepare, then frame after frame. Loading replaces what runs
+// only when everything about the new graph is good; after an error the last good execution goes on.
+// Does not: own the window, decode assets, or decide the time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/assets/image.h"
+#include "engine/graph/expand.h"
+#include "engine/runtime/execution.h"
+
+namespace weft::runtime {
+
+// Where a graph's shaders are looked for: beside it, beside its folder, then the bundled ones.
+std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder);
+
+class Renderer {
+ public:
+  struct Options {
+    std::string dataFolder;     // holds graphs/ and shaders/
+    std::string cacheFolder;    // of program binaries; empty: none
+  };
+  Renderer(gl::Context& context, const std::string& graphPath, Options options);
+
+  // Reads the graph file again and switches to it. False after errors.
+  bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
+
+  Execution* execution() { return execution_.get(); }
+  Device& device() { return device_; }
+  const std::string& graphPath() const { return graphPath_; }
+
+  // The presented picture with its top row first. Empty when the graph presents nothing.
+  std::optional<assets::Image8> readPresented8();
+  std::optional<assets::ImageF> readPresentedFloat();
+  // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree.
+  void present(std::uint32_t width, std::uint32_t height);
+
+ private:
+  // The embedded default environment: graphs/daylight.json, run once when a graph needs @environment and none is loaded.
+  bool prepareFallback(const World& world, base::Diagnostics& diagnostics);
+
+  std::string graphPath_;
+  Options options_;
+  Device device_;
+  std::unique_ptr<Execution> execution_;
+  std::unique_ptr<Device> fallbackDevice_;
+  std::unique_ptr<Execution> fallback_;
+  gl::Framebuffer presentSource_;
+  GLuint presentTexture_ = 0;
+};
+
+}  // namespace weft::runtime

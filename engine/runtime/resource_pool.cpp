@@ -1,0 +1,235 @@
+#include "engine/runtime/resource_pool.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "engine/runtime/formats.h"
+
+namespace weft::runtime {
+
+using graph::FlatResource;
+using graph::FlatUse;
+using graph::kNone;
+using graph::Plan;
+using graph::ResourceKind;
+using graph::Storage;
+
+namespace {
+
+// Storage identities: unique within the process, never reused.
+std::uint64_t nextSerial() {
+  static std::atomic<std::uint64_t> counter{1};
+  return counter++;
+}
+
+gl::TextureDesc descOf(const Storage& s) {
+  return {.target = glTargetOf(s.target),
+          .format = glFormatOf(s.format).internal,
+          .width = s.width,
+          .height = s.height,
+          .depth = s.depth,
+          .layers = s.layers,
+          .mips = s.mips,
+          .samples = s.samples};
+}
+
+bool isTexture(const FlatResource& r) { return r.kind == ResourceKind::texture; }
+
+}  // namespace
+
+std::unique_ptr<PhysicalTexture> PhysicalTexture::create(const Storage& storage, const std::string& label,
+                                                         base::Diagnostics& diagnostics) {
+  auto made = std::make_unique<PhysicalTexture>();
+  made->desc_ = descOf(storage);
+  made->label_ = label;
+  made->serial_ = nextSerial();
+  for (std::uint32_t copy = 0; copy < storage.copies; ++copy) {
+    auto texture = gl::Texture::create(made->desc_, label, diagnostics);
+    if (!texture) return nullptr;
+    made->textures_.push_back(std::move(*texture));
+  }
+  return made;
+}
+
+bool PhysicalTexture::fits(const Storage& storage) const {
+  return storage.copies == copies() && descOf(storage) == desc_;
+}
+
+gl::TextureRef PhysicalTexture::view(std::uint32_t copy, const gl::ViewDesc& desc, base::Diagnostics& diagnostics) {
+  const gl::Texture& texture = textures_[copy];
+  const bool whole = desc.target == desc_.target && (desc.format == 0 || desc.format == desc_.format) && !desc.stencil &&
+                     desc.mip == 0 && desc.mips == desc_.mips && desc.layer == 0 && desc.layers == desc_.layers;
+  if (whole) return texture.ref();
+  for (const View& view : views_)
+    if (view.copy == copy && view.desc == desc) return view.view.ref();
+  auto made = gl::TextureView::create(texture.ref(), desc, label_, diagnostics);
+  if (!made) return {};
+  views_.push_back({copy, desc, std::move(*made)});
+  return views_.back().view.ref();
+}
+
+std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePool* before,
+                                                   base::Diagnostics& diagnostics) {
+  auto pool = std::make_unique<ResourcePool>();
+  pool->resources_.resize(plan.graph->resources.size());
+  pool->names_ = plan.graph->resourceNames;
+  if (!pool->createTextures(plan, before, diagnostics) || !pool->createBuffers(plan, before, diagnostics)) return nullptr;
+  // Publication state follows persistent storage.
+  if (before) {
+    for (GpuResource& mine : pool->resources_) {
+      if (mine.fresh || mine.serial == 0) continue;
+      for (const GpuResource& old : before->resources_)
+        if (old.serial == mine.serial && old.copies == mine.copies) {
+          mine.current = old.current;
+          mine.publications = old.publications;
+          mine.publishedAt = old.publishedAt;
+        }
+    }
+  }
+  for (const graph::HistorySpec& history : plan.graph->histories) {
+    GpuResource& mine = (*pool)[history.resource];
+    if (!mine.fresh || mine.serial == 0) continue;
+    const FlatResource& r = plan.graph->resources[history.resource];
+    for (std::uint32_t copy = 0; copy < mine.copies; ++copy) {
+      if (mine.texture) {
+        const FlatUse all{.resource = history.resource, .mips = r.mips, .layers = r.layers};
+        const gl::TextureRef ref = pool->view(plan, all, copy, 0, diagnostics);
+        for (std::uint32_t mip = 0; mip < r.mips && ref.id; ++mip)
+          clearTexture(ref, r.format, mip, 0, r.layers, history.first);
+      } else if (!mine.buffers.empty()) {
+        clearBuffer(mine.buffers[copy], mine.offset, mine.bytes, history.first);
+      }
+    }
+  }
+  return pool;
+}
+
+bool ResourcePool::createTextures(const Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics) {
+  std::vector<std::string> owners(plan.storages.size()), labels(plan.storages.size());
+  for (std::size_t r = 0; r < resources_.size(); ++r) {
+    const std::uint32_t s = plan.storageOf[r];
+    if (s == kNone) continue;
+    if (plan.storages[s].persistent) owners[s] = names_[r];
+    labels[s] += (labels[s].empty() ? "" : " | ") + names_[r];
+  }
+  std::vector<std::uint8_t> reused(plan.storages.size(), 0);
+  for (std::size_t s = 0; s < plan.storages.size(); ++s) {
+    std::unique_ptr<PhysicalTexture> texture;
+    if (before) {
+      for (auto& old : before->textures_)
+        if (old && old->owner == owners[s] && old->fits(plan.storages[s])) {
+          texture = std::move(old);
+          reused[s] = 1;
+          break;
+        }
+    }
+    if (!texture) texture = PhysicalTexture::create(plan.storages[s], labels[s], diagnostics);
+    if (!texture) return false;
+    texture->owner = owners[s];
+    textures_.push_back(std::move(texture));
+  }
+  for (std::size_t r = 0; r < resources_.size(); ++r) {
+    const std::uint32_t s = plan.storageOf[r];
+    if (s == kNone || !isTexture(plan.graph->resources[r])) continue;
+    GpuResource& mine = resources_[r];
+    mine.texture = textures_[s].get();
+    mine.copies = mine.texture->copies();
+    mine.serial = mine.texture->serial();
+    mine.fresh = !reused[s];
+  }
+  return true;
+}
+
+bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics) {
+  constexpr GLbitfield kFlags = GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT;
+  bool arenaFresh = true;
+  if (plan.arenaBytes > 0) {
+    if (before && before->arena_ && before->arena_.bytes() == plan.arenaBytes) {
+      arena_ = std::move(before->arena_);
+      arenaSerial_ = before->arenaSerial_;
+      arenaFresh = false;
+    } else {
+      auto arena = gl::Buffer::create(plan.arenaBytes, kFlags, "transient buffers", diagnostics);
+      if (!arena) return false;
+      arena_ = std::move(*arena);
+      arenaSerial_ = nextSerial();
+    }
+  }
+  for (std::size_t r = 0; r < resources_.size(); ++r) {
+    const FlatResource& desc = plan.graph->resources[r];
+    GpuResource& mine = resources_[r];
+    if (desc.kind != ResourceKind::buffer || plan.firstStep[r] == kNone) continue;
+    mine.bytes = desc.bytes;
+    if (plan.bufferOffsetOf[r] != Plan::kNoOffset) {
+      mine.offset = plan.bufferOffsetOf[r];
+      mine.buffers = {arena_.id()};
+      mine.serial = arenaSerial_;
+      mine.fresh = arenaFresh;
+      continue;
+    }
+    const std::uint32_t copies = desc.history + 1u;
+    PersistentBuffer buffer;
+    if (before) {
+      for (PersistentBuffer& old : before->buffers_)
+        if (old.owner == names_[r] && old.copies.size() == copies && old.copies[0].bytes() == desc.bytes) {
+          buffer = std::move(old);
+          old.owner.clear();
+          old.copies.clear();
+          mine.fresh = false;
+          break;
+        }
+    }
+    while (buffer.copies.size() < copies) {
+      auto copy = gl::Buffer::create(desc.bytes, kFlags, names_[r], diagnostics);
+      if (!copy) return false;
+      buffer.copies.push_back(std::move(*copy));
+    }
+    if (mine.fresh) buffer.serial = nextSerial();
+    buffer.owner = names_[r];
+    for (const gl::Buffer& copy : buffer.copies) mine.buffers.push_back(copy.id());
+    mine.copies = copies;
+    mine.serial = buffer.serial;
+    buffers_.push_back(std::move(buffer));
+  }
+  return true;
+}
+
+gl::TextureRef ResourcePool::view(const Plan& plan, const FlatUse& use, std::uint32_t copy, GLenum target,
+                                  base::Diagnostics& diagnostics) {
+  const FlatResource& desc = plan.graph->resources[use.resource];
+  GpuResource& mine = resources_[use.resource];
+  if (!mine.texture) return mine.imported;
+  gl::ViewDesc view{.target = target ? target : glTargetOf(desc.target),
+                    .format = glFormatOf(desc.format).internal,
+                    .mip = use.mip,
+                    .mips = use.mips,
+                    .layer = use.layer,
+                    .layers = use.layers,
+                    .stencil = use.planes == 2};
+  return mine.texture->view(copy, view, diagnostics);
+}
+
+void clearTexture(const gl::TextureRef& texture, graph::Format format, std::uint32_t mip, std::uint32_t layer,
+                  std::uint32_t layers, const graph::Value& value) {
+  const ClearTexel texel = clearTexelOf(format, value);
+  const gl::Extent extent = gl::extentOf(texture.desc, mip);
+  const bool volume = texture.desc.target == GL_TEXTURE_3D;
+  glClearTexSubImage(texture.id, static_cast<GLint>(mip), 0, 0, volume ? 0 : static_cast<GLint>(layer),
+                     static_cast<GLsizei>(extent.width), static_cast<GLsizei>(extent.height),
+                     static_cast<GLsizei>(volume ? extent.layers : layers), texel.format, texel.type, texel.bytes.data());
+}
+
+void clearBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes, const graph::Value& value) {
+  const auto begin = static_cast<GLintptr>(offset);
+  const auto size = static_cast<GLsizeiptr>(bytes);
+  const std::array<float, 4> texel = clearChannelsOf(value);
+  const bool vector = value.type == graph::Value::Type::list && value.count == 4 && bytes % 16 == 0;
+  if (vector)
+    glClearNamedBufferSubData(buffer, GL_RGBA32F, begin, size, GL_RGBA, GL_FLOAT, texel.data());
+  else if (bytes % 4 == 0)
+    glClearNamedBufferSubData(buffer, GL_R32F, begin, size, GL_RED, GL_FLOAT, texel.data());
+  else
+    glClearNamedBufferSubData(buffer, GL_R8, begin, size, GL_RED, GL_FLOAT, texel.data());
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,96 @@
+// The GPU storage of a plan: physical textures with their views, the transient buffer arena, persistent buffers, and per
+// resource where it lives now (history rotates among copies). A pool is built from a plan and, when the graph changed,
+// from the pool before it: storage of the same shape and owner moves over with its contents.
+// Does not: decide what shares (the plan did), write contents other than first values, or know passes.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects.h"
+#include "engine/graph/plan.h"
+
+namespace weft::runtime {
+
+// One Storage of a plan: `copies` textures of one shape, and the views made of them so far.
+class PhysicalTexture {
+ public:
+  static std::unique_ptr<PhysicalTexture> create(const graph::Storage& storage, const std::string& label,
+                                                 base::Diagnostics& diagnostics);
+  // The texture itself when the view would be all of it in its own format, else a cached view. Id 0 after an error.
+  gl::TextureRef view(std::uint32_t copy, const gl::ViewDesc& desc, base::Diagnostics& diagnostics);
+  bool fits(const graph::Storage& storage) const;
+  std::uint64_t serial() const { return serial_; }
+  std::uint32_t copies() const { return static_cast<std::uint32_t>(textures_.size()); }
+
+  std::string owner;  // resource name of persistent storage, "" for transient
+
+ private:
+  struct View {
+    std::uint32_t copy = 0;
+    gl::ViewDesc desc;
+    gl::TextureView view;
+  };
+  gl::TextureDesc desc_;
+  std::string label_;
+  std::vector<gl::Texture> textures_;
+  std::vector<View> views_;
+  std::uint64_t serial_ = 0;
+};
+
+struct PersistentBuffer {
+  std::string owner;
+  std::vector<gl::Buffer> copies;
+  std::uint64_t serial = 0;
+};
+
+// Where a resource of the graph lives and how fresh it is.
+struct GpuResource {
+  PhysicalTexture* texture = nullptr;          // own textures
+  gl::TextureRef imported;                     // imported textures
+  std::vector<GLuint> buffers;                 // per copy
+  std::uint64_t offset = 0, bytes = 0;         // range within the buffer
+  std::uint32_t copies = 1, current = 0;       // current: the latest publication
+  std::uint64_t serial = 0;                    // identity of the storage
+  std::uint64_t publications = 0;
+  double publishedAt = -std::numeric_limits<double>::infinity();
+  bool fresh = true;                           // storage was made for this plan: contents undefined
+  std::uint32_t copyOf(std::uint32_t history) const { return (current + copies - history % copies) % copies; }
+};
+
+class ResourcePool {
+ public:
+  // Moves what fits out of `before` (which may be null).
+  static std::unique_ptr<ResourcePool> create(const graph::Plan& plan, ResourcePool* before,
+                                              base::Diagnostics& diagnostics);
+
+  std::vector<GpuResource>& resources() { return resources_; }
+  GpuResource& operator[](std::size_t resource) { return resources_[resource]; }
+
+  // A view of levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
+  gl::TextureRef view(const graph::Plan& plan, const graph::FlatUse& use, std::uint32_t copy, GLenum target,
+                      base::Diagnostics& diagnostics);
+
+ private:
+  bool createTextures(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);
+  bool createBuffers(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);
+  std::vector<std::unique_ptr<PhysicalTexture>> textures_;
+  std::vector<PersistentBuffer> buffers_;
+  gl::Buffer arena_;
+  std::uint64_t arenaSerial_ = 0;
+  std::vector<GpuResource> resources_;
+  std::vector<std::string> names_;             // parallel to resources_
+};
+
+// Fills levels and layers of a texture, or a buffer range, with one value (floats for buffers).
+void clearTexture(const gl::TextureRef& texture, graph::Format format, std::uint32_t mip, std::uint32_t layer,
+                  std::uint32_t layers, const graph::Value& value);
+void clearBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes, const graph::Value& value);
+
+}  // namespace weft::runtime

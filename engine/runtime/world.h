@@ -1,0 +1,50 @@
+// What a frame is a picture of, on the CPU: the scene, the environment image, and the camera of a moment. Holds what
+// imports are made from, and a generation for each so that `on_change` passes know when to run. No GL.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/assets/image.h"
+#include "engine/base/diagnostic.h"
+#include "engine/runtime/registry.h"
+#include "engine/scene/scene.h"
+
+namespace weft::runtime {
+
+class World {
+ public:
+  explicit World(scene::Scene scene);
+
+  const scene::Scene& scene() const { return scene_; }
+  void setScene(scene::Scene scene);
+  std::uint64_t sceneGeneration() const { return sceneGeneration_; }
+
+  // Null: none was loaded.
+  const assets::ImageF* environment() const { return environment_.get(); }
+  void setEnvironment(std::shared_ptr<const assets::ImageF> image);
+  std::uint64_t environmentGeneration() const { return environmentGeneration_; }
+
+  WorldFacts facts() const;
+
+ private:
+  scene::Scene scene_;
+  std::shared_ptr<const assets::ImageF> environment_;
+  std::uint64_t sceneGeneration_ = 1, environmentGeneration_ = 1;
+};
+
+// One frame's inputs. In headless runs everything here comes from the frame number.
+struct FrameInput {
+  std::uint32_t frame = 0;
+  double time = 0, deltaTime = 1.0 / 60.0;    // seconds
+  scene::CameraPose pose, previousPose;
+  std::uint64_t cutGeneration = 0;            // changes when the camera jumps
+  bool headless = true;                       // publications of the first frame count as infinitely old
+};
+
+// Frame `frame` of the world's default camera at `fps` steps per second.
+FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps);
+
+}  // namespace weft::runtime
