@@ -83,8 +83,8 @@ bool isLiveOutput(const FlatGraph& graph, const FlatUse& use, const Plan& plan, 
   bool live = true;
   scratch.forEachCell(use, graph.resources[use.resource], [&](std::uint32_t cell) {
     const std::uint32_t writer = scratch.lastWriter[cell];
-    if (writer != kNone ? plan.attached[writer] == 0 : (flags & (Scratch::kImported | Scratch::kClear)) == 0)
-      live = false;
+    const bool versionZero = (flags & Scratch::kImported) != 0 || ((flags & Scratch::kClear) != 0 && scratch.cleared[cell] != 0);
+    live = live && (writer != kNone ? plan.attached[writer] != 0 : versionZero);
   });
   return live;
 }

@@ -88,8 +88,8 @@ struct CompileOptions {
   std::uint64_t orderSeed = 0;                  // not 0: a random legal order instead of the declared one (fuzz)
 };
 
-// The graph must be valid (expandGraph, or validateFlat for neutral graphs): indices and ranges are asserted, not
-// reported. The order is the declared order of the live passes: it is always legal, because a use refers to the latest
+// The graph must be valid (expandGraph, or validateFlat for neutral graphs): every read has a version, a pass writes what
+// it presents (version zero alone is not enough), imports are not written. The order is the declared order of the live passes: it is always legal, because a use refers to the latest
 // version before it, and the person reads it in the file. The second form reuses the working memory of earlier calls.
 struct CompileScratch;  // compile_scratch.h
 Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});

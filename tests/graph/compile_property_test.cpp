@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "tests/graph/hazard_oracle.h"
+#include "tests/graph/plan_checks.h"
 #include "tests/graph/random_graph.h"
+#include "tests/graph/replay.h"
 
 using namespace weft::graph;
 
@@ -84,4 +86,35 @@ TEST_CASE("no hazard is left under any cadence, and no bit is to spare") {
   MESSAGE(kGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly << " by cadence only");
   CHECK(bits > kGraphs * 8);  // the graphs do need barriers
   CHECK(byCadenceOnly * 1000 < bits);
+}
+
+TEST_CASE("liveness, order and storage agree with slow second opinions") {
+  std::size_t failures = 0;
+  const auto check = [&](const std::string& complaint, std::uint64_t seed) {
+    if (!complaint.empty() && ++failures < 10) FAIL_CHECK("graph " << seed << ": " << complaint);
+  };
+  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
+    const FlatBuilder b = randomGraph(seed);
+    const Plan plan = b.compiled(), other = b.compiled({.share = true, .orderSeed = seed});
+    check(checks::checkLiveness(plan), seed);
+    check(checks::checkOrder(plan), seed);
+    check(checks::checkOrder(other), seed);
+    check(checks::checkStorage(plan), seed);
+    check(checks::checkStorage(other), seed);
+  }
+  CHECK(failures == 0);
+}
+
+TEST_CASE("any legal order, shared or not, shows what the graph means") {
+  std::size_t failures = 0;
+  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
+    const FlatBuilder b = randomGraph(seed);
+    for (const CompileOptions options : {CompileOptions{true, 0}, CompileOptions{true, seed}, CompileOptions{true, ~seed},
+                                         CompileOptions{false, 0}, CompileOptions{false, seed}}) {
+      const Plan plan = b.compiled(options);
+      if (replay::showPlanned(plan, 4) != replay::showDeclared(plan, 4) && ++failures < 10)
+        FAIL_CHECK("graph " << seed << ", share " << options.share << ", order " << options.orderSeed);
+    }
+  }
+  CHECK(failures == 0);
 }

@@ -62,7 +62,7 @@ class Generator {
     } else if (clears_ && chance(40)) {
       resource.hasClear = true;
     }
-    versions_.emplace_back(subresourceCount(resource), isImported(resource) || resource.hasClear);
+    versions_.emplace_back(subresourceCount(resource), isImported(resource) || resource.hasClear ? 1 : 0);
     locked_.emplace_back(subresourceCount(resource), 0);
   }
 
@@ -124,7 +124,7 @@ class Generator {
     for (std::size_t i = 1 + pick(4); i > 0; --i) addWrite(compute);
     for (std::size_t r = 0; r < locked_.size(); ++r)
       for (std::size_t s = 0; s < locked_[r].size(); ++s)
-        if ((locked_[r][s] & 2) != 0) versions_[r][s] = 1;
+        if ((locked_[r][s] & 2) != 0) versions_[r][s] = 2;
   }
 
   void addRead(bool compute) {
@@ -146,7 +146,7 @@ class Generator {
   void addWrite(bool compute) {
     const auto r = toWrite();
     const FlatResource& resource = b_.resource(r);
-    if (isImported(resource) && chance(70)) return;
+    if (isImported(resource)) return;
     FlatUse use = someRange(r);
     use.kind = writeKind(resource, compute);
     if (use.kind == Kind::sampled || !isFree(use, 3)) return;
@@ -167,7 +167,8 @@ class Generator {
     for (std::uint32_t r = 0; r < b_.graph.resources.size(); ++r) {
       const FlatUse whole = b_.whole(r, Kind::copy, Access::read);
       if (!hasVersions(whole)) continue;
-      if (!isBuffer(b_.resource(r)) && !isDepth(b_.resource(r).format)) shown.push_back(r);
+      const bool written = everyCell(whole, [&](std::uint32_t s) { return versions_[r][s] == 2; });
+      if (written && !isBuffer(b_.resource(r)) && !isDepth(b_.resource(r).format)) shown.push_back(r);
       if (chance(10)) b_.output(r);
     }
     if (!shown.empty()) b_.present(shown[pick(shown.size())]);
@@ -177,7 +178,8 @@ class Generator {
   FlatBuilder b_;
   std::size_t front_ = 0;   // resources below it have had their turn to be written
   bool streaming_ = false, histories_ = false, cadences_ = false, clears_ = false;
-  std::vector<std::vector<char>> versions_, locked_;   // per resource and sub-resource; locked: 1 read, 2 written
+  std::vector<std::vector<char>> versions_, locked_;   // per resource and sub-resource
+  // versions: 0 none, 1 version zero, 2 written; locked by the pass being made: 1 read, 2 written
 };
 
 }  // namespace
