@@ -36,6 +36,53 @@ namespace weft::base {
   X(26,  "wrong function call")                                           \
   /* graph */                                                             \
   X(40,  "unknown resource")                                              \
+  X(41,  "unknown pass type")                                             \
+  X(42,  "unknown format")                                                \
+  X(43,  "unknown import")                                                \
+  X(44,  "unknown parameter")                                             \
+  X(45,  "unknown pass")                                                  \
+  X(46,  "ambiguous name")                                                \
+  X(47,  "value does not fit its parameter")                              \
+  X(48,  "number out of its range")                                       \
+  X(49,  "name used twice")                                               \
+  X(50,  "definition depends on itself")                                  \
+  X(51,  "value of the wrong type")                                       \
+  X(52,  "sub-resource that is not there")                                \
+  X(53,  "selector that does not fit")                                    \
+  X(54,  "history that is not kept")                                      \
+  X(55,  "resource that cannot be written")                               \
+  X(56,  "kind that does not fit")                                        \
+  X(57,  "format that does not fit")                                      \
+  X(58,  "attachments that differ")                                       \
+  X(59,  "read before write")                                             \
+  X(60,  "disabled pass leaves a read without a version")                 \
+  X(61,  "passes wait for each other")                                    \
+  X(62,  "read of what nothing writes")                                   \
+  X(63,  "present of what nothing writes")                                \
+  X(64,  "one sub-resource read and written at once")                     \
+  X(65,  "one sub-resource written twice")                                \
+  X(66,  "slots that do not fit the pass type")                           \
+  X(67,  "key that the pass type does not take")                          \
+  X(68,  "key that the pass type needs")                                  \
+  X(69,  "unknown draw list")                                             \
+  X(70,  "unknown geometry")                                              \
+  X(71,  "not a view")                                                    \
+  X(72,  "import argument that does not fit")                             \
+  X(73,  "import that has nothing")                                       \
+  X(74,  "input with nothing behind it")                                  \
+  X(75,  "bind that does not fit")                                        \
+  X(76,  "result that would add up from frame to frame")                  \
+  X(77,  "slices that do not fit")                                        \
+  X(78,  "time where there is none")                                      \
+  X(79,  "state that does not fit")                                       \
+  X(80,  "word where the shader needs a number")                          \
+  X(81,  "too many passes")                                               \
+  X(82,  "texture that contradicts itself")                               \
+  X(84,  "not a pass but a parameter")                                    \
+  X(85,  "condition leaves a slot empty")                                 \
+  X(90,  "culled: output overwritten")                                    \
+  X(91,  "culled: output never read")                                     \
+  X(92,  "nothing is presented")                                          \
   /* shaders and GL */                                                    \
   X(100, "shader file cannot be read")                                    \
   X(101, "included file not found")                                       \

@@ -1,0 +1,35 @@
+#include "engine/graph/expand.h"
+
+#include "engine/graph/expand_live.h"
+#include "engine/graph/expand_passes.h"
+#include "engine/graph/expand_resources.h"
+#include "engine/graph/expand_scope.h"
+#include "engine/graph/expand_settings.h"
+
+namespace weft::graph {
+
+std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry, const Settings& settings,
+                                             base::Diagnostics& diagnostics) {
+  using namespace expansion;
+  base::Diagnostics own;
+  Model model{desc, registry, settings, own};
+  buildScopes(model);
+  applySettings(model);
+  for (std::uint32_t i = 0; i < model.entities.size(); ++i) {
+    const auto kind = model.entities[i].kind;
+    // An import's arguments are checked here; so is an input of the root, which nobody may read.
+    if (kind == ResourceDesc::Kind::input) findEntity(model, *model.entities[i].scope, model.entities[i].desc->name, false);
+    else if (kind != ResourceDesc::Kind::alternatives) ensureShape(model, i);
+  }
+  std::vector<DeferredUniform> deferred;
+  expandPasses(model, deferred);
+  finishGraph(model, deferred);
+  judgeMissing(model);
+  if (!own.hasErrors()) warnUnread(model);
+  own.sortByPlace();
+  diagnostics.append(own);
+  if (own.hasErrors()) return nullptr;
+  return std::make_shared<const FlatGraph>(std::move(model.graph));
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,194 @@
+#include "engine/graph/expand_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/nearest.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+bool isTexture(const FlatResource& shape) {
+  return shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
+}
+
+bool isInteger(Format format) {
+  const TexelKind kind = infoOf(format).kind;
+  return kind == TexelKind::unsigned_integer || kind == TexelKind::signed_integer;
+}
+
+}  // namespace
+
+const PassType* findPassType(const Registry& registry, std::string_view name) {
+  for (const PassType& type : registry.passTypes)
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
+const char* wordFor(Kind kind) {
+  static constexpr const char* kWords[] = {"sampled", "image", "uniform", "storage", "vertex", "index", "indirect", "color", "depth", "copy"};
+  return kWords[static_cast<int>(kind)];
+}
+
+const char* wordFor(Access access) {
+  static constexpr const char* kWords[] = {"read", "write", "modify"};
+  return kWords[static_cast<int>(access)];
+}
+
+Kind defaultKind(const PassType* type, Access access, const FlatResource& shape) {
+  if (!type) return Kind::copy;
+  if (!isTexture(shape)) return Kind::storage;
+  if (access == Access::read) return type->defaultReadTexture;
+  return type->defaultWriteTexture == Kind::color && isDepth(shape.format) ? Kind::depth : type->defaultWriteTexture;
+}
+
+bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work) {
+  const Entity& entity = context.model.entities[work.entity];
+  const FlatResource& shape = entity.shape;
+  const Kind kind = work.use.kind;
+  const auto report = [&](Code code, std::string message, std::string expected) {
+    auto& d = context.model.diagnostics.error(code, ref.place, std::move(message));
+    d.pass = context.pass;
+    d.resource = entity.name;
+    d.expected = std::move(expected);
+    d.found = ref.text;
+    return false;
+  };
+  const auto kindMisfit = [&](std::string expected) {
+    return report(Code::W56, fmt::format("{} cannot {} '{}' as {}", context.user, wordFor(access), entity.name, wordFor(kind)), std::move(expected));
+  };
+  if (entity.import != kNone && context.model.graph.imports[entity.import].kind == ImportKind::event)
+    return report(Code::W56, fmt::format("{} uses '{}', which is an event and holds nothing", context.user, entity.name), "a texture or a buffer; events stand in \"reset\"");
+  const bool texture = isTexture(shape);
+  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || kind == Kind::vertex || kind == Kind::index || kind == Kind::indirect;
+  if (texture && bufferKind) return kindMisfit("sampled, image, color, depth or copy for a texture");
+  if (!texture && !bufferKind && kind != Kind::copy) return kindMisfit("uniform, storage, vertex, index, indirect or copy for a buffer");
+  const ShaderShape shader = context.type ? context.type->shader : ShaderShape::none;
+  if (context.type && shader == ShaderShape::none && kind != defaultKind(context.type, access, shape))
+    return kindMisfit(fmt::format("a {} pass uses {}", context.type->name, wordFor(defaultKind(context.type, access, shape))));
+  const bool draws = shader == ShaderShape::fragment || shader == ShaderShape::draw;
+  if (context.type && shader != ShaderShape::none) {
+    if (kind == Kind::copy) return kindMisfit("a kind that a shader has; copies are made by blit passes");
+    if ((kind == Kind::color || kind == Kind::depth) && !draws) return kindMisfit("image in a pass without attachments");
+    if ((kind == Kind::vertex || kind == Kind::index) && shader != ShaderShape::draw) return kindMisfit("vertices in draw passes only");
+    if (kind == Kind::indirect && shader == ShaderShape::fragment) return kindMisfit("indirect arguments in draw and compute passes");
+  }
+  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform || kind == Kind::vertex || kind == Kind::index || kind == Kind::indirect;
+  if (readOnly && access != Access::read) return kindMisfit("reading only for this kind");
+  if (kind == Kind::color && access == Access::read) return kindMisfit("writing or modifying for color");
+
+  const bool known = shape.format != Format::none;
+  const auto formatMisfit = [&](std::string expected) {
+    return report(Code::W57, fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user, infoOf(shape.format).name, entity.name, wordFor(kind)), std::move(expected));
+  };
+  if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable) return formatMisfit("a format that can be rendered to");
+  if (known && kind == Kind::image && !infoOf(shape.format).imageStorable) return formatMisfit("a format that images can have");
+  if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
+  const Sampler& sampler = work.sampler;
+  if ((sampler.linear || sampler.wrap || sampler.compare) && kind != Kind::sampled)
+    return report(Code::W56, fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name), "linear, wrap and compare for sampled textures");
+  if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format)) return formatMisfit("a depth format for compare");
+  if (known && kind == Kind::sampled && sampler.linear && (isInteger(shape.format) || work.use.planes == 2)) return formatMisfit("a format that can be filtered, or no linear");
+  if (shape.samples > 1 && sampler.linear) return report(Code::W56, fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name), "no linear");
+  if (work.array && (kind == Kind::color || kind == Kind::depth))
+    return report(Code::W56, fmt::format("{}: '{}' is an array, an attachment is one texture", context.user, entity.name), fmt::format("one element, '{}[0]'", entity.name));
+  return true;
+}
+
+namespace {
+
+struct Attachment {
+  const SlotWork* slot;
+  std::uint32_t width, height, layers, samples;
+};
+
+std::string attachmentText(const Attachment& a) {
+  std::string text = fmt::format("{}x{}", a.width, a.height);
+  if (a.layers != 1) text += fmt::format(", {} layers", a.layers);
+  if (a.samples != 1) text += fmt::format(", {} samples", a.samples);
+  return text;
+}
+
+bool overlaps(const SlotWork& a, const SlotWork& b) {
+  const auto meet = [](std::uint32_t first, std::uint32_t count, std::uint32_t otherFirst, std::uint32_t otherCount) {
+    return first < otherFirst + otherCount && otherFirst < first + count;
+  };
+  return a.entity == b.entity && meet(a.firstElement, a.elementCount, b.firstElement, b.elementCount) && (a.use.planes & b.use.planes) != 0 &&
+         meet(a.use.mip, a.use.mips, b.use.mip, b.use.mips) && meet(a.use.layer, a.use.layers, b.use.layer, b.use.layers);
+}
+
+bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& slots) {
+  std::optional<Attachment> first;
+  int colors = 0;
+  for (const SlotWork& work : slots) {
+    if (work.state != SlotWork::State::connected && work.state != SlotWork::State::missing) continue;
+    if (work.entity == kNone || (work.use.kind != Kind::color && work.use.kind != Kind::depth)) continue;
+    const Entity& entity = context.model.entities[work.entity];
+    const FlatResource& shape = entity.shape;
+    if (work.use.kind == Kind::color) ++colors;
+    const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> work.use.mip); };
+    const Attachment here{&work, side(shape.width), side(shape.height), shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers, shape.samples};
+    if (work.use.mips > 1) {
+      auto& d = context.model.diagnostics.error(Code::W58, work.slot->ref.place, fmt::format("{} attaches {} levels of '{}' at once", context.user, work.use.mips, entity.name));
+      d.pass = context.pass;
+      d.resource = entity.name;
+      d.expected = "one level";
+      d.hint = fmt::format("write '{}.mip[0]', or repeat the pass over the levels", work.slot->ref.name);
+      return false;
+    }
+    if (!first) {
+      first = here;
+      continue;
+    }
+    if (here.width == first->width && here.height == first->height && here.layers == first->layers && here.samples == first->samples) continue;
+    auto& d = context.model.diagnostics.error(Code::W58, work.slot->ref.place, fmt::format("{}: attachments '{}' and '{}' differ", context.user, first->slot->slot->name, work.slot->name));
+    d.pass = context.pass;
+    d.resource = entity.name;
+    d.expected = fmt::format("{} as '{}'", attachmentText(*first), first->slot->slot->ref.text);
+    d.found = fmt::format("{} of '{}'", attachmentText(here), work.slot->ref.text);
+    return false;
+  }
+  if (colors > 8) {
+    auto& d = context.model.diagnostics.error(Code::W58, slots[0].slot->place, fmt::format("{} has {} colour attachments", context.user, colors));
+    d.pass = context.pass;
+    d.expected = "at most 8";
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots) {
+  bool good = checkAttachments(context, slots);
+  for (std::size_t i = 0; i < slots.size() && good; ++i) {
+    const SlotWork& a = slots[i];
+    if (a.state != SlotWork::State::connected || a.use.access == Access::read) continue;
+    for (std::size_t j = 0; j < slots.size() && good; ++j) {
+      const SlotWork& b = slots[j];
+      if (i == j || b.state != SlotWork::State::connected || !overlaps(a, b)) continue;
+      const std::string& name = context.model.entities[a.entity].name;
+      if (b.use.access != Access::read) {
+        if (j < i) continue;
+        auto& d = context.model.diagnostics.error(Code::W65, b.slot->ref.place, fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text, a.slot->name, b.slot->name));
+        d.pass = context.pass;
+        d.resource = name;
+        d.hint = "one pass writes a sub-resource once";
+        good = false;
+      } else if (b.use.history == 0 && !(a.use.access == Access::write && a.whole) && !(a.use.access == Access::modify && desc.feedback)) {
+        // Both attachments of one kind: depth tested by a read slot and modified by another.
+        auto& d = context.model.diagnostics.error(Code::W64, b.slot->ref.place, fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text, a.use.access == Access::write ? "writes" : "modifies", a.slot->ref.text));
+        d.pass = context.pass;
+        d.resource = name;
+        d.hint = a.use.access == Access::modify ? "\"feedback\": true lets a pass read its own texel of what it modifies"
+                                                : "write another level or layer, or read and write the whole resource, which makes its next version";
+        good = false;
+      }
+    }
+  }
+  return good;
+}
+
+}  // namespace weft::graph::expansion

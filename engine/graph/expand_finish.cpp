@@ -1,0 +1,133 @@
+// What looks at the versions after the last pass: present, outputs, histories and their resets, age().
+#include <fmt/format.h>
+
+#include "engine/graph/expand_checks.h"
+#include "engine/graph/expand_passes.h"
+#include "engine/graph/expand_versions.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+// A reference at the top of a file, resolved as a read after the last pass. nullopt when there is nothing.
+std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& ref, const std::string& user,
+                                    const std::string& name, std::vector<std::uint32_t>* writers = nullptr) {
+  Names names(model, scope);
+  markStructural(model, scope, ref);
+  SlotDesc slot;
+  slot.name = name;
+  slot.place = ref.place;
+  slot.ref = ref;
+  const SlotContext context{model, names, nullptr, user, {}};
+  SlotWork work = resolveSlot(context, slot, kNone);
+  // resolveSlot mentions the copy of the reference; keep the original for messages.
+  if (!model.missing.empty() && model.missing.back().ref == &slot.ref) model.missing.back().ref = &ref;
+  if (work.state != SlotWork::State::connected) return std::nullopt;
+  if (work.array) {
+    auto& d = model.diagnostics.error(Code::W56, ref.place, fmt::format("{} '{}', which is an array", user, ref.text));
+    d.expected = fmt::format("one element, '{}[0]'", ref.name);
+    return std::nullopt;
+  }
+  FlatUse use = work.use;
+  if (writers) collectWriters(model.entities[work.entity], work.firstElement, use, *writers);
+  use.resource = currentResource(model, work.entity, work.firstElement);
+  return use;
+}
+
+void resolvePresent(Model& model) {
+  model.graph.present.resource = kNone;
+  if (!model.desc.present) return;
+  const RefDesc& ref = *model.desc.present;
+  const std::size_t before = model.diagnostics.errorCount();
+  auto use = resolveFinal(model, model.scopes[0], ref, "present", "present", &model.presentDeps);
+  if (!use || model.diagnostics.errorCount() > before) return;
+  const FlatResource& resource = model.graph.resources[use->resource];
+  const bool texture = resource.kind == ResourceKind::texture || resource.kind == ResourceKind::imported_texture;
+  if (!texture || isDepth(resource.format) || use->history > 0) {
+    auto& d = model.diagnostics.error(Code::W56, ref.place, fmt::format("present shows '{}', which is no colour texture", ref.text));
+    d.expected = "a colour texture of this frame";
+    return;
+  }
+  use->mips = 1;
+  use->layers = 1;
+  use->kind = Kind::copy;
+  model.graph.present = *use;
+}
+
+void resolveOutputs(Model& model) {
+  for (Scope& scope : model.scopes)
+    for (const OutputDesc& output : scope.desc->outputs) {
+      const std::string name = scope.prefix + output.name;
+      auto use = resolveFinal(model, scope, output.ref, fmt::format("output '{}' reads", name), name);
+      if (!use) continue;
+      use->kind = Kind::copy;
+      model.graph.outputs.push_back(*use);
+      model.graph.outputNames.push_back(name);
+    }
+}
+
+void resolveHistories(Model& model) {
+  FlatGraph& graph = model.graph;
+  for (const Model::HistoryUse& use : model.historyUses) graph.uses[use.use].resource = currentResource(model, use.entity, use.element);
+  for (std::uint32_t index = 0; index < model.entities.size(); ++index) {
+    Entity& entity = model.entities[index];
+    if (entity.depth == 0 || entity.state != Progress::done) continue;
+    Names names(model, *entity.scope);
+    HistorySpec spec;
+    spec.first = entity.first.type == Value::Type::none ? Value::number(0) : entity.first;
+    for (const Expr& value : entity.desc->resetValues) {
+      markStructural(model, *entity.scope, value);
+      spec.resetValues.push_back(value.evaluate(names, model.diagnostics));
+    }
+    for (const RefDesc& ref : entity.desc->resetRefs) {
+      markStructural(model, *entity.scope, ref);
+      const auto holds = evaluateCondition(names, ref.condition, true, fmt::format("a reset of '{}'", entity.name));
+      const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place, fmt::format("the reset of '{}' names the", entity.name));
+      if (found == kNone) continue;
+      mention(model, found, kNone);
+      if (!holds || !*holds) continue;
+      // An import that has nothing now may have something later.
+      const std::uint32_t target = model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);
+      if (target == kNone || !ensureShape(model, target)) continue;
+      const Entity& reset = model.entities[target];
+      if (reset.import != kNone) {
+        spec.resetImports.push_back(reset.import);
+      } else {
+        for (const Element& element : reset.elements)
+          if (element.resource != kNone) spec.resetResources.push_back(element.resource);
+      }
+    }
+    for (const Element& element : entity.elements) {
+      if (element.resource == kNone) continue;  // nobody touches it
+      graph.resources[element.resource].history = static_cast<std::uint8_t>(entity.depth);
+      spec.resource = element.resource;
+      graph.histories.push_back(spec);
+    }
+  }
+}
+
+void foldUniforms(Model& model, const std::vector<DeferredUniform>& deferred) {
+  for (const DeferredUniform& uniform : deferred) {
+    Names names(model, *uniform.scope);
+    names.indices = uniform.indices;
+    model.graph.specs[uniform.pass].uniforms[uniform.uniform].dynamic = uniform.desc->value.fold(names, model.diagnostics);
+  }
+}
+
+}  // namespace
+
+void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
+  model.position = static_cast<std::uint32_t>(-1);
+  resolvePresent(model);
+  resolveOutputs(model);
+  foldUniforms(model, deferred);
+  resolveHistories(model);
+  for (const Parameter& parameter : model.parameters)
+    model.graph.parameters.push_back({*parameter.desc, parameter.path, parameter.value, parameter.structural});
+  model.graph.files = model.desc.files;
+  model.graph.name = model.desc.name;
+  model.graph.screenWidth = model.settings.screenWidth;
+  model.graph.screenHeight = model.settings.screenHeight;
+}
+
+}  // namespace weft::graph::expansion

@@ -1,0 +1,25 @@
+// The walk over all passes in declared order: includes, repeats, enabled or not, slots, versions, and what goes into
+// the FlatGraph. Missing versions are only recorded; expand_live judges them.
+#pragma once
+
+#include "engine/graph/expand_slots.h"
+
+namespace weft::graph::expansion {
+
+constexpr std::uint32_t kMaxInstances = 1'000'000;
+
+// A uniform that contains age(): folded when every resource has its last version.
+struct DeferredUniform {
+  std::uint32_t pass = 0, uniform = 0;
+  const PassParameterDesc* desc = nullptr;
+  Scope* scope = nullptr;
+  std::vector<Names::Index> indices;
+};
+
+// Fills passes, uses, slots, specs, disabled and groupNames.
+void expandPasses(Model& model, std::vector<DeferredUniform>& deferred);
+
+// present, outputs, histories, age(): everything that looks at the versions after the last pass.
+void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred);
+
+}  // namespace weft::graph::expansion

@@ -1,0 +1,84 @@
+// Names: builds the scopes of a graph and its includes, finds resources and variables by name, and answers for names
+// while expressions are evaluated.
+//   $x       own parameters and lets; $pass.parameter; $include.x; then enclosing files, the nearest first; then the
+//            only parameter of any file included below this one whose dotted name ends in it
+//   name     own resources, then `include.name`; an input stands for what the includer binds or calls the same
+//   @name    an import declared here or in an enclosing file, else the import type of that name with its defaults
+// Does not evaluate shapes (expand_resources) nor know versions.
+#pragma once
+
+#include <string_view>
+
+#include "engine/graph/expand_model.h"
+
+namespace weft::graph::expansion {
+
+// Fills scopes, parameters (with their defaults, checked), lets and entities.
+void buildScopes(Model& model);
+
+// The entity a name stands for, with inputs followed; kNone when there is none (nothing is reported) or when an input
+// has nothing behind it (reported once).
+std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
+// The same, and reports W040 or W043 with the nearest name at `place`.
+std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import, const Place& place,
+                                 std::string_view user);
+// The import type's entity with default arguments; kNone when there is no such type.
+std::uint32_t implicitImport(Model& model, std::string_view type);
+
+struct Variable {
+  enum class Kind : std::uint8_t { none, parameter, let, ambiguous };
+  Kind kind = Kind::none;
+  std::uint32_t index = 0;
+};
+Variable findVariable(Model& model, Scope& scope, std::string_view name);
+
+// Every parameter that `expr` depends on, through lets, is marked as structural.
+void markStructural(Model& model, Scope& scope, const Expr& expr);
+void markStructural(Model& model, Scope& scope, const RefDesc& ref);
+// True when the expression contains age(), perhaps through a let.
+bool isDynamic(Model& model, Scope& scope, const Expr& expr);
+bool isDynamicLet(Model& model, Let& let);
+// Names in branches that are not taken: variables, choices and resources.
+bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed = false);
+
+// Answers for names in expressions of one scope.
+class Names final : public EvalScope {
+ public:
+  struct Index {
+    std::string_view name;
+    double value;
+  };
+  Names(Model& model, Scope& scope, bool dynamicAllowed = false)
+      : model_(model), scope_(scope), dynamicAllowed_(dynamicAllowed) {}
+
+  std::vector<Index> indices;   // of the pass instance
+
+  std::optional<Value> variable(std::string_view name) override;
+  std::optional<Value> index(std::string_view name) override;
+  std::optional<Value> builtin(std::string_view name) override;
+  std::optional<Value> fact(Fact fact, std::string_view resource, const Place& place) override;
+  std::vector<std::string> choicesOf(std::string_view variable) override;
+  std::vector<std::string> candidates(NameKind kind) override;
+  std::optional<std::uint32_t> ageKey(std::string_view resource) override;
+  const Expr* folded(std::string_view variable) override;
+
+  Model& model() { return model_; }
+  Scope& scope() { return scope_; }
+
+ private:
+  Model& model_;
+  Scope& scope_;
+  bool dynamicAllowed_;         // a let with age() answers 1 instead of an error (checks of uniforms)
+};
+
+// Evaluation with the expected type held: nullopt after a report. An absent expression yields `absent`.
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, std::string_view what);
+std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, std::string_view what);
+// A whole number from `low` to `high`, floored first when `floors`.
+std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent, std::int64_t low,
+                                          std::int64_t high, std::string_view what, bool floors = false);
+
+// The nearest names for hints.
+std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
+
+}  // namespace weft::graph::expansion

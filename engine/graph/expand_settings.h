@@ -1,0 +1,20 @@
+// --set and --disable: finds the parameter or pass a name means (the full dotted name, else the only one that ends in
+// it) and parses and checks values. Also checks the defaults of parameters by the same rules.
+#pragma once
+
+#include "engine/graph/expand_model.h"
+
+namespace weft::graph::expansion {
+
+// Sets Parameter::value, Scope::disabledBy and Model::disables.
+void applySettings(Model& model);
+
+// Whether `value` fits a parameter: its type, its choices, its range. Reports at `place`; `source` is how the person
+// wrote it ("--set exposure=12", "default").
+bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
+                         const std::string& source);
+
+// True when the dotted `name` is `suffix` or ends in ".suffix".
+bool hasSuffix(std::string_view name, std::string_view suffix);
+
+}  // namespace weft::graph::expansion

@@ -1,0 +1,182 @@
+// What is checked once per pass stanza, however often it repeats.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/expand_checks.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+struct Stanza {
+  Model& model;
+  Scope& scope;
+  const PassDesc& desc;
+  const PassType* type;
+  const std::string& declared;
+
+  base::Diagnostic& error(Code code, const Place& place, std::string message) const {
+    base::Diagnostic& d = model.diagnostics.error(code, place.line ? place : desc.place, fmt::format("pass '{}' {}", declared, std::move(message)));
+    d.pass = declared;
+    return d;
+  }
+};
+
+// Whether the type takes the key; every use of one it does not take is reported.
+void checkKey(const Stanza& stanza, bool present, const char* key, const Place& place) {
+  const auto& keys = stanza.type->keys;
+  if (!present || std::find(keys.begin(), keys.end(), key) != keys.end()) return;
+  auto& d = stanza.error(Code::W67, place, fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
+  d.hint = keys.empty() ? "" : base::nearestHint(key, keys);
+}
+
+void checkKeys(const Stanza& stanza) {
+  const PassDesc& desc = stanza.desc;
+  checkKey(stanza, desc.threads.present(), "threads", desc.threads.place());
+  checkKey(stanza, desc.instances.present(), "instances", desc.instances.place());
+  checkKey(stanza, !desc.list.empty(), "list", desc.listPlace);
+  checkKey(stanza, !desc.geometry.empty(), "geometry", desc.geometryPlace);
+  const ShaderShape shader = stanza.type->shader;
+  const auto notTaken = [&](const char* key, const Place& place) {
+    stanza.error(Code::W67, place, fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
+  };
+  if (!desc.state.empty() && shader != ShaderShape::fragment && shader != ShaderShape::draw) notTaken("state", desc.state[0].place);
+  if (shader == ShaderShape::none) {
+    if (!desc.shader.empty()) notTaken("shader", desc.shaderPlace);
+    if (desc.view) notTaken("view", desc.view->place);
+    if (!desc.parameters.empty()) notTaken("parameters", desc.parameters[0].place);
+    if (!desc.defines.empty()) notTaken("defines", desc.defines[0].place);
+    return;
+  }
+  const auto lacks = [&](const char* what, const char* expected) { stanza.error(Code::W68, desc.namePlace, fmt::format("lacks {}", what)).expected = expected; };
+  if (desc.shader.empty()) lacks("a shader", shader == ShaderShape::draw ? "\"shader\": \"spheres/billboard\", without stage and ending" : "\"shader\": \"folder/name.stage.glsl\"");
+  if (shader == ShaderShape::draw) {
+    if (desc.list.empty() && !desc.instances.present()) lacks("what to draw", "\"list\" or \"instances\"");
+    if (desc.geometry.empty()) lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");
+  }
+  if (shader != ShaderShape::compute &&
+      std::none_of(desc.slots.begin(), desc.slots.end(), [](const SlotDesc& s) { return s.access != Access::read && s.ref.kind != Kind::image && s.ref.kind != Kind::storage; }))
+    lacks("something to draw into", "a slot in \"write\" or \"modify\" that is an attachment");
+}
+
+void checkLists(const Stanza& stanza) {
+  const PassDesc& desc = stanza.desc;
+  const Registry& registry = stanza.model.registry;
+  if (!desc.list.empty() && std::find(registry.drawLists.begin(), registry.drawLists.end(), desc.list) == registry.drawLists.end())
+    stanza.error(Code::W69, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list)).hint = base::nearestHint(desc.list, registry.drawLists);
+  if (!desc.geometry.empty() && std::find(registry.geometries.begin(), registry.geometries.end(), desc.geometry) == registry.geometries.end())
+    stanza.error(Code::W70, desc.geometryPlace, fmt::format("draws the unknown geometry '{}'", desc.geometry)).hint = base::nearestHint(desc.geometry, registry.geometries);
+}
+
+void checkFixedSlots(const Stanza& stanza) {
+  const auto& fixed = stanza.type->fixedSlots;
+  if (fixed.empty()) return;
+  std::vector<std::string> names;
+  for (const FixedSlot& slot : fixed) names.push_back(slot.name);
+  for (const SlotDesc& slot : stanza.desc.slots) {
+    const auto found = std::find_if(fixed.begin(), fixed.end(), [&](const FixedSlot& f) { return f.name == slot.name; });
+    if (found == fixed.end()) {
+      stanza.error(Code::W66, slot.place, fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name)).hint = base::nearestHint(slot.name, names);
+    } else if ((slot.access == Access::read) != (found->access == Access::read)) {
+      auto& d = stanza.error(Code::W66, slot.place, fmt::format("has the slot '{}' on the wrong side", slot.name));
+      d.expected = fmt::format("'{}' in \"{}\"", slot.name, wordFor(found->access));
+    }
+  }
+  for (const FixedSlot& slot : fixed)
+    if (std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(), [&](const SlotDesc& s) { return s.name == slot.name; }))
+      stanza.error(Code::W66, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name)).expected = fmt::format("\"{}\": {{ \"{}\": … }}", wordFor(slot.access), slot.name);
+}
+
+// Slots, parameters and defines share one namespace.
+void checkNames(const Stanza& stanza) {
+  std::map<std::string_view, const char*> seen;
+  const auto add = [&](const std::string& name, const Place& place, const char* what) {
+    const auto [at, fresh] = seen.try_emplace(name, what);
+    if (fresh) return;
+    auto& d = stanza.error(Code::W49, place, fmt::format("uses the name '{}' twice: for a {} and a {}", name, at->second, what));
+    d.hint = "slots, parameters and defines of a pass share one namespace: they are one shader's names";
+  };
+  for (const SlotDesc& slot : stanza.desc.slots) add(slot.name, slot.place, slot.access == Access::read ? "read slot" : slot.access == Access::write ? "write slot" : "modify slot");
+  for (const PassParameterDesc& parameter : stanza.desc.parameters) add(parameter.name, parameter.place, "parameter");
+  for (const NamedExpr& define : stanza.desc.defines) add(define.name, define.place, "define");
+}
+
+void checkReference(const Stanza& stanza, const RefDesc& ref) {
+  checkExpr(stanza.model, stanza.scope, ref.condition);
+  if (ref.element) checkExpr(stanza.model, stanza.scope, *ref.element);
+  for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
+    if (*span) {
+      checkExpr(stanza.model, stanza.scope, (*span)->first);
+      checkExpr(stanza.model, stanza.scope, (*span)->last);
+    }
+  markStructural(stanza.model, stanza.scope, ref);
+}
+
+void checkExpressions(const Stanza& stanza) {
+  Model& model = stanza.model;
+  Scope& scope = stanza.scope;
+  const PassDesc& desc = stanza.desc;
+  const auto structural = [&](const Expr& expr) {
+    checkExpr(model, scope, expr);
+    markStructural(model, scope, expr);
+  };
+  structural(desc.enabled);
+  for (const RangeDesc& range : desc.repeat)
+    for (const Expr* expr : {&range.first, &range.last, &range.step}) structural(*expr);
+  for (const SlotDesc& slot : desc.slots) checkReference(stanza, slot.ref);
+  if (desc.view) checkReference(stanza, *desc.view);
+  for (const NamedExpr& define : desc.defines) structural(define.expr);
+  for (const NamedExpr& state : desc.state) structural(state.expr);
+  for (const Expr* expr : {&desc.slices, &desc.threads, &desc.instances}) structural(*expr);
+  for (const Expr& argument : desc.geometryArguments) structural(argument);
+  for (const PassParameterDesc& parameter : desc.parameters)
+    if (!parameter.declared) checkExpr(model, scope, parameter.value, true);
+}
+
+void checkCadence(const Stanza& stanza) {
+  const PassDesc& desc = stanza.desc;
+  if (desc.cadence == Cadence::always && desc.slices.present()) {
+    auto& d = stanza.error(Code::W77, desc.slices.place(), "is spread over slices but runs in every frame");
+    d.hint = "slices go with \"update\": \"on_change\" or \"once\"";
+  }
+  if (desc.cadence == Cadence::always) return;
+  for (const PassParameterDesc& parameter : desc.parameters)
+    if (!parameter.declared && isDynamic(stanza.model, stanza.scope, parameter.value)) {
+      auto& d = stanza.error(Code::W78, parameter.value.place(), fmt::format("sees time in parameter '{}', but does not run in every frame", parameter.name));
+      d.found = parameter.value.text();
+      d.hint = "age() belongs into passes that are \"update\": \"always\"";
+    }
+}
+
+void checkIndices(const Stanza& stanza) {
+  for (std::size_t i = 0; i < stanza.desc.repeat.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (stanza.desc.repeat[i].index == stanza.desc.repeat[j].index)
+        stanza.error(Code::W49, stanza.desc.repeat[i].place, fmt::format("repeats over two indices called '{}'", stanza.desc.repeat[i].index));
+}
+
+}  // namespace
+
+bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type, const std::string& declared) {
+  const std::size_t before = model.diagnostics.errorCount();
+  const Stanza stanza{model, scope, desc, type, declared};
+  if (type) {
+    checkKeys(stanza);
+    checkLists(stanza);
+    checkFixedSlots(stanza);
+  } else {
+    std::vector<std::string> types;
+    for (const PassType& known : model.registry.passTypes) types.push_back(known.name);
+    stanza.error(Code::W41, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type)).hint = base::nearestHint(desc.type, types);
+  }
+  checkNames(stanza);
+  checkIndices(stanza);
+  checkExpressions(stanza);
+  checkCadence(stanza);
+  return model.diagnostics.errorCount() == before;
+}
+
+}  // namespace weft::graph::expansion
