@@ -178,6 +178,8 @@ struct GraphDesc {
   std::vector<PassDesc> passes;
   std::optional<RefDesc> present;
   std::vector<OutputDesc> outputs;
+  std::vector<std::string> unread;         // names declared in this file that were reported as wrong and left out:
+                                           // a use of one is no second error
   std::vector<std::string> files;          // this file and every file included below it, for watching
 };
 

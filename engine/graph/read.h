@@ -4,17 +4,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
 
 namespace weft::graph {
 
-// Reads `path` and its includes (paths relative to the including file). Comments are allowed. Null after an error that
-// leaves nothing to expand; otherwise a description, perhaps partial, with the errors in `diagnostics`.
+// Reads `path` and its includes (paths relative to the including file). Comments are allowed. Null after an
+// error that leaves nothing to expand; otherwise a description, perhaps partial, with the errors in
+// `diagnostics`.
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, base::Diagnostics& diagnostics);
 
-// The same for text that stands in memory; `name` is used in places, includes are relative to the folder of `name`.
+// The same for text that stands in memory; `name` is used in places, includes are relative to the folder of
+// `name`.
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
                                                base::Diagnostics& diagnostics);
 

@@ -1,0 +1,231 @@
+#include "engine/graph/json_dom.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "engine/graph/json_errors.h"
+#include "engine/graph/names.h"
+
+namespace weft::graph {
+
+namespace {
+
+// The input adapter: nlohmann's lexer pulls single characters through it, and it counts them. The lexer is
+// never ahead of the token it reports, except by the one character that ended a number.
+class CountingIterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  CountingIterator(const char* at, std::size_t* consumed) : at_(at), consumed_(consumed) {}
+  reference operator*() const { return *at_; }
+  CountingIterator& operator++() {
+    ++at_;
+    ++*consumed_;
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    const CountingIterator before = *this;
+    ++*this;
+    return before;
+  }
+  friend bool operator==(const CountingIterator& a, const CountingIterator& b) { return a.at_ == b.at_; }
+  friend bool operator!=(const CountingIterator& a, const CountingIterator& b) { return a.at_ != b.at_; }
+
+ private:
+  const char* at_;
+  std::size_t* consumed_;
+};
+
+std::string escapePointer(std::string_view key) {
+  std::string out = "/";
+  for (const char c : key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return out;
+}
+
+constexpr bool isNumberChar(char c) {
+  return isDigit(c) || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
+}
+
+// Receives nlohmann's events and builds the tree. Every handler returns false to stop after an error was
+// reported.
+class Builder {
+ public:
+  Builder(const JsonText& text, const std::size_t& consumed, base::Diagnostics& diagnostics)
+      : text_(text), consumed_(consumed), diagnostics_(diagnostics) {}
+
+  JsonValue takeRoot() { return std::move(root_); }
+
+  bool null() { return add(JsonValue::Type::null, consumed_ - 4) != nullptr; }
+  bool boolean(bool flag) {
+    JsonValue* value = add(JsonValue::Type::boolean, consumed_ - (flag ? 4 : 5));
+    value->flag = flag;
+    return true;
+  }
+  bool number_integer(std::int64_t number) { return addNumber(static_cast<double>(number), true); }
+  bool number_unsigned(std::uint64_t number) { return addNumber(static_cast<double>(number), true); }
+  bool number_float(double number, const std::string& written) {
+    return addNumber(number, written.find_first_of(".eE") == std::string::npos);
+  }
+  bool string(std::string& text) {
+    add(JsonValue::Type::string, text_.startOfString(consumed_))->text = std::move(text);
+    return true;
+  }
+  bool binary(std::vector<std::uint8_t>&) { return false; }
+  bool key(std::string& key) {
+    key_ = std::move(key);
+    keyOffset_ = text_.startOfString(consumed_);
+    return true;
+  }
+  bool start_object(std::size_t) { return open(JsonValue::Type::object); }
+  bool start_array(std::size_t) { return open(JsonValue::Type::array); }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
+
+  bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& exception) {
+    std::optional<JsonOpening> inside;
+    if (!open_.empty()) inside = {open_.back()->is(JsonValue::Type::object), open_.back()->place};
+    reportJsonError(text_, consumed_, token, exception.what(), inside, key_, diagnostics_);
+    return false;
+  }
+
+ private:
+  bool addNumber(double number, bool whole) {
+    std::size_t start = consumed_;
+    if (start > 0 && !isDigit(text_.at(start - 1))) --start;  // the character that ended it
+    while (start > 0 && isNumberChar(text_.at(start - 1))) --start;
+    JsonValue* value = add(JsonValue::Type::number, start);
+    value->number = number;
+    value->whole = whole;
+    return true;
+  }
+
+  // The new value, at its place in the tree; a dropped duplicate is built all the same, aside.
+  JsonValue* add(JsonValue::Type type, std::size_t offset) {
+    JsonValue* value = &root_;
+    if (!open_.empty()) {
+      JsonValue& parent = *open_.back();
+      if (parent.is(JsonValue::Type::array)) {
+        value = &parent.items.emplace_back();
+        value->pointer = fmt::format("{}/{}", parent.pointer, parent.items.size() - 1);
+      } else {
+        value = addMember(parent);
+      }
+    }
+    value->type = type;
+    value->place = text_.placeOf(offset);
+    return value;
+  }
+
+  JsonValue* addMember(JsonValue& object) {
+    const base::Place place = text_.placeOf(keyOffset_);
+    const std::string pointer = object.pointer + escapePointer(key_);
+    const auto [before, fresh] = keys_.back().try_emplace(key_, place);
+    if (!fresh) {
+      auto& d = diagnostics_.error(base::Code::W6, place,
+                                   fmt::format("the key \"{}\" appears twice in one object", key_));
+      d.pointer = pointer;
+      d.hint =
+          fmt::format("remove one; the first stands at {}:{}", before->second.line, before->second.column);
+      dropped_.push_back(std::make_unique<JsonValue>());
+      return dropped_.back().get();
+    }
+    JsonMember& member = object.members.emplace_back();
+    member.key = key_;
+    member.place = place;
+    member.value.pointer = pointer;
+    return &member.value;
+  }
+
+  bool open(JsonValue::Type type) {
+    const std::size_t offset = consumed_ - 1;
+    if (open_.size() >= kMaxJsonDepth) {
+      diagnostics_
+          .error(base::Code::W7, text_.placeOf(offset),
+                 fmt::format("objects and arrays are nested more than {} levels deep", kMaxJsonDepth))
+          .hint = "a graph needs eight levels at most; look for a bracket that is never closed";
+      return false;
+    }
+    open_.push_back(add(type, offset));
+    keys_.emplace_back();
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    keys_.pop_back();
+    return true;
+  }
+
+  const JsonText& text_;
+  const std::size_t& consumed_;
+  base::Diagnostics& diagnostics_;
+  JsonValue root_;
+  std::vector<JsonValue*>
+      open_;  // ancestors; each is the last child of the one before, so none of them moves
+  std::vector<std::unordered_map<std::string, base::Place>>
+      keys_;  // parallel to open_: where each key first stood
+  std::vector<std::unique_ptr<JsonValue>> dropped_;
+  std::string key_;
+  std::size_t keyOffset_ = 0;
+};
+
+}  // namespace
+
+const JsonValue* JsonValue::find(std::string_view key) const {
+  for (const JsonMember& member : members)
+    if (member.key == key) return &member.value;
+  return nullptr;
+}
+
+base::Place JsonValue::textPlace() const {
+  base::Place inner = place;
+  ++inner.column;
+  return inner;
+}
+
+std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
+                                   base::Diagnostics& diagnostics) {
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  const JsonText positions(text, file);
+  if (!reportUnreadable(positions, diagnostics)) return std::nullopt;
+  std::size_t consumed = 0;
+  Builder builder(positions, consumed, diagnostics);
+  const bool good = nlohmann::json::sax_parse(CountingIterator(text.data(), &consumed),
+                                              CountingIterator(text.data() + text.size(), &consumed),
+                                              &builder, nlohmann::json::input_format_t::json, true, true);
+  if (!good) return std::nullopt;
+  return builder.takeRoot();
+}
+
+const char* nameOf(JsonValue::Type type) {
+  static constexpr const char* kNames[] = {"null",     "a boolean", "a number",
+                                           "a string", "an array",  "an object"};
+  return kNames[static_cast<int>(type)];
+}
+
+std::string describe(const JsonValue& value) {
+  switch (value.type) {
+    case JsonValue::Type::boolean:
+      return value.flag ? "true" : "false";
+    case JsonValue::Type::number:
+      return fmt::format("the number {}", value.number);
+    case JsonValue::Type::string: {
+      constexpr std::size_t kMost = 60;
+      if (value.text.size() <= kMost) return fmt::format("the string \"{}\"", value.text);
+      std::size_t end = kMost;  // not inside a UTF-8 sequence
+      while (end > 0 && (static_cast<unsigned char>(value.text[end]) & 0xC0) == 0x80) --end;
+      return fmt::format("the string \"{}…\"", std::string_view(value.text).substr(0, end));
+    }
+    default:
+      return nameOf(value.type);
+  }
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,198 @@
+#include "engine/graph/read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "engine/base/file.h"
+#include "engine/graph/json_dom.h"
+#include "engine/graph/read_context.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::Code;
+using base::Diagnostics;
+using Type = JsonValue::Type;
+
+// One file of a chain of includes, innermost last.
+struct OpenFile {
+  std::string identity;  // canonical path, so that two spellings of one file are recognised
+  std::string path;
+};
+
+class GraphReader {
+ public:
+  explicit GraphReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  std::shared_ptr<const GraphDesc> readFile(const std::string& path, const Place& from) {
+    const std::string identity = identityOf(path);
+    if (const auto known = finished_.find(identity); known != finished_.end()) return known->second;
+    const std::optional<std::string> text = base::readFile(path, diagnostics_, Code::W1, from);
+    std::shared_ptr<const GraphDesc> graph = text ? readText(*text, path) : nullptr;
+    finished_[identity] = graph;
+    return graph;
+  }
+
+  std::shared_ptr<const GraphDesc> readText(std::string_view text, const std::string& path) {
+    const auto file = std::make_shared<const std::string>(path);
+    const std::optional<JsonValue> root = parseJson(text, file, diagnostics_);
+    if (!root) return nullptr;
+    open_.push_back({identityOf(path), path});
+    std::shared_ptr<const GraphDesc> graph = readRoot(*root, path);
+    open_.pop_back();
+    return graph;
+  }
+
+ private:
+  static std::string identityOf(const std::string& path) {
+    std::error_code ec;
+    const auto canonical = std::filesystem::weakly_canonical(path, ec);
+    return ec ? path : canonical.string();
+  }
+
+  std::shared_ptr<const GraphDesc> readRoot(const JsonValue& root, const std::string& path) {
+    ReadContext context(diagnostics_);
+    if (!context.expect(root, Type::object, "a graph")) return nullptr;
+    if (reportOverlay(context, root)) return nullptr;
+    auto graph = std::make_shared<GraphDesc>();
+    graph->path = path;
+    graph->place = root.place;
+    graph->files.push_back(path);
+    context.checkKeys(root, kGraphKeys, "a graph");
+    context.text(root.find("$schema"), "\"$schema\"");
+    graph->name = context.text(root.find("name"), "\"name\"");
+    if (graph->name.empty()) graph->name = std::filesystem::path(path).stem().string();
+    readVariables(context, root, *graph);
+    for (const JsonMember& member : membersOf(context, root, "resources")) {
+      if (std::optional<ResourceDesc> resource = readResource(context, member))
+        graph->resources.push_back(*std::move(resource));
+      else
+        graph->unread.push_back(member.key);
+    }
+    readPasses(context, root, *graph);
+    graph->present = context.ref(root.find("present"), "\"present\"");
+    for (const JsonMember& member : membersOf(context, root, "outputs")) {
+      const bool named = context.checkName(member.key, member.place, member.value.pointer, "an output");
+      std::optional<RefDesc> ref = context.ref(&member.value, fmt::format("the output '{}'", member.key));
+      if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
+    }
+    return graph;
+  }
+
+  static bool reportOverlay(ReadContext& context, const JsonValue& root) {
+    bool overlay = false;
+    for (const JsonMember& member : root.members)
+      if (std::find(kOverlayGraphKeys.begin(), kOverlayGraphKeys.end(), member.key) !=
+          kOverlayGraphKeys.end()) {
+        overlay = true;
+        context
+            .errorAt(
+                Code::W10, member.place, member.value.pointer,
+                fmt::format("\"{}\" makes this file an overlay; overlays are not supported yet", member.key))
+            .hint = "write the whole graph, and \"include\" the parts it shares";
+      }
+    return overlay;
+  }
+
+  static const std::vector<JsonMember>& membersOf(ReadContext& context, const JsonValue& root,
+                                                  const char* key) {
+    static const std::vector<JsonMember> none;
+    const JsonValue* value = root.find(key);
+    return value && context.expect(*value, Type::object, fmt::format("\"{}\"", key)) ? value->members : none;
+  }
+
+  // Parameters and lets share the names behind '$'.
+  static void readVariables(ReadContext& context, const JsonValue& root, GraphDesc& graph) {
+    ReadContext::Seen seen;
+    for (const JsonMember& member : membersOf(context, root, "parameters")) {
+      seen.emplace(member.key, member.place);
+      if (std::optional<ParameterDesc> parameter = readParameter(context, member))
+        graph.parameters.push_back(*std::move(parameter));
+      else
+        graph.unread.push_back(member.key);
+    }
+    for (const JsonMember& member : membersOf(context, root, "let")) {
+      bool good = context.checkName(member.key, member.place, member.value.pointer, "a \"let\"");
+      good = context.checkFresh(seen, member.key, member.place, member.value.pointer, "the variable") && good;
+      Expr expr = context.expr(&member.value, fmt::format("the \"let\" '{}'", member.key));
+      if (good && expr.present())
+        graph.lets.push_back({member.key, member.place, member.value.pointer, std::move(expr)});
+      else
+        graph.unread.push_back(member.key);
+    }
+  }
+
+  void readPasses(ReadContext& context, const JsonValue& root, GraphDesc& graph) {
+    const JsonValue* passes = root.find("passes");
+    if (!passes || !context.expect(*passes, Type::array, "\"passes\"")) return;
+    ReadContext::Seen seen;
+    graph.passes.reserve(passes->items.size());
+    for (const JsonValue& item : passes->items) {
+      std::optional<PassDesc> pass = readPass(context, item);
+      if (!pass) {
+        if (const JsonValue* name = item.find("name"); name && name->is(Type::string))
+          graph.unread.push_back(name->text);
+        continue;
+      }
+      context.pass = pass->name;
+      context.checkFresh(seen, pass->name, pass->namePlace,
+                         pass->pointer + (pass->include ? "/include" : "/name"), "pass");
+      context.pass.clear();
+      if (pass->include) follow(*item.find("include"), *pass->include, graph);
+      graph.passes.push_back(*std::move(pass));
+    }
+  }
+
+  void follow(const JsonValue& stanza, IncludeDesc& include, GraphDesc& graph) {
+    const std::string path =
+        (std::filesystem::path(graph.path).parent_path() / include.file).lexically_normal().string();
+    const std::string identity = identityOf(path);
+    const auto again = std::find_if(open_.begin(), open_.end(),
+                                    [&](const OpenFile& file) { return file.identity == identity; });
+    if (again != open_.end()) {
+      auto& d = diagnostics_.error(Code::W8, stanza.place, fmt::format("'{}' includes itself", path));
+      d.pointer = stanza.pointer;
+      for (auto file = again; file != open_.end(); ++file) d.found += file->path + " -> ";
+      d.found += path;
+      d.hint = "remove one of these includes";
+      return;
+    }
+    include.graph = readFile(path, stanza.place);
+    std::vector<std::string> below = include.graph ? include.graph->files : std::vector<std::string>{path};
+    for (std::string& file : below)
+      if (std::find(graph.files.begin(), graph.files.end(), file) == graph.files.end())
+        graph.files.push_back(std::move(file));
+  }
+
+  Diagnostics& diagnostics_;
+  std::vector<OpenFile> open_;
+  std::map<std::string, std::shared_ptr<const GraphDesc>>
+      finished_;  // by identity; null for files that failed
+};
+
+// Diagnostics come in the order of the text, whatever order the reader looked at things.
+template <class Read>
+std::shared_ptr<const GraphDesc> readSorted(Diagnostics& diagnostics, Read read) {
+  Diagnostics said;
+  std::shared_ptr<const GraphDesc> graph = read(said);
+  said.sortByPlace();
+  diagnostics.append(said);
+  return graph;
+}
+
+}  // namespace
+
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, Diagnostics& diagnostics) {
+  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readFile(path, {}); });
+}
+
+std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
+                                               Diagnostics& diagnostics) {
+  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readText(text, name); });
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,69 @@
+// What the parts of the reader share: checked access to JSON values, with diagnostics that know the pass and
+// the resource being read. Every accessor takes null for an absent key and then yields the absent value
+// silently. Private to engine/graph/read*.cpp.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "engine/graph/desc.h"
+#include "engine/graph/json_dom.h"
+#include "engine/graph/keys.h"
+
+namespace weft::graph {
+
+class ReadContext {
+ public:
+  explicit ReadContext(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  std::string pass, resource;  // set while one is read
+
+  base::Diagnostic& error(base::Code code, const JsonValue& value, std::string message);
+  base::Diagnostic& errorAt(base::Code code, const Place& place, const std::string& pointer,
+                            std::string message);
+
+  // False, with Code::W3, when `value` is something else. `what` names it: "\"passes\"".
+  bool expect(const JsonValue& value, JsonValue::Type type, std::string_view what);
+
+  // Code::W4 for keys that are not in `keys`, Code::W5 for required ones that are missing. A missing key that
+  // an unknown one is a misspelling of is not reported again.
+  void checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what);
+
+  // Code::W12 unless `name` is an identifier without reserved words.
+  bool checkName(std::string_view name, const Place& place, const std::string& pointer,
+                 std::string_view what);
+  // Code::W9 when `name` was already registered in `seen`.
+  using Seen = std::unordered_map<std::string, Place>;
+  bool checkFresh(Seen& seen, const std::string& name, const Place& place, const std::string& pointer,
+                  std::string_view what);
+
+  std::string text(const JsonValue* value, std::string_view what);
+  bool flag(const JsonValue* value, std::string_view what);
+  std::optional<double> number(const JsonValue* value, std::string_view what);
+  // One of `words`, or Code::W11 with the nearest.
+  std::optional<std::string> word(const JsonValue* value, std::span<const std::string_view> words,
+                                  std::string_view what);
+  // A number, a boolean, a list of 1 to 4, or an expression.
+  Expr expr(const JsonValue* value, std::string_view what);
+  std::optional<RefDesc> ref(const JsonValue* value, std::string_view what);
+  // The strings of a list, or a single one.
+  std::vector<const JsonValue*> strings(const JsonValue* value, std::string_view what);
+
+  // For the parsers of strings, which know neither pointer nor pass: adopt() what they said into a fresh
+  // Diagnostics.
+  void adopt(const base::Diagnostics& said, const std::string& pointer);
+
+ private:
+  base::Diagnostics& diagnostics_;
+};
+
+// The parts, by what stands in the file; each takes a value of any type and reports what does not fit.
+std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member);
+std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member);
+// Include stanzas come back with include->graph still null.
+std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value);
+
+}  // namespace weft::graph
