@@ -46,6 +46,9 @@ void DebugLog::install() {
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   for (const GLenum marker : {GL_DEBUG_TYPE_PUSH_GROUP, GL_DEBUG_TYPE_POP_GROUP})
     glDebugMessageControl(GL_DONT_CARE, marker, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+  // workarounds.h: compiler-messages-twice
+  for (const GLenum type : {GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_OTHER})
+    glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, type, GL_DONT_CARE, 0, nullptr, GL_FALSE);
   glDebugMessageCallback(receive, this);
 }
 

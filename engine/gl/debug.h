@@ -30,7 +30,8 @@ class DebugLog {
   DebugLog(const DebugLog&) = delete;
   DebugLog& operator=(const DebugLog&) = delete;
 
-  // Registers with the current context, which must not outlive this log; synchronous, group markers filtered out.
+  // Registers with the current context, which must not outlive this log; synchronous. Group markers are filtered
+  // out, and so are the shader compiler's errors, which Program reports with true places.
   void install();
   // What the callback does; open to tests.
   void record(GLenum source, GLenum type, GLuint id, GLenum severity, std::string_view text);

@@ -45,7 +45,7 @@ struct Block {
   std::uint32_t binding = 0;         // assigned by us: uniform and storage blocks count separately
   std::uint32_t bytes = 0;           // minimum size; an unsized array counts one element
   std::vector<BlockMember> members;  // by offset
-  const BlockMember* find(std::string_view name) const;
+  const BlockMember* find(std::string_view member) const;
 };
 
 struct Interface {                   // a fragment output or a vertex attribute
@@ -87,8 +87,9 @@ class Program : public Owner<ObjectKind::program> {
   static std::optional<Program> compile(std::span<const StageSource> stages, std::span<const Define> defines,
                                         std::span<const std::string> outputs, std::string_view label,
                                         base::Diagnostics& diagnostics);
-  // Nullopt when the driver rejects the binary: never an error.
-  static std::optional<Program> load(const ProgramBinary& binary, std::string_view label);
+  // Nullopt when the driver rejects the binary: never an error, nor a message of the driver. `compute`: what the binary
+  // was made from; OpenGL cannot be asked.
+  static std::optional<Program> load(const ProgramBinary& binary, bool compute, std::string_view label);
   // The linked binary, or nullopt when the driver has no format for it.
   std::optional<ProgramBinary> binary() const;
 
@@ -97,10 +98,12 @@ class Program : public Owner<ObjectKind::program> {
 
  private:
   using Owner::Owner;
-  void introspect();
   Reflection reflection_;
   std::string label_;
 };
+
+// Introspects a linked program and assigns its units and bindings (Program does it by itself).
+Reflection reflectProgram(GLuint program, bool compute);
 
 // "float", "vec3", "mat4", "sampler2D", …, or the enum's name.
 std::string glslTypeName(GLenum type);

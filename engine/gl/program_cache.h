@@ -41,6 +41,8 @@ struct Variant {
   bool mentions(std::string_view name) const;
 };
 
+// hits + misses: calls whose sources could be read. A remembered failure is a hit. A binary that is absent is neither
+// load nor reject; a rejected one is compiled and written anew.
 struct ProgramCacheStats {
   std::uint64_t hits = 0, misses = 0, evictions = 0;
   std::uint64_t compilations = 0;     // from source, failed ones included
@@ -70,8 +72,8 @@ class ProgramCache {
     std::string key;
     std::shared_ptr<const Variant> variant;
   };
-  std::optional<Program> loadBinary(const std::string& key, std::string_view label);
-  void storeBinary(const std::string& key, const Program& program);
+  std::optional<Program> loadBinary(const std::string& key, bool compute, std::string_view label);
+  void storeBinary(const std::string& key, bool compute, const Program& program);
   std::string pathOf(const std::string& key) const;
 
   const DeviceInfo& device_;

@@ -95,6 +95,31 @@ std::optional<LogLine> parseLine(std::string_view raw) {
   return std::nullopt;
 }
 
+// workarounds.h: columns-after-preprocessing. The column in `line` of what stands in `column` once every run of blanks is
+// one; 0 when there is no such column (a macro was expanded).
+std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
+  std::uint32_t collapsed = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto blank = [&](std::size_t at) { return line[at] == ' ' || line[at] == '\t'; };
+    if (i > 0 && blank(i) && blank(i - 1)) continue;
+    if (++collapsed == column) {
+      while (i + 1 < line.size() && blank(i) && blank(i + 1)) ++i;
+      return static_cast<std::uint32_t>(i + 1);
+    }
+  }
+  return 0;
+}
+
+// Line `number` (from 1) of a text.
+std::string_view lineOf(std::string_view text, std::uint32_t number) {
+  for (; number > 1; --number) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  return text.substr(0, text.find('\n'));
+}
+
 // Headings and rules of NVIDIA's logs.
 bool isOrnament(std::string_view text) {
   return text.empty() || text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
@@ -104,6 +129,7 @@ bool isOrnament(std::string_view text) {
 }  // namespace
 
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code, base::Diagnostics& diagnostics) {
+  static const auto defines = std::make_shared<const std::string>("<defines>");
   std::size_t added = 0;
   base::Diagnostic pending;
   const auto flush = [&] {
@@ -127,9 +153,14 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
     pending.code = code;
     pending.severity = line ? line->severity : base::Severity::error;
     pending.message = std::string(line ? line->text : raw);
-    pending.place.file = source.file;
-    if (line && line->placed && line->file < source.files.size())
-      pending.place = {source.files[line->file], line->line, line->column};
+    if (line && line->placed && line->line >= kTextLine) {
+      const std::uint32_t textLine = line->line - kTextLine + 1;
+      pending.place = source.placeOf(textLine, trueColumn(lineOf(source.text, textLine), line->column));
+    } else if (line && line->placed) {
+      pending.place = {defines, line->line, line->column};
+    } else {
+      pending.place = {source.file, 0, 0};
+    }
   }
   flush();
   return added;

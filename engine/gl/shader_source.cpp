@@ -58,9 +58,7 @@ std::vector<std::string> listShaders(const std::vector<std::string>& folders) {
 // One expansion: the text built so far, the files met, and the chain of includes that leads to the current one.
 class IncludeExpander {
  public:
-  IncludeExpander(const std::vector<std::string>& roots, Diagnostics& diagnostics) : roots_(roots), diagnostics_(diagnostics) {
-    source_->files.push_back(std::make_shared<const std::string>("<defines>"));
-  }
+  IncludeExpander(const std::vector<std::string>& roots, Diagnostics& diagnostics) : roots_(roots), diagnostics_(diagnostics) {}
 
   // `folder` is where includes are searched first; "" for text without a file.
   void expandRoot(const std::string& path, const std::string& folder, std::string_view text) {
@@ -89,26 +87,31 @@ class IncludeExpander {
   void expandFile(std::size_t number, const std::string& folder, std::string_view text, int depth) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     stack_.push_back(number);
-    std::string& out = source_->text;
-    out += fmt::format("#line 1 {}\n", number);
     LineScanner scanner(text);
     while (scanner.next()) {
       const Directive directive = scanner.directive();
       const Place place{source_->files[number], scanner.number(), directive.column};
       if (directive.name == "include") {
         include(directive, place, folder, depth + scanner.depth());
-        out += fmt::format("#line {} {}\n", scanner.number() + 1, number);
         continue;
       }
       if (directive.name == "version")
         diagnostics_.error(Code::W106, place, "a shader file has no #version").hint =
             "remove the line; the engine writes '#version 450 core'";
       if (directive.name == "version" || (directive.name == "pragma" && directive.rest == "once"))
-        out += '\n';
-      else
-        out.append(scanner.line()).append("\n");
+        continue;
+      emit(scanner.line(), number, scanner.number());
     }
     stack_.pop_back();
+  }
+
+  // One line of the text, which stands at `line` of a file.
+  void emit(std::string_view code, std::size_t file, std::uint32_t line) {
+    ++textLine_;
+    std::vector<ShaderSource::Run>& runs = source_->runs;
+    const bool follows = !runs.empty() && runs.back().file == file && line - runs.back().line == textLine_ - runs.back().textLine;
+    if (!follows) runs.push_back({textLine_, static_cast<std::uint32_t>(file), line});
+    source_->text.append(code).append("\n");
   }
 
   void include(const Directive& directive, const Place& place, const std::string& folder, int depth) {
@@ -131,10 +134,10 @@ class IncludeExpander {
     }
     const auto position = std::find(paths_.begin(), paths_.end(), *path);
     const bool known = position != paths_.end();
-    std::size_t number = static_cast<std::size_t>(position - paths_.begin()) + 1;
+    std::size_t number = static_cast<std::size_t>(position - paths_.begin());
     if (known) {
       if (const auto at = std::find(stack_.begin(), stack_.end(), number); at != stack_.end()) return reportCycle(at, place);
-      if (unconditional_[number - 1]) return;
+      if (unconditional_[number]) return;
     }
     const std::optional<std::string> text = base::readFile(*path, diagnostics_, Code::W101, place);
     if (!text) return;
@@ -144,13 +147,14 @@ class IncludeExpander {
       return;
     }
     if (!known) number = addFile(*path);
-    unconditional_[number - 1] = depth == 0;
+    unconditional_[number] = depth == 0;
     // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the first
     // text outside every #if asks for that guard and makes all later ones superfluous.
-    if (known || depth > 0) source_->text += fmt::format("#ifndef WEFT_INCLUDED_{}\n", number);
-    if (depth > 0) source_->text += fmt::format("#define WEFT_INCLUDED_{}\n", number);
+    const std::size_t by = stack_.back();
+    if (known || depth > 0) emit(fmt::format("#ifndef WEFT_INCLUDED_{}", number), by, place.line);
+    if (depth > 0) emit(fmt::format("#define WEFT_INCLUDED_{}", number), by, place.line);
     expandFile(number, folderOf(*path), *text, depth);
-    if (known || depth > 0) source_->text += "#endif\n";
+    if (known || depth > 0) emit("#endif", by, place.line);
   }
 
   void reportCycle(std::vector<std::size_t>::const_iterator first, const Place& place) {
@@ -175,9 +179,10 @@ class IncludeExpander {
   const std::vector<std::string>& roots_;
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
-  std::vector<std::string> paths_;         // by file number - 1
-  std::vector<bool> unconditional_;        // by file number - 1: stands in the text outside every #if
-  std::vector<std::size_t> stack_;
+  std::vector<std::string> paths_;         // by file number
+  std::vector<bool> unconditional_;        // by file number: stands in the text outside every #if
+  std::vector<std::size_t> stack_;         // file numbers, from the stage's own to the current one
+  std::uint32_t textLine_ = 0;
 };
 
 std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) const {
@@ -236,9 +241,18 @@ std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text
   return (cache_[key] = std::move(entry)).source;
 }
 
+base::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) const {
+  const auto after = std::upper_bound(runs.begin(), runs.end(), textLine,
+                                      [](std::uint32_t line, const Run& run) { return line < run.textLine; });
+  if (after == runs.begin()) return {file, 0, 0};
+  const Run& run = *std::prev(after);
+  return {files[run.file], run.line + (textLine - run.textLine), column};
+}
+
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines) {
   std::string text = "#version 450 core\n";
   for (const Define& define : defines) text += fmt::format("#define {} {}\n", define.name, define.value);
+  text += fmt::format("#line {}\n", kTextLine);
   return text + source.text;
 }
 

@@ -1,5 +1,7 @@
-// GLSL files to text a driver takes: #include expansion, #line tables, and the way back from a driver's log to the true
-// file, line and column (docs/shaders.md). Pure text work: needs no context and makes no GL call.
+// GLSL files to text a driver takes: #include expansion, a table of lines, and the way back from a driver's log to the
+// true file, line and column (docs/shaders.md). Pure text work: needs no context and makes no GL call.
+// Lines are numbered through the expanded text, and the table knows their files; the file numbers of #line are not relied
+// on, because drivers lose them (workarounds.h: source-numbers-lost).
 // A file enters a stage once: a later #include of it is dropped, or guarded when the first stands inside an #if.
 // Names are checked by a conservative token scan, not by a preprocessor: an identifier counts as present when it stands
 // outside comments anywhere in the expanded text, also in a directive or inside an #if that is not taken.
@@ -27,14 +29,20 @@ struct Define {
 
 // One stage's file with its includes expanded; immutable and shared between variants.
 struct ShaderSource {
+  struct Run {                                             // from `textLine` of the text on: `line`, `line` + 1, … of `file`
+    std::uint32_t textLine = 1, file = 0, line = 1;
+  };
   std::shared_ptr<const std::string> file;                 // the stage's own file, as opened
-  std::string text;                                        // #line directives with file numbers; no #version, no defines
-  std::vector<std::shared_ptr<const std::string>> files;   // by number; 0 is the variant's prefix (named "<defines>")
+  std::string text;                                        // no #version, no defines, no #line
+  std::vector<std::shared_ptr<const std::string>> files;
+  std::vector<Run> runs;                                   // by textLine
   std::uint64_t hash = 0;                                  // of text
   std::set<std::string, std::less<>> identifiers;          // the token scan
   std::set<std::string, std::less<>> declared;             // a subset: names that look like uniforms, blocks, block
                                                            // members, ins and outs; for "did you mean"
   bool mentions(std::string_view name) const { return identifiers.find(name) != identifiers.end(); }
+  // Where a line of the text (from 1) was written.
+  base::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
 };
 
 // Reads, expands and caches. One per set of roots; not thread-safe.
@@ -76,10 +84,12 @@ class SourceLoader {
   std::uint64_t expansions_ = 0;
 };
 
-// "#version 450 core", the defines in the given order, then the source.
+// "#version 450 core", the defines in the given order, then the source, whose first line the driver calls kTextLine.
+// Lower numbers in a log are those of the version and the defines.
+constexpr std::uint32_t kTextLine = 10001;
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines);
 
-// A driver's log to one diagnostic per message with its true place. Understands Mesa's "0:12(5): error: text" and
+// The log of an assembleSource() text to one diagnostic per message with its true place. Understands Mesa's "0:12(5): error: text" and
 // NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text"; other lines become part of the message before
 // them, or a message at the file itself. `code` is W104 (compile) or W105 (link). Returns how many were added.
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code, base::Diagnostics& diagnostics);

@@ -46,8 +46,9 @@ class PassTimers {
     std::vector<Query> starts, ends;
     std::vector<PassTime> times;
     std::uint64_t number = 0;  // 0: nothing pending
+    std::uint32_t last = 0;    // the pass that ended last
   };
-  void collect(Frame& frame);
+  void collect(Frame& frame);  // waits when it must
   bool queries_ = false, enabled_ = false;
   Frame frames_[kFramesInFlight];
   std::size_t current_ = 0;

@@ -22,4 +22,17 @@ constexpr bool kStencilViewsKeepFormat = true;
 // enforced by Mesa 22.3.6, 2026-11-21.
 constexpr bool kViewNamesFromGenTextures = true;
 
+// source-numbers-lost: Mesa's log has source string 0 for expressions, whatever #line said (its parser's YYLLOC_DEFAULT
+// resets it), and the right line; so lines are numbered through the whole text (shader_source.h). Mesa 22.3.6, 2026-11-21.
+constexpr bool kLinesThroughText = true;
+
+// columns-after-preprocessing: Mesa counts the columns of its log in preprocessed text, where a run of blanks is one;
+// mapLog counts back (in lines without macros). NVIDIA gives no columns. Mesa 22.3.6, 2026-11-21.
+constexpr bool kColumnsCollapsed = true;
+
+// compiler-messages-twice: Mesa sends every line of a shader's log, warnings included, as a KHR_debug message of high
+// severity besides the log that Program reads and maps. Messages of the shader compiler of type error or other are
+// therefore switched off; its performance messages stay. Mesa 22.3.6, 2026-11-21.
+constexpr bool kCompilerMessagesOff = true;
+
 }  // namespace weft::gl::workarounds

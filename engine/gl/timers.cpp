@@ -1,0 +1,96 @@
+#include "engine/gl/timers.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+
+#include "engine/gl/workarounds.h"
+
+namespace weft::gl {
+
+namespace {
+
+double nowMs() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+PassTimers::PassTimers(const DeviceInfo& device)
+    : queries_(device.hasTimerQueries && !workarounds::timerQueriesLie(device)) {}
+
+void PassTimers::setEnabled(bool enabled) {
+  if (enabled_ && !enabled) finish();
+  enabled_ = enabled;
+}
+
+void PassTimers::beginFrame(std::uint32_t passes) {
+  if (!enabled_) return;
+  current_ = (current_ + 1) % kFramesInFlight;
+  Frame& frame = frames_[current_];
+  if (frame.number != 0) collect(frame);
+  frame.times.assign(passes, PassTime{});
+  if (!queries_) return;
+  while (frame.starts.size() < passes) {
+    frame.starts.push_back(Query::create(GL_TIMESTAMP, "pass start"));
+    frame.ends.push_back(Query::create(GL_TIMESTAMP, "pass end"));
+  }
+}
+
+void PassTimers::begin(std::uint32_t pass) {
+  if (!enabled_) return;
+  Frame& frame = frames_[current_];
+  assert(pass < frame.times.size());
+  if (queries_)
+    glQueryCounter(frame.starts[pass].id(), GL_TIMESTAMP);
+  else
+    glFinish();
+  cpuStart_ = gpuStart_ = nowMs();
+}
+
+void PassTimers::end(std::uint32_t pass) {
+  if (!enabled_) return;
+  Frame& frame = frames_[current_];
+  PassTime& time = frame.times[pass];
+  time.ran = true;
+  time.cpu += nowMs() - cpuStart_;
+  frame.last = pass;
+  if (queries_) {
+    glQueryCounter(frame.ends[pass].id(), GL_TIMESTAMP);
+  } else {
+    glFinish();
+    time.gpu += nowMs() - gpuStart_;
+  }
+}
+
+void PassTimers::endFrame() {
+  if (!enabled_) return;
+  frames_[current_].number = ++counter_;
+  // Oldest first, so that results() only moves forward.
+  for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
+    Frame& frame = frames_[(current_ + i) % kFramesInFlight];
+    if (frame.number == 0) continue;
+    const bool any = std::any_of(frame.times.begin(), frame.times.end(), [](const PassTime& t) { return t.ran; });
+    if (queries_ && any && !frame.ends[frame.last].available()) break;
+    collect(frame);
+  }
+}
+
+void PassTimers::collect(Frame& frame) {
+  if (queries_)
+    for (std::size_t i = 0; i < frame.times.size(); ++i)
+      if (frame.times[i].ran)
+        frame.times[i].gpu = static_cast<double>(frame.ends[i].result() - frame.starts[i].result()) * 1e-6;
+  results_.assign(frame.times.begin(), frame.times.end());
+  resultFrame_ = frame.number;
+  frame.number = 0;
+}
+
+void PassTimers::finish() {
+  for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
+    Frame& frame = frames_[(current_ + i) % kFramesInFlight];
+    if (frame.number != 0) collect(frame);
+  }
+}
+
+}  // namespace weft::gl
