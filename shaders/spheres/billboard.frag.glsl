@@ -5,8 +5,8 @@
 //         depth      near / distance along the view axis (reversed-Z)
 // params  compensation   define, see spheres/shading.glsl
 //
-// Coverage is 1/2 minus the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact
-// along its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
+// Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
+// its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
 // the test and the write of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
 #include "common/view.glsl"
 #include "shading.glsl"
@@ -24,6 +24,15 @@ out vec4 radiance;
 #ifdef HAS_VELOCITY
 out vec2 velocity;
 #endif
+
+// Area of a unit square on the inner side of a straight edge: `inside` is the signed distance of its centre, `normal`
+// the edge's direction, both components positive. A ramp for edges along the axes, smoother for slanted ones.
+float halfPlane(float inside, vec2 normal) {
+  float a = max(normal.x, normal.y), b = min(normal.x, normal.y);
+  float corner = max(0.5 * (a + b) - abs(inside), 0.0);
+  float beyond = abs(inside) <= 0.5 * (a - b) ? 0.5 - abs(inside) / a : corner * corner / max(2.0 * a * b, 1e-9);
+  return inside > 0.0 ? 1.0 - beyond : beyond;
+}
 
 void main() {
   vec3 c = sphere.xyz;
@@ -44,7 +53,7 @@ void main() {
   float curve = dot(c_across, c_across) - r2 * dot(across, across);
   float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
   bool inside_sphere = d2 <= r2;
-  float coverage = inside_sphere ? 1.0 : edge.y * clamp(0.5 - outside - edge.x, 0.0, 1.0);
+  float coverage = inside_sphere ? 1.0 : edge.y * halfPlane(-outside - edge.x, abs(slope) / max(steep, 1e-30));
 
   // The nearer hit, or the farther one when the nearer is in front of the near plane: then the inside is seen.
   float root = sqrt(max(-q, 0.0));
