@@ -265,6 +265,7 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
     request.defines.push_back({"HAS_" + upper(slot.name), "1"});
     if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
   }
+  for (const graph::UniformSpec& uniform : spec.uniforms) request.defines.push_back({"HAS_" + upper(uniform.name), "1"});
   for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
   return request;
 }

@@ -2,7 +2,7 @@
 // read    source   full size; any sampler (texels are fetched)
 // write   result   half size
 // params  threshold  luminance-like level (largest channel) where bloom begins; 0 lets everything through unchanged
-//         knee       width of the soft start as a fraction of the threshold, 0..1; 0 is a hard edge
+//         knee       width of the soft start as a fraction of the threshold, 0..1; 0 is a hard edge [0.5]
 //         firefly    define, default 1: texels weigh 1 / (1 + luminance), so that a single hot one cannot flash
 //                    (Karis, "Next generation post processing in Call of Duty", SIGGRAPH 2014, slide 166)
 #ifndef FIREFLY
@@ -12,8 +12,13 @@
 uniform sampler2D source;
 layout(std140) uniform Parameters {
   float threshold;
+#ifdef HAS_KNEE
   float knee;
+#endif
 };
+#ifndef HAS_KNEE
+const float knee = 0.5;
+#endif
 out vec4 result;
 
 // Keeps the hue: the colour is scaled by how much of its largest channel passes.

@@ -4,7 +4,11 @@
 //                  1 - scatter of itself, so that the pyramid as a whole keeps the mean whatever its depth
 // params  scatter  share of the smaller level, 0..1; wider glow for larger values. Without effect under "add"
 uniform sampler2D source;
+#ifdef HAS_SCATTER
 layout(std140) uniform Parameters { float scatter; };
+#else
+const float scatter = 0.0;
+#endif
 in vec2 uv;
 out vec4 result;
 
