@@ -87,10 +87,11 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   if (known && kind == Kind::image && !infoOf(shape.format).imageStorable) return formatMisfit("a format that images can have");
   if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
   const Sampler& sampler = work.sampler;
-  if ((sampler.linear || sampler.wrap || sampler.compare) && kind != Kind::sampled)
+  const bool blit = kind == Kind::copy && shader == ShaderShape::none && !sampler.wrap && !sampler.compare;  // may filter
+  if ((sampler.linear || sampler.wrap || sampler.compare) && kind != Kind::sampled && !blit)
     return report(Code::W56, fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name), "linear, wrap and compare for sampled textures");
   if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format)) return formatMisfit("a depth format for compare");
-  if (known && kind == Kind::sampled && sampler.linear && (isInteger(shape.format) || work.use.planes == 2)) return formatMisfit("a format that can be filtered, or no linear");
+  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2)) return formatMisfit("a format that can be filtered, or no linear");
   if (shape.samples > 1 && sampler.linear) return report(Code::W56, fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name), "no linear");
   if (work.array && (kind == Kind::color || kind == Kind::depth))
     return report(Code::W56, fmt::format("{}: '{}' is an array, an attachment is one texture", context.user, entity.name), fmt::format("one element, '{}[0]'", entity.name));

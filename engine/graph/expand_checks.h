@@ -16,8 +16,8 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
 // written at once unless by feedback.
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots);
 
-// What is checked once per stanza: type, keys, slots of fixed types, one namespace for slots, parameters and defines,
-// draw list, geometry, expressions in branches not taken.
+// What is checked once per stanza: type, keys, slots of fixed types, draw list, geometry, cadence, expressions in
+// branches not taken. (That slots, parameters and defines share one namespace is the reader's.)
 bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type, const std::string& declared);
 
 const PassType* findPassType(const Registry& registry, std::string_view name);

@@ -285,6 +285,8 @@ void warnUnread(Model& model) {
       const WriteRecord* overwriter = nullptr;
       for (std::size_t l = r + 1; l < std::min(records.size(), r + 64) && !overwriter; ++l)
         if (const WriteRecord& later = model.writes[records[l]]; later.position > write.position && covers(later, write)) overwriter = &later;
+      // What an included file makes is its interface: leaving some of it unused is no mistake.
+      if (entity.scope->parent && !overwriter) fate.intended = true;
       if (mention != entity.mentions.end() && (!overwriter || *mention <= overwriter->position)) fate.intended = true;
       if (overwriter && (fate.overwriter == kNone || overwriter->pass < fate.overwriter)) fate.overwriter = overwriter->pass;
       if (fate.entity == kNone || index < fate.entity) fate.entity = index;

@@ -74,6 +74,7 @@ struct Entity {
   FlatResource shape;
   Value clear, first;
   std::uint32_t arrayCount = 0;                  // 0: not an array
+  std::uint16_t writtenMips = 1;                 // as the file says, before the clamp to the size
   std::uint32_t depth = 0;                       // of the history
   std::uint32_t import = kNone;                  // index into FlatGraph::imports
   bool exists = true;                            // imports only

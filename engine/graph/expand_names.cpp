@@ -46,7 +46,9 @@ const char* wordFor(const Value& value) {
 std::optional<Value> Names::variable(std::string_view name) {
   const Variable found = findVariable(model_, scope_, name);
   switch (found.kind) {
-    case Variable::Kind::none: return std::nullopt;
+    case Variable::Kind::none:
+      if (isUnread(scope_, name)) return Value{};
+      return std::nullopt;
     case Variable::Kind::parameter: return model_.parameters[found.index].value;
     case Variable::Kind::ambiguous: {
       std::string all;
@@ -92,7 +94,10 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   if (fact == Fact::age) return std::nullopt;
   std::uint32_t index = findEntity(model_, scope_, resource, false);
   if (index == kNone) index = findEntity(model_, scope_, resource, true);
-  if (index == kNone) return std::nullopt;
+  if (index == kNone) {
+    if (isUnread(scope_, resource)) return Value{};
+    return std::nullopt;
+  }
   const std::string asked = model_.entities[index].name;
   std::uint32_t mip = 0;
   // An import answers for itself even when it has nothing: count() of no lights is 0.

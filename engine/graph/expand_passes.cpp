@@ -128,30 +128,20 @@ class PassWalk {
 
     std::vector<SlotWork> slots;
     slots.reserve(desc_->slots.size());
-    bool nothing = false;
+    const SlotDesc* gone = nullptr;
     for (const SlotDesc& slot : desc_->slots) {
       slots.push_back(resolveSlot(context, slot, enabled ? pass : kNone));
-      nothing = nothing || (slots.back().state == State::empty && slot.access != Access::read);
+      if (slots.back().state == State::empty && !gone) gone = &slot;
     }
-    for (SlotWork& work : slots)
-      if (work.state == State::empty && work.slot->access == Access::read && !nothing && context.ranges) reportEmptyRead(context, work);
     checkPassUses(context, *desc_, slots);
     if (!why->empty()) {
       disabledInstance(context, slots, name, *why);
-    } else if (nothing) {
-      graph_.disabled.push_back({name, "it writes an open span of levels with nothing in it"});
+    } else if (gone) {
+      disabledInstance(context, slots, name, fmt::format("'{}' is not there at this size", gone->ref.text));
     } else if (enabled) {
       emit(context, slots, names);
     }
     if (model_.diagnostics.errorCount() > before) failed_ = true;  // the other repeats would say the same
-  }
-
-  void reportEmptyRead(const SlotContext& context, const SlotWork& work) {
-    const Entity& entity = model_.entities[work.entity];
-    auto& d = model_.diagnostics.error(Code::W52, work.slot->ref.place, fmt::format("{} reads '{}', a span with nothing in it", context.user, work.slot->ref.text));
-    d.pass = context.pass;
-    d.resource = entity.name;
-    d.hint = fmt::format("'{}' has {} levels and {} layers here", entity.name, entity.shape.mips, entity.shape.layers);
   }
 
   void disabledInstance(const SlotContext& context, const std::vector<SlotWork>& slots, const std::string& name, const std::string& why) {

@@ -75,13 +75,6 @@ bool decideTarget(Model& model, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   FlatResource& shape = entity.shape;
   const bool volume = shape.target == Target::texture_3d, layered = desc.layers.present();
-  static const std::vector<std::string> kViews = {"2d", "2d_array", "cube", "cube_array", "3d"};
-  if (!desc.view.empty() && std::find(kViews.begin(), kViews.end(), desc.view) == kViews.end()) {
-    auto& d = model.diagnostics.error(Code::W82, desc.viewPlace, fmt::format("texture '{}' has the unknown view '{}'", entity.name, desc.view));
-    d.resource = entity.name;
-    d.hint = base::nearestHint(desc.view, kViews);
-    return false;
-  }
   if (!desc.view.empty() && volume != (desc.view == "3d"))
     return contradiction(model, entity, desc.viewPlace, fmt::format("view '{}' with a size of {} numbers", desc.view, volume ? 3 : 2), "3 numbers for a 3d texture, 2 for the others");
   if (volume && layered) return contradiction(model, entity, desc.layers.place(), "a 3d texture has no layers", "a size of 3 numbers, or layers");
@@ -90,7 +83,6 @@ bool decideTarget(Model& model, Entity& entity) {
     return contradiction(model, entity, desc.size.place(), fmt::format("a cube of {}x{} texels", shape.width, shape.height), "faces as wide as high");
   if (desc.view == "cube" && shape.layers > 1)
     return contradiction(model, entity, desc.layers.place(), fmt::format("a cube with {} layers", shape.layers), "\"view\": \"cube_array\"");
-  if (desc.view == "2d" && layered) return contradiction(model, entity, desc.layers.place(), "view '2d' with layers", "\"view\": \"2d_array\"");
   if (shape.samples > 1) {
     if (volume || layered || cube || desc.view == "2d_array")
       return contradiction(model, entity, desc.samples.place(), "several samples in a texture that is not plain 2d", "no layers, cube or 3d");
@@ -135,6 +127,7 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   std::uint16_t full = 1;
   for (std::uint32_t side = std::max({shape.width, shape.height, shape.depth}); side > 1; side /= 2) ++full;
   shape.mips = desc.fullMips ? full : static_cast<std::uint16_t>(std::min<std::int64_t>(*mips, full));
+  entity.writtenMips = desc.fullMips ? full : static_cast<std::uint16_t>(*mips);
   if (!decideTarget(model, entity)) return false;
   for (std::uint16_t level = 0; level < shape.mips; ++level)
     shape.bytes += static_cast<std::uint64_t>(std::max(1u, shape.width >> level)) * std::max(1u, shape.height >> level) *

@@ -16,7 +16,6 @@ std::uint32_t addParameter(Model& model, const ParameterDesc& desc, std::string 
   const auto index = static_cast<std::uint32_t>(model.parameters.size());
   model.parametersByLeaf[desc.name].push_back(index);
   model.parameters.push_back({&desc, std::move(path), desc.initial, false});
-  checkParameterValue(model, model.parameters.back(), desc.initial, desc.place, "its default");
   return index;
 }
 
@@ -54,11 +53,6 @@ void buildScope(Model& model, Scope& scope) {
   for (const ParameterDesc& parameter : desc.parameters)
     scope.parameters.try_emplace(parameter.name, addParameter(model, parameter, scope.prefix + parameter.name));
   for (const NamedExpr& let : desc.lets) {
-    if (scope.parameters.contains(let.name)) {
-      auto& d = model.diagnostics.error(Code::W49, let.place, fmt::format("'{}' is a parameter and a let", let.name));
-      d.hint = "rename one of them: both are written $" + let.name;
-      continue;
-    }
     scope.lets.try_emplace(let.name, static_cast<std::uint32_t>(model.lets.size()));
     Let& made = model.lets.emplace_back();
     made.desc = &let;
@@ -228,11 +222,29 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
   return names;
 }
 
+bool isUnread(const Scope& from, std::string_view name) {
+  const std::string_view leaf = name.substr(name.rfind('.') + 1);
+  const auto holds = [&](const Scope& scope) {
+    const auto& unread = scope.desc->unread;
+    return std::find(unread.begin(), unread.end(), leaf) != unread.end();
+  };
+  for (const Scope* scope = &from; scope; scope = scope->parent)
+    if (holds(*scope)) return true;
+  if (name.find('.') == std::string_view::npos) return false;
+  // A name into an include that could not be read, or that left the resource out.
+  const auto child = from.includes.find(name.substr(0, name.find('.')));
+  if (child != from.includes.end()) return isUnread(*child->second, name.substr(name.find('.') + 1));
+  for (const PassDesc& pass : from.desc->passes)
+    if (pass.include && !pass.include->graph && name.starts_with(pass.include->as + ".")) return true;
+  return false;
+}
+
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import, const Place& place,
                                  std::string_view user) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
+  if (isUnread(scope, name)) return kNone;  // the reader reported its declaration
   // An input with nothing behind it was reported where it stands.
   if (!import && scope.resources.contains(name)) return kNone;
   if (import) {

@@ -13,7 +13,7 @@
 
 namespace weft::graph::expansion {
 
-// Fills scopes, parameters (with their defaults, checked), lets and entities.
+// Fills scopes, parameters with their defaults (the reader has checked those), lets and entities.
 void buildScopes(Model& model);
 
 // The entity a name stands for, with inputs followed; kNone when there is none (nothing is reported) or when an input
@@ -22,6 +22,8 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 // The same, and reports W040 or W043 with the nearest name at `place`.
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import, const Place& place,
                                  std::string_view user);
+// True when the reader reported the declaration of this name and left it out: a use of it is no second mistake.
+bool isUnread(const Scope& from, std::string_view name);
 // The import type's entity with default arguments; kNone when there is no such type.
 std::uint32_t implicitImport(Model& model, std::string_view type);
 

@@ -1,5 +1,5 @@
 // --set and --disable: finds the parameter or pass a name means (the full dotted name, else the only one that ends in
-// it) and parses and checks values. Also checks the defaults of parameters by the same rules.
+// it) and parses and checks values. The defaults of parameters were checked by the reader.
 #pragma once
 
 #include "engine/graph/expand_model.h"

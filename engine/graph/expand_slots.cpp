@@ -70,30 +70,27 @@ bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity
   return false;
 }
 
-// Fills open ends and holds a span against `count`. False after a report; `empty` for `n..` of n levels.
+// Fills open ends and holds a span against `count`. `written` is what the file says: levels between the two were taken
+// away by the clamp to the size. False after a report; `empty` when nothing of the span is there.
 bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity, const char* word, std::int64_t count,
-               const Selection::Span& span, std::int64_t& first, std::int64_t& size, bool& empty) {
+               std::int64_t written, const Selection::Span& span, std::int64_t& first, std::int64_t& size, bool& empty) {
   first = span.openFirst ? 0 : span.first;
-  const std::int64_t last = span.openLast ? count - 1 : span.last;
+  std::int64_t last = span.openLast ? count - 1 : span.last;
+  const bool clamped = first >= 0 && first < written && last >= first && last < written;
+  if (clamped) last = std::min(last, count - 1);
   size = last - first + 1;
-  if (span.openLast && first == count) {
+  const bool nothingLeft = clamped ? first >= count : span.openLast && first >= count && first <= std::max(count, written);
+  if (nothingLeft || (!context.ranges && (first < 0 || last >= count || size < 1))) {
     empty = true;
     first = 0;
     size = 1;
     return true;
   }
   if (first >= 0 && last < count && size >= 1) return true;
-  if (!context.ranges) {
-    empty = true;
-    first = 0;
-    size = 1;
-    return true;
-  }
   auto& d = report(context, Code::W52, span.place.line ? span.place : ref.place, fmt::format("{} uses {} {} of '{}', which is not there", context.user, word, first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last), entity.name), entity.name);
   d.expected = count == 1 ? fmt::format("{} 0, the only one", word) : fmt::format("{} 0 to {}", word, count - 1);
   d.found = ref.text;
-  if (std::string_view(word) == "level" && entity.desc && entity.desc->mips.present())
-    d.hint = fmt::format("levels are clamped to the size, {} at {}x{}; write bounds with mips({})", count, entity.shape.width, entity.shape.height, ref.name);
+  if (std::string_view(word) == "level") d.hint = fmt::format("\"mips\" says how many levels there are; bounds can be written with mips({})", ref.name);
   return false;
 }
 
@@ -147,11 +144,11 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
 
   bool empty = false;
   std::int64_t mip = 0, mips = shape.mips, layer = 0, layers = cube ? shape.layers / 6 : shape.layers;
-  if (selection.mip && !closeSpan(context, ref, entity, "level", shape.mips, *selection.mip, mip, mips, empty)) return false;
-  if (selection.layer && !closeSpan(context, ref, entity, "layer", layers, *selection.layer, layer, layers, empty)) return false;
+  if (selection.mip && !closeSpan(context, ref, entity, "level", shape.mips, entity.writtenMips, *selection.mip, mip, mips, empty)) return false;
+  if (selection.layer && !closeSpan(context, ref, entity, "layer", layers, layers, *selection.layer, layer, layers, empty)) return false;
   if (cube) {
     std::int64_t face = 0, faces = 6;
-    if (selection.face && !closeSpan(context, ref, entity, "face", 6, *selection.face, face, faces, empty)) return false;
+    if (selection.face && !closeSpan(context, ref, entity, "face", 6, 6, *selection.face, face, faces, empty)) return false;
     if (faces < 6 && layers > 1) return selectorMisfit(context, ref, entity, fmt::format("faces of several cubes of '{}' are not next to each other", entity.name));
     layer = layer * 6 + face;
     layers = faces < 6 ? faces : layers * 6;
@@ -162,7 +159,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   if (selection.element) {
     Selection::Span span{*selection.element, *selection.element, false, false, selection.elementPlace};
     std::int64_t first = 0, size = 0;
-    if (!closeSpan(context, ref, entity, "element", entity.arrayCount, span, first, size, empty)) return false;
+    if (!closeSpan(context, ref, entity, "element", entity.arrayCount, entity.arrayCount, span, first, size, empty)) return false;
     work.firstElement = static_cast<std::uint32_t>(first);
     work.elementCount = 1;
   }
@@ -277,7 +274,10 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
       }
       return work;
     }
-    if (candidate.state == State::empty) return candidate;
+    if (candidate.state == State::empty) {
+      if (ref.optional) candidate.state = State::absent;
+      return candidate;
+    }
     candidate.use.history = static_cast<std::uint8_t>(ref.history);
     if (!looksForVersions) return candidate;
     bool complete = true, real = false;

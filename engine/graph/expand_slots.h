@@ -35,7 +35,7 @@ struct SlotWork {
     connected,
     absent,    // condition false, or optional without a version
     missing,   // required, but nothing is there: a MissingRead was recorded or will be
-    empty,     // an open span past the last level: there is nothing to touch
+    empty,     // levels that the clamp to the size took away, or `1..` of one level: the pass is left out
     failed     // reported
   };
   const SlotDesc* slot = nullptr;
@@ -60,8 +60,8 @@ struct SlotContext {
 // All concrete candidates of a reference whose conditions hold, in order. False after a report.
 bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer, std::vector<Leaf>& leaves);
 
-// The selected rectangle of a leaf, checked. `work` gets entity, elements, use (without kind), whole and state `empty`
-// when an open span has nothing left. False after a report.
+// The selected rectangle of a leaf, checked. `work` gets entity, elements, use (without kind), whole, and the state
+// `empty` when none of the levels is there at this size. False after a report.
 bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, SlotWork& work);
 
 // Resolves one slot. Reads and modifies look for versions; a required slot without one is recorded in model.missing

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand_checks.h"
@@ -90,20 +89,6 @@ void checkFixedSlots(const Stanza& stanza) {
       stanza.error(Code::W66, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name)).expected = fmt::format("\"{}\": {{ \"{}\": … }}", wordFor(slot.access), slot.name);
 }
 
-// Slots, parameters and defines share one namespace.
-void checkNames(const Stanza& stanza) {
-  std::map<std::string_view, const char*> seen;
-  const auto add = [&](const std::string& name, const Place& place, const char* what) {
-    const auto [at, fresh] = seen.try_emplace(name, what);
-    if (fresh) return;
-    auto& d = stanza.error(Code::W49, place, fmt::format("uses the name '{}' twice: for a {} and a {}", name, at->second, what));
-    d.hint = "slots, parameters and defines of a pass share one namespace: they are one shader's names";
-  };
-  for (const SlotDesc& slot : stanza.desc.slots) add(slot.name, slot.place, slot.access == Access::read ? "read slot" : slot.access == Access::write ? "write slot" : "modify slot");
-  for (const PassParameterDesc& parameter : stanza.desc.parameters) add(parameter.name, parameter.place, "parameter");
-  for (const NamedExpr& define : stanza.desc.defines) add(define.name, define.place, "define");
-}
-
 void checkReference(const Stanza& stanza, const RefDesc& ref) {
   checkExpr(stanza.model, stanza.scope, ref.condition);
   if (ref.element) checkExpr(stanza.model, stanza.scope, *ref.element);
@@ -151,13 +136,6 @@ void checkCadence(const Stanza& stanza) {
     }
 }
 
-void checkIndices(const Stanza& stanza) {
-  for (std::size_t i = 0; i < stanza.desc.repeat.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (stanza.desc.repeat[i].index == stanza.desc.repeat[j].index)
-        stanza.error(Code::W49, stanza.desc.repeat[i].place, fmt::format("repeats over two indices called '{}'", stanza.desc.repeat[i].index));
-}
-
 }  // namespace
 
 bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type, const std::string& declared) {
@@ -172,8 +150,6 @@ bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassTyp
     for (const PassType& known : model.registry.passTypes) types.push_back(known.name);
     stanza.error(Code::W41, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type)).hint = base::nearestHint(desc.type, types);
   }
-  checkNames(stanza);
-  checkIndices(stanza);
   checkExpressions(stanza);
   checkCadence(stanza);
   return model.diagnostics.errorCount() == before;

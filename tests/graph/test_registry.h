@@ -1,0 +1,97 @@
+// The pass types and imports that graph tests expand against: what engine/passes and engine/runtime reflect, without
+// either. The world behind the imports is a few settable facts.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/graph/registry.h"
+
+namespace weft::graph::test {
+
+struct World {
+  bool environment = true, sun = true;
+  double spheres = 100, pointLights = 8, shadowedLights = 2;
+};
+
+inline std::vector<PassType> testPassTypes() {
+  return {
+      {.name = "fullscreen", .doc = "one triangle", .shader = ShaderShape::fragment, .keys = {"state", "view", "feedback"}, .fixedSlots = {}},
+      {.name = "compute", .doc = "a compute shader", .shader = ShaderShape::compute, .defaultWriteTexture = Kind::image, .keys = {"threads", "view"}, .fixedSlots = {}},
+      {.name = "draw", .doc = "a draw list", .shader = ShaderShape::draw, .keys = {"list", "geometry", "instances", "view", "state", "feedback"}, .fixedSlots = {}},
+      {.name = "blit", .doc = "copies", .shader = ShaderShape::none, .defaultReadTexture = Kind::copy, .defaultWriteTexture = Kind::copy, .keys = {},
+       .fixedSlots = {{"source", Access::read, ""}, {"destination", Access::write, ""}}},
+      {.name = "mipmap", .doc = "fills levels", .shader = ShaderShape::none, .defaultReadTexture = Kind::copy, .defaultWriteTexture = Kind::copy, .keys = {},
+       .fixedSlots = {{"source", Access::read, ""}, {"result", Access::write, ""}}},
+  };
+}
+
+inline ImportArgument argument(const char* name, Value initial, std::vector<std::string> choices = {}) {
+  return {name, std::move(initial), std::move(choices), ""};
+}
+
+inline std::vector<ImportType> testImports() {
+  Value grid;
+  grid.type = Value::Type::list;
+  grid.count = 3;
+  grid.v = {21, 21, 3, 0};
+  return {
+      {"environment", ImportKind::texture, "", {}},
+      {"camera", ImportKind::view, "", {argument("jitter", Value::number(0))}},
+      {"cut", ImportKind::event, "", {}},
+      {"spheres", ImportKind::buffer, "", {}},
+      {"sun", ImportKind::view, "", {}},
+      {"point_lights", ImportKind::list, "", {}},
+      {"shadowed_lights", ImportKind::view, "", {}},
+      {"draw_order", ImportKind::buffer, "",
+       {argument("list", Value::text("spheres")), argument("by", Value::text("depth"), {"depth"}),
+        argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"})}},
+      {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
+      {"probes", ImportKind::buffer, "",
+       {argument("list", Value::text("spheres")), argument("grid", grid), argument("near", Value::number(1)), argument("far", Value::number(3)),
+        argument("lobe", Value::text("cap"), {"cap", "point"})}},
+      {"screen_view", ImportKind::view, "", {}},
+  };
+}
+
+inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
+  ImportFacts facts;
+  facts.exists = true;
+  if (request.type == "environment") {
+    facts.exists = world.environment;
+    facts.format = Format::rgba16f;
+    facts.width = 2048;
+    facts.height = 1024;
+    facts.mips = 12;
+  } else if (request.type == "cube_lut") {
+    facts.exists = !request.arguments[0].second.symbol.empty();
+    facts.format = Format::rgba16f;
+    facts.width = facts.height = facts.depth = 33;
+  } else if (request.type == "spheres") {
+    facts.count = world.spheres;
+    facts.bytes = 4800;
+  } else if (request.type == "draw_order") {
+    facts.count = world.spheres;
+    facts.bytes = 800;
+  } else if (request.type == "sun") {
+    facts.exists = world.sun;
+    facts.count = 1;
+  } else if (request.type == "point_lights") {
+    facts.count = world.pointLights;
+  } else if (request.type == "shadowed_lights") {
+    facts.exists = world.shadowedLights > 0;
+    facts.count = world.shadowedLights;
+  }
+  return facts;
+}
+
+inline Registry testRegistry(const World& world = {}) {
+  Registry registry;
+  registry.passTypes = testPassTypes();
+  registry.imports = testImports();
+  registry.drawLists = {"spheres", "opaque", "shadow_casters", "transparent_spheres", "ui"};
+  registry.geometries = {"quad", "icosphere", "mesh", "triangle"};
+  registry.factsOf = [world](const ImportRequest& request) { return testFacts(world, request); };
+  return registry;
+}
+
+}  // namespace weft::graph::test
