@@ -83,6 +83,13 @@ namespace weft::base {
   X(90,  "culled: output overwritten")                                    \
   X(91,  "culled: output never read")                                     \
   X(92,  "nothing is presented")                                          \
+  X(93,  "not a workload file")                                           \
+  X(94,  "unknown texture in a workload")                                 \
+  X(95,  "unknown format in a workload")                                  \
+  X(96,  "duplicate name in a flat graph")                                \
+  X(97,  "read before write in a flat graph")                             \
+  X(98,  "sub-resource touched twice by one pass")                        \
+  X(99,  "use outside its resource")                                      \
   /* shaders and GL */                                                    \
   X(100, "shader file cannot be read")                                    \
   X(101, "included file not found")                                       \
