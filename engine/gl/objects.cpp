@@ -78,11 +78,11 @@ std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std:
   GLuint id = 0;
   glCreateBuffers(1, &id);
   Buffer buffer(id);
+  // workarounds.h: storage-flag-without-storage. Errors from before are in the debug log and would be taken for ours.
+  takeErrors();
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), data, flags);
-  GLint stored = 0;
-  glGetNamedBufferParameteriv(id, GL_BUFFER_IMMUTABLE_STORAGE, &stored);
-  if (!stored) {
-    diagnostics.error(base::Code::W117, {}, fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, takeErrors()))
+  if (const std::string errors = takeErrors(); !errors.empty()) {
+    diagnostics.error(base::Code::W117, {}, fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, errors))
         .resource = label;
     return std::nullopt;
   }
