@@ -327,17 +327,25 @@ class Evaluator {
 
   Value noResult(const ExprNode& node, const Value& left, const Value& right, bool binary) {
     const char* spelling = infoOf(node.op).spelling;
-    std::string message;
-    if ((node.op == ExprOp::divide || node.op == ExprOp::modulo) &&
-        std::find(right.v.begin(), right.v.begin() + right.count, 0.0) != right.v.begin() + right.count)
+    const bool divides = node.op == ExprOp::divide || node.op == ExprOp::modulo;
+    std::string message = fmt::format("'{}' has no finite result", spelling);
+    std::string expected = "a result that a double can hold", hint;
+    if (divides &&
+        std::find(right.v.begin(), right.v.begin() + right.count, 0.0) != right.v.begin() + right.count) {
       message = fmt::format("'{}' divides by zero", spelling);
-    else if (node.op == ExprOp::log2ceil)
+      expected = "a divisor that is not zero";
+      hint = "guard it: 'b == 0 ? 0 : a / b'";
+    } else if (node.op == ExprOp::log2ceil) {
       message = fmt::format("log2ceil() of {}, which is not above zero", toText(left));
-    else
-      message = fmt::format("'{}' has no finite result", spelling);
-    if (base::Diagnostic* d = error(Code::W24, node, std::move(message)))
+      expected = "a number above zero";
+      hint = "guard it: 'n > 0 ? log2ceil(n) : 0'";
+    }
+    if (base::Diagnostic* d = error(Code::W24, node, std::move(message))) {
+      d->expected = std::move(expected);
       d->found = binary ? fmt::format("{} {} {}", toText(left), spelling, toText(right))
                         : fmt::format("{}({})", spelling, toText(left));
+      d->hint = std::move(hint);
+    }
     return {};
   }
 
@@ -390,7 +398,8 @@ bool isConstantNumeric(const ExprPtr& node) {
   return node->op == ExprOp::constant && node->value.isNumeric();
 }
 
-// `node` with every variable that the scope answers with a folded tree replaced by that tree; null after an error.
+// `node` with every variable that the scope answers with a folded tree replaced by that tree; null after an
+// error.
 ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
   if (node->op == ExprOp::variable) {
     const Expr* folded = scope.folded(node->name);
@@ -408,7 +417,8 @@ ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& dia
   if (!changed) return node;
   const int height = heightOver(children);
   if (height > kMaxExprHeight) {
-    diagnostics.error(Code::W20, node->place, "the expression and the \"let\" it uses chain too many operators");
+    diagnostics.error(Code::W20, node->place,
+                      "the expression and the \"let\" it uses chain too many operators");
     return nullptr;
   }
   auto copy = std::make_shared<ExprNode>(*node);

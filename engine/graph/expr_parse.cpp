@@ -76,23 +76,25 @@ class Parser {
     return place;
   }
 
-  ExprPtr fail(const Token& token, std::string message, std::string hint = {}) {
+  ExprPtr fail(const Token& token, std::string message, std::string hint = {}, std::string expected = {}) {
     auto& diagnostic = diagnostics_.error(base::Code::W20, placeOf(token), std::move(message));
     diagnostic.found = fmt::format("\"{}\"", text_);
     diagnostic.hint = std::move(hint);
+    diagnostic.expected = std::move(expected);
     return nullptr;
   }
 
   ExprPtr failUnexpected(const char* expected) {
     if (token_.kind == Token::Kind::end)
-      return fail(token_, fmt::format("the expression ends where {} is expected", expected));
+      return fail(token_, fmt::format("the expression ends where {} is expected", expected), "", expected);
     std::string hint;
     if (token_.text == "and" || token_.text == "&") hint = "write '&&'";
     if (token_.text == "or" || token_.text == "|") hint = "write '||'";
     if (token_.text == "not") hint = "write '!'";
     if (token_.text == "=") hint = "write '==' to compare";
     if (token_.text == ":") hint = "a ':' belongs to 'condition ? a : b'";
-    return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected), hint);
+    return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected), hint,
+                expected);
   }
 
   // ---- lexer ----

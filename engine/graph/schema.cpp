@@ -1,0 +1,113 @@
+#include "engine/graph/schema.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/graph/format.h"
+#include "engine/graph/keys.h"
+
+namespace weft::graph {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json reference(std::string_view name) {
+  return Json{{"$ref", "#/$defs/" + std::string(name)}};
+}
+
+template <class Words>
+Json enumOf(const Words& words) {
+  Json list = Json::array();
+  for (const auto& word : words) list.push_back(std::string(word));
+  return Json{{"enum", list}};
+}
+
+// The schema of one value; the tables' texts are constants of this program and well formed.
+Json shapeOf(const KeySpec& spec) {
+  Json shape = spec.schema[0] == '@' ? reference(spec.schema.substr(1)) : Json::parse(spec.schema);
+  shape["description"] = std::string(spec.doc);
+  return shape;
+}
+
+Json objectOf(std::span<const KeySpec> keys, const char* description, bool closed = true) {
+  Json properties = Json::object(), required = Json::array();
+  for (const KeySpec& spec : keys) {
+    properties[std::string(spec.key)] = shapeOf(spec);
+    if (spec.required) required.push_back(std::string(spec.key));
+  }
+  Json object = {{"description", description}, {"type", "object"}, {"properties", properties}};
+  if (!required.empty()) object["required"] = required;
+  if (closed)
+    object["additionalProperties"] = false;
+  else
+    object["additionalProperties"] = reference("value");
+  return object;
+}
+
+Json namedBy(std::string_view shape, const char* description) {
+  return {{"description", description},
+          {"type", "object"},
+          {"propertyNames", reference("name")},
+          {"additionalProperties", reference(shape)}};
+}
+
+Json definitions() {
+  Json defs;
+  defs["name"] = {{"description", "letters, digits and '_'; not mip, layer, face, stencil, x, y, z, w"},
+                  {"type", "string"},
+                  {"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"},
+                  {"not", {{"enum", {"mip", "layer", "face", "stencil", "x", "y", "z", "w"}}}}};
+  const Json item = {{"type", {"number", "boolean", "string"}}};
+  defs["value"] = {
+      {"description", "a number, a boolean, a list of 1 to 4 numbers, or a string that holds an expression"},
+      {"anyOf",
+       {Json{{"type", {"number", "boolean", "string"}}},
+        Json{{"type", "array"}, {"items", item}, {"minItems", 1}, {"maxItems", 4}}}}};
+  defs["reference"] = {
+      {"description", "name{.mip[..]|.layer[..]|.face[..]|[k]|.stencil} @-n as words if condition ?"},
+      {"type", "string"},
+      {"minLength", 1}};
+  defs["slots"] = namedBy(
+      "reference", "references, by the names the shader gives its samplers, images, blocks and outputs");
+  defs["resets"] = {
+      {"anyOf", {Json{{"type", "string"}}, Json{{"type", "array"}, {"items", {{"type", "string"}}}}}}};
+  const Json bound = {{"type", {"number", "string"}}};
+  defs["ranges"] = {
+      {"description", "\"index\": [first, last] or [first, last, step]"},
+      {"type", "object"},
+      {"minProperties", 1},
+      {"propertyNames", reference("name")},
+      {"additionalProperties", {{"type", "array"}, {"items", bound}, {"minItems", 2}, {"maxItems", 3}}}};
+  defs["format"] = enumOf(formatNames());
+  defs["view"] = enumOf(kViewWords);
+  defs["parameterType"] = enumOf(kParameterTypes);
+  defs["parameter"] = objectOf(kParameterKeys, "something a person may change");
+  defs["texture"] = objectOf(kTextureKeys, "a texture");
+  defs["buffer"] = objectOf(kBufferKeys, "a buffer");
+  defs["import"] = objectOf(kImportKeys, "something the program provides; other keys are arguments", false);
+  defs["input"] = objectOf(kInputKeys, "something the including file provides");
+  defs["resource"] = {
+      {"anyOf",
+       {reference("texture"), reference("buffer"), reference("import"), reference("input"),
+        reference("reference"),
+        Json{{"description", "alternatives: the first whose condition holds and which has a version"},
+             {"type", "array"},
+             {"items", reference("reference")},
+             {"minItems", 1}}}}};
+  defs["state"] = objectOf(kStateKeys, "fixed-function state");
+  defs["pass"] = objectOf(kPassKeys, "a pass");
+  defs["include"] = objectOf(kIncludeKeys, "the passes of another file, under a prefix");
+  return defs;
+}
+
+}  // namespace
+
+std::string graphSchema() {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Weft graph"}};
+  schema.update(objectOf(
+      kGraphKeys, "A frame: resources, passes, and which pass reads and writes what. Comments are allowed."));
+  schema["$defs"] = definitions();
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace weft::graph
