@@ -17,7 +17,7 @@ ROOMS = {
 # Third-party headers by prefix, and the rooms that may name them (directly).
 OUTSIDE = {
     "fmt/": set(ROOMS),
-    "nlohmann/": {"graph", "assets", "scene", "app"},
+    "nlohmann/": {"base", "graph", "assets", "scene", "app"},
     "glad/": {"gl", "passes", "runtime"},
     "EGL/": {"gl"},
     "GL/": {"gl"},

@@ -5,20 +5,14 @@
 #include <array>
 #include <string_view>
 
+#include "engine/base/chars.h"
+
 namespace weft::graph {
 
-constexpr bool isSpace(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-constexpr bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
-constexpr bool isIdentStart(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-constexpr bool isIdentChar(char c) {
-  return isIdentStart(c) || isDigit(c);
-}
+using base::isDigit;
+using base::isIdentChar;
+using base::isIdentStart;
+using base::isSpace;
 
 constexpr bool isIdent(std::string_view text) {
   return !text.empty() && isIdentStart(text[0]) && std::all_of(text.begin(), text.end(), isIdentChar);

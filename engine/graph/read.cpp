@@ -7,7 +7,6 @@
 #include <map>
 
 #include "engine/base/file.h"
-#include "engine/graph/json_dom.h"
 #include "engine/graph/read_context.h"
 
 namespace weft::graph {

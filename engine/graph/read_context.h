@@ -9,11 +9,14 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "engine/base/json_dom.h"
 #include "engine/graph/desc.h"
-#include "engine/graph/json_dom.h"
 #include "engine/graph/keys.h"
 
 namespace weft::graph {
+
+using base::JsonMember;
+using base::JsonValue;
 
 class ReadContext {
  public:

@@ -32,9 +32,9 @@ struct CameraKey {
 // vertical axis through the target. At most one of the two (the scene file says so when both are given).
 struct Camera {
   std::string name;
-  CameraPose pose;                  // at time 0, without a path
+  CameraPose pose{};                // at time 0, without a path
   double orbitDegreesPerSecond = 0; // positive is counter-clockwise seen from above (+Z towards +X)
-  std::vector<CameraKey> path;      // linear in between, held before the first and after the last
+  std::vector<CameraKey> path{};    // linear in between, held before the first and after the last
 };
 
 CameraPose poseAt(const Camera& camera, double time);

@@ -1,12 +1,10 @@
-#include "engine/graph/json_dom.h"
+#include "engine/base/json_dom.h"
 
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
 
-using namespace weft::graph;
-using weft::base::Code;
-using weft::base::Diagnostics;
+using namespace weft::base;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "engine/graph/json_dom.h"
+#include "engine/base/json_dom.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "engine/graph/json_errors.h"
-#include "engine/graph/names.h"
+#include "engine/base/json_errors.h"
+#include "engine/base/chars.h"
 
-namespace weft::graph {
+namespace weft::base {
 
 namespace {
 
@@ -57,7 +57,7 @@ constexpr bool isNumberChar(char c) {
 // reported.
 class Builder {
  public:
-  Builder(const JsonText& text, const std::size_t& consumed, base::Diagnostics& diagnostics)
+  Builder(const JsonText& text, const std::size_t& consumed, Diagnostics& diagnostics)
       : text_(text), consumed_(consumed), diagnostics_(diagnostics) {}
 
   JsonValue takeRoot() { return std::move(root_); }
@@ -124,11 +124,11 @@ class Builder {
   }
 
   JsonValue* addMember(JsonValue& object) {
-    const base::Place place = text_.placeOf(keyOffset_);
+    const Place place = text_.placeOf(keyOffset_);
     const std::string pointer = object.pointer + escapePointer(key_);
     const auto [before, fresh] = keys_.back().try_emplace(key_, place);
     if (!fresh) {
-      auto& d = diagnostics_.error(base::Code::W6, place,
+      auto& d = diagnostics_.error(Code::W6, place,
                                    fmt::format("the key \"{}\" appears twice in one object", key_));
       d.pointer = pointer;
       d.hint =
@@ -147,9 +147,9 @@ class Builder {
     const std::size_t offset = consumed_ - 1;
     if (open_.size() >= kMaxJsonDepth) {
       diagnostics_
-          .error(base::Code::W7, text_.placeOf(offset),
+          .error(Code::W7, text_.placeOf(offset),
                  fmt::format("objects and arrays are nested more than {} levels deep", kMaxJsonDepth))
-          .hint = "a graph needs eight levels at most; look for a bracket that is never closed";
+          .hint = "look for a bracket that is never closed";
       return false;
     }
     open_.push_back(add(type, offset));
@@ -165,11 +165,11 @@ class Builder {
 
   const JsonText& text_;
   const std::size_t& consumed_;
-  base::Diagnostics& diagnostics_;
+  Diagnostics& diagnostics_;
   JsonValue root_;
   std::vector<JsonValue*>
       open_;  // ancestors; each is the last child of the one before, so none of them moves
-  std::vector<std::unordered_map<std::string, base::Place>>
+  std::vector<std::unordered_map<std::string, Place>>
       keys_;  // parallel to open_: where each key first stood
   std::vector<std::unique_ptr<JsonValue>> dropped_;
   std::string key_;
@@ -184,14 +184,14 @@ const JsonValue* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
-base::Place JsonValue::textPlace() const {
-  base::Place inner = place;
+Place JsonValue::textPlace() const {
+  Place inner = place;
   ++inner.column;
   return inner;
 }
 
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                   base::Diagnostics& diagnostics) {
+                                   Diagnostics& diagnostics) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   const JsonText positions(text, file);
   if (!reportUnreadable(positions, diagnostics)) return std::nullopt;
@@ -228,4 +228,4 @@ std::string describe(const JsonValue& value) {
   }
 }
 
-}  // namespace weft::graph
+}  // namespace weft::base

@@ -10,7 +10,7 @@
 
 #include "engine/base/diagnostic.h"
 
-namespace weft::graph {
+namespace weft::base {
 
 // The text of a file and where its lines begin.
 class JsonText {
@@ -19,7 +19,7 @@ class JsonText {
 
   std::string_view text() const { return text_; }
   char at(std::size_t offset) const { return text_[offset]; }
-  base::Place placeOf(std::size_t offset) const;
+  Place placeOf(std::size_t offset) const;
   // The offset of the opening quote of the string whose closing quote stands just before `end`; also for a
   // string that is still open at `end`. Every quote inside a string has an odd number of backslashes before
   // it, no other has.
@@ -34,16 +34,16 @@ class JsonText {
 // The innermost object or array that is open where the error is.
 struct JsonOpening {
   bool object = false;
-  base::Place place;
+  Place place;
 };
 
 // False, with a diagnostic, for an empty file and for zero bytes (which nlohmann's lexer takes for the end).
-bool reportUnreadable(const JsonText& text, base::Diagnostics& diagnostics);
+bool reportUnreadable(const JsonText& text, Diagnostics& diagnostics);
 
 // `consumed`: characters read when the error was found; `token`: the text of a number (for other tokens the
 // lexer does not keep it apart from what came before); `what`: nlohmann's message; `key`: the last key read.
 void reportJsonError(const JsonText& text, std::size_t consumed, const std::string& token,
                      std::string_view what, const std::optional<JsonOpening>& inside, const std::string& key,
-                     base::Diagnostics& diagnostics);
+                     Diagnostics& diagnostics);
 
-}  // namespace weft::graph
+}  // namespace weft::base

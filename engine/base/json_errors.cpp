@@ -1,12 +1,12 @@
-#include "engine/graph/json_errors.h"
+#include "engine/base/json_errors.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "engine/graph/names.h"
+#include "engine/base/chars.h"
 
-namespace weft::graph {
+namespace weft::base {
 
 JsonText::JsonText(std::string_view text, std::shared_ptr<const std::string> file)
     : text_(text), file_(std::move(file)), lines_{0} {
@@ -14,7 +14,7 @@ JsonText::JsonText(std::string_view text, std::shared_ptr<const std::string> fil
     if (text_[i] == '\n') lines_.push_back(i + 1);
 }
 
-base::Place JsonText::placeOf(std::size_t offset) const {
+Place JsonText::placeOf(std::size_t offset) const {
   const auto next = std::upper_bound(lines_.begin(), lines_.end(), offset);
   const auto line = static_cast<std::size_t>(next - lines_.begin());
   return {file_, static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(offset - *(next - 1) + 1)};
@@ -36,12 +36,10 @@ std::size_t JsonText::startOfString(std::size_t end) const {
 
 namespace {
 
-using base::Code;
-
 class Reporter {
  public:
   Reporter(const JsonText& text, std::size_t consumed, const std::string& token, std::string_view what,
-           const std::optional<JsonOpening>& inside, const std::string& key, base::Diagnostics& diagnostics)
+           const std::optional<JsonOpening>& inside, const std::string& key, Diagnostics& diagnostics)
       : text_(text),
         consumed_(std::min(consumed, text.text().size())),
         token_(token),
@@ -169,7 +167,7 @@ class Reporter {
   void reportEnd() {
     std::size_t end = text_.text().size();
     while (end > 0 && isSpace(text_.at(end - 1))) --end;
-    if (!inside_) return report(end, "the file holds no value", "a graph is one object: { … }", "an object");
+    if (!inside_) return report(end, "the file holds no value", "a document is one object: { … }", "an object");
     report(end,
            fmt::format("the file ends inside the {} that opens at {}:{}",
                        inside_->object ? "object" : "array", inside_->place.line, inside_->place.column),
@@ -222,12 +220,12 @@ class Reporter {
   std::string_view what_;
   const std::optional<JsonOpening>& inside_;
   const std::string& key_;
-  base::Diagnostics& diagnostics_;
+  Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-bool reportUnreadable(const JsonText& text, base::Diagnostics& diagnostics) {
+bool reportUnreadable(const JsonText& text, Diagnostics& diagnostics) {
   const std::string_view all = text.text();
   if (std::all_of(all.begin(), all.end(), isSpace)) {
     auto& d = diagnostics.error(Code::W2, text.placeOf(0), "the file is empty");
@@ -244,8 +242,8 @@ bool reportUnreadable(const JsonText& text, base::Diagnostics& diagnostics) {
 
 void reportJsonError(const JsonText& text, std::size_t consumed, const std::string& token,
                      std::string_view what, const std::optional<JsonOpening>& inside, const std::string& key,
-                     base::Diagnostics& diagnostics) {
+                     Diagnostics& diagnostics) {
   Reporter(text, consumed, token, what, inside, key, diagnostics).run();
 }
 
-}  // namespace weft::graph
+}  // namespace weft::base

@@ -12,7 +12,7 @@
 
 #include "engine/base/diagnostic.h"
 
-namespace weft::graph {
+namespace weft::base {
 
 struct JsonMember;
 
@@ -21,7 +21,7 @@ struct JsonValue {
   Type type = Type::null;
   bool flag = false;    // boolean
   bool whole = false;   // number: written without a point or an exponent
-  base::Place place;    // of its first character: the opening quote, brace or bracket, the first digit
+  Place place;    // of its first character: the opening quote, brace or bracket, the first digit
   std::string pointer;  // "/passes/3/read/source"; "" for the document
   double number = 0;    // finite
   std::string text;     // string, escapes resolved
@@ -32,12 +32,12 @@ struct JsonValue {
   // The member's value, or null.
   const JsonValue* find(std::string_view key) const;
   // Of the first character inside the quotes of a string.
-  base::Place textPlace() const;
+  Place textPlace() const;
 };
 
 struct JsonMember {
   std::string key;
-  base::Place place;  // of the key's opening quote
+  Place place;  // of the key's opening quote
   JsonValue value;
 };
 
@@ -47,11 +47,11 @@ constexpr int kMaxJsonDepth = 64;
 // Empty after Code::W2 (not JSON) or Code::W7 (too deep). A duplicate key is reported as Code::W6, its later
 // value is dropped, and reading goes on. `file` goes into every place and may be null.
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
-                                   base::Diagnostics& diagnostics);
+                                   Diagnostics& diagnostics);
 
 // "an object", "a string": for "expected" and "found".
 const char* nameOf(JsonValue::Type type);
 // "the number 3", "the string \"high\"", "an object": what stands in the file, shortened.
 std::string describe(const JsonValue& value);
 
-}  // namespace weft::graph
+}  // namespace weft::base

@@ -1,0 +1,293 @@
+#include "engine/scene/scene_file.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "engine/assets/material_library.h"
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/nearest.h"
+
+namespace weft::scene {
+
+using base::Code;
+using base::Diagnostics;
+using base::JsonFields;
+using base::JsonMember;
+using base::JsonValue;
+using base::NumberRange;
+
+namespace {
+
+constexpr NumberRange kUnit{.min = 0, .max = 1};
+constexpr NumberRange kWorld{.min = -1e9, .max = 1e9};          // float keeps 64 units apart there
+constexpr NumberRange kSize{.min = 0, .max = 1e9, .aboveMin = true};
+constexpr NumberRange kRadiance{.min = 0, .max = 1e9};
+constexpr NumberRange kFov{.min = 1, .max = 170};
+constexpr NumberRange kGridCount{.min = 1, .max = 65536, .whole = true};
+constexpr double kMaxSpheres = 1 << 24;
+
+glm::vec3 toVec3(const std::array<double, 3>& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}; }
+glm::dvec3 toDvec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+class Reader {
+ public:
+  Reader(const std::string& name, Diagnostics& diagnostics) : name_(name), diagnostics_(diagnostics) {}
+
+  std::optional<Scene> read(std::string_view text) {
+    const std::size_t errorsBefore = diagnostics_.errorCount();
+    const auto root = base::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
+    if (!root) return {};
+    scene_.files.push_back(name_);
+    JsonFields fields(*root, "the scene", Code::W160, diagnostics_);
+    scene_.name = fields.text("name").value_or(std::filesystem::path(name_).stem().string());
+    if (const JsonValue* library = fields.find("library")) readLibrary(*library, "'library' of the scene");
+    if (const JsonValue* materials = fields.object("materials"))
+      for (const JsonMember& member : materials->members) addMaterial(member.key, member.value, member.place);
+    if (const JsonValue* cameras = fields.object("cameras"))
+      for (const JsonMember& member : cameras->members) readCamera(member.key, member.value);
+    if (scene_.cameras.size() == 0) scene_.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
+    if (const JsonValue* grid = fields.find("grid")) readGrid(*grid);
+    if (const JsonValue* spheres = fields.array("spheres"))
+      for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
+    if (const JsonValue* lights = fields.object("point_lights"))
+      for (const JsonMember& member : lights->members) readPointLight(member.key, member.value);
+    if (const JsonValue* sun = fields.find("sun")) readSun(*sun);
+    fields.finish();
+    if (diagnostics_.errorCount() > errorsBefore) return {};
+    return std::move(scene_);
+  }
+
+ private:
+  base::Diagnostic& fail(Code code, const JsonValue& value, std::string message) {
+    base::Diagnostic& d = diagnostics_.error(code, value.place, std::move(message));
+    d.pointer = value.pointer;
+    return d;
+  }
+
+  MaterialId add(Material material) {
+    const std::string name = material.name;
+    const MaterialId id = scene_.materials.add(std::move(material));
+    if (!name.empty()) byName_.emplace(name, id);
+    return id;
+  }
+
+  // The presets of the library file that `value` names, each added to the scene once.
+  std::vector<MaterialId> readLibrary(const JsonValue& value, const std::string& what) {
+    const auto given = base::readText(value, what, diagnostics_);
+    if (!given) return {};
+    const std::string path = (std::filesystem::path(name_).parent_path() / *given).lexically_normal().string();
+    if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
+    std::vector<MaterialId>& ids = libraries_[path];
+    const auto text = base::readFile(path, diagnostics_, Code::W1, value.place);
+    if (!text) return {};
+    scene_.files.push_back(path);
+    const auto library = assets::readMaterialLibrary(*text, path, diagnostics_);
+    if (!library) return {};
+    if (library->materials.empty()) fail(Code::W161, value, fmt::format("the material library '{}' is empty", path));
+    for (const assets::MaterialPreset& preset : library->materials) {
+      if (byName_.contains(preset.name)) {
+        fail(Code::W156, value, fmt::format("a second material '{}', from '{}'", preset.name, path));
+        continue;
+      }
+      ids.push_back(add({preset.name, {preset.albedo[0], preset.albedo[1], preset.albedo[2]}, preset.metallic, preset.roughness}));
+    }
+    return ids;
+  }
+
+  MaterialId addMaterial(const std::string& name, const JsonValue& value, const base::Place& place) {
+    JsonFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name), Code::W155, diagnostics_);
+    fields.require({"albedo"});
+    Material material;
+    material.name = name;
+    if (const auto albedo = fields.triple("albedo", kUnit)) material.albedo = toVec3(*albedo);
+    material.metallic = static_cast<float>(fields.number("metallic", kUnit).value_or(0));
+    material.roughness = static_cast<float>(fields.number("roughness", kUnit).value_or(0.5));
+    fields.finish();
+    if (byName_.contains(name)) {
+      diagnostics_.error(Code::W156, place, fmt::format("a second material '{}'", name)).hint = "rename it; the library has one of this name";
+      return byName_[name];
+    }
+    return add(std::move(material));
+  }
+
+  // A name of a known material.
+  MaterialId findMaterial(const JsonValue& value, const std::string& what) {
+    const auto name = base::readText(value, what, diagnostics_);
+    if (!name) return {};
+    if (const auto found = byName_.find(*name); found != byName_.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [known, id] : byName_) names.push_back(known);
+    fail(Code::W161, value, fmt::format("unknown material '{}'", *name)).hint =
+        names.empty() ? "name a \"library\", or define it under \"materials\"" : base::nearestHint(*name, names);
+    return {};
+  }
+
+  std::uint8_t readLists(JsonFields& fields, const std::string& what) {
+    const JsonValue* lists = fields.array("lists");
+    if (!lists) return maskOf(DrawList::spheres);
+    std::uint8_t mask = 0;
+    for (const JsonValue& item : lists->items) {
+      const auto name = base::readText(item, fmt::format("a draw list of {}", what), diagnostics_);
+      if (!name) continue;
+      if (const auto list = findDrawList(*name)) mask = static_cast<std::uint8_t>(mask | maskOf(*list));
+      else fail(Code::W162, item, fmt::format("unknown draw list '{}'", *name)).hint = base::nearestHint(*name, drawListNames());
+    }
+    return mask;
+  }
+
+  void readGrid(const JsonValue& value) {
+    JsonFields fields(value, "the grid", Code::W160, diagnostics_);
+    fields.require({"count", "materials"});
+    const auto count = fields.triple("count", kGridCount);
+    const float spacing = static_cast<float>(fields.number("spacing", kSize).value_or(2.5));
+    const glm::vec3 center = toVec3(fields.triple("center", kWorld).value_or(std::array<double, 3>{}));
+    Sphere sphere;
+    sphere.radius = static_cast<float>(fields.number("radius", kSize).value_or(1));
+    sphere.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
+    sphere.lists = readLists(fields, "the grid");
+    const JsonValue* materials = fields.find("materials");
+    fields.finish();
+
+    std::vector<MaterialId> ids;
+    if (materials && materials->is(JsonValue::Type::array)) {
+      if (materials->items.empty()) fail(Code::W161, *materials, "the grid names no material");
+      for (const JsonValue& item : materials->items) ids.push_back(findMaterial(item, "a material of the grid"));
+    } else if (materials) {
+      ids = readLibrary(*materials, "'materials' of the grid");
+    }
+    if (!count || ids.empty()) return;
+    const double total = (*count)[0] * (*count)[1] * (*count)[2];
+    if (total > kMaxSpheres) {
+      base::Diagnostic& d = fail(Code::W160, *value.find("count"), "the grid has too many spheres");
+      d.expected = fmt::format("at most {} in all", kMaxSpheres);
+      d.found = fmt::format("{}", total);
+      return;
+    }
+    const std::array<int, 3> n = {static_cast<int>((*count)[0]), static_cast<int>((*count)[1]), static_cast<int>((*count)[2])};
+    scene_.spheres.reserve(scene_.spheres.size() + static_cast<std::size_t>(total));
+    std::size_t index = 0;
+    const auto offset = [&](int i, int axis) { return (static_cast<float>(i) - static_cast<float>(n[static_cast<std::size_t>(axis)] - 1) / 2) * spacing; };
+    for (int z = 0; z < n[2]; ++z)
+      for (int y = 0; y < n[1]; ++y)
+        for (int x = 0; x < n[0]; ++x) {
+          sphere.center = center + glm::vec3(offset(x, 0), -offset(y, 1), -offset(z, 2));
+          sphere.material = ids[index++ % ids.size()];
+          scene_.spheres.add(sphere);
+        }
+  }
+
+  void readSphere(const JsonValue& value, std::size_t index) {
+    const std::string what = fmt::format("sphere {}", index);
+    JsonFields fields(value, what, Code::W160, diagnostics_);
+    fields.require({"center", "material"});
+    Sphere sphere;
+    sphere.center = toVec3(fields.triple("center", kWorld).value_or(std::array<double, 3>{}));
+    sphere.radius = static_cast<float>(fields.number("radius", kSize).value_or(1));
+    sphere.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
+    sphere.lists = readLists(fields, what);
+    if (const JsonValue* material = fields.find("material"))
+      sphere.material = material->is(JsonValue::Type::object) ? addMaterial("", *material, material->place)
+                                                              : findMaterial(*material, fmt::format("'material' of {}", what));
+    fields.finish();
+    scene_.spheres.add(sphere);
+  }
+
+  void readCamera(const std::string& name, const JsonValue& value) {
+    const std::string what = fmt::format("camera '{}'", name);
+    JsonFields fields(value, what, Code::W160, diagnostics_);
+    Camera camera{.name = name};
+    if (const auto position = fields.triple("position", kWorld)) camera.pose.position = toDvec3(*position);
+    if (const auto target = fields.triple("target", kWorld)) camera.pose.target = toDvec3(*target);
+    camera.pose.fovDegrees = fields.number("fov", kFov).value_or(60);
+    camera.pose.nearPlane = fields.number("near", kSize).value_or(0.1);
+    camera.orbitDegreesPerSecond = fields.number("orbit", kWorld).value_or(0);
+    const JsonValue* path = fields.array("path");
+    if (!path) fields.require({"position"});
+    fields.finish();
+    if (!path) checkDirection(value, what, camera.pose.position, camera.pose.target);
+    if (path && camera.orbitDegreesPerSecond != 0) fail(Code::W160, *path, fmt::format("{} has both 'path' and 'orbit'", what)).hint = "keep one";
+    if (path) readPath(*path, what, camera);
+    scene_.cameras.add(std::move(camera));
+  }
+
+  void checkDirection(const JsonValue& value, const std::string& what, glm::dvec3 position, glm::dvec3 target) {
+    if (glm::length(position - target) < 1e-6) fail(Code::W160, value, fmt::format("{} stands on its target", what)).hint = "move 'position' or 'target'";
+  }
+
+  void readPath(const JsonValue& path, const std::string& what, Camera& camera) {
+    if (path.items.empty()) fail(Code::W160, path, fmt::format("the path of {} is empty", what));
+    for (std::size_t i = 0; i < path.items.size(); ++i) {
+      const std::string keyName = fmt::format("key {} of {}", i, what);
+      JsonFields fields(path.items[i], keyName, Code::W160, diagnostics_);
+      fields.require({"time", "position"});
+      CameraKey key{.target = camera.pose.target, .fovDegrees = camera.pose.fovDegrees};
+      key.time = fields.number("time", kWorld).value_or(0);
+      if (const auto position = fields.triple("position", kWorld)) key.position = toDvec3(*position);
+      if (const auto target = fields.triple("target", kWorld)) key.target = toDvec3(*target);
+      if (const auto fov = fields.number("fov", kFov)) key.fovDegrees = *fov;
+      fields.finish();
+      checkDirection(path.items[i], keyName, key.position, key.target);
+      if (!camera.path.empty() && key.time <= camera.path.back().time)
+        fail(Code::W160, path.items[i], fmt::format("{} is not later than the one before it", keyName));
+      camera.path.push_back(key);
+    }
+    if (camera.path.empty()) return;
+    camera.pose.position = camera.path.front().position;
+    camera.pose.target = camera.path.front().target;
+    camera.pose.fovDegrees = camera.path.front().fovDegrees;
+  }
+
+  void readPointLight(const std::string& name, const JsonValue& value) {
+    JsonFields fields(value, fmt::format("point light '{}'", name), Code::W160, diagnostics_);
+    fields.require({"position", "intensity"});
+    PointLight light;
+    light.name = name;
+    light.position = toVec3(fields.triple("position", kWorld).value_or(std::array<double, 3>{}));
+    light.intensity = toVec3(fields.triple("intensity", kRadiance).value_or(std::array<double, 3>{}));
+    light.range = static_cast<float>(fields.number("range", kSize).value_or(0));
+    light.shadow = fields.boolean("shadow").value_or(false);
+    fields.finish();
+    scene_.pointLights.add(std::move(light));
+  }
+
+  void readSun(const JsonValue& value) {
+    JsonFields fields(value, "the sun", Code::W160, diagnostics_);
+    fields.require({"direction", "irradiance"});
+    Sun sun;
+    const auto direction = fields.triple("direction", kWorld);
+    if (direction) {
+      const double length = glm::length(toDvec3(*direction));
+      if (length < 1e-6) fail(Code::W160, *value.find("direction"), "the sun's direction has no length");
+      else sun.direction = glm::vec3(toDvec3(*direction) / length);
+    }
+    if (const auto irradiance = fields.triple("irradiance", kRadiance)) sun.irradiance = toVec3(*irradiance);
+    fields.finish();
+    scene_.sun = sun;
+  }
+
+  const std::string name_;
+  Diagnostics& diagnostics_;
+  Scene scene_;
+  std::map<std::string, MaterialId> byName_;
+  std::map<std::string, std::vector<MaterialId>> libraries_;  // by path
+};
+
+}  // namespace
+
+std::optional<Scene> readScene(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
+  return Reader(name, diagnostics).read(text);
+}
+
+std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics) {
+  const std::optional<std::string> text = base::readFile(path, diagnostics);
+  if (!text) return {};
+  return readScene(*text, path, diagnostics);
+}
+
+}  // namespace weft::scene
