@@ -66,11 +66,7 @@ class Reporter {
     if (says("surrogate"))
       return report(consumed_ - 1, "half of a surrogate pair in a string",
                     "write the character itself instead of \\u…");
-    if (says("ill-formed UTF-8"))
-      return report(
-          consumed_ - 1,
-          fmt::format("the byte 0x{:02X} is not UTF-8", static_cast<unsigned char>(text_.at(consumed_ - 1))),
-          "save the file as UTF-8");
+    if (says("ill-formed UTF-8")) return reportEncoding();
     if (says("invalid comment"))
       return report(commentStart(),
                     says("missing closing") ? "the comment that opens here is never closed"
@@ -128,6 +124,15 @@ class Reporter {
     if (says("missing closing") && block != std::string_view::npos) return block;
     const std::size_t slash = text_.text().rfind('/', consumed_ == 0 ? 0 : consumed_ - 1);
     return slash == std::string_view::npos ? consumed_ : slash;
+  }
+
+  void reportEncoding() {
+    std::size_t at = consumed_ - 1;
+    const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text_.at(i)); };
+    // A plain character that cuts a sequence short: the sequence is to blame.
+    if (byteAt(at) < 0x80)
+      while (at > 0 && byteAt(at) < 0xC0 && byteAt(at - 1) >= 0x80) --at;
+    report(at, fmt::format("the byte 0x{:02X} is not UTF-8", byteAt(at)), "save the file as UTF-8");
   }
 
   void reportControl() {

@@ -105,7 +105,7 @@ constexpr KeySpec kInclude[] = {
 constexpr KeySpec kState[] = {
     {"blend", R"({"anyOf":[{"type":"string"},{"type":"object","additionalProperties":{"type":"string"}}]})",
      "none, add, alpha, premultiplied, multiply, min, max; for all colour slots or by slot"},
-    {"depth_test", R"({"type":["string","boolean"]})",
+    {"depth_test", R"({"type":"string"})",
      "never, less, equal, less_equal, greater, not_equal, greater_equal, always"},
     {"depth_write", "@value", "true when absent"},
     {"cull", R"({"type":"string"})", "none, front, back"},

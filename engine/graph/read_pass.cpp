@@ -15,6 +15,9 @@ namespace {
 using base::Code;
 using Type = JsonValue::Type;
 
+// Slots, parameters and defines of a pass are spelled alike in its shader.
+constexpr const char* kSharedName = "the slot, parameter or define";
+
 class PassReader {
  public:
   PassReader(ReadContext& context, const JsonValue& value) : context_(context), value_(value) {
@@ -223,7 +226,7 @@ class PassReader {
       for (const JsonMember& slot : membersOf(member.key.c_str())) {
         const std::string what = fmt::format("the slot '{}'", slot.key);
         bool good = context_.checkName(slot.key, slot.place, slot.value.pointer, "a slot");
-        good = context_.checkFresh(names_, slot.key, slot.place, slot.value.pointer, "slot") && good;
+        good = context_.checkFresh(names_, slot.key, slot.place, slot.value.pointer, kSharedName) && good;
         std::optional<RefDesc> ref = context_.ref(&slot.value, what);
         if (good && ref)
           out_.slots.push_back({slot.key, slot.place, slot.value.pointer, access, *std::move(ref)});
@@ -234,7 +237,7 @@ class PassReader {
   void readParameters() {
     for (const JsonMember& member : membersOf("parameters")) {
       PassParameterDesc parameter{member.key, member.place, member.value.pointer, {}, {}};
-      bool good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, "parameter");
+      bool good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, kSharedName);
       if (member.value.is(Type::object)) {
         parameter.declared = readParameter(context_, member);
         good = good && parameter.declared;
@@ -250,7 +253,7 @@ class PassReader {
   void readDefines() {
     for (const JsonMember& member : membersOf("defines")) {
       bool good = context_.checkName(member.key, member.place, member.value.pointer, "a define");
-      good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, "define") && good;
+      good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, kSharedName) && good;
       Expr expr = context_.expr(&member.value, fmt::format("the define '{}'", member.key));
       if (good && expr.present())
         out_.defines.push_back({member.key, member.place, member.value.pointer, std::move(expr)});
