@@ -21,7 +21,9 @@
 namespace weft::graph {
 
 inline bool isStore(const FlatUse& use) {
-  return use.access != Access::read && (use.kind == Kind::image || use.kind == Kind::storage);
+  const auto kind = 1u << static_cast<unsigned>(use.kind);
+  return use.access != Access::read &&
+         (kind & (1u << static_cast<unsigned>(Kind::image) | 1u << static_cast<unsigned>(Kind::storage))) != 0;
 }
 
 // The bit a store itself waits behind, rule (b).

@@ -2,6 +2,7 @@
 // execution order.
 #include <algorithm>
 
+#include "engine/graph/barrier_rules.h"
 #include "engine/graph/compile_steps.h"
 
 namespace weft::graph {
@@ -95,17 +96,21 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
   const std::size_t count = graph.resources.size();
   plan.firstStep.assign(count, kNone);
   plan.lastStep.assign(count, kNone);
-  scratch.births.clear();
+  scratch.births.resize(count + 1);
   if (scratch.anyClear) scratch.cleared.assign(scratch.cellCount, 0);
+  std::uint32_t* const firstStep = plan.firstStep.data();
+  std::uint32_t* const births = scratch.births.data();
+  std::size_t born = 0;
+  // Without branches: what is read and what is written first alternates without a pattern.
   const auto touch = [&](std::uint32_t resource, std::uint32_t step) {
-    if (plan.firstStep[resource] == kNone) {
-      plan.firstStep[resource] = step;
-      scratch.births.push_back(resource);
-    }
+    const bool first = firstStep[resource] == kNone;
+    firstStep[resource] = first ? step : firstStep[resource];
+    births[born] = resource;
+    born += first ? 1 : 0;
     plan.lastStep[resource] = step;
   };
   std::uint64_t bound = 0;
-  std::uint8_t stored = 0;
+  unsigned stored = 0;
   for (std::uint32_t t = 0; t < plan.steps.size(); ++t) {
     Step& step = plan.steps[t];
     const FlatPass& pass = graph.passes[step.pass];
@@ -116,12 +121,11 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
       const FlatUse& use = graph.uses[u];
       touch(use.resource, t);
       const FlatResource& r = graph.resources[use.resource];
-      bound += bytesOf(use, r);
-      std::uint8_t& flags = scratch.flags[use.resource];
-      if (use.access != Access::read) {
-        flags |= byCadence;
-        if (use.kind == Kind::image || use.kind == Kind::storage) flags |= stored = Scratch::kStored;
-      }
+      const unsigned store = isStore(use) ? unsigned{Scratch::kStored} : 0u;
+      const unsigned flags = scratch.flags[use.resource] | (use.access != Access::read ? unsigned{byCadence} : 0u) | store;
+      scratch.flags[use.resource] = static_cast<std::uint8_t>(flags);
+      stored |= store;
+      bound += (flags & Scratch::kGranular) == 0 ? r.bytes : bytesOf(use, r);
       if ((flags & Scratch::kClear) != 0 && use.history == 0) clearCells(use, r, plan, scratch);
     }
     step.clearCount = static_cast<std::uint32_t>(plan.clears.size()) - step.firstClear;
@@ -138,6 +142,7 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
     plan.outputLive[i] = 1;
     touch(graph.outputs[i].resource, end);
   }
+  scratch.births.resize(born);
   plan.persistent.resize(count);
   for (std::size_t i = 0; i < count; ++i)
     plan.persistent[i] = (scratch.flags[i] & Scratch::kPersistent) != 0 && plan.firstStep[i] != kNone ? 1 : 0;

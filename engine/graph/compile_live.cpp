@@ -1,6 +1,6 @@
-// Versions and liveness. One forward scan links every use to the uses that made what it sees; a worklist from the roots
-// then walks those links. Each link is followed at most once, so the cost is linear in uses, also for chains of
-// histories, where a backward sweep would have to be repeated per link of the chain.
+// Versions and liveness. One forward scan links every use to the uses that made what it sees; a backward sweep then
+// follows those links, with a worklist for what a history asks of passes behind the sweep. Each link is followed at most
+// once, so the cost is linear in uses, also for chains of histories, where a plain sweep would be repeated per link.
 #include <cassert>
 
 #include "engine/graph/compile_steps.h"
@@ -79,43 +79,76 @@ void indexCells(const FlatGraph& graph, Scratch& scratch) {
 
 void linkVersions(const FlatGraph& graph, Scratch& scratch) {
   assert(graph.uses.size() < Scratch::kList);
-  scratch.lastWriter.assign(scratch.cellCount, kNone);
-  scratch.previous.resize(graph.uses.size());
-  scratch.passOf.resize(graph.uses.size());
+  const std::size_t uses = graph.uses.size();
+  // One entry more in each: where branchless stores go that mean nothing.
+  scratch.lastWriter.assign(scratch.cellCount + 1, kNone);
+  scratch.previous.resize(uses);
+  scratch.passOf.resize(uses + 1);
+  scratch.stays.resize(uses);
+  scratch.passOf[uses] = static_cast<std::uint32_t>(graph.passes.size());
   scratch.lists.clear();
-  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
-    const std::uint32_t first = graph.passes[p].firstUse, end = first + graph.passes[p].useCount;
-    for (std::uint32_t u = first; u < end; ++u) {
+  std::uint32_t* const last = scratch.lastWriter.data();
+  for (std::uint32_t p = 0, u = 0; p < graph.passes.size(); ++p) {
+    assert(graph.passes[p].firstUse == u);  // uses stand grouped by pass, in the order of the passes
+    for (const std::uint32_t end = u + graph.passes[p].useCount; u < end; ++u) {
       const FlatUse& use = graph.uses[u];
       scratch.passOf[u] = p;
-      if (!seesVersion(use))
-        scratch.previous[u] = kNone;
-      else if ((scratch.flags[use.resource] & Scratch::kGranular) == 0)
-        scratch.previous[u] = scratch.lastWriter[scratch.cellBase[use.resource]];
-      else
-        scratch.previous[u] = linkCells(use, graph.resources[use.resource], scratch);
-    }
-    // After the reads of the whole pass: a pass never sees what it writes itself.
-    for (std::uint32_t u = first; u < end; ++u) {
-      const FlatUse& use = graph.uses[u];
-      if (!writes(use)) continue;
-      if ((scratch.flags[use.resource] & Scratch::kGranular) == 0)
-        scratch.lastWriter[scratch.cellBase[use.resource]] = u;
-      else
-        scratch.forEachCell(use, graph.resources[use.resource],
-                            [&](std::uint32_t cell) { scratch.lastWriter[cell] = u; });
+      scratch.stays[u] = use.access == Access::read || use.keep ? 1 : 0;
+      if ((scratch.flags[use.resource] & Scratch::kGranular) == 0) {
+        const std::uint32_t cell = scratch.cellBase[use.resource];
+        scratch.previous[u] = seesVersion(use) ? last[cell] : kNone;
+        last[writes(use) ? cell : scratch.cellCount] = u;
+        continue;
+      }
+      const FlatResource& r = graph.resources[use.resource];
+      scratch.previous[u] = seesVersion(use) ? linkCells(use, r, scratch) : kNone;
+      if (writes(use)) scratch.forEachCell(use, r, [&](std::uint32_t cell) { last[cell] = u; });
     }
   }
 }
 
+namespace {
+
+// Without histories every link leads back: one backward sweep over the uses, without a branch on what they are.
+void sweepLive(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
+  const std::size_t uses = graph.uses.size();
+  std::uint8_t* const attached = plan.attached.data();
+  std::uint8_t* const live = scratch.livePass.data();
+  for (std::size_t u = uses; u-- > 0;) {
+    const std::uint8_t a = live[scratch.passOf[u]] & (attached[u] | scratch.stays[u]);
+    attached[u] = a;
+    std::uint32_t writer = a != 0 ? scratch.previous[u] : kNone;
+    if ((writer & Scratch::kList) != 0 && writer != kNone) {
+      scratch.forEachPrevious(static_cast<std::uint32_t>(u), [&](std::uint32_t w) {
+        attached[w] = 1;
+        live[scratch.passOf[w]] = 1;
+      });
+      continue;
+    }
+    writer = writer == kNone ? static_cast<std::uint32_t>(uses) : writer;
+    attached[writer] = 1;
+    live[scratch.passOf[writer]] = 1;
+  }
+}
+
+}  // namespace
+
 void findLive(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
-  plan.attached.assign(graph.uses.size(), 0);
-  scratch.livePass.assign(graph.passes.size(), 0);
+  plan.attached.assign(graph.uses.size() + 1, 0);
+  scratch.livePass.assign(graph.passes.size() + 1, 0);
   scratch.stack.clear();
+  std::uint8_t* const attached = plan.attached.data();
+  std::uint8_t* const live = scratch.livePass.data();
+  // Passes from `swept` on have been looked at; what is demanded of them waits on the stack.
+  auto swept = static_cast<std::uint32_t>(graph.passes.size());
   const auto demand = [&](std::uint32_t writer) {
-    if (plan.attached[writer] != 0) return;
-    plan.attached[writer] = 1;
-    scratch.stack.push_back(writer);
+    if (attached[writer] != 0) return;
+    attached[writer] = 1;
+    const std::uint32_t p = scratch.passOf[writer];
+    if (p >= swept)
+      scratch.stack.push_back(writer);
+    else
+      live[p] = 1;
   };
   const auto demandFinal = [&](const FlatUse& use) {
     scratch.forEachCell(use, graph.resources[use.resource], [&](std::uint32_t cell) {
@@ -123,30 +156,45 @@ void findLive(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
     });
   };
   const auto enliven = [&](std::uint32_t p) {
-    scratch.livePass[p] = 1;
+    live[p] = 1;
     const std::uint32_t first = graph.passes[p].firstUse, end = first + graph.passes[p].useCount;
     for (std::uint32_t u = first; u < end; ++u) {
       const FlatUse& use = graph.uses[u];
-      if (writes(use)) {
-        if (use.keep) demand(u);
-        continue;
+      if (use.access == Access::read) {
+        attached[u] = 1;
+        if (use.history > 0) {
+          demandFinal(use);  // x@-n: whatever is published in a frame will be read n frames later
+          continue;
+        }
+      } else {
+        if (use.keep) attached[u] = 1;
+        if (use.access == Access::write || attached[u] == 0) continue;
       }
-      plan.attached[u] = 1;
-      if (use.history > 0)
-        demandFinal(use);  // x@-n: whatever is published in a frame will be read n frames later
-      else
-        scratch.forEachPrevious(u, demand);
+      scratch.forEachPrevious(u, demand);
     }
   };
   if (graph.present.resource != kNone) demandFinal(graph.present);
-  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
-    if (graph.passes[p].sideEffect) enliven(p);
-  while (!scratch.stack.empty()) {
-    const std::uint32_t u = scratch.stack.back();
-    scratch.stack.pop_back();
-    if (scratch.livePass[scratch.passOf[u]] == 0) enliven(scratch.passOf[u]);
-    if (graph.uses[u].access == Access::modify) scratch.forEachPrevious(u, demand);
+  for (std::size_t p = 0; p < graph.passes.size(); ++p) live[p] |= graph.passes[p].sideEffect ? 1 : 0;
+  if (!scratch.anyHistory) {
+    sweepLive(graph, plan, scratch);
+    swept = 0;
   }
+  while (swept > 0) {
+    --swept;
+    if (live[swept] == 0) continue;
+    enliven(swept);
+    // Only a history can ask for something at or after the pass that reads it.
+    while (!scratch.stack.empty()) {
+      const std::uint32_t u = scratch.stack.back();
+      scratch.stack.pop_back();
+      if (live[scratch.passOf[u]] == 0)
+        enliven(scratch.passOf[u]);
+      else if (graph.uses[u].access == Access::modify)
+        scratch.forEachPrevious(u, demand);
+    }
+  }
+  plan.attached.pop_back();
+  scratch.livePass.pop_back();
 }
 
 }  // namespace weft::graph::steps

@@ -32,11 +32,12 @@ struct CompileScratch {
   std::vector<std::uint32_t> previous;     // per use: the use that made the version it sees; kNone; or kList | index
   std::vector<std::uint32_t> lists;        // count, uses...: for a use that sees versions of several writers
   std::vector<std::uint32_t> passOf;       // per use
+  std::vector<std::uint8_t> stays;         // per use: attached whenever its pass lives (a read, a kept write)
   static constexpr std::uint32_t kList = 0x80000000u;
 
   // liveness
   std::vector<std::uint8_t> livePass;      // per pass
-  std::vector<std::uint32_t> stack;        // uses still to be followed
+  std::vector<std::uint32_t> stack;        // uses that a history demands of passes behind the sweep
 
   // lifetimes
   std::vector<std::uint32_t> births;       // live resources by first step

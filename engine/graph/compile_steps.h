@@ -10,7 +10,7 @@ namespace weft::graph::steps {
 void indexCells(const FlatGraph& graph, CompileScratch& scratch);
 // previous, lists, passOf, lastWriter: which use made the version that each use sees
 void linkVersions(const FlatGraph& graph, CompileScratch& scratch);
-// livePass, Plan::attached: a worklist from the roots over the links
+// livePass, Plan::attached: from the roots along the links
 void findLive(const FlatGraph& graph, Plan& plan, CompileScratch& scratch);
 // Plan::steps, stepOf: declared order of the live passes, or a random legal one
 void orderPasses(const FlatGraph& graph, std::uint64_t seed, Plan& plan, const CompileScratch& scratch);
