@@ -4,6 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+
+#include "engine/graph/keys.h"
 
 using namespace weft::graph;
 using weft::base::Code;
@@ -72,6 +75,44 @@ const PassDesc* passOf(const GraphDesc& graph, const std::string& name) {
 }
 
 }  // namespace
+
+TEST_CASE("the project's graphs and the graphs in its documentation read without errors") {
+  int graphs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(WEFT_SOURCE_DIR "/graphs")) {
+    if (entry.path().extension() != ".json") continue;
+    Diagnostics diagnostics;
+    CHECK(readGraph(entry.path().string(), diagnostics));
+    CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+    ++graphs;
+  }
+  CHECK(graphs >= 1);
+
+  std::ifstream in(WEFT_SOURCE_DIR "/docs/graph-format.md");
+  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string fence = "```json\n";
+  int blocks = 0;
+  for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at + 1), ++blocks) {
+    const std::size_t from = at + fence.size();
+    Diagnostics diagnostics;
+    CHECK(
+        readGraphText(page.substr(from, page.find("```", from) - from), "docs/graph-format.md", diagnostics));
+    CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+  }
+  CHECK(blocks >= 1);
+}
+
+TEST_CASE("graph-format.md names every key of the format") {
+  std::ifstream in(WEFT_SOURCE_DIR "/docs/graph-format.md");
+  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  for (const auto keys : {kGraphKeys, kParameterKeys, kTextureKeys, kBufferKeys, kImportKeys, kInputKeys,
+                          kPassKeys, kIncludeKeys, kStateKeys})
+    for (const KeySpec& spec : keys) {
+      const std::string key(spec.key);
+      CHECK_MESSAGE((page.find("`" + key + "`") != std::string::npos ||
+                     page.find("\"" + key + "\"") != std::string::npos),
+                    key);
+    }
+}
 
 TEST_CASE("the papers' graphs read without errors") {
   if (!std::filesystem::exists(kPaper)) {
