@@ -1,4 +1,4 @@
-// Evaluation, checking and folding of expression trees. One evaluator serves both the static case (a scope,
+// Evaluation and checking of expression trees. One evaluator serves both the static case (a scope,
 // with diagnostics) and the folded one (an age function, silent).
 #include <fmt/format.h>
 
@@ -48,10 +48,8 @@ double log2ceil(double x) {
 class Evaluator {
  public:
   Evaluator(EvalScope& scope, base::Diagnostics& diagnostics) : scope_(&scope), diagnostics_(&diagnostics) {}
-  explicit Evaluator(const std::function<double(std::uint32_t)>& age) : age_(&age) {}
-  // A trial run of a folded tree: no scope, an age, and diagnostics.
-  Evaluator(const std::function<double(std::uint32_t)>& age, base::Diagnostics& diagnostics)
-      : age_(&age), diagnostics_(&diagnostics) {}
+  // A folded tree: no scope, an age, and perhaps no diagnostics.
+  Evaluator(const AgeFunction& age, base::Diagnostics* diagnostics) : age_(&age), diagnostics_(diagnostics) {}
 
   Value run(const ExprNode& node) {
     switch (node.op) {
@@ -390,85 +388,9 @@ class Evaluator {
   }
 
   EvalScope* scope_ = nullptr;
-  const std::function<double(std::uint32_t)>* age_ = nullptr;
+  const AgeFunction* age_ = nullptr;
   base::Diagnostics* diagnostics_ = nullptr;
 };
-
-bool isConstantNumeric(const ExprPtr& node) {
-  return node->op == ExprOp::constant && node->value.isNumeric();
-}
-
-// `node` with every variable that the scope answers with a folded tree replaced by that tree; null after an
-// error.
-ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
-  if (node->op == ExprOp::variable) {
-    const Expr* folded = scope.folded(node->name);
-    if (!folded || !folded->present()) return node;
-    return folded->root()->shared_from_this();
-  }
-  bool changed = false;
-  std::vector<ExprPtr> children;
-  for (const ExprPtr& child : node->children) {
-    ExprPtr other = substitute(child, scope, diagnostics);
-    if (!other) return nullptr;
-    changed = changed || other != child;
-    children.push_back(std::move(other));
-  }
-  if (!changed) return node;
-  const int height = heightOver(children);
-  if (height > kMaxExprHeight) {
-    diagnostics.error(Code::W20, node->place,
-                      "the expression and the \"let\" it uses chain too many operators");
-    return nullptr;
-  }
-  auto copy = std::make_shared<ExprNode>(*node);
-  copy->height = static_cast<std::uint8_t>(height);
-  copy->dynamic = std::any_of(children.begin(), children.end(), [](const ExprPtr& c) { return c->dynamic; });
-  copy->children = std::move(children);
-  return copy;
-}
-
-// Null after an error.
-ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
-  if (!node->dynamic) {
-    Value value = Evaluator(scope, diagnostics).run(*node);
-    return value.type == Value::Type::none ? nullptr : makeConstant(std::move(value), node->place);
-  }
-  if (node->op == ExprOp::age_key) return node;
-  if (node->op == ExprOp::fact) {
-    const std::optional<std::uint32_t> key = scope.ageKey(node->name);
-    if (!key) {
-      auto& d = diagnostics.error(Code::W22, node->place,
-                                  fmt::format("age() of unknown resource '{}'", node->name));
-      d.hint = base::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument));
-      return nullptr;
-    }
-    auto folded = std::make_shared<ExprNode>(*node);
-    folded->op = ExprOp::age_key;
-    folded->key = *key;
-    return folded;
-  }
-  std::vector<ExprPtr> children;
-  for (std::size_t i = 0; i < node->children.size(); ++i) {
-    ExprPtr child = foldNode(node->children[i], scope, diagnostics);
-    if (!child) return nullptr;
-    // A first operand that is known decides which others are looked at at all.
-    if (i == 0 && isConstantNumeric(child)) {
-      const bool truth = child->value.truth();
-      if (node->op == ExprOp::conditional) return foldNode(node->children[truth ? 1 : 2], scope, diagnostics);
-      if (node->op == ExprOp::logical_or && truth) return makeConstant(Value::boolean(true), node->place);
-      if (node->op == ExprOp::logical_and && !truth) return makeConstant(Value::boolean(false), node->place);
-    }
-    children.push_back(std::move(child));
-  }
-  auto folded = std::make_shared<ExprNode>(*node);
-  folded->children = std::move(children);
-  folded->dynamic = std::any_of(folded->children.begin(), folded->children.end(),
-                                [](const ExprPtr& c) { return c->dynamic; });
-  if (folded->dynamic) return folded;
-  Value value = Evaluator(scope, diagnostics).run(*folded);
-  return value.type == Value::Type::none ? nullptr : makeConstant(std::move(value), node->place);
-}
 
 bool checkNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics) {
   Evaluator evaluator(scope, diagnostics);
@@ -482,6 +404,14 @@ bool checkNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagno
 
 }  // namespace
 
+Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics) {
+  return Evaluator(scope, diagnostics).run(node);
+}
+
+Value evaluateNode(const ExprNode& node, const AgeFunction& age, base::Diagnostics* diagnostics) {
+  return Evaluator(age, diagnostics).run(node);
+}
+
 Value Expr::evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const {
   return root_ ? Evaluator(scope, diagnostics).run(*root_) : Value{};
 }
@@ -490,22 +420,8 @@ bool Expr::check(EvalScope& scope, base::Diagnostics& diagnostics) const {
   return !root_ || checkNode(*root_, scope, diagnostics);
 }
 
-Expr Expr::fold(EvalScope& scope, base::Diagnostics& diagnostics) const {
-  Expr out;
-  const ExprPtr whole = root_ ? substitute(root_, scope, diagnostics) : nullptr;
-  const ExprPtr folded = whole ? foldNode(whole, scope, diagnostics) : nullptr;
-  if (!folded) return out;
-  if (folded->dynamic) {
-    // Shapes and types are the same at every age; a value that no formula singles out shows them.
-    const std::function<double(std::uint32_t)> trialAge = [](std::uint32_t) { return 0.61803398874989485; };
-    if (Evaluator(trialAge, diagnostics).run(*folded).type == Value::Type::none) return out;
-  }
-  out.root_ = withStart(folded, root_->start);
-  return out;
-}
-
 Value Expr::evaluateFolded(const std::function<double(std::uint32_t key)>& age) const {
-  return root_ ? Evaluator(age).run(*root_) : Value{};
+  return root_ ? evaluateNode(*root_, age, nullptr) : Value{};
 }
 
 }  // namespace weft::graph

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -85,5 +86,12 @@ ExprPtr withStart(const ExprPtr& root, const base::Place& start);
 
 // The trees of Expr::parse; null after an error.
 ExprPtr parseExprTree(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics);
+
+// Seconds since the publication behind a key.
+using AgeFunction = std::function<double(std::uint32_t key)>;
+
+// The value of a tree, or type none; with a scope before the frame runs, with an age function after folding.
+Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics);
+Value evaluateNode(const ExprNode& node, const AgeFunction& age, base::Diagnostics* diagnostics);
 
 }  // namespace weft::graph
