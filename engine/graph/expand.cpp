@@ -13,6 +13,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   using namespace expansion;
   base::Diagnostics own;
   Model model{desc, registry, settings, own};
+  model.incomplete = diagnostics.hasErrors();  // of the reader
   buildScopes(model);
   applySettings(model);
   for (std::uint32_t i = 0; i < model.entities.size(); ++i) {
@@ -28,7 +29,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   if (!own.hasErrors()) warnUnread(model);
   own.sortByPlace();
   diagnostics.append(own);
-  if (own.hasErrors()) return nullptr;
+  if (diagnostics.hasErrors()) return nullptr;
   return std::make_shared<const FlatGraph>(std::move(model.graph));
 }
 

@@ -22,7 +22,8 @@ struct Settings {
   std::vector<std::string> disables;                         // --disable NAME; any unique suffix, all its repeats
 };
 
-// The expanded graph, or null after errors. Warnings leave a graph.
+// The expanded graph, or null after errors. Warnings leave a graph. `diagnostics` may hold errors of the reader already:
+// then everything is checked as far as it goes, and null is returned.
 std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry, const Settings& settings,
                                              base::Diagnostics& diagnostics);
 

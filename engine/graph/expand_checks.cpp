@@ -160,10 +160,41 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
   return true;
 }
 
+// The two slots of a pass type without a shader, against each other.
+bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
+  const SlotWork *from = nullptr, *to = nullptr;
+  for (const SlotWork& work : slots)
+    if (work.state == SlotWork::State::connected) (work.slot->access == Access::read ? from : to) = &work;
+  if (!from || !to) return true;
+  const Entity& source = context.model.entities[from->entity];
+  const Entity& target = context.model.entities[to->entity];
+  if (context.type->name == "mipmap") {
+    const bool follows = from->entity == to->entity && from->firstElement == to->firstElement && from->use.mips == 1 &&
+                         to->use.mip == from->use.mip + 1 && from->use.layer == to->use.layer && from->use.layers == to->use.layers;
+    if (follows) return true;
+    auto& d = context.model.diagnostics.error(Code::W66, to->slot->ref.place, fmt::format("{}: the levels of '{}' do not follow '{}'", context.user, to->slot->ref.text, from->slot->ref.text));
+    d.pass = context.pass;
+    d.resource = target.name;
+    d.hint = fmt::format("\"read\": {{ \"source\": \"{0}.mip[0]\" }}, \"write\": {{ \"result\": \"{0}.mip[1..]\" }}", to->slot->ref.name);
+    return false;
+  }
+  const Format a = source.shape.format, b = target.shape.format;
+  if (a == Format::none || b == Format::none) return true;
+  const bool depth = isDepth(a) || isDepth(b), integer = isInteger(a) || isInteger(b);
+  const bool fits = depth ? a == b : !integer || infoOf(a).kind == infoOf(b).kind;
+  if (fits) return true;
+  auto& d = context.model.diagnostics.error(Code::W57, to->slot->ref.place, fmt::format("{}: '{}' ({}) cannot be copied to '{}' ({})", context.user, source.name, infoOf(a).name, target.name, infoOf(b).name));
+  d.pass = context.pass;
+  d.resource = target.name;
+  d.expected = "equal depth formats, or both integer of one sign, or both neither";
+  return false;
+}
+
 }  // namespace
 
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots) {
   bool good = checkAttachments(context, slots);
+  if (context.type && context.type->shader == ShaderShape::none) good = checkCopy(context, slots) && good;
   for (std::size_t i = 0; i < slots.size() && good; ++i) {
     const SlotWork& a = slots[i];
     if (a.state != SlotWork::State::connected || a.use.access == Access::read) continue;

@@ -166,6 +166,7 @@ struct Model {
   std::vector<HistoryUse> historyUses{};         // their resource is the last one, known at the end
   std::vector<std::uint32_t> presentDeps{};      // uses that write what is presented
   std::vector<std::uint32_t> positionOf{};       // per pass of the FlatGraph
+  bool incomplete = false;                       // mistakes kept some writes out: what nobody writes is no news
   std::uint32_t position = 0;                    // of the instance being expanded
   std::vector<std::string> evaluating{};         // what is being evaluated now, for the path of a cycle
 };

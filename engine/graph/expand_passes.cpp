@@ -49,14 +49,10 @@ class PassWalk {
     const auto rules = model_.disables.find(declared_);
     rules_ = rules == model_.disables.end() ? nullptr : &rules->second;
     failed_ = false;
-    if (!checkStanza(model_, scope, desc, type_, declared_)) {
-      if (type_) staticOnly_ = true;
-      else return;
-    } else {
-      staticOnly_ = false;
-    }
+    stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
     Names names(model_, scope);
     repeat(names, 0);
+    if (failed_) model_.incomplete = true;
   }
 
   void repeat(Names& names, std::size_t depth) {
@@ -121,7 +117,7 @@ class PassWalk {
       failed_ = true;
       return;
     }
-    const bool enabled = why->empty() && !staticOnly_;
+    const bool enabled = why->empty();
     const std::string user = fmt::format("pass '{}'", name);
     const SlotContext context{model_, names, type_, user, name, enabled, !byItself};
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
@@ -132,6 +128,7 @@ class PassWalk {
     for (const SlotDesc& slot : desc_->slots) {
       slots.push_back(resolveSlot(context, slot, enabled ? pass : kNone));
       if (slots.back().state == State::empty && !gone) gone = &slot;
+      if (slots.back().state == State::failed && slot.access != Access::read) model_.incomplete = true;
     }
     checkPassUses(context, *desc_, slots);
     if (!why->empty()) {
@@ -141,7 +138,8 @@ class PassWalk {
     } else if (enabled) {
       emit(context, slots, names);
     }
-    if (model_.diagnostics.errorCount() > before) failed_ = true;  // the other repeats would say the same
+    // The other repeats would say the same.
+    if (model_.diagnostics.errorCount() > before && !names.indices.empty()) failed_ = true;
   }
 
   void disabledInstance(const SlotContext& context, const std::vector<SlotWork>& slots, const std::string& name, const std::string& why) {
@@ -150,7 +148,7 @@ class PassWalk {
     for (const SlotWork& work : slots)
       if (work.state == State::connected && work.slot->access != Access::read)
         model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position, kNone, index, work.whole});
-    if (!context.ranges || staticOnly_) return;
+    if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
     std::vector<std::pair<std::uint32_t, const PassParameterDesc*>> deferred;
     fillSpec(context, *desc_, slots, ignored, deferred);
@@ -166,18 +164,17 @@ class PassWalk {
     return at->second;
   }
 
-  bool addCadence(const SlotContext& context, Names& names, FlatPass& flat) {
+  void addCadence(const SlotContext& context, Names& names, FlatPass& flat) {
     flat.cadence = desc_->cadence;
     flat.sideEffect = desc_->sideEffect;
     flat.group = groupOf();
     const auto slices = evaluateWhole(names, desc_->slices, 1, 0, 65536, fmt::format("the slices of {}", context.user));
-    if (!slices) return false;
+    if (!slices) return;
     flat.slices = static_cast<std::uint32_t>(*slices);
-    if (flat.slices > 0 || flat.group != kNone) return true;
+    if (flat.slices > 0 || flat.group != kNone) return;
     auto& d = model_.diagnostics.error(Code::W77, desc_->slices.place(), fmt::format("{} has no slices of its own and no group to ride with", context.user));
     d.pass = context.pass;
     d.hint = "0 slices go with a \"group\": the pass runs with its predecessor";
-    return false;
   }
 
   // Uses of one slot, in element order. Reads and modifies take the current resource, writes perhaps a new one.
@@ -231,11 +228,11 @@ class PassWalk {
 
   void emit(const SlotContext& context, const std::vector<SlotWork>& slots, Names& names) {
     FlatPass flat;
-    if (!addCadence(context, names, flat)) return;
+    addCadence(context, names, flat);
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     PassSpec spec;
     std::vector<std::pair<std::uint32_t, const PassParameterDesc*>> dynamic;
-    fillSpec(context, *desc_, slots, spec, dynamic);
+    if (stanzaGood_) fillSpec(context, *desc_, slots, spec, dynamic);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     spec.name = context.pass;
     spec.declared = declared_;
@@ -285,7 +282,7 @@ class PassWalk {
   const PassType* type_ = nullptr;
   const std::vector<DisableRule>* rules_ = nullptr;
   std::string declared_, scopeWhy_;
-  bool failed_ = false, staticOnly_ = false;
+  bool failed_ = false, stanzaGood_ = true;
 };
 
 }  // namespace

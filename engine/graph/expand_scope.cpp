@@ -240,7 +240,7 @@ bool isUnread(const Scope& from, std::string_view name) {
 }
 
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import, const Place& place,
-                                 std::string_view user) {
+                                 std::string_view user, const std::string& pass) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
@@ -252,11 +252,13 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
     std::vector<std::string> types;
     for (const ImportType& type : model.registry.imports) types.push_back(type.name);
     d.resource = "@" + std::string(name);
+    d.pass = pass;
     d.hint = scope.resources.contains(name) ? fmt::format("'{}' is a resource of this graph: write it without the @", name) : base::nearestHint(name, types);
     return kNone;
   }
   auto& d = model.diagnostics.error(Code::W40, place, fmt::format("{} unknown resource '{}'", user, name));
   d.resource = std::string(name);
+  d.pass = pass;
   d.hint = base::nearestHint(name, resourceNames(model, scope));
   if (findImportType(model.registry, name)) d.hint = fmt::format("did you mean the import '@{}'?", name);
   for (Scope* outer = scope.parent; outer; outer = outer->parent)

@@ -21,7 +21,7 @@ void buildScopes(Model& model);
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
 // The same, and reports W040 or W043 with the nearest name at `place`.
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import, const Place& place,
-                                 std::string_view user);
+                                 std::string_view user, const std::string& pass = {});
 // True when the reader reported the declaration of this name and left it out: a use of it is no second mistake.
 bool isUnread(const Scope& from, std::string_view name);
 // The import type's entity with default arguments; kNone when there is no such type.

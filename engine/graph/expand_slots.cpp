@@ -99,7 +99,7 @@ bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& ent
 bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer, std::vector<Leaf>& leaves) {
   Model& model = context.model;
   Leaf leaf = outer;
-  leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place, context.user + " uses the");
+  leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place, context.user + " uses the", context.pass);
   if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
@@ -235,7 +235,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   work.slot = &slot;
   work.use.access = slot.access;
 
-  const std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place, fmt::format("{} {} the", context.user, slot.access == Access::read ? "reads" : slot.access == Access::write ? "writes" : "modifies"));
+  const std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place, fmt::format("{} {} the", context.user, slot.access == Access::read ? "reads" : slot.access == Access::write ? "writes" : "modifies"), context.pass);
   if (found == kNone) return work;
   if (slot.access == Access::read) mention(model, found, ref.history > 0 ? kNone : model.position);
   if (slot.access != Access::read && !isWritable(context, slot, found)) return work;

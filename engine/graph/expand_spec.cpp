@@ -267,6 +267,7 @@ class SpecFiller {
       spec_.threads[2] = shape.target == Target::texture_3d ? std::max(1u, shape.depth >> work.use.mip) : work.use.layers;
       return;
     }
+    if (model_.incomplete) return;  // the slot that would say may have been left out for its mistakes
     auto& d = error(Code::W68, desc_.namePlace, "lacks threads");
     d.expected = "\"threads\": a number or a list, since no texture is written whose size could be meant";
   }
@@ -309,7 +310,7 @@ std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassD
     d.hint = std::move(hint);
     return std::nullopt;
   };
-  std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place, context.user + " is seen from the");
+  std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place, context.user + " is seen from the", context.pass);
   if (found == kNone || !ensureShape(model, found)) return std::nullopt;
   const Entity& entity = model.entities[found];
   if (entity.kind != ResourceDesc::Kind::import || model.graph.imports[entity.import].kind != ImportKind::view) {

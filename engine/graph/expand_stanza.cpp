@@ -56,7 +56,7 @@ void checkKeys(const Stanza& stanza) {
     if (desc.list.empty() && !desc.instances.present()) lacks("what to draw", "\"list\" or \"instances\"");
     if (desc.geometry.empty()) lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");
   }
-  if (shader != ShaderShape::compute &&
+  if (shader != ShaderShape::compute && !stanza.model.incomplete &&
       std::none_of(desc.slots.begin(), desc.slots.end(), [](const SlotDesc& s) { return s.access != Access::read && s.ref.kind != Kind::image && s.ref.kind != Kind::storage; }))
     lacks("something to draw into", "a slot in \"write\" or \"modify\" that is an attachment");
 }
