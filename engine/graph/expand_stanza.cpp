@@ -75,17 +75,20 @@ void checkFixedSlots(const Stanza& stanza) {
   if (fixed.empty()) return;
   std::vector<std::string> names;
   for (const FixedSlot& slot : fixed) names.push_back(slot.name);
+  std::vector<std::string> meant;  // by misspelt ones
   for (const SlotDesc& slot : stanza.desc.slots) {
     const auto found = std::find_if(fixed.begin(), fixed.end(), [&](const FixedSlot& f) { return f.name == slot.name; });
     if (found == fixed.end()) {
       stanza.error(Code::W66, slot.place, fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name)).hint = base::nearestHint(slot.name, names);
+      meant.push_back(base::nearestName(slot.name, names));
     } else if ((slot.access == Access::read) != (found->access == Access::read)) {
       auto& d = stanza.error(Code::W66, slot.place, fmt::format("has the slot '{}' on the wrong side", slot.name));
       d.expected = fmt::format("'{}' in \"{}\"", slot.name, wordFor(found->access));
     }
   }
   for (const FixedSlot& slot : fixed)
-    if (std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(), [&](const SlotDesc& s) { return s.name == slot.name; }))
+    if (std::find(meant.begin(), meant.end(), slot.name) == meant.end() &&
+        std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(), [&](const SlotDesc& s) { return s.name == slot.name; }))
       stanza.error(Code::W66, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name)).expected = fmt::format("\"{}\": {{ \"{}\": … }}", wordFor(slot.access), slot.name);
 }
 
