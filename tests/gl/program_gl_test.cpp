@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/gl/gl_test.h"
+#include "tests/gl/documented.h"
 #include "tests/gl/temp_folder.h"
 
 using namespace weft::gl;
@@ -173,6 +174,27 @@ TEST_CASE("link errors are reported as such") {
                           diagnostics));
   CHECK(diagnostics.contains(Code::W105));
   CHECK(diagnostics.hasErrors());
+}
+
+TEST_CASE("every code of shaders and GL has its section, and broken shaders give its messages on Mesa") {
+  CleanScope clean;
+  for (const Code code : {Code::W100, Code::W101, Code::W102, Code::W103, Code::W104, Code::W105, Code::W106, Code::W110,
+                          Code::W115, Code::W116, Code::W117, Code::W118, Code::W120})
+    CHECK_MESSAGE(!weft::gl::test::sectionOf(code).empty(), weft::base::nameOf(code));
+  SourceLoader loader({"tests/bad_shaders"});
+  Diagnostics diagnostics;
+  const StageSource undeclared[] = {{GL_VERTEX_SHADER, loader.loadText(kTriangle, "<triangle>", diagnostics)},
+                                    {GL_FRAGMENT_SHADER, loader.load("w104_undeclared.frag.glsl", diagnostics)}};
+  CHECK_FALSE(Program::compile(undeclared, {}, {}, "undeclared", diagnostics));
+  const StageSource unlike[] = {{GL_VERTEX_SHADER, loader.load("w105_interface.vert.glsl", diagnostics)},
+                                {GL_FRAGMENT_SHADER, loader.load("w105_interface.frag.glsl", diagnostics)}};
+  CHECK_FALSE(Program::compile(unlike, {}, {}, "unlike", diagnostics));
+  CHECK(diagnostics.contains(Code::W104));
+  CHECK(diagnostics.contains(Code::W105));
+  // The texts are the driver's own.
+  if (weft::gl::test::context().device().version.find("Mesa 22.3") == std::string::npos) return;
+  weft::gl::test::checkDocumented(diagnostics, Code::W104);
+  weft::gl::test::checkDocumented(diagnostics, Code::W105);
 }
 
 TEST_CASE("defines select code, and a binary of another format or with damaged bytes is refused in silence") {

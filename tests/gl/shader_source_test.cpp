@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/gl/documented.h"
 #include "tests/gl/temp_folder.h"
 
 using namespace weft::gl;
@@ -243,4 +244,19 @@ TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column"
   CHECK(others.items()[0].place.line == 1);
   CHECK(others.items()[1].message == "fragment shader lacks main which is needed something");
   CHECK(others.items()[1].place.line == 0);
+}
+
+TEST_CASE("the broken shaders give the messages of docs/errors.md") {
+  const std::pair<const char*, Code> cases[] = {{"w100_no_such.frag.glsl", Code::W100},
+                                                {"w101_include.frag.glsl", Code::W101},
+                                                {"w102_cycle.frag.glsl", Code::W102},
+                                                {"w103_brackets.frag.glsl", Code::W103},
+                                                {"w106_version.frag.glsl", Code::W106}};
+  SourceLoader loader({"tests/bad_shaders"});
+  for (const auto& [file, code] : cases) {
+    Diagnostics diagnostics;
+    CHECK_FALSE(loader.load(file, diagnostics, {std::make_shared<const std::string>("frame.json"), 5, 41}));
+    CHECK(diagnostics.size() == 1);
+    weft::gl::test::checkDocumented(diagnostics, code);
+  }
 }

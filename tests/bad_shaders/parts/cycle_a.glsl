@@ -1,0 +1,2 @@
+#include "cycle_b.glsl"
+float a() { return 1.0; }

@@ -1,0 +1,2 @@
+#include "cycle_a.glsl"
+float b() { return 2.0; }

@@ -1,0 +1,4 @@
+// A mistake inside an include.
+float scaled(float value) {
+  return value * scael;
+}

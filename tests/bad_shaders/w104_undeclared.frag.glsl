@@ -1,0 +1,3 @@
+#include "parts/undeclared.glsl"
+out vec4 result;
+void main() { result = vec4(scaled(1.0)); }

@@ -1,0 +1,3 @@
+#version 330
+out vec4 result;
+void main() { result = vec4(1); }
