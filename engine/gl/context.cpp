@@ -34,7 +34,8 @@ std::int32_t integerOf(GLenum name) {
 }
 
 bool isSoftware(std::string renderer) {
-  std::transform(renderer.begin(), renderer.end(), renderer.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(renderer.begin(), renderer.end(), renderer.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "software rasterizer", "swiftshader"})
     if (renderer.find(name) != std::string::npos) return true;
   return false;
@@ -107,7 +108,8 @@ std::vector<Attempt> attemptsFor(Backend backend) {
   return {{backend}};
 }
 
-OpenedContext open(const Attempt& attempt, const ContextOptions& options, std::vector<std::string>& failures) {
+OpenedContext open(const Attempt& attempt, const ContextOptions& options,
+                   std::vector<std::string>& failures) {
   if (attempt.backend == Backend::osmesa) return openOsmesa(options, failures);
   if (attempt.backend == Backend::glfw) return openGlfw(options, failures);
   return openEgl(options, attempt.hardwareOnly, failures);
@@ -134,8 +136,8 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diag
     if (!opened.context) continue;
     const int version = gladLoadGL(opened.load);
     if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 45) {
-      failures.push_back(fmt::format("{}: gives OpenGL {}.{}, not 4.5", opened.platform, GLAD_VERSION_MAJOR(version),
-                                     GLAD_VERSION_MINOR(version)));
+      failures.push_back(fmt::format("{}: gives OpenGL {}.{}, not 4.5", opened.platform,
+                                     GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
       continue;
     }
     opened.context->device_ = describeDevice(attempt.backend, opened.platform);
@@ -148,7 +150,8 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diag
     return std::move(opened.context);
   }
   base::Diagnostic& error = diagnostics.error(
-      base::Code::W110, {}, fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)));
+      base::Code::W110, {},
+      fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)));
   error.found = fmt::format("{}", fmt::join(failures, "; "));
   error.hint = options.backend == Backend::glfw
                    ? "start it in a graphical session or under xvfb-run, or use the backend 'osmesa'"

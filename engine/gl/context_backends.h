@@ -1,6 +1,6 @@
-// What each backend offers to createContext (context.cpp); not for other rooms. An opener makes its context current or
-// appends to `failures` one line per thing it tried: "EGL device 0 (/dev/dri/card0): eglInitialize failed (…)".
-// Does not: load glad, set conventions, or decide the order of backends.
+// What each backend offers to createContext (context.cpp); not for other rooms. An opener makes its context
+// current or appends to `failures` one line per thing it tried: "EGL device 0 (/dev/dri/card0): eglInitialize
+// failed (…)". Does not: load glad, set conventions, or decide the order of backends.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ using GlLoader = GlFunction (*)(const char* name);
 struct OpenedContext {
   std::unique_ptr<Context> context;  // null: nothing could be opened
   GlLoader load = nullptr;
-  std::string platform;              // DeviceInfo::platform
+  std::string platform;  // DeviceInfo::platform
 };
 
 OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>& failures);

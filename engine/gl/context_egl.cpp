@@ -1,5 +1,5 @@
-// EGL without a display: the device platform (every device it lists), then Mesa's surfaceless platform. Needs no X, no
-// Wayland and no DRM master, so that a GPU of a headless machine works.
+// EGL without a display: the device platform (every device it lists), then Mesa's surfaceless platform. Needs
+// no X, no Wayland and no DRM master, so that a GPU of a headless machine works.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -44,7 +44,8 @@ std::string errorText() {
     WEFT_NAME(EGL_BAD_PARAMETER);
     WEFT_NAME(EGL_CONTEXT_LOST);
 #undef WEFT_NAME
-    default: return fmt::format("EGL error 0x{:04X}", error);
+    default:
+      return fmt::format("EGL error 0x{:04X}", error);
   }
 }
 
@@ -84,20 +85,30 @@ std::unique_ptr<Context> openOn(EGLDisplay display, const ContextOptions& option
   };
   if (major * 10 + minor < 15) return fail(fmt::format("EGL {}.{} is older than 1.5", major, minor));
   if (!eglBindAPI(EGL_OPENGL_API)) return fail("it has no desktop OpenGL");
-  const bool surfaceless = hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context");
-  const EGLint wanted[] = {EGL_SURFACE_TYPE, surfaceless ? 0 : EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  const bool surfaceless =
+      hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context");
+  const EGLint wanted[] = {EGL_SURFACE_TYPE, surfaceless ? 0 : EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                           EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0) {
-    const bool without = surfaceless && hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context");
+    const bool without =
+        surfaceless && hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context");
     if (!without) return fail("no configuration for OpenGL");
     config = EGL_NO_CONFIG_KHR;
   }
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_OPENGL_DEBUG, options.debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               5,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_CONTEXT_OPENGL_DEBUG,
+                               options.debug ? EGL_TRUE : EGL_FALSE,
+                               EGL_NONE};
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
-  if (context == EGL_NO_CONTEXT) return fail(fmt::format("gives no OpenGL 4.5 core context ({})", errorText()));
+  if (context == EGL_NO_CONTEXT)
+    return fail(fmt::format("gives no OpenGL 4.5 core context ({})", errorText()));
   EGLSurface surface = EGL_NO_SURFACE;
   if (!surfaceless) {
     const EGLint size[] = {EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
@@ -122,7 +133,8 @@ Function load(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
-// Hardware first, otherwise in the driver's order. Empty with a reason in `failures` when devices cannot be listed.
+// Hardware first, otherwise in the driver's order. Empty with a reason in `failures` when devices cannot be
+// listed.
 std::vector<Device> listDevices(const char* client, std::vector<std::string>& failures) {
   const auto query = load<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
   const auto text = load<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
@@ -141,9 +153,15 @@ std::vector<Device> listDevices(const char* client, std::vector<std::string>& fa
     const char* extensions = text ? text(handles[i], EGL_EXTENSIONS) : nullptr;
     const bool software = hasExtension(extensions, "EGL_MESA_device_software");
     const char* file = nullptr;
-    if (hasExtension(extensions, "EGL_EXT_device_drm_render_node")) file = text(handles[i], EGL_DRM_RENDER_NODE_FILE_EXT);
-    if (!file && hasExtension(extensions, "EGL_EXT_device_drm")) file = text(handles[i], EGL_DRM_DEVICE_FILE_EXT);
-    devices.push_back({handles[i], software, fmt::format("EGL device {} ({})", i, file ? file : software ? "software" : "no file")});
+    if (hasExtension(extensions, "EGL_EXT_device_drm_render_node"))
+      file = text(handles[i], EGL_DRM_RENDER_NODE_FILE_EXT);
+    if (!file && hasExtension(extensions, "EGL_EXT_device_drm"))
+      file = text(handles[i], EGL_DRM_DEVICE_FILE_EXT);
+    devices.push_back({handles[i], software,
+                       fmt::format("EGL device {} ({})", i,
+                                   file       ? file
+                                   : software ? "software"
+                                              : "no file")});
   }
   std::stable_partition(devices.begin(), devices.end(), [](const Device& d) { return !d.software; });
   return devices;
@@ -176,7 +194,8 @@ OpenedContext openEgl(const ContextOptions& options, bool hardwareOnly, std::vec
     failures.emplace_back("EGL surfaceless: EGL_MESA_platform_surfaceless is missing");
     return {};
   }
-  if (auto context = openOn(display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), options, why))
+  if (auto context =
+          openOn(display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), options, why))
     return {std::move(context), loader, "EGL surfaceless"};
   failures.push_back(fmt::format("EGL surfaceless: {}", why));
   return {};

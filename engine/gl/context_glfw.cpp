@@ -66,8 +66,9 @@ OpenedContext openGlfw(const ContextOptions& options, std::vector<std::string>& 
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  GLFWwindow* window = glfwCreateWindow(std::max(1, static_cast<int>(options.width)), std::max(1, static_cast<int>(options.height)),
-                                        options.title.c_str(), nullptr, nullptr);
+  GLFWwindow* window = glfwCreateWindow(std::max(1, static_cast<int>(options.width)),
+                                        std::max(1, static_cast<int>(options.height)), options.title.c_str(),
+                                        nullptr, nullptr);
   if (!window) {
     failures.push_back(fmt::format("GLFW: {}", lastError()));
     if (g_windows == 0) glfwTerminate();

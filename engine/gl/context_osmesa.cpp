@@ -1,10 +1,13 @@
-// OSMesa: llvmpipe into memory. glad's header comes first: it stands in for the GL/gl.h that osmesa.h includes.
+// OSMesa: llvmpipe into memory. glad's header comes first: it stands in for the GL/gl.h that osmesa.h
+// includes.
+// clang-format off
 #include "engine/gl/context_backends.h"
 
 #ifndef GLAPI
 #define GLAPI extern
 #endif
 #include <GL/osmesa.h>
+// clang-format on
 
 #include <vector>
 
@@ -17,7 +20,8 @@ constexpr int kStandIn = 16;
 
 class OsmesaContext final : public Context {
  public:
-  OsmesaContext(OSMesaContext context, Size size) : context_(context), size_(size), memory_(kStandIn * kStandIn * 4) {}
+  OsmesaContext(OSMesaContext context, Size size)
+      : context_(context), size_(size), memory_(kStandIn * kStandIn * 4) {}
   ~OsmesaContext() override { OSMesaDestroyContext(context_); }
 
   bool makeCurrent() override {
@@ -34,9 +38,21 @@ class OsmesaContext final : public Context {
 }  // namespace
 
 OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>& failures) {
-  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_STENCIL_BITS, 0,
-                            OSMESA_ACCUM_BITS, 0, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 5, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            0,
+                            OSMESA_STENCIL_BITS,
+                            0,
+                            OSMESA_ACCUM_BITS,
+                            0,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            4,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            5,
+                            0};
   const OSMesaContext raw = OSMesaCreateContextAttribs(attributes, nullptr);
   if (!raw) {
     failures.emplace_back("OSMesa: gives no OpenGL 4.5 core context");

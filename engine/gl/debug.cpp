@@ -10,29 +10,42 @@ namespace {
 
 const char* sourceName(GLenum source) {
   switch (source) {
-    case GL_DEBUG_SOURCE_API: return "API";
-    case GL_DEBUG_SOURCE_WINDOW_SYSTEM: return "window system";
-    case GL_DEBUG_SOURCE_SHADER_COMPILER: return "shader compiler";
-    case GL_DEBUG_SOURCE_THIRD_PARTY: return "third party";
-    case GL_DEBUG_SOURCE_APPLICATION: return "application";
-    default: return "other source";
+    case GL_DEBUG_SOURCE_API:
+      return "API";
+    case GL_DEBUG_SOURCE_WINDOW_SYSTEM:
+      return "window system";
+    case GL_DEBUG_SOURCE_SHADER_COMPILER:
+      return "shader compiler";
+    case GL_DEBUG_SOURCE_THIRD_PARTY:
+      return "third party";
+    case GL_DEBUG_SOURCE_APPLICATION:
+      return "application";
+    default:
+      return "other source";
   }
 }
 
 const char* typeName(GLenum type) {
   switch (type) {
-    case GL_DEBUG_TYPE_ERROR: return "error";
-    case GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR: return "deprecated behaviour";
-    case GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR: return "undefined behaviour";
-    case GL_DEBUG_TYPE_PORTABILITY: return "portability";
-    case GL_DEBUG_TYPE_PERFORMANCE: return "performance";
-    case GL_DEBUG_TYPE_MARKER: return "marker";
-    default: return "message";
+    case GL_DEBUG_TYPE_ERROR:
+      return "error";
+    case GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR:
+      return "deprecated behaviour";
+    case GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR:
+      return "undefined behaviour";
+    case GL_DEBUG_TYPE_PORTABILITY:
+      return "portability";
+    case GL_DEBUG_TYPE_PERFORMANCE:
+      return "performance";
+    case GL_DEBUG_TYPE_MARKER:
+      return "marker";
+    default:
+      return "message";
   }
 }
 
-void GLAPIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar* text,
-                        const void* user) {
+void GLAPIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                        const GLchar* text, const void* user) {
   const std::size_t size = length >= 0 ? static_cast<std::size_t>(length) : std::string_view(text).size();
   static_cast<DebugLog*>(const_cast<void*>(user))->record(source, type, id, severity, {text, size});
 }
@@ -53,7 +66,8 @@ void DebugLog::install() {
 }
 
 void DebugLog::record(GLenum source, GLenum type, GLuint id, GLenum severity, std::string_view text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\0' || text.back() == ' ')) text.remove_suffix(1);
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\0' || text.back() == ' '))
+    text.remove_suffix(1);
   const std::lock_guard lock(mutex_);
   const auto same = std::find_if(messages_.begin(), messages_.end(), [&](const DebugMessage& m) {
     return m.source == source && m.type == type && m.id == id && m.severity == severity && m.text == text;
@@ -90,7 +104,10 @@ void DebugLog::drain(base::Diagnostics& diagnostics, bool notifications) {
     }
     std::string text = fmt::format("OpenGL {} ({}): {}", typeName(m.type), sourceName(m.source), m.text);
     if (m.count > 1) text += fmt::format(" (seen {} times)", m.count);
-    diagnostics.add({.severity = severity, .code = base::Code::W120, .message = std::move(text), .place = {},
+    diagnostics.add({.severity = severity,
+                     .code = base::Code::W120,
+                     .message = std::move(text),
+                     .place = {},
                      .pass = m.group});
   }
 }
@@ -111,7 +128,8 @@ DebugGroup::DebugGroup(DebugLog& log, std::string_view name) : log_(log) {
     glGetIntegerv(GL_MAX_DEBUG_MESSAGE_LENGTH, &value);
     return static_cast<GLsizei>(value - 1);
   }();
-  glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, std::min(static_cast<GLsizei>(name.size()), limit), name.data());
+  glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, std::min(static_cast<GLsizei>(name.size()), limit),
+                   name.data());
 }
 
 DebugGroup::~DebugGroup() {

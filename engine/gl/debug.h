@@ -1,6 +1,6 @@
-// KHR_debug: the driver's messages as diagnostics (W120), debug groups and object labels. A message that repeats is
-// kept once with a count. Groups name the pass in which a message was raised, and show in apitrace and RenderDoc.
-// Does not: print, abort, or turn GL errors into exceptions.
+// KHR_debug: the driver's messages as diagnostics (W120), debug groups and object labels. A message that
+// repeats is kept once with a count. Groups name the pass in which a message was raised, and show in apitrace
+// and RenderDoc. Does not: print, abort, or turn GL errors into exceptions.
 #pragma once
 
 #include <glad/gl.h>
@@ -19,7 +19,7 @@ struct DebugMessage {
   GLenum source = 0, type = 0, severity = 0;  // GL_DEBUG_*
   GLuint id = 0;
   std::string text;
-  std::string group;       // innermost debug group when it was first raised (the pass), or empty
+  std::string group;  // innermost debug group when it was first raised (the pass), or empty
   std::uint64_t count = 1;
 };
 
@@ -30,8 +30,8 @@ class DebugLog {
   DebugLog(const DebugLog&) = delete;
   DebugLog& operator=(const DebugLog&) = delete;
 
-  // Registers with the current context, which must not outlive this log; synchronous. Group markers are filtered
-  // out, and so are the shader compiler's errors, which Program reports with true places.
+  // Registers with the current context, which must not outlive this log; synchronous. Group markers are
+  // filtered out, and so are the shader compiler's errors, which Program reports with true places.
   void install();
   // What the callback does; open to tests.
   void record(GLenum source, GLenum type, GLuint id, GLenum severity, std::string_view text);
@@ -39,8 +39,9 @@ class DebugLog {
   // Any message above GL_DEBUG_SEVERITY_NOTIFICATION since construction or clear()?
   bool hasAboveNotification() const;
   std::vector<DebugMessage> messages() const;
-  // Adds one W120 per message that is new since the last drain: high severity or type error: error; medium and low:
-  // warning; notifications: note when `notifications`. Repeats seen by then are said in the text ("seen 12 times").
+  // Adds one W120 per message that is new since the last drain: high severity or type error: error; medium
+  // and low: warning; notifications: note when `notifications`. Repeats seen by then are said in the text
+  // ("seen 12 times").
   void drain(base::Diagnostics& diagnostics, bool notifications = false);
   void clear();
 
@@ -64,8 +65,8 @@ class DebugGroup {
   DebugLog& log_;
 };
 
-// glObjectLabel, cut to the driver's greatest length. `identifier` is GL_TEXTURE, GL_BUFFER, …; the object must exist
-// (bound once, or made by glCreate*).
+// glObjectLabel, cut to the driver's greatest length. `identifier` is GL_TEXTURE, GL_BUFFER, …; the object
+// must exist (bound once, or made by glCreate*).
 void labelObject(GLenum identifier, GLuint id, std::string_view label);
 
 // "GL_INVALID_OPERATION", "GL_RGBA16F", …: the enums this room meets; "0x1234" for others.

@@ -117,7 +117,8 @@ constexpr GlslType kTypes[] = {
 }  // namespace
 
 const GlslType* findGlslType(GLenum type) {
-  const auto found = std::find_if(std::begin(kTypes), std::end(kTypes), [&](const GlslType& t) { return t.type == type; });
+  const auto found =
+      std::find_if(std::begin(kTypes), std::end(kTypes), [&](const GlslType& t) { return t.type == type; });
   return found == std::end(kTypes) ? nullptr : found;
 }
 

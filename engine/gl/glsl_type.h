@@ -1,4 +1,5 @@
-// The table behind glslTypeName and shapeOf (program.h), with what introspection needs besides. Not for other rooms.
+// The table behind glslTypeName and shapeOf (program.h), with what introspection needs besides. Not for other
+// rooms.
 #pragma once
 
 #include "engine/gl/program.h"

@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t kKinds = static_cast<std::size_t>(ObjectKind::count_);
 std::array<std::atomic<std::int64_t>, kKinds> g_live{};
 
-void count(ObjectKind kind, std::int64_t by) { g_live[static_cast<std::size_t>(kind)] += by; }
+void count(ObjectKind kind, std::int64_t by) {
+  g_live[static_cast<std::size_t>(kind)] += by;
+}
 
 }  // namespace
 
@@ -31,10 +33,12 @@ LiveObjects liveObjects() {
 }
 
 std::string toText(const LiveObjects& objects) {
-  static constexpr const char* kOne[kKinds] = {"texture", "texture view", "buffer", "framebuffer", "sampler",
-                                               "vertex array", "query", "fence", "program"};
-  static constexpr const char* kMany[kKinds] = {"textures", "texture views", "buffers", "framebuffers", "samplers",
-                                                "vertex arrays", "queries", "fences", "programs"};
+  static constexpr const char* kOne[kKinds] = {"texture",     "texture view", "buffer",
+                                               "framebuffer", "sampler",      "vertex array",
+                                               "query",       "fence",        "program"};
+  static constexpr const char* kMany[kKinds] = {"textures",     "texture views", "buffers",
+                                                "framebuffers", "samplers",      "vertex arrays",
+                                                "queries",      "fences",        "programs"};
   std::string text;
   for (std::size_t i = 0; i < kKinds; ++i) {
     const auto n = objects.counts[i];
@@ -78,11 +82,14 @@ std::optional<Buffer> Buffer::create(std::uint64_t bytes, GLbitfield flags, std:
   GLuint id = 0;
   glCreateBuffers(1, &id);
   Buffer buffer(id);
-  // workarounds.h: storage-flag-without-storage. Errors from before are in the debug log and would be taken for ours.
+  // workarounds.h: storage-flag-without-storage. Errors from before are in the debug log and would be taken
+  // for ours.
   takeErrors();
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes), data, flags);
   if (const std::string errors = takeErrors(); !errors.empty()) {
-    diagnostics.error(base::Code::W117, {}, fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, errors))
+    diagnostics
+        .error(base::Code::W117, {},
+               fmt::format("buffer '{}' of {} bytes cannot be created: {}", label, bytes, errors))
         .resource = label;
     return std::nullopt;
   }
@@ -121,14 +128,18 @@ void VertexArray::setVertices(GLuint buffer, std::uint64_t offset, std::uint32_t
   for (const VertexAttribute& attribute : attributes) {
     glEnableVertexArrayAttrib(id_, attribute.location);
     if (attribute.integer)
-      glVertexArrayAttribIFormat(id_, attribute.location, attribute.components, attribute.type, attribute.offset);
+      glVertexArrayAttribIFormat(id_, attribute.location, attribute.components, attribute.type,
+                                 attribute.offset);
     else
-      glVertexArrayAttribFormat(id_, attribute.location, attribute.components, attribute.type, GL_FALSE, attribute.offset);
+      glVertexArrayAttribFormat(id_, attribute.location, attribute.components, attribute.type, GL_FALSE,
+                                attribute.offset);
     glVertexArrayAttribBinding(id_, attribute.location, 0);
   }
 }
 
-void VertexArray::setIndices(GLuint buffer) { glVertexArrayElementBuffer(id_, buffer); }
+void VertexArray::setIndices(GLuint buffer) {
+  glVertexArrayElementBuffer(id_, buffer);
+}
 
 Query Query::create(GLenum target, std::string_view label) {
   GLuint id = 0;
@@ -165,7 +176,9 @@ Fence& Fence::operator=(Fence&& other) noexcept {
   return *this;
 }
 
-bool Fence::isSignalled() const { return wait(0); }
+bool Fence::isSignalled() const {
+  return wait(0);
+}
 
 bool Fence::wait(std::uint64_t nanoseconds) const {
   if (!sync_) return true;

@@ -1,7 +1,8 @@
-// Move-only owners of GL objects, labelled for debug tools and counted per kind (leak tests). Creation that depends on
-// the machine or on an author's numbers returns an optional and a diagnostic; everything else asserts. All functions
-// act on the current context, in which the objects must also die; an object moved from or default-made owns nothing.
-// Does not: cache, pool, bind for drawing, or know the engine's formats (internal formats are GLenum).
+// Move-only owners of GL objects, labelled for debug tools and counted per kind (leak tests). Creation that
+// depends on the machine or on an author's numbers returns an optional and a diagnostic; everything else
+// asserts. All functions act on the current context, in which the objects must also die; an object moved from
+// or default-made owns nothing. Does not: cache, pool, bind for drawing, or know the engine's formats
+// (internal formats are GLenum).
 #pragma once
 
 #include <glad/gl.h>
@@ -19,7 +20,18 @@
 
 namespace weft::gl {
 
-enum class ObjectKind : std::uint8_t { texture, view, buffer, framebuffer, sampler, vertex_array, query, fence, program, count_ };
+enum class ObjectKind : std::uint8_t {
+  texture,
+  view,
+  buffer,
+  framebuffer,
+  sampler,
+  vertex_array,
+  query,
+  fence,
+  program,
+  count_
+};
 
 // Objects of this process that are alive, per kind.
 struct LiveObjects {
@@ -57,8 +69,9 @@ class Owner {
 
 // Immutable storage. layers counts array layers, for cubes six per cube (6 for GL_TEXTURE_CUBE_MAP).
 struct TextureDesc {
-  GLenum target = GL_TEXTURE_2D;  // 2D, 2D_ARRAY, CUBE_MAP, CUBE_MAP_ARRAY, 3D, 2D_MULTISAMPLE, 2D_MULTISAMPLE_ARRAY
-  GLenum format = GL_RGBA8;       // sized internal format
+  GLenum target =
+      GL_TEXTURE_2D;  // 2D, 2D_ARRAY, CUBE_MAP, CUBE_MAP_ARRAY, 3D, 2D_MULTISAMPLE, 2D_MULTISAMPLE_ARRAY
+  GLenum format = GL_RGBA8;                        // sized internal format
   std::uint32_t width = 1, height = 1, depth = 1;  // depth: 3D only
   std::uint32_t layers = 1, mips = 1, samples = 1;
   friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
@@ -72,9 +85,10 @@ struct TextureRef {
 
 class Texture : public Owner<ObjectKind::texture> {
  public:
-  // W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp to edge,
-  // GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
-  static std::optional<Texture> create(const TextureDesc& desc, std::string_view label, base::Diagnostics& diagnostics);
+  // W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp to
+  // edge, GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
+  static std::optional<Texture> create(const TextureDesc& desc, std::string_view label,
+                                       base::Diagnostics& diagnostics);
   const TextureDesc& desc() const { return desc_; }
   TextureRef ref() const { return {id_, desc_}; }
 
@@ -85,9 +99,9 @@ class Texture : public Owner<ObjectKind::texture> {
 
 struct ViewDesc {
   GLenum target = GL_TEXTURE_2D;
-  GLenum format = 0;              // 0: the texture's own; others must be in its view class (depth: its own only)
+  GLenum format = 0;  // 0: the texture's own; others must be in its view class (depth: its own only)
   std::uint32_t mip = 0, mips = 1, layer = 0, layers = 1;
-  bool stencil = false;           // sampling yields the stencil index (usampler) of a depth-stencil texture
+  bool stencil = false;  // sampling yields the stencil index (usampler) of a depth-stencil texture
   friend bool operator==(const ViewDesc&, const ViewDesc&) = default;
 };
 
@@ -107,8 +121,8 @@ class TextureView : public Owner<ObjectKind::view> {
 
 class Buffer : public Owner<ObjectKind::buffer> {
  public:
-  // Immutable storage of `bytes` (> 0); flags as for glNamedBufferStorage. `data` may be null: undefined contents.
-  // W117 when memory is out.
+  // Immutable storage of `bytes` (> 0); flags as for glNamedBufferStorage. `data` may be null: undefined
+  // contents. W117 when memory is out.
   static std::optional<Buffer> create(std::uint64_t bytes, GLbitfield flags, std::string_view label,
                                       base::Diagnostics& diagnostics, const void* data = nullptr);
   std::uint64_t bytes() const { return bytes_; }
@@ -119,17 +133,19 @@ class Buffer : public Owner<ObjectKind::buffer> {
 };
 
 struct Attachment {
-  GLenum point = GL_COLOR_ATTACHMENT0;  // or GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT, GL_DEPTH_STENCIL_ATTACHMENT
+  GLenum point =
+      GL_COLOR_ATTACHMENT0;  // or GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT, GL_DEPTH_STENCIL_ATTACHMENT
   GLuint texture = 0;
   std::uint32_t mip = 0;
-  std::int32_t layer = -1;              // -1: the whole level (layered when it has layers); else one layer, face or slice
+  std::int32_t layer = -1;  // -1: the whole level (layered when it has layers); else one layer, face or slice
   friend bool operator==(const Attachment&, const Attachment&) = default;
 };
 
 class Framebuffer : public Owner<ObjectKind::framebuffer> {
  public:
-  // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached and nothing otherwise. Without attachments,
-  // width and height say how much is rasterised. W115 with the reason spelled out when it is incomplete.
+  // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached and nothing otherwise. Without
+  // attachments, width and height say how much is rasterised. W115 with the reason spelled out when it is
+  // incomplete.
   static std::optional<Framebuffer> create(std::span<const Attachment> attachments, std::string_view label,
                                            base::Diagnostics& diagnostics, std::uint32_t width = 0,
                                            std::uint32_t height = 0);
@@ -165,7 +181,8 @@ class VertexArray : public Owner<ObjectKind::vertex_array> {
  public:
   static VertexArray create(std::string_view label);
   // All attributes from one interleaved buffer binding; indices may be 0. The buffers are not owned.
-  void setVertices(GLuint buffer, std::uint64_t offset, std::uint32_t stride, std::span<const VertexAttribute> attributes);
+  void setVertices(GLuint buffer, std::uint64_t offset, std::uint32_t stride,
+                   std::span<const VertexAttribute> attributes);
   void setIndices(GLuint buffer);
 
  private:
@@ -191,16 +208,17 @@ class Fence {
   Fence& operator=(Fence&& other) noexcept;
   ~Fence() { reset(); }
   explicit operator bool() const { return sync_ != nullptr; }
-  bool isSignalled() const;                      // never waits; flushes so that it gets done some day
-  bool wait(std::uint64_t nanoseconds) const;    // true when signalled within that time
+  bool isSignalled() const;                    // never waits; flushes so that it gets done some day
+  bool wait(std::uint64_t nanoseconds) const;  // true when signalled within that time
   void reset();
 
  private:
   GLsync sync_ = nullptr;
 };
 
-// ---- texels and bytes, synchronous ---------------------------------------------------------------------------------
-// `layer` is an array layer, a cube's layer * 6 + face, or a 3D slice. Rows are bottom first and tightly packed.
+// ---- texels and bytes, synchronous
+// --------------------------------------------------------------------------------- `layer` is an array
+// layer, a cube's layer * 6 + face, or a 3D slice. Rows are bottom first and tightly packed.
 
 struct Extent {
   std::uint32_t width = 1, height = 1, layers = 1;  // layers: array layers, faces, or slices of this level
@@ -208,18 +226,19 @@ struct Extent {
 Extent extentOf(const TextureDesc& desc, std::uint32_t mip);
 
 // Writes one layer of one level; data holds exactly width * height texels of (format, type).
-void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
-                   std::span<const std::byte> data);
+void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
+                   GLenum type, std::span<const std::byte> data);
 // One layer of one level as bytes of (format, type).
-std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type);
-// The same as floats, four per texel (missing channels 0, alpha 1); depth formats: one per texel; integer formats are
-// converted from their exact values.
+std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
+                                   GLenum format, GLenum type);
+// The same as floats, four per texel (missing channels 0, alpha 1); depth formats: one per texel; integer
+// formats are converted from their exact values.
 std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip = 0, std::uint32_t layer = 0);
 // Floats per texel of readFloats: 4, or 1 for depth.
 std::uint32_t floatChannelsOf(GLenum internalFormat);
 // Starts a read-back into `buffer` at `offset`; finished when a fence inserted afterwards is signalled.
-void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
-                     GLuint buffer, std::uint64_t offset, std::uint64_t bytes);
+void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
+                     GLenum type, GLuint buffer, std::uint64_t offset, std::uint64_t bytes);
 
 // The buffer was created with GL_DYNAMIC_STORAGE_BIT.
 void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data);

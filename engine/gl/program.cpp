@@ -30,10 +30,14 @@ class Shader {
 
 const char* stageName(GLenum stage) {
   switch (stage) {
-    case GL_VERTEX_SHADER: return "vertex shader";
-    case GL_FRAGMENT_SHADER: return "fragment shader";
-    case GL_COMPUTE_SHADER: return "compute shader";
-    default: return "shader";
+    case GL_VERTEX_SHADER:
+      return "vertex shader";
+    case GL_FRAGMENT_SHADER:
+      return "fragment shader";
+    case GL_COMPUTE_SHADER:
+      return "compute shader";
+    default:
+      return "shader";
   }
 }
 
@@ -46,9 +50,10 @@ std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsize
   return text;
 }
 
-// The log as diagnostics. What succeeded has no errors, whatever the driver's wording; what failed has at least one.
-void reportLog(const std::string& log, const ShaderSource& source, Code code, bool succeeded, const std::string& failure,
-               Diagnostics& diagnostics) {
+// The log as diagnostics. What succeeded has no errors, whatever the driver's wording; what failed has at
+// least one.
+void reportLog(const std::string& log, const ShaderSource& source, Code code, bool succeeded,
+               const std::string& failure, Diagnostics& diagnostics) {
   Diagnostics found;
   mapLog(log, source, code, found);
   for (base::Diagnostic d : found.items()) {
@@ -58,7 +63,8 @@ void reportLog(const std::string& log, const ShaderSource& source, Code code, bo
   if (!succeeded && !found.hasErrors()) diagnostics.error(code, {source.file, 0, 0}, failure);
 }
 
-bool compileStage(const Shader& shader, const StageSource& stage, std::span<const Define> defines, Diagnostics& diagnostics) {
+bool compileStage(const Shader& shader, const StageSource& stage, std::span<const Define> defines,
+                  Diagnostics& diagnostics) {
   const std::string text = assembleSource(*stage.source, defines);
   const GLchar* start = text.data();
   const auto length = static_cast<GLint>(text.size());
@@ -67,17 +73,20 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   GLint compiled = 0, logLength = 0;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &logLength);
-  const std::string log =
-      textOf(logLength, shader.id(), [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) { glGetShaderInfoLog(i, n, w, t); });
+  const std::string log = textOf(logLength, shader.id(), [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
+    glGetShaderInfoLog(i, n, w, t);
+  });
   reportLog(log, *stage.source, Code::W104, compiled != 0,
-            fmt::format("the {} does not compile, and the driver does not say why", stageName(stage.stage)), diagnostics);
+            fmt::format("the {} does not compile, and the driver does not say why", stageName(stage.stage)),
+            diagnostics);
   return compiled != 0;
 }
 
 }  // namespace
 
 std::optional<Program> Program::compile(std::span<const StageSource> stages, std::span<const Define> defines,
-                                        std::span<const std::string> outputs, std::string_view label, Diagnostics& diagnostics) {
+                                        std::span<const std::string> outputs, std::string_view label,
+                                        Diagnostics& diagnostics) {
   assert(!stages.empty());
   std::vector<Shader> shaders;
   bool compiled = true;
@@ -100,8 +109,9 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages, std
   GLint linked = 0, logLength = 0;
   glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
   glGetProgramiv(program.id_, GL_INFO_LOG_LENGTH, &logLength);
-  const std::string log =
-      textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) { glGetProgramInfoLog(i, n, w, t); });
+  const std::string log = textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
+    glGetProgramInfoLog(i, n, w, t);
+  });
   reportLog(log, *stages.back().source, Code::W105, linked != 0,
             fmt::format("program '{}' does not link, and the driver does not say why", label), diagnostics);
   if (!linked) return std::nullopt;
@@ -115,7 +125,8 @@ std::optional<Program> Program::load(const ProgramBinary& binary, bool compute, 
   glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
   std::vector<GLint> formats(static_cast<std::size_t>(std::max(0, count)));
   if (count > 0) glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
-  if (std::find(formats.begin(), formats.end(), static_cast<GLint>(binary.format)) == formats.end()) return std::nullopt;
+  if (std::find(formats.begin(), formats.end(), static_cast<GLint>(binary.format)) == formats.end())
+    return std::nullopt;
   Program program(glCreateProgram());
   program.label_ = label;
   labelObject(GL_PROGRAM, program.id_, label);

@@ -29,7 +29,8 @@ struct BinaryHeader {
   std::uint64_t checksum = 0;
 };
 
-std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest& request, const DeviceInfo& device) {
+std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest& request,
+                    const DeviceInfo& device) {
   std::string text = device.driverKey + nameOf(device.backend);
   const auto add = [&](std::string_view part) { text += fmt::format("\n{}:{}", part.size(), part); };
   for (const StageSource& stage : stages)
@@ -54,7 +55,8 @@ void appendFor(const ProgramRequest& request, const Diagnostics& from, Diagnosti
 }  // namespace
 
 bool Variant::mentions(std::string_view name) const {
-  return std::any_of(stages.begin(), stages.end(), [&](const StageSource& s) { return s.source->mentions(name); });
+  return std::any_of(stages.begin(), stages.end(),
+                     [&](const StageSource& s) { return s.source->mentions(name); });
 }
 
 ProgramCache::ProgramCache(const DeviceInfo& device, SourceLoader& loader, Options options)
@@ -121,9 +123,12 @@ void ProgramCache::clear() {
   failures_.clear();
 }
 
-std::string ProgramCache::pathOf(const std::string& key) const { return options_.folder + "/" + key + ".bin"; }
+std::string ProgramCache::pathOf(const std::string& key) const {
+  return options_.folder + "/" + key + ".bin";
+}
 
-std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool compute, std::string_view label) {
+std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool compute,
+                                                std::string_view label) {
   if (options_.folder.empty()) return std::nullopt;
   std::error_code ec;
   if (!std::filesystem::is_regular_file(pathOf(key), ec)) return std::nullopt;

@@ -1,7 +1,7 @@
-// Variants by (source text, defines, outputs, stages, driver, backend): in memory the most recently used ones, on disk
-// all of them as program binaries. A broken, foreign or rejected binary is a miss and is written anew.
-// A variant that does not compile gives its diagnostics and null, and the caller keeps the program it has; the failure is
-// remembered until the sources change, so that asking again compiles nothing.
+// Variants by (source text, defines, outputs, stages, driver, backend): in memory the most recently used
+// ones, on disk all of them as program binaries. A broken, foreign or rejected binary is a miss and is
+// written anew. A variant that does not compile gives its diagnostics and null, and the caller keeps the
+// program it has; the failure is remembered until the sources change, so that asking again compiles nothing.
 // Does not: compile in the background, delete old binaries, or watch files (SourceLoader looks at times).
 #pragma once
 
@@ -22,8 +22,8 @@ namespace weft::gl {
 struct ProgramRequest {
   struct Stage {
     GLenum stage = GL_FRAGMENT_SHADER;
-    std::string file;   // found by SourceLoader; a name for messages when `text` is given
-    std::string text;   // not empty: GLSL that the engine itself supplies
+    std::string file;  // found by SourceLoader; a name for messages when `text` is given
+    std::string text;  // not empty: GLSL that the engine itself supplies
   };
   std::vector<Stage> stages;
   std::vector<Define> defines;
@@ -37,24 +37,25 @@ struct ProgramRequest {
 struct Variant {
   Program program;
   std::vector<StageSource> stages;
-  // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no error).
+  // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no
+  // error).
   bool mentions(std::string_view name) const;
 };
 
-// hits + misses: calls whose sources could be read. A remembered failure is a hit. A binary that is absent is neither
-// load nor reject; a rejected one is compiled and written anew.
+// hits + misses: calls whose sources could be read. A remembered failure is a hit. A binary that is absent is
+// neither load nor reject; a rejected one is compiled and written anew.
 struct ProgramCacheStats {
   std::uint64_t hits = 0, misses = 0, evictions = 0;
-  std::uint64_t compilations = 0;     // from source, failed ones included
-  std::uint64_t failures = 0;         // of those
+  std::uint64_t compilations = 0;  // from source, failed ones included
+  std::uint64_t failures = 0;      // of those
   std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0;
 };
 
 class ProgramCache {
  public:
   struct Options {
-    std::size_t capacity = 32;   // at least 1
-    std::string folder;          // of binaries, made when absent; "": no disk cache
+    std::size_t capacity = 32;  // at least 1
+    std::string folder;         // of binaries, made when absent; "": no disk cache
   };
   // `device` and `loader` must outlive the cache.
   ProgramCache(const DeviceInfo& device, SourceLoader& loader, Options options);

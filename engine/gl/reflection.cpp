@@ -30,10 +30,11 @@ std::string nameOf(GLuint program, GLenum interface, GLuint index) {
 }
 
 template <std::size_t kCount>
-std::array<GLint, kCount> propertiesOf(GLuint program, GLenum interface, GLuint index, const std::array<GLenum, kCount>& names) {
+std::array<GLint, kCount> propertiesOf(GLuint program, GLenum interface, GLuint index,
+                                       const std::array<GLenum, kCount>& names) {
   std::array<GLint, kCount> values{};
-  glGetProgramResourceiv(program, interface, index, static_cast<GLsizei>(kCount), names.data(), static_cast<GLsizei>(kCount),
-                         nullptr, values.data());
+  glGetProgramResourceiv(program, interface, index, static_cast<GLsizei>(kCount), names.data(),
+                         static_cast<GLsizei>(kCount), nullptr, values.data());
   return values;
 }
 
@@ -42,7 +43,9 @@ std::string withoutIndex(std::string name) {
   return name;
 }
 
-std::uint32_t toUnsigned(GLint value) { return value < 0 ? 0 : static_cast<std::uint32_t>(value); }
+std::uint32_t toUnsigned(GLint value) {
+  return value < 0 ? 0 : static_cast<std::uint32_t>(value);
+}
 
 void readUniforms(GLuint program, Reflection& out) {
   const GLint count = countOf(program, GL_UNIFORM);
@@ -78,10 +81,12 @@ void assignUnits(GLuint program, std::vector<OpaqueUniform>& uniforms) {
 BlockMember readMember(GLuint program, bool storage, GLuint index, const std::string& block) {
   const GLenum interface = storage ? GL_BUFFER_VARIABLE : GL_UNIFORM;
   const auto [type, offset, size, stride, matrixStride, rowMajor] = propertiesOf<6>(
-      program, interface, index, {GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_MATRIX_STRIDE, GL_IS_ROW_MAJOR});
+      program, interface, index,
+      {GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_MATRIX_STRIDE, GL_IS_ROW_MAJOR});
   BlockMember member;
   member.name = withoutIndex(nameOf(program, interface, index));
-  // With an instance name, members are called "Block.member" (and an array of blocks "Block[0]", members "Block.member").
+  // With an instance name, members are called "Block.member" (and an array of blocks "Block[0]", members
+  // "Block.member").
   const std::string prefix = block.substr(0, block.find('[')) + ".";
   if (member.name.starts_with(prefix)) member.name.erase(0, prefix.size());
   member.type = static_cast<GLenum>(type);
@@ -104,7 +109,8 @@ std::vector<Block> readBlocks(GLuint program, bool storage) {
   const GLint count = countOf(program, interface);
   std::vector<std::pair<Block, GLuint>> found;
   for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
-    const auto [bytes, variables] = propertiesOf<2>(program, interface, i, {GL_BUFFER_DATA_SIZE, GL_NUM_ACTIVE_VARIABLES});
+    const auto [bytes, variables] =
+        propertiesOf<2>(program, interface, i, {GL_BUFFER_DATA_SIZE, GL_NUM_ACTIVE_VARIABLES});
     Block block;
     block.name = nameOf(program, interface, i);
     block.storage = storage;
@@ -114,11 +120,13 @@ std::vector<Block> readBlocks(GLuint program, bool storage) {
     glGetProgramResourceiv(program, interface, i, 1, &property, variables, nullptr, indices.data());
     for (const GLint index : indices)
       block.members.push_back(readMember(program, storage, static_cast<GLuint>(index), block.name));
-    std::sort(block.members.begin(), block.members.end(),
-              [](const auto& a, const auto& b) { return std::tie(a.offset, a.name) < std::tie(b.offset, b.name); });
+    std::sort(block.members.begin(), block.members.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.offset, a.name) < std::tie(b.offset, b.name);
+    });
     found.emplace_back(std::move(block), i);
   }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first.name < b.first.name; });
+  std::sort(found.begin(), found.end(),
+            [](const auto& a, const auto& b) { return a.first.name < b.first.name; });
   std::vector<Block> blocks;
   for (auto& [block, index] : found) {
     block.binding = static_cast<std::uint32_t>(blocks.size());
@@ -146,7 +154,8 @@ std::vector<Interface> readInterface(GLuint program, GLenum interface) {
 
 template <class Item>
 const Item* findNamed(const std::vector<Item>& items, std::string_view name) {
-  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
   return found == items.end() ? nullptr : &*found;
 }
 
@@ -170,11 +179,23 @@ Reflection reflectProgram(GLuint program, bool compute) {
   return out;
 }
 
-const BlockMember* Block::find(std::string_view member) const { return findNamed(members, member); }
-const OpaqueUniform* Reflection::findSampler(std::string_view name) const { return findNamed(samplers, name); }
-const OpaqueUniform* Reflection::findImage(std::string_view name) const { return findNamed(images, name); }
-const Block* Reflection::findUniformBlock(std::string_view name) const { return findNamed(uniformBlocks, name); }
-const Block* Reflection::findStorageBlock(std::string_view name) const { return findNamed(storageBlocks, name); }
-const Interface* Reflection::findOutput(std::string_view name) const { return findNamed(outputs, name); }
+const BlockMember* Block::find(std::string_view member) const {
+  return findNamed(members, member);
+}
+const OpaqueUniform* Reflection::findSampler(std::string_view name) const {
+  return findNamed(samplers, name);
+}
+const OpaqueUniform* Reflection::findImage(std::string_view name) const {
+  return findNamed(images, name);
+}
+const Block* Reflection::findUniformBlock(std::string_view name) const {
+  return findNamed(uniformBlocks, name);
+}
+const Block* Reflection::findStorageBlock(std::string_view name) const {
+  return findNamed(storageBlocks, name);
+}
+const Interface* Reflection::findOutput(std::string_view name) const {
+  return findNamed(outputs, name);
+}
 
 }  // namespace weft::gl

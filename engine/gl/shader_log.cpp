@@ -19,7 +19,9 @@ struct LogLine {
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\0')) text.remove_suffix(1);
+  while (!text.empty() &&
+         (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\0'))
+    text.remove_suffix(1);
   return text;
 }
 
@@ -36,7 +38,8 @@ bool take(std::string_view& text, std::string_view token) {
   return true;
 }
 
-// "error: text", "preprocessor warning: text", "error C1234: text", "ERROR: text"; false when no severity stands there.
+// "error: text", "preprocessor warning: text", "error C1234: text", "ERROR: text"; false when no severity
+// stands there.
 bool takeSeverity(std::string_view& text, base::Severity& severity) {
   std::string_view rest = trim(text);
   take(rest, "preprocessor ");
@@ -83,7 +86,8 @@ std::optional<LogLine> parseLine(std::string_view raw) {
   rest = raw;
   if (takeSeverity(rest, line.severity)) {
     std::string_view after = rest;
-    if (takeNumber(after, line.file) && take(after, ":") && takeNumber(after, line.line) && take(after, ":")) {
+    if (takeNumber(after, line.file) && take(after, ":") && takeNumber(after, line.line) &&
+        take(after, ":")) {
       line.placed = true;
       line.text = trim(after);
     } else {
@@ -95,8 +99,8 @@ std::optional<LogLine> parseLine(std::string_view raw) {
   return std::nullopt;
 }
 
-// workarounds.h: columns-after-preprocessing. The column in `line` of what stands in `column` once every run of blanks is
-// one; 0 when there is no such column (a macro was expanded).
+// workarounds.h: columns-after-preprocessing. The column in `line` of what stands in `column` once every run
+// of blanks is one; 0 when there is no such column (a macro was expanded).
 std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
   std::uint32_t collapsed = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -128,7 +132,8 @@ bool isOrnament(std::string_view text) {
 
 }  // namespace
 
-std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code, base::Diagnostics& diagnostics) {
+std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
+                   base::Diagnostics& diagnostics) {
   static const auto defines = std::make_shared<const std::string>("<defines>");
   std::size_t added = 0;
   base::Diagnostic pending;

@@ -8,9 +8,15 @@ namespace weft::gl {
 
 namespace {
 
-bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
-bool isStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool isPart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool isSpace(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+bool isStart(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool isPart(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
@@ -34,7 +40,8 @@ bool LineScanner::next() {
   std::string_view body = trim(code.substr(1));
   std::size_t length = 0;
   while (length < body.size() && isPart(body[length])) ++length;
-  directive_ = {body.substr(0, length), trim(body.substr(length)), static_cast<std::uint32_t>(code_.find('#') + 1)};
+  directive_ = {body.substr(0, length), trim(body.substr(length)),
+                static_cast<std::uint32_t>(code_.find('#') + 1)};
   if (directive_.name == "endif") depth_ = std::max(0, depth_ - 1);
   return true;
 }

@@ -1,5 +1,6 @@
-// The lexical part of shader_source: lines with their directives, and the names a text mentions and declares. Knows
-// comments and brackets; does not know macros, types or which branch of an #if is taken. Not for other rooms.
+// The lexical part of shader_source: lines with their directives, and the names a text mentions and declares.
+// Knows comments and brackets; does not know macros, types or which branch of an #if is taken. Not for other
+// rooms.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@
 namespace weft::gl {
 
 struct Directive {
-  std::string_view name;      // "include", or "" when the line is none
-  std::string_view rest;      // what follows, trimmed, without comments
-  std::uint32_t column = 0;   // of the '#', from 1
+  std::string_view name;     // "include", or "" when the line is none
+  std::string_view rest;     // what follows, trimmed, without comments
+  std::uint32_t column = 0;  // of the '#', from 1
 };
 
 // Walks the lines of a text. A directive inside a comment is none. Views live until next().
@@ -21,15 +22,15 @@ class LineScanner {
  public:
   explicit LineScanner(std::string_view text) : rest_(text) {}
   bool next();
-  std::string_view line() const { return line_; }      // without its newline
-  std::uint32_t number() const { return number_; }     // from 1
+  std::string_view line() const { return line_; }   // without its newline
+  std::uint32_t number() const { return number_; }  // from 1
   const Directive& directive() const { return directive_; }
-  int depth() const { return depth_; }                 // of #if around the line
+  int depth() const { return depth_; }  // of #if around the line
 
  private:
   void strip();
   std::string_view rest_, line_;
-  std::string code_;          // the line, comments as spaces, columns kept
+  std::string code_;  // the line, comments as spaces, columns kept
   std::uint32_t number_ = 0;
   int depth_ = 0;
   bool inComment_ = false;
@@ -38,8 +39,9 @@ class LineScanner {
 
 using NameSet = std::set<std::string, std::less<>>;
 
-// `identifiers`: every identifier outside comments. `declared`: names of uniforms, blocks, block members, ins and outs
-// as far as brackets tell; branches of an #if that split a bracket may confuse it, so it is for hints only.
+// `identifiers`: every identifier outside comments. `declared`: names of uniforms, blocks, block members, ins
+// and outs as far as brackets tell; branches of an #if that split a bracket may confuse it, so it is for
+// hints only.
 void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared);
 
 }  // namespace weft::gl

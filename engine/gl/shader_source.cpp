@@ -20,7 +20,8 @@ using base::Place;
 
 namespace {
 
-constexpr std::size_t kMostText = std::size_t{16} << 20;  // of one stage; a guarded include may repeat its text
+constexpr std::size_t kMostText = std::size_t{16}
+                                  << 20;  // of one stage; a guarded include may repeat its text
 
 std::int64_t timeOf(const std::string& path) {
   std::error_code ec;
@@ -46,7 +47,8 @@ std::vector<std::string> listShaders(const std::vector<std::string>& folders) {
     std::error_code ec;
     for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
          !ec && it != end && names.size() < 10000; it.increment(ec))
-      if (it->path().extension() == ".glsl") names.push_back(it->path().lexically_relative(folder).generic_string());
+      if (it->path().extension() == ".glsl")
+        names.push_back(it->path().lexically_relative(folder).generic_string());
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -55,10 +57,12 @@ std::vector<std::string> listShaders(const std::vector<std::string>& folders) {
 
 }  // namespace
 
-// One expansion: the text built so far, the files met, and the chain of includes that leads to the current one.
+// One expansion: the text built so far, the files met, and the chain of includes that leads to the current
+// one.
 class IncludeExpander {
  public:
-  IncludeExpander(const std::vector<std::string>& roots, Diagnostics& diagnostics) : roots_(roots), diagnostics_(diagnostics) {}
+  IncludeExpander(const std::vector<std::string>& roots, Diagnostics& diagnostics)
+      : roots_(roots), diagnostics_(diagnostics) {}
 
   // `folder` is where includes are searched first; "" for text without a file.
   void expandRoot(const std::string& path, const std::string& folder, std::string_view text) {
@@ -98,8 +102,7 @@ class IncludeExpander {
       if (directive.name == "version")
         diagnostics_.error(Code::W106, place, "a shader file has no #version").hint =
             "remove the line; the engine writes '#version 450 core'";
-      if (directive.name == "version" || (directive.name == "pragma" && directive.rest == "once"))
-        continue;
+      if (directive.name == "version" || (directive.name == "pragma" && directive.rest == "once")) continue;
       emit(scanner.line(), number, scanner.number());
     }
     stack_.pop_back();
@@ -109,7 +112,8 @@ class IncludeExpander {
   void emit(std::string_view code, std::size_t file, std::uint32_t line) {
     ++textLine_;
     std::vector<ShaderSource::Run>& runs = source_->runs;
-    const bool follows = !runs.empty() && runs.back().file == file && line - runs.back().line == textLine_ - runs.back().textLine;
+    const bool follows = !runs.empty() && runs.back().file == file &&
+                         line - runs.back().line == textLine_ - runs.back().textLine;
     if (!follows) runs.push_back({textLine_, static_cast<std::uint32_t>(file), line});
     source_->text.append(code).append("\n");
   }
@@ -117,7 +121,8 @@ class IncludeExpander {
   void include(const Directive& directive, const Place& place, const std::string& folder, int depth) {
     std::string_view rest = directive.rest;
     if (rest.size() < 3 || rest.front() != '"' || rest.find('"', 1) != rest.size() - 1) {
-      base::Diagnostic& error = diagnostics_.error(Code::W103, place, "#include needs a file name in double quotes");
+      base::Diagnostic& error =
+          diagnostics_.error(Code::W103, place, "#include needs a file name in double quotes");
       error.expected = "#include \"common/view.glsl\"";
       error.found = fmt::format("#include {}", rest);
       return;
@@ -127,7 +132,8 @@ class IncludeExpander {
     if (!path) {
       std::vector<std::string> folders = roots_;
       if (!folder.empty()) folders.push_back(folder);
-      base::Diagnostic& error = diagnostics_.error(Code::W101, place, fmt::format("included file '{}' not found", name));
+      base::Diagnostic& error =
+          diagnostics_.error(Code::W101, place, fmt::format("included file '{}' not found", name));
       error.expected = fmt::format("a file beside the including one or below {}", fmt::join(roots_, ", "));
       error.hint = base::nearestHint(name, listShaders(folders));
       return;
@@ -136,20 +142,22 @@ class IncludeExpander {
     const bool known = position != paths_.end();
     std::size_t number = static_cast<std::size_t>(position - paths_.begin());
     if (known) {
-      if (const auto at = std::find(stack_.begin(), stack_.end(), number); at != stack_.end()) return reportCycle(at, place);
+      if (const auto at = std::find(stack_.begin(), stack_.end(), number); at != stack_.end())
+        return reportCycle(at, place);
       if (unconditional_[number]) return;
     }
     const std::optional<std::string> text = base::readFile(*path, diagnostics_, Code::W101, place);
     if (!text) return;
     if (source_->text.size() + text->size() > kMostText) {
-      diagnostics_.error(Code::W103, place, fmt::format("includes expand to more than {} MiB", kMostText >> 20)).hint =
-          "include the file once, outside #if";
+      diagnostics_
+          .error(Code::W103, place, fmt::format("includes expand to more than {} MiB", kMostText >> 20))
+          .hint = "include the file once, outside #if";
       return;
     }
     if (!known) number = addFile(*path);
     unconditional_[number] = depth == 0;
-    // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the first
-    // text outside every #if asks for that guard and makes all later ones superfluous.
+    // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the
+    // first text outside every #if asks for that guard and makes all later ones superfluous.
     const std::size_t by = stack_.back();
     if (known || depth > 0) emit(fmt::format("#ifndef WEFT_INCLUDED_{}", number), by, place.line);
     if (depth > 0) emit(fmt::format("#define WEFT_INCLUDED_{}", number), by, place.line);
@@ -161,8 +169,8 @@ class IncludeExpander {
     std::string chain;
     for (auto it = first; it != stack_.end(); ++it) chain += *source_->files[*it] + " -> ";
     chain += *source_->files[*first];
-    diagnostics_.error(Code::W102, place, fmt::format("shaders include each other in a cycle: {}", chain)).hint =
-        "move what both need into a third file";
+    diagnostics_.error(Code::W102, place, fmt::format("shaders include each other in a cycle: {}", chain))
+        .hint = "move what both need into a third file";
   }
 
   std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
@@ -179,9 +187,9 @@ class IncludeExpander {
   const std::vector<std::string>& roots_;
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
-  std::vector<std::string> paths_;         // by file number
-  std::vector<bool> unconditional_;        // by file number: stands in the text outside every #if
-  std::vector<std::size_t> stack_;         // file numbers, from the stage's own to the current one
+  std::vector<std::string> paths_;   // by file number
+  std::vector<bool> unconditional_;  // by file number: stands in the text outside every #if
+  std::vector<std::size_t> stack_;   // file numbers, from the stage's own to the current one
   std::uint32_t textLine_ = 0;
 };
 
@@ -189,23 +197,28 @@ std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key)
   const auto found = cache_.find(key);
   if (found == cache_.end()) return nullptr;
   const auto same = [](const Stamp& s) { return timeOf(s.path) == s.time && bytesOf(s.path) == s.bytes; };
-  return std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same) ? found->second.source : nullptr;
+  return std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same) ? found->second.source
+                                                                                     : nullptr;
 }
 
 std::optional<std::string> SourceLoader::locate(const std::string& path) const {
   std::error_code ec;
   if (!fs::path(path).is_absolute())
     for (const std::string& root : roots_)
-      if (const fs::path candidate = fs::path(root) / path; fs::exists(candidate, ec)) return candidate.lexically_normal().string();
+      if (const fs::path candidate = fs::path(root) / path; fs::exists(candidate, ec))
+        return candidate.lexically_normal().string();
   if (fs::exists(path, ec)) return fs::path(path).lexically_normal().string();
   return std::nullopt;
 }
 
-std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics, const Place& place) {
+std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,
+                                                       const Place& place) {
   const std::optional<std::string> where = locate(path);
   if (!where) {
-    base::Diagnostic& error = diagnostics.error(Code::W100, place, fmt::format("shader '{}' not found", path));
-    error.expected = roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
+    base::Diagnostic& error =
+        diagnostics.error(Code::W100, place, fmt::format("shader '{}' not found", path));
+    error.expected =
+        roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
     error.hint = base::nearestHint(path, listShaders(roots_));
     return nullptr;
   }
@@ -226,7 +239,8 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   return (cache_[*where] = std::move(entry)).source;
 }
 
-std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
+std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text, const std::string& name,
+                                                           Diagnostics& diagnostics) {
   const std::string key = fmt::format("<text>{}:{:016x}", name, base::hashBytes(text));
   if (auto source = answer(key)) return source;
   ++expansions_;

@@ -1,9 +1,9 @@
-// GLSL files to text a driver takes: #include expansion, a table of lines, and the way back from a driver's log to the
-// true file, line and column (docs/shaders.md). Pure text work: needs no context and makes no GL call.
-// Lines are numbered through the expanded text, and the table knows their files; the file numbers of #line are not relied
-// on, because drivers lose them (workarounds.h: source-numbers-lost).
-// A file enters a stage once: a later #include of it is dropped, or guarded when the first stands inside an #if.
-// Names are checked by a conservative token scan, not by a preprocessor: an identifier counts as present when it stands
+// GLSL files to text a driver takes: #include expansion, a table of lines, and the way back from a driver's
+// log to the true file, line and column (docs/shaders.md). Pure text work: needs no context and makes no GL
+// call. Lines are numbered through the expanded text, and the table knows their files; the file numbers of
+// #line are not relied on, because drivers lose them (workarounds.h: source-numbers-lost). A file enters a
+// stage once: a later #include of it is dropped, or guarded when the first stands inside an #if. Names are
+// checked by a conservative token scan, not by a preprocessor: an identifier counts as present when it stands
 // outside comments anywhere in the expanded text, also in a directive or inside an #if that is not taken.
 // Does not: evaluate conditionals or macros, compile, or watch files.
 #pragma once
@@ -29,17 +29,17 @@ struct Define {
 
 // One stage's file with its includes expanded; immutable and shared between variants.
 struct ShaderSource {
-  struct Run {                                             // from `textLine` of the text on: `line`, `line` + 1, … of `file`
+  struct Run {  // from `textLine` of the text on: `line`, `line` + 1, … of `file`
     std::uint32_t textLine = 1, file = 0, line = 1;
   };
-  std::shared_ptr<const std::string> file;                 // the stage's own file, as opened
-  std::string text;                                        // no #version, no defines, no #line
+  std::shared_ptr<const std::string> file;  // the stage's own file, as opened
+  std::string text;                         // no #version, no defines, no #line
   std::vector<std::shared_ptr<const std::string>> files;
-  std::vector<Run> runs;                                   // by textLine
-  std::uint64_t hash = 0;                                  // of text
-  std::set<std::string, std::less<>> identifiers;          // the token scan
-  std::set<std::string, std::less<>> declared;             // a subset: names that look like uniforms, blocks, block
-                                                           // members, ins and outs; for "did you mean"
+  std::vector<Run> runs;                           // by textLine
+  std::uint64_t hash = 0;                          // of text
+  std::set<std::string, std::less<>> identifiers;  // the token scan
+  std::set<std::string, std::less<>> declared;     // a subset: names that look like uniforms, blocks, block
+                                                   // members, ins and outs; for "did you mean"
   bool mentions(std::string_view name) const { return identifiers.find(name) != identifiers.end(); }
   // Where a line of the text (from 1) was written.
   base::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
@@ -51,13 +51,14 @@ class SourceLoader {
   // `roots` are searched in order for includes that are not found beside the including file.
   explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
-  // The stage file `path`: below the first root that has it, else as it is. `place` is who asked (the graph file), used
-  // when the file itself cannot be read (W100). Problems inside (W101 include not found, W102 include cycle, W103
-  // malformed include, W106 #version) are reported all at once and give null. An unchanged file (size and modification
-  // time of every file that took part) is expanded once.
+  // The stage file `path`: below the first root that has it, else as it is. `place` is who asked (the graph
+  // file), used when the file itself cannot be read (W100). Problems inside (W101 include not found, W102
+  // include cycle, W103 malformed include, W106 #version) are reported all at once and give null. An
+  // unchanged file (size and modification time of every file that took part) is expanded once.
   std::shared_ptr<const ShaderSource> load(const std::string& path, base::Diagnostics& diagnostics,
                                            const base::Place& place = {});
-  // The same for text in memory, named `name` in messages; its includes are searched in the roots only. Cached by text.
+  // The same for text in memory, named `name` in messages; its includes are searched in the roots only.
+  // Cached by text.
   std::shared_ptr<const ShaderSource> loadText(std::string_view text, const std::string& name,
                                                base::Diagnostics& diagnostics);
   // Where load() would find `path`, or nullopt.
@@ -84,14 +85,16 @@ class SourceLoader {
   std::uint64_t expansions_ = 0;
 };
 
-// "#version 450 core", the defines in the given order, then the source, whose first line the driver calls kTextLine.
-// Lower numbers in a log are those of the version and the defines.
+// "#version 450 core", the defines in the given order, then the source, whose first line the driver calls
+// kTextLine. Lower numbers in a log are those of the version and the defines.
 constexpr std::uint32_t kTextLine = 10001;
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines);
 
-// The log of an assembleSource() text to one diagnostic per message with its true place. Understands Mesa's "0:12(5): error: text" and
-// NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text"; other lines become part of the message before
-// them, or a message at the file itself. `code` is W104 (compile) or W105 (link). Returns how many were added.
-std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code, base::Diagnostics& diagnostics);
+// The log of an assembleSource() text to one diagnostic per message with its true place. Understands Mesa's
+// "0:12(5): error: text" and NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text"; other
+// lines become part of the message before them, or a message at the file itself. `code` is W104 (compile) or
+// W105 (link). Returns how many were added.
+std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
+                   base::Diagnostics& diagnostics);
 
 }  // namespace weft::gl

@@ -10,7 +10,9 @@ namespace weft::gl {
 
 namespace {
 
-GLint toInt(std::uint32_t value) { return static_cast<GLint>(value); }
+GLint toInt(std::uint32_t value) {
+  return static_cast<GLint>(value);
+}
 
 GLsizei byteCount(const Extent& extent, GLenum format, GLenum type) {
   const std::uint64_t bytes = std::uint64_t{extent.width} * extent.height * texelBytes(format, type);
@@ -18,12 +20,12 @@ GLsizei byteCount(const Extent& extent, GLenum format, GLenum type) {
   return static_cast<GLsizei>(bytes);
 }
 
-void getLayer(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type, GLsizei bytes,
-              void* where) {
+void getLayer(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
+              GLsizei bytes, void* where) {
   const Extent extent = extentOf(texture.desc, mip);
   assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
-  glGetTextureSubImage(texture.id, toInt(mip), 0, 0, toInt(layer), toInt(extent.width), toInt(extent.height), 1, format, type,
-                       bytes, where);
+  glGetTextureSubImage(texture.id, toInt(mip), 0, 0, toInt(layer), toInt(extent.width), toInt(extent.height),
+                       1, format, type, bytes, where);
 }
 
 }  // namespace
@@ -39,28 +41,41 @@ std::uint32_t texelBytes(GLenum format, GLenum type) {
     case GL_UNSIGNED_INT_2_10_10_10_REV:
     case GL_UNSIGNED_INT_10F_11F_11F_REV:
     case GL_UNSIGNED_INT_5_9_9_9_REV:
-    case GL_UNSIGNED_INT_24_8: return 4;
-    case GL_FLOAT_32_UNSIGNED_INT_24_8_REV: return 8;
-    default: break;
+    case GL_UNSIGNED_INT_24_8:
+      return 4;
+    case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
+      return 8;
+    default:
+      break;
   }
   std::uint32_t channels = 1;
   switch (format) {
     case GL_RG:
-    case GL_RG_INTEGER: channels = 2; break;
+    case GL_RG_INTEGER:
+      channels = 2;
+      break;
     case GL_RGB:
-    case GL_RGB_INTEGER: channels = 3; break;
+    case GL_RGB_INTEGER:
+      channels = 3;
+      break;
     case GL_RGBA:
     case GL_BGRA:
-    case GL_RGBA_INTEGER: channels = 4; break;
-    default: break;
+    case GL_RGBA_INTEGER:
+      channels = 4;
+      break;
+    default:
+      break;
   }
   switch (type) {
     case GL_UNSIGNED_BYTE:
-    case GL_BYTE: return channels;
+    case GL_BYTE:
+      return channels;
     case GL_UNSIGNED_SHORT:
     case GL_SHORT:
-    case GL_HALF_FLOAT: return channels * 2;
-    default: return channels * 4;
+    case GL_HALF_FLOAT:
+      return channels * 2;
+    default:
+      return channels * 4;
   }
 }
 
@@ -78,7 +93,8 @@ FormatClass classOf(GLenum internalFormat) {
     case GL_RG32UI:
     case GL_RGB32UI:
     case GL_RGBA32UI:
-    case GL_RGB10_A2UI: return FormatClass::unsigned_integer;
+    case GL_RGB10_A2UI:
+      return FormatClass::unsigned_integer;
     case GL_R8I:
     case GL_RG8I:
     case GL_RGB8I:
@@ -90,14 +106,18 @@ FormatClass classOf(GLenum internalFormat) {
     case GL_R32I:
     case GL_RG32I:
     case GL_RGB32I:
-    case GL_RGBA32I: return FormatClass::signed_integer;
+    case GL_RGBA32I:
+      return FormatClass::signed_integer;
     case GL_DEPTH_COMPONENT16:
     case GL_DEPTH_COMPONENT24:
     case GL_DEPTH_COMPONENT32:
-    case GL_DEPTH_COMPONENT32F: return FormatClass::depth;
+    case GL_DEPTH_COMPONENT32F:
+      return FormatClass::depth;
     case GL_DEPTH24_STENCIL8:
-    case GL_DEPTH32F_STENCIL8: return FormatClass::depth_stencil;
-    default: return FormatClass::floating;
+    case GL_DEPTH32F_STENCIL8:
+      return FormatClass::depth_stencil;
+    default:
+      return FormatClass::floating;
   }
 }
 
@@ -106,8 +126,8 @@ std::uint32_t floatChannelsOf(GLenum internalFormat) {
   return kind == FormatClass::depth || kind == FormatClass::depth_stencil ? 1 : 4;
 }
 
-void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
-                   std::span<const std::byte> data) {
+void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
+                   GLenum type, std::span<const std::byte> data) {
   const Extent extent = extentOf(texture.desc, mip);
   assert(mip < texture.desc.mips && layer < extent.layers && texture.desc.samples == 1);
   assert(data.size() == static_cast<std::size_t>(byteCount(extent, format, type)));
@@ -115,11 +135,12 @@ void uploadTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t l
   if (texture.desc.target == GL_TEXTURE_2D)
     glTextureSubImage2D(texture.id, toInt(mip), 0, 0, width, height, format, type, data.data());
   else
-    glTextureSubImage3D(texture.id, toInt(mip), 0, 0, toInt(layer), width, height, 1, format, type, data.data());
+    glTextureSubImage3D(texture.id, toInt(mip), 0, 0, toInt(layer), width, height, 1, format, type,
+                        data.data());
 }
 
-std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
-                                   GLenum type) {
+std::vector<std::byte> readTexture(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
+                                   GLenum format, GLenum type) {
   const GLsizei bytes = byteCount(extentOf(texture.desc, mip), format, type);
   std::vector<std::byte> data(static_cast<std::size_t>(bytes));
   getLayer(texture, mip, layer, format, type, bytes, data.data());
@@ -131,9 +152,13 @@ std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip, std:
   std::vector<float> texels(std::size_t{extent.width} * extent.height * floatChannelsOf(texture.desc.format));
   const auto bytes = static_cast<GLsizei>(texels.size() * sizeof(float));
   switch (classOf(texture.desc.format)) {
-    case FormatClass::floating: getLayer(texture, mip, layer, GL_RGBA, GL_FLOAT, bytes, texels.data()); break;
+    case FormatClass::floating:
+      getLayer(texture, mip, layer, GL_RGBA, GL_FLOAT, bytes, texels.data());
+      break;
     case FormatClass::depth:
-    case FormatClass::depth_stencil: getLayer(texture, mip, layer, GL_DEPTH_COMPONENT, GL_FLOAT, bytes, texels.data()); break;
+    case FormatClass::depth_stencil:
+      getLayer(texture, mip, layer, GL_DEPTH_COMPONENT, GL_FLOAT, bytes, texels.data());
+      break;
     case FormatClass::unsigned_integer:
       getLayer(texture, mip, layer, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, texels.data());
       for (float& texel : texels) texel = static_cast<float>(std::bit_cast<std::uint32_t>(texel));
@@ -146,8 +171,8 @@ std::vector<float> readFloats(const TextureRef& texture, std::uint32_t mip, std:
   return texels;
 }
 
-void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format, GLenum type,
-                     GLuint buffer, std::uint64_t offset, std::uint64_t bytes) {
+void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t layer, GLenum format,
+                     GLenum type, GLuint buffer, std::uint64_t offset, std::uint64_t bytes) {
   assert(bytes >= static_cast<std::uint64_t>(byteCount(extentOf(texture.desc, mip), format, type)));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
   getLayer(texture, mip, layer, format, type, static_cast<GLsizei>(bytes), reinterpret_cast<void*>(offset));
@@ -155,7 +180,8 @@ void readTextureInto(const TextureRef& texture, std::uint32_t mip, std::uint32_t
 }
 
 void uploadBuffer(GLuint buffer, std::uint64_t offset, std::span<const std::byte> data) {
-  glNamedBufferSubData(buffer, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
+  glNamedBufferSubData(buffer, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()),
+                       data.data());
 }
 
 std::vector<std::byte> readBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes) {

@@ -12,7 +12,8 @@ namespace weft::gl {
 namespace {
 
 bool isLayered(GLenum target) {
-  return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY || target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+  return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY ||
+         target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
 }
 
 bool isMultisample(GLenum target) {
@@ -34,27 +35,34 @@ std::string sizeText(const TextureDesc& d) {
   return text + " " + enumName(d.format);
 }
 
-// Why the driver would refuse, or "". Checked before the driver is asked so that the message can say which number.
+// Why the driver would refuse, or "". Checked before the driver is asked so that the message can say which
+// number.
 std::string refusal(const TextureDesc& d) {
   const bool cube = d.target == GL_TEXTURE_CUBE_MAP || d.target == GL_TEXTURE_CUBE_MAP_ARRAY;
-  const auto largest = static_cast<std::uint32_t>(
-      limitOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : cube ? GL_MAX_CUBE_MAP_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE));
+  const auto largest = static_cast<std::uint32_t>(limitOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
+                                                          : cube ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
+                                                                 : GL_MAX_TEXTURE_SIZE));
   const std::uint32_t depth = d.target == GL_TEXTURE_3D ? d.depth : 1;
   const std::uint32_t side = std::max({d.width, d.height, depth});
-  if (std::min({d.width, d.height, depth, d.layers, d.mips, d.samples}) == 0) return "a size, layer, mip or sample count is zero";
+  if (std::min({d.width, d.height, depth, d.layers, d.mips, d.samples}) == 0)
+    return "a size, layer, mip or sample count is zero";
   if (side > largest) return fmt::format("the largest side is {} texels here", largest);
-  if (d.mips > static_cast<std::uint32_t>(std::bit_width(side))) return fmt::format("this size has at most {} mips", std::bit_width(side));
+  if (d.mips > static_cast<std::uint32_t>(std::bit_width(side)))
+    return fmt::format("this size has at most {} mips", std::bit_width(side));
   if (isLayered(d.target)) {
     const GLint most = limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS);
-    if (d.layers > static_cast<std::uint32_t>(most)) return fmt::format("at most {} layers are allowed here", most);
+    if (d.layers > static_cast<std::uint32_t>(most))
+      return fmt::format("at most {} layers are allowed here", most);
   } else if (d.layers != (d.target == GL_TEXTURE_CUBE_MAP ? 6u : 1u)) {
     return fmt::format("{} layers do not fit {}", d.layers, enumName(d.target));
   }
   if (cube && d.width != d.height) return "cube faces must be square";
-  if (d.target == GL_TEXTURE_CUBE_MAP_ARRAY && d.layers % 6 != 0) return "a cube array needs a multiple of six layers";
+  if (d.target == GL_TEXTURE_CUBE_MAP_ARRAY && d.layers % 6 != 0)
+    return "a cube array needs a multiple of six layers";
   if (isMultisample(d.target)) {
     const GLint most = limitOf(GL_MAX_SAMPLES);
-    if (d.samples > static_cast<std::uint32_t>(most)) return fmt::format("at most {} samples are allowed here", most);
+    if (d.samples > static_cast<std::uint32_t>(most))
+      return fmt::format("at most {} samples are allowed here", most);
     if (d.mips > 1) return "a multisampled texture has one mip";
   } else if (d.samples > 1) {
     return fmt::format("{} has no samples", enumName(d.target));
@@ -64,23 +72,31 @@ std::string refusal(const TextureDesc& d) {
 
 std::string statusReason(GLenum status) {
   switch (status) {
-    case GL_FRAMEBUFFER_UNDEFINED: return "the default framebuffer does not exist";
+    case GL_FRAMEBUFFER_UNDEFINED:
+      return "the default framebuffer does not exist";
     case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
       return "an attachment has no such mip or layer, or a format that cannot be rendered to at that point";
-    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT: return "it has no attachment and no size of its own";
-    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE: return "its attachments differ in sample count";
-    case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS: return "some attachments are layered and some are not, or they differ in target";
-    case GL_FRAMEBUFFER_UNSUPPORTED: return "this driver does not render to this combination of formats";
-    default: return "the driver gives no reason";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+      return "it has no attachment and no size of its own";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+      return "its attachments differ in sample count";
+    case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+      return "some attachments are layered and some are not, or they differ in target";
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+      return "this driver does not render to this combination of formats";
+    default:
+      return "the driver gives no reason";
   }
 }
 
 }  // namespace
 
-std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view label, base::Diagnostics& diagnostics) {
+std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view label,
+                                       base::Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& reason) {
     diagnostics
-        .error(base::Code::W116, {}, fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason))
+        .error(base::Code::W116, {},
+               fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason))
         .resource = label;
     return std::nullopt;
   };
@@ -90,21 +106,29 @@ std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view
   Texture texture(id);
   texture.desc_ = desc;
   const auto [mips, width, height, depth, layers, samples] =
-      std::array{static_cast<GLsizei>(desc.mips), static_cast<GLsizei>(desc.width), static_cast<GLsizei>(desc.height),
-                 static_cast<GLsizei>(desc.depth), static_cast<GLsizei>(desc.layers), static_cast<GLsizei>(desc.samples)};
+      std::array{static_cast<GLsizei>(desc.mips),   static_cast<GLsizei>(desc.width),
+                 static_cast<GLsizei>(desc.height), static_cast<GLsizei>(desc.depth),
+                 static_cast<GLsizei>(desc.layers), static_cast<GLsizei>(desc.samples)};
   switch (desc.target) {
     case GL_TEXTURE_2D:
-    case GL_TEXTURE_CUBE_MAP: glTextureStorage2D(id, mips, desc.format, width, height); break;
+    case GL_TEXTURE_CUBE_MAP:
+      glTextureStorage2D(id, mips, desc.format, width, height);
+      break;
     case GL_TEXTURE_2D_ARRAY:
-    case GL_TEXTURE_CUBE_MAP_ARRAY: glTextureStorage3D(id, mips, desc.format, width, height, layers); break;
-    case GL_TEXTURE_3D: glTextureStorage3D(id, mips, desc.format, width, height, depth); break;
+    case GL_TEXTURE_CUBE_MAP_ARRAY:
+      glTextureStorage3D(id, mips, desc.format, width, height, layers);
+      break;
+    case GL_TEXTURE_3D:
+      glTextureStorage3D(id, mips, desc.format, width, height, depth);
+      break;
     case GL_TEXTURE_2D_MULTISAMPLE:
       glTextureStorage2DMultisample(id, samples, desc.format, width, height, GL_TRUE);
       break;
     case GL_TEXTURE_2D_MULTISAMPLE_ARRAY:
       glTextureStorage3DMultisample(id, samples, desc.format, width, height, layers, GL_TRUE);
       break;
-    default: return fail(fmt::format("{} is no target of this engine", enumName(desc.target)));
+    default:
+      return fail(fmt::format("{} is no target of this engine", enumName(desc.target)));
   }
   GLint stored = 0;
   glGetTextureParameteriv(id, GL_TEXTURE_IMMUTABLE_FORMAT, &stored);
@@ -120,8 +144,8 @@ std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view
   return texture;
 }
 
-std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewDesc& view, std::string_view label,
-                                               base::Diagnostics& diagnostics) {
+std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewDesc& view,
+                                               std::string_view label, base::Diagnostics& diagnostics) {
   GLuint id = 0;
   glGenTextures(1, &id);  // workarounds.h: view-names-from-gen
   TextureView texture(id);
@@ -130,9 +154,11 @@ std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewD
   if (!glIsTexture(id)) {
     diagnostics
         .error(base::Code::W118, {},
-               fmt::format("view '{}' of a texture ({}) cannot be created: {}", label, sizeText(of.desc), takeErrors()))
-        .found = fmt::format("{} as {}, mips {} to {}, layers {} to {}", enumName(view.target), enumName(format), view.mip,
-                             view.mip + view.mips - 1, view.layer, view.layer + view.layers - 1);
+               fmt::format("view '{}' of a texture ({}) cannot be created: {}", label, sizeText(of.desc),
+                           takeErrors()))
+        .found =
+        fmt::format("{} as {}, mips {} to {}, layers {} to {}", enumName(view.target), enumName(format),
+                    view.mip, view.mip + view.mips - 1, view.layer, view.layer + view.layers - 1);
     return std::nullopt;
   }
   texture.desc_ = of.desc;
@@ -150,13 +176,15 @@ std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewD
       glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
     glTextureParameteri(id, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(view.mips) - 1);
   }
-  if (view.stencil) glTextureParameteri(id, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);  // workarounds.h: stencil-view
+  if (view.stencil)
+    glTextureParameteri(id, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);  // workarounds.h: stencil-view
   labelObject(GL_TEXTURE, id, label);
   return texture;
 }
 
-std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attachments, std::string_view label,
-                                               base::Diagnostics& diagnostics, std::uint32_t width, std::uint32_t height) {
+std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attachments,
+                                               std::string_view label, base::Diagnostics& diagnostics,
+                                               std::uint32_t width, std::uint32_t height) {
   GLuint id = 0;
   glCreateFramebuffers(1, &id);
   Framebuffer framebuffer(id);
@@ -192,7 +220,8 @@ std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attac
       glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_SAMPLES, &samples);
     }
     parts += fmt::format("{}{}: {}x{} {} mip {}{}{}", parts.empty() ? "" : "; ", enumName(a.point), w, h,
-                         enumName(static_cast<GLenum>(format)), a.mip, a.layer < 0 ? "" : fmt::format(" layer {}", a.layer),
+                         enumName(static_cast<GLenum>(format)), a.mip,
+                         a.layer < 0 ? "" : fmt::format(" layer {}", a.layer),
                          samples > 1 ? fmt::format(", {} samples", samples) : "");
   }
   const std::string errors = takeErrors();

@@ -11,7 +11,8 @@ namespace weft::gl {
 namespace {
 
 double nowMs() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace
@@ -70,7 +71,8 @@ void PassTimers::endFrame() {
   for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
     Frame& frame = frames_[(current_ + i) % kFramesInFlight];
     if (frame.number == 0) continue;
-    const bool any = std::any_of(frame.times.begin(), frame.times.end(), [](const PassTime& t) { return t.ran; });
+    const bool any =
+        std::any_of(frame.times.begin(), frame.times.end(), [](const PassTime& t) { return t.ran; });
     if (queries_ && any && !frame.ends[frame.last].available()) break;
     collect(frame);
   }

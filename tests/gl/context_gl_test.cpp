@@ -1,11 +1,10 @@
 // One backend per process: the backend is the environment variable WEFT_TEST_BACKEND (osmesa when absent).
-#include "engine/gl/context.h"
-
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 #include <string>
 
+#include "engine/gl/context.h"
 #include "engine/gl/objects.h"
 
 using namespace weft::gl;
@@ -22,7 +21,8 @@ Backend wanted() {
 }  // namespace
 
 TEST_CASE("names of backends go both ways") {
-  for (const Backend b : {Backend::automatic, Backend::osmesa, Backend::egl, Backend::glfw}) CHECK(findBackend(nameOf(b)) == b);
+  for (const Backend b : {Backend::automatic, Backend::osmesa, Backend::egl, Backend::glfw})
+    CHECK(findBackend(nameOf(b)) == b);
   CHECK_FALSE(findBackend("vulkan"));
 }
 

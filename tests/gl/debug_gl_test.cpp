@@ -1,7 +1,6 @@
-#include "engine/gl/debug.h"
-
 #include <doctest/doctest.h>
 
+#include "engine/gl/debug.h"
 #include "engine/gl/timers.h"
 #include "tests/gl/gl_test.h"
 
@@ -74,7 +73,8 @@ TEST_CASE("enums have names") {
 
 TEST_CASE("timers are off until enabled, then give one time per pass that ran") {
   CleanScope clean;
-  // Both ways of measuring work here; that queries lie on this rasteriser does not matter to their bookkeeping.
+  // Both ways of measuring work here; that queries lie on this rasteriser does not matter to their
+  // bookkeeping.
   for (const bool hardware : {false, true}) {
     DeviceInfo device = context().device();
     device.software = !hardware;

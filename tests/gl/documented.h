@@ -1,4 +1,5 @@
-// Holds docs/errors.md against the program: whether a diagnostic stands in the section of its code as it is printed.
+// Holds docs/errors.md against the program: whether a diagnostic stands in the section of its code as it is
+// printed.
 #pragma once
 
 #include <doctest/doctest.h>

@@ -1,4 +1,5 @@
-// A context for one test executable, and the check every GL test ends with: no GL error, no message above notification.
+// A context for one test executable, and the check every GL test ends with: no GL error, no message above
+// notification.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -12,7 +13,8 @@
 
 namespace weft::gl::test {
 
-// The executable's OSMesa context, opened once. Exits with an error when there is none: the package is required.
+// The executable's OSMesa context, opened once. Exits with an error when there is none: the package is
+// required.
 inline Context& context() {
   static const std::unique_ptr<Context> opened = [] {
     base::Diagnostics diagnostics;
@@ -26,7 +28,8 @@ inline Context& context() {
   return *opened;
 }
 
-// Put first in a test case: opens the context, and at the end of the scope holds GL to "no error, nothing leaked".
+// Put first in a test case: opens the context, and at the end of the scope holds GL to "no error, nothing
+// leaked".
 class CleanScope {
  public:
   CleanScope() : log_(context().debugLog()), before_(liveObjects()) {}

@@ -1,11 +1,10 @@
-#include "engine/gl/objects.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <cstring>
 #include <utility>
 
+#include "engine/gl/objects.h"
 #include "tests/gl/gl_test.h"
 
 using namespace weft::gl;
@@ -70,7 +69,12 @@ TEST_CASE("every target takes an upload and gives it back, level by level and la
       {.target = GL_TEXTURE_2D, .format = GL_RGBA32F, .width = 6, .height = 3, .mips = 3},
       {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 5, .height = 4, .layers = 3, .mips = 2},
       {.target = GL_TEXTURE_CUBE_MAP, .format = GL_RGBA32F, .width = 4, .height = 4, .layers = 6, .mips = 3},
-      {.target = GL_TEXTURE_CUBE_MAP_ARRAY, .format = GL_RGBA32F, .width = 2, .height = 2, .layers = 12, .mips = 2},
+      {.target = GL_TEXTURE_CUBE_MAP_ARRAY,
+       .format = GL_RGBA32F,
+       .width = 2,
+       .height = 2,
+       .layers = 12,
+       .mips = 2},
       {.target = GL_TEXTURE_3D, .format = GL_RGBA32F, .width = 4, .height = 3, .depth = 5, .mips = 3},
   };
   for (const TextureDesc& desc : descs) {
@@ -146,8 +150,9 @@ TEST_CASE("textures that cannot be are refused with the number that is wrong") {
   }
   // What only the driver can know: more memory than there is, and a format that is none.
   Diagnostics diagnostics;
-  CHECK_FALSE(Texture::create({.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 512},
-                              "huge", diagnostics));
+  CHECK_FALSE(Texture::create(
+      {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 512},
+      "huge", diagnostics));
   CHECK_FALSE(Texture::create({.format = GL_RGBA}, "unsized", diagnostics));
   CHECK(diagnostics.errorCount() == 2);
   CHECK_FALSE(Buffer::create(std::uint64_t{1} << 60, 0, "huge buffer", diagnostics));
@@ -160,10 +165,12 @@ TEST_CASE("a view shows one level, one layer, another format of the class, or th
   Diagnostics diagnostics;
   std::optional<TextureView> survivor;
   {
-    const Texture texture = makeTexture({.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA8, .width = 8, .height = 4, .layers = 3, .mips = 2});
+    const Texture texture = makeTexture(
+        {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA8, .width = 8, .height = 4, .layers = 3, .mips = 2});
     std::vector<std::uint8_t> texels(4 * 2 * 4, 0x80);
     uploadTexture(texture.ref(), 1, 2, GL_RGBA, GL_UNSIGNED_BYTE, bytesOf(texels));
-    survivor = TextureView::create(texture.ref(), {.format = GL_R32UI, .mip = 1, .layer = 2}, "view", diagnostics);
+    survivor =
+        TextureView::create(texture.ref(), {.format = GL_R32UI, .mip = 1, .layer = 2}, "view", diagnostics);
     REQUIRE_MESSAGE(survivor, diagnostics.text());
     CHECK(liveObjects().of(ObjectKind::view) == 1);
     CHECK(survivor->desc().width == 4);
@@ -195,17 +202,20 @@ TEST_CASE("a view shows one level, one layer, another format of the class, or th
 
 TEST_CASE("framebuffers take levels, layers and whole cubes, and say why they are incomplete") {
   CleanScope clean;
-  const Texture color = makeTexture({.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA8, .width = 8, .height = 8, .layers = 2, .mips = 2});
+  const Texture color = makeTexture(
+      {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA8, .width = 8, .height = 8, .layers = 2, .mips = 2});
   const Texture second = makeTexture({.format = GL_R16F, .width = 4, .height = 4});
   // A gap: draw buffer 1 writes nothing.
-  const Framebuffer gap = makeFramebuffer({{.point = GL_COLOR_ATTACHMENT0, .texture = color.id(), .mip = 1, .layer = 1},
-                                           {.point = GL_COLOR_ATTACHMENT2, .texture = second.id()}});
+  const Framebuffer gap =
+      makeFramebuffer({{.point = GL_COLOR_ATTACHMENT0, .texture = color.id(), .mip = 1, .layer = 1},
+                       {.point = GL_COLOR_ATTACHMENT2, .texture = second.id()}});
   const float white[] = {1, 1, 1, 1};
   for (const GLint buffer : {0, 1, 2}) glClearNamedFramebufferfv(gap.id(), GL_COLOR, buffer, white);
   CHECK(readFloats(color.ref(), 1, 1)[0] == 1.0f);
   CHECK(readFloats(second.ref())[0] == 1.0f);
 
-  const Texture cube = makeTexture({.target = GL_TEXTURE_CUBE_MAP, .format = GL_DEPTH_COMPONENT32F, .width = 4, .height = 4, .layers = 6});
+  const Texture cube = makeTexture(
+      {.target = GL_TEXTURE_CUBE_MAP, .format = GL_DEPTH_COMPONENT32F, .width = 4, .height = 4, .layers = 6});
   const Framebuffer layered = makeFramebuffer({{.point = GL_DEPTH_ATTACHMENT, .texture = cube.id()}});
   const float half = 0.5f;
   glClearNamedFramebufferfv(layered.id(), GL_DEPTH, 0, &half);
@@ -218,14 +228,17 @@ TEST_CASE("framebuffers take levels, layers and whole cubes, and say why they ar
   const Texture shared = makeTexture({.format = GL_RGB9_E5, .width = 4, .height = 4});
   const Attachment unrenderable{.texture = shared.id()};
   CHECK_FALSE(Framebuffer::create({&unrenderable, 1}, "shared exponent", diagnostics));
-  const Texture samples = makeTexture({.target = GL_TEXTURE_2D_MULTISAMPLE, .format = GL_RGBA8, .width = 4, .height = 4, .samples = 4});
-  const Attachment mixed[] = {{.texture = samples.id()}, {.point = GL_COLOR_ATTACHMENT1, .texture = second.id()}};
+  const Texture samples = makeTexture(
+      {.target = GL_TEXTURE_2D_MULTISAMPLE, .format = GL_RGBA8, .width = 4, .height = 4, .samples = 4});
+  const Attachment mixed[] = {{.texture = samples.id()},
+                              {.point = GL_COLOR_ATTACHMENT1, .texture = second.id()}};
   CHECK_FALSE(Framebuffer::create(mixed, "mixed", diagnostics));
   REQUIRE(diagnostics.size() == 3);
   for (const auto& d : diagnostics.items()) CHECK(d.code == Code::W115);
   CHECK(diagnostics.items()[0].message.find("no attachment") != std::string::npos);
   CHECK(diagnostics.items()[1].found.find("GL_RGB9_E5") != std::string::npos);
-  CHECK_MESSAGE(diagnostics.items()[2].message.find("sample count") != std::string::npos, diagnostics.items()[2].message);
+  CHECK_MESSAGE(diagnostics.items()[2].message.find("sample count") != std::string::npos,
+                diagnostics.items()[2].message);
   clean.forgive();
 }
 
@@ -245,7 +258,8 @@ TEST_CASE("buffers hold, change and give back bytes, also from a texture") {
   CHECK(words[1] == 9);
 
   const Texture texture = makeTexture({.format = GL_R32UI, .width = 2});
-  uploadTexture(texture.ref(), 0, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, bytesOf(std::vector<std::uint32_t>{5, 6}));
+  uploadTexture(texture.ref(), 0, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                bytesOf(std::vector<std::uint32_t>{5, 6}));
   readTextureInto(texture.ref(), 0, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, buffer->id(), 8, 8);
   const Fence fence = Fence::insert();
   CHECK(fence.wait(1'000'000'000));
@@ -258,7 +272,8 @@ TEST_CASE("buffers hold, change and give back bytes, also from a texture") {
 TEST_CASE("samplers and vertex arrays keep what they are told") {
   CleanScope clean;
   const SamplerObject sampler = SamplerObject::create(
-      {.minFilter = GL_LINEAR_MIPMAP_LINEAR, .magFilter = GL_LINEAR, .wrap = GL_REPEAT, .compare = GL_GEQUAL}, "sampler");
+      {.minFilter = GL_LINEAR_MIPMAP_LINEAR, .magFilter = GL_LINEAR, .wrap = GL_REPEAT, .compare = GL_GEQUAL},
+      "sampler");
   GLint value = 0;
   glGetSamplerParameteriv(sampler.id(), GL_TEXTURE_MIN_FILTER, &value);
   CHECK(value == GL_LINEAR_MIPMAP_LINEAR);

@@ -1,5 +1,3 @@
-#include "engine/gl/program_cache.h"
-
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -8,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "engine/gl/program_cache.h"
 #include "tests/gl/gl_test.h"
 #include "tests/gl/temp_folder.h"
 
@@ -59,7 +58,9 @@ std::vector<fs::path> filesIn(const std::string& folder) {
   return files;
 }
 
-bool hasBinaries() { return context().device().hasProgramBinaries; }
+bool hasBinaries() {
+  return context().device().hasProgramBinaries;
+}
 
 struct Fixture {
   CleanScope clean;
@@ -83,7 +84,7 @@ TEST_CASE_FIXTURE(Fixture, "the least recently used variant goes first, and coun
   CHECK(cache.stats().misses == 3);
   CHECK(cache.stats().evictions == 1);
   CHECK(cache.stats().compilations == 3);
-  REQUIRE(cache.get(variantOf(2), diagnostics));       // evicts 3
+  REQUIRE(cache.get(variantOf(2), diagnostics));  // evicts 3
   CHECK(cache.stats().compilations == 4);
   CHECK(cache.stats().evictions == 2);
   CHECK(cache.size() == 2);
@@ -99,7 +100,8 @@ TEST_CASE_FIXTURE(Fixture, "the default holds 32") {
   CHECK(cache.stats().evictions == 1);
 }
 
-TEST_CASE_FIXTURE(Fixture, "an evicted variant comes back from disk without a compile, also in a new cache" * doctest::skip(!hasBinaries())) {
+TEST_CASE_FIXTURE(Fixture, "an evicted variant comes back from disk without a compile, also in a new cache" *
+                               doctest::skip(!hasBinaries())) {
   const std::string disk = folder.path("cache/binaries");
   {
     ProgramCache cache(context().device(), loader, {.capacity = 1, .folder = disk});
@@ -121,7 +123,8 @@ TEST_CASE_FIXTURE(Fixture, "an evicted variant comes back from disk without a co
   CHECK(warm.stats().binaryLoads == 1);
 }
 
-TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written anew, and is no error" * doctest::skip(!hasBinaries())) {
+TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written anew, and is no error" *
+                               doctest::skip(!hasBinaries())) {
   const std::string disk = folder.path("cache");
   const auto fill = [&] {
     ProgramCache cache(context().device(), loader, {.capacity = 4, .folder = disk});
@@ -135,7 +138,8 @@ TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written an
   REQUIRE(files.size() == 1);
   std::string good(fs::file_size(files[0]), '\0');
   std::ifstream(files[0], std::ios::binary).read(good.data(), static_cast<std::streamsize>(good.size()));
-  std::vector<std::string> bad{"", good.substr(0, 20), good.substr(0, good.size() / 2), good + "x", std::string(good.size(), '\xff')};
+  std::vector<std::string> bad{"", good.substr(0, 20), good.substr(0, good.size() / 2), good + "x",
+                               std::string(good.size(), '\xff')};
   std::string flipped = good;
   flipped[flipped.size() - 100] = static_cast<char>(flipped[flipped.size() - 100] ^ 0x10);
   bad.push_back(flipped);
@@ -161,7 +165,8 @@ TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written an
   CHECK(diagnostics.empty());
 }
 
-TEST_CASE_FIXTURE(Fixture, "a binary of another driver or backend is not even looked at" * doctest::skip(!hasBinaries())) {
+TEST_CASE_FIXTURE(Fixture, "a binary of another driver or backend is not even looked at" *
+                               doctest::skip(!hasBinaries())) {
   const std::string disk = folder.path("cache");
   ProgramCache(context().device(), loader, {.capacity = 4, .folder = disk}).get(variantOf(1), diagnostics);
   DeviceInfo other = context().device();
@@ -172,7 +177,8 @@ TEST_CASE_FIXTURE(Fixture, "a binary of another driver or backend is not even lo
   CHECK(cache.stats().compilations == 1);
 }
 
-TEST_CASE_FIXTURE(Fixture, "a variant that does not compile says why, every time, compiles once, and heals with its file") {
+TEST_CASE_FIXTURE(
+    Fixture, "a variant that does not compile says why, every time, compiles once, and heals with its file") {
   ProgramCache cache(context().device(), loader, {.capacity = 4, .folder = ""});
   const auto good = cache.get(variantOf(1), diagnostics);
   REQUIRE(good);
@@ -196,7 +202,8 @@ TEST_CASE_FIXTURE(Fixture, "a variant that does not compile says why, every time
   CHECK(missing.items()[0].pass == "count");
 }
 
-TEST_CASE_FIXTURE(Fixture, "ten thousand random requests compile each combination once" * doctest::skip(!hasBinaries())) {
+TEST_CASE_FIXTURE(Fixture, "ten thousand random requests compile each combination once" *
+                               doctest::skip(!hasBinaries())) {
   ProgramCache cache(context().device(), loader, {.capacity = 8, .folder = folder.path("cache")});
   std::mt19937 random(7);
   std::set<int> asked;
@@ -215,7 +222,8 @@ TEST_CASE_FIXTURE(Fixture, "ten thousand random requests compile each combinatio
 }
 
 TEST_CASE_FIXTURE(Fixture, "names are held against the source, not against what the linker kept") {
-  folder.write("used.comp.glsl", "layout(local_size_x = 1) in;\nuniform sampler2D unused_slot;\nvoid main() {}\n");
+  folder.write("used.comp.glsl",
+               "layout(local_size_x = 1) in;\nuniform sampler2D unused_slot;\nvoid main() {}\n");
   ProgramCache cache(context().device(), loader, {});
   ProgramRequest request;
   request.stages = {{GL_COMPUTE_SHADER, "used.comp.glsl", ""}};

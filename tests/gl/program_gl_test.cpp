@@ -1,9 +1,8 @@
-#include "engine/gl/program.h"
-
 #include <doctest/doctest.h>
 
-#include "tests/gl/gl_test.h"
+#include "engine/gl/program.h"
 #include "tests/gl/documented.h"
+#include "tests/gl/gl_test.h"
 #include "tests/gl/temp_folder.h"
 
 using namespace weft::gl;
@@ -16,13 +15,16 @@ using weft::gl::test::TempFolder;
 namespace {
 
 constexpr const char* kTriangle =
-    "out vec2 uv;\nvoid main() { uv = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2); gl_Position = vec4(uv * 2 - 1, 0, 1); }\n";
+    "out vec2 uv;\nvoid main() { uv = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2); gl_Position = vec4(uv * "
+    "2 - 1, 0, 1); }\n";
 
-std::optional<Program> compileText(std::vector<std::pair<GLenum, std::string>> stages, Diagnostics& diagnostics,
-                                   std::vector<Define> defines = {}, std::vector<std::string> outputs = {}) {
+std::optional<Program> compileText(std::vector<std::pair<GLenum, std::string>> stages,
+                                   Diagnostics& diagnostics, std::vector<Define> defines = {},
+                                   std::vector<std::string> outputs = {}) {
   SourceLoader loader({});
   std::vector<StageSource> sources;
-  for (const auto& [stage, text] : stages) sources.push_back({stage, loader.loadText(text, "<test>", diagnostics)});
+  for (const auto& [stage, text] : stages)
+    sources.push_back({stage, loader.loadText(text, "<test>", diagnostics)});
   return Program::compile(sources, defines, outputs, "test program", diagnostics);
 }
 
@@ -48,7 +50,8 @@ void main() {
   first = sum * parameters.threshold * parameters.weights[3];
   second = view * parameters.matrix * vec4(parameters.tint, 1);
 }
-)"}}, diagnostics, {}, {"first", "second"});
+)"}},
+                             diagnostics, {}, {"first", "second"});
   REQUIRE_MESSAGE(program, diagnostics.text());
   std::optional<Program> loaded;
   if (const auto binary = program->binary()) {
@@ -112,7 +115,8 @@ void main() {
     + instance[i].albedo.x + instance[i].metallic, loose);
   total = 1u;
 }
-)"}}, diagnostics);
+)"}},
+                             diagnostics);
   REQUIRE_MESSAGE(program, diagnostics.text());
   const Reflection& r = program->reflection();
   CHECK(r.workGroup[0] == 8);
@@ -143,8 +147,11 @@ void main() {
 TEST_CASE("compile errors stand at the true line and column of an include, all stages at once") {
   CleanScope clean;
   TempFolder folder;
-  folder.write("bad.glsl", "float fine() { return 1.0; }\nfloat bad() {\n  float  x =\t 1.0;   return x + no_such_name;\n}\n");
-  folder.write("x.frag.glsl", "#include \"bad.glsl\"\nout vec4 result;\nvoid main() { result = vec4(fine()); }\n");
+  folder.write(
+      "bad.glsl",
+      "float fine() { return 1.0; }\nfloat bad() {\n  float  x =\t 1.0;   return x + no_such_name;\n}\n");
+  folder.write("x.frag.glsl",
+               "#include \"bad.glsl\"\nout vec4 result;\nvoid main() { result = vec4(fine()); }\n");
   folder.write("x.vert.glsl", "void main() {\n  gl_Position = vec5(0);\n}\n");
   SourceLoader loader({folder.path()});
   Diagnostics diagnostics;
@@ -157,7 +164,8 @@ TEST_CASE("compile errors stand at the true line and column of an include, all s
     CHECK(d.code == Code::W104);
     REQUIRE(d.place.file);
     if (*d.place.file == folder.path("x.vert.glsl") && d.place.line == 2) vertex = true;
-    if (*d.place.file == folder.path("bad.glsl") && d.place.line == 3 && d.message.find("no_such_name") != std::string::npos) {
+    if (*d.place.file == folder.path("bad.glsl") && d.place.line == 3 &&
+        d.message.find("no_such_name") != std::string::npos) {
       fragment = true;
       CHECK(d.place.column == 33);
     }
@@ -169,22 +177,24 @@ TEST_CASE("compile errors stand at the true line and column of an include, all s
 TEST_CASE("link errors are reported as such") {
   CleanScope clean;
   Diagnostics diagnostics;
-  CHECK_FALSE(compileText({{GL_VERTEX_SHADER, "out vec3 uv;\nvoid main() { uv = vec3(1); gl_Position = vec4(uv, 1); }\n"},
-                           {GL_FRAGMENT_SHADER, "in vec2 uv;\nout vec4 result;\nvoid main() { result = vec4(uv, 0, 1); }\n"}},
-                          diagnostics));
+  CHECK_FALSE(compileText(
+      {{GL_VERTEX_SHADER, "out vec3 uv;\nvoid main() { uv = vec3(1); gl_Position = vec4(uv, 1); }\n"},
+       {GL_FRAGMENT_SHADER, "in vec2 uv;\nout vec4 result;\nvoid main() { result = vec4(uv, 0, 1); }\n"}},
+      diagnostics));
   CHECK(diagnostics.contains(Code::W105));
   CHECK(diagnostics.hasErrors());
 }
 
 TEST_CASE("every code of shaders and GL has its section, and broken shaders give its messages on Mesa") {
   CleanScope clean;
-  for (const Code code : {Code::W100, Code::W101, Code::W102, Code::W103, Code::W104, Code::W105, Code::W106, Code::W110,
-                          Code::W115, Code::W116, Code::W117, Code::W118, Code::W120})
+  for (const Code code : {Code::W100, Code::W101, Code::W102, Code::W103, Code::W104, Code::W105, Code::W106,
+                          Code::W110, Code::W115, Code::W116, Code::W117, Code::W118, Code::W120})
     CHECK_MESSAGE(!weft::gl::test::sectionOf(code).empty(), weft::base::nameOf(code));
   SourceLoader loader({"tests/bad_shaders"});
   Diagnostics diagnostics;
-  const StageSource undeclared[] = {{GL_VERTEX_SHADER, loader.loadText(kTriangle, "<triangle>", diagnostics)},
-                                    {GL_FRAGMENT_SHADER, loader.load("w104_undeclared.frag.glsl", diagnostics)}};
+  const StageSource undeclared[] = {
+      {GL_VERTEX_SHADER, loader.loadText(kTriangle, "<triangle>", diagnostics)},
+      {GL_FRAGMENT_SHADER, loader.load("w104_undeclared.frag.glsl", diagnostics)}};
   CHECK_FALSE(Program::compile(undeclared, {}, {}, "undeclared", diagnostics));
   const StageSource unlike[] = {{GL_VERTEX_SHADER, loader.load("w105_interface.vert.glsl", diagnostics)},
                                 {GL_FRAGMENT_SHADER, loader.load("w105_interface.frag.glsl", diagnostics)}};
@@ -202,8 +212,9 @@ TEST_CASE("defines select code, and a binary of another format or with damaged b
   Diagnostics diagnostics;
   const std::vector<std::pair<GLenum, std::string>> stages{
       {GL_VERTEX_SHADER, kTriangle},
-      {GL_FRAGMENT_SHADER, "#ifdef HAS_BLOOM\nuniform sampler2D bloom;\n#endif\nin vec2 uv;\nout vec4 result;\nvoid main() {\n"
-                           "  result = vec4(uv, 0, 1);\n#ifdef HAS_BLOOM\n  result += texture(bloom, uv);\n#endif\n}\n"}};
+      {GL_FRAGMENT_SHADER,
+       "#ifdef HAS_BLOOM\nuniform sampler2D bloom;\n#endif\nin vec2 uv;\nout vec4 result;\nvoid main() {\n"
+       "  result = vec4(uv, 0, 1);\n#ifdef HAS_BLOOM\n  result += texture(bloom, uv);\n#endif\n}\n"}};
   const auto without = compileText(stages, diagnostics);
   const auto with = compileText(stages, diagnostics, {{"HAS_BLOOM", "1"}});
   REQUIRE(without);

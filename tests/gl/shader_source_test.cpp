@@ -26,7 +26,8 @@ std::size_t occurrences(const std::string& text, const std::string& what) {
 std::pair<std::string, std::uint32_t> placeOf(const ShaderSource& source, const std::string& what) {
   const std::size_t at = source.text.find(what);
   if (at == std::string::npos) return {"", 0};
-  const auto line = static_cast<std::uint32_t>(std::count(source.text.begin(), source.text.begin() + static_cast<long>(at), '\n'));
+  const auto line = static_cast<std::uint32_t>(
+      std::count(source.text.begin(), source.text.begin() + static_cast<long>(at), '\n'));
   const auto place = source.placeOf(line + 1);
   return {*place.file, place.line};
 }
@@ -38,7 +39,8 @@ TEST_CASE("includes are found beside the includer and below the roots, once each
   folder.write("common/a.glsl", "#pragma once\n#include \"deep/b.glsl\"\nfloat a() { return b(); }\n");
   folder.write("common/deep/b.glsl", "// first line\nfloat b() { return 1.0; }\n");
   folder.write("fx/x.frag.glsl",
-               "#include \"common/a.glsl\"\n#include \"local.glsl\"\n#include \"common/deep/b.glsl\"\nvoid main() { a(); }\n");
+               "#include \"common/a.glsl\"\n#include \"local.glsl\"\n#include \"common/deep/b.glsl\"\nvoid "
+               "main() { a(); }\n");
   folder.write("fx/local.glsl", "float local_value;");  // no newline at the end
   SourceLoader loader({folder.path()});
   Diagnostics diagnostics;
@@ -56,12 +58,14 @@ TEST_CASE("includes are found beside the includer and below the roots, once each
 TEST_CASE("a file included inside an #if is still there when it is included again") {
   TempFolder folder;
   folder.write("v.glsl", "float v;\n");
-  folder.write("x.frag.glsl", "#ifdef A\n#include \"v.glsl\"\n#endif\n#include \"v.glsl\"\n#include \"v.glsl\"\nvoid main() {}\n");
+  folder.write(
+      "x.frag.glsl",
+      "#ifdef A\n#include \"v.glsl\"\n#endif\n#include \"v.glsl\"\n#include \"v.glsl\"\nvoid main() {}\n");
   SourceLoader loader({folder.path()});
   Diagnostics diagnostics;
   const auto source = loader.load("x.frag.glsl", diagnostics);
   REQUIRE(source);
-  CHECK(occurrences(source->text, "float v;") == 2);       // the third is superfluous
+  CHECK(occurrences(source->text, "float v;") == 2);  // the third is superfluous
   CHECK(occurrences(source->text, "#ifndef WEFT_INCLUDED_1") == 2);
   CHECK(occurrences(source->text, "#define WEFT_INCLUDED_1") == 1);
 }
@@ -80,7 +84,8 @@ TEST_CASE("cycles are reported with their path, once, at the include that closes
   CHECK(*cycle.place.file == folder.path("b.glsl"));
   CHECK(cycle.place.line == 3);
   CHECK(cycle.place.column == 3);
-  const std::string chain = folder.path("a.glsl") + " -> " + folder.path("b.glsl") + " -> " + folder.path("a.glsl");
+  const std::string chain =
+      folder.path("a.glsl") + " -> " + folder.path("b.glsl") + " -> " + folder.path("a.glsl");
   CHECK(cycle.message.find(chain) != std::string::npos);
   folder.write("self.frag.glsl", "#include \"self.frag.glsl\"\n");
   Diagnostics itself;
@@ -91,9 +96,10 @@ TEST_CASE("cycles are reported with their path, once, at the include that closes
 TEST_CASE("everything wrong with the directives is reported at once, with places and the nearest file") {
   TempFolder folder;
   folder.write("common/view.glsl", "");
-  folder.write("x.frag.glsl",
-               "#version 330\n#include \"common/veiw.glsl\"\n#include <common/view.glsl>\n// #include \"no.glsl\"\n"
-               "/*\n#include \"no.glsl\"\n*/\n#include\nvoid main() {}\n");
+  folder.write(
+      "x.frag.glsl",
+      "#version 330\n#include \"common/veiw.glsl\"\n#include <common/view.glsl>\n// #include \"no.glsl\"\n"
+      "/*\n#include \"no.glsl\"\n*/\n#include\nvoid main() {}\n");
   SourceLoader loader({folder.path()});
   Diagnostics diagnostics;
   CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
@@ -155,11 +161,13 @@ TEST_CASE("text in memory includes from the roots only, and the prefix holds ver
   folder.write("a.glsl", "float a;\n");
   SourceLoader loader({folder.path()});
   Diagnostics diagnostics;
-  const auto source = loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics);
+  const auto source =
+      loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics);
   REQUIRE(source);
   CHECK(loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics) == source);
   const Define defines[] = {{"HAS_BLOOM", "1"}, {"CURVE", "2"}};
-  CHECK(assembleSource(*source, defines).starts_with("#version 450 core\n#define HAS_BLOOM 1\n#define CURVE 2\n#line 10001\nfloat a;\n"));
+  CHECK(assembleSource(*source, defines)
+            .starts_with("#version 450 core\n#define HAS_BLOOM 1\n#define CURVE 2\n#line 10001\nfloat a;\n"));
 }
 
 TEST_CASE("the scan knows comments, and finds what is declared") {
@@ -185,8 +193,8 @@ void main() { int loose; result = texture(source, uv); }
   Diagnostics diagnostics;
   const auto source = loader.load("x.frag.glsl", diagnostics);
   REQUIRE(source);
-  for (const char* name : {"source", "second", "sh", "map", "keys", "sort_keys", "Parameters", "threshold", "tint", "result",
-                           "bloom", "uv"}) {
+  for (const char* name : {"source", "second", "sh", "map", "keys", "sort_keys", "Parameters", "threshold",
+                           "tint", "result", "bloom", "uv"}) {
     CHECK_MESSAGE(source->mentions(name), name);
     CHECK_MESSAGE(source->declared.contains(name), name);
   }
@@ -194,7 +202,8 @@ void main() { int loose; result = texture(source, uv); }
   CHECK(source->mentions("helper"));
   CHECK_FALSE(source->mentions("commented"));
   CHECK_FALSE(source->mentions("also_commented"));
-  for (const char* name : {"helper", "parameter_x", "local_z", "loose", "main", "center", "HAS_BLOOM", "in", "out"})
+  for (const char* name :
+       {"helper", "parameter_x", "local_z", "loose", "main", "center", "HAS_BLOOM", "in", "out"})
     CHECK_MESSAGE(!source->declared.contains(name), name);
 }
 
@@ -237,7 +246,8 @@ TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column"
   CHECK(nvidia.items()[1].place.line == 4);
 
   Diagnostics others;
-  CHECK(mapLog("ERROR: 0:10001: 'foo' : undeclared identifier\nerror: fragment shader lacks main\n  which is needed\nsomething\n",
+  CHECK(mapLog("ERROR: 0:10001: 'foo' : undeclared identifier\nerror: fragment shader lacks main\n  which is "
+               "needed\nsomething\n",
                *source, Code::W105, others) == 2);
   REQUIRE(others.size() == 2);
   CHECK(*others.items()[0].place.file == folder.path("x.frag.glsl"));
