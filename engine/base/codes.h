@@ -118,7 +118,7 @@ namespace weft::base {
   /* command line, runtime, outputs */                                    \
   X(180, "output cannot be written")                                        \
   X(181, "slot is not in the shader")                                     \
-  X(182, "parameter is not in the shader, or gets no value")              \
+  X(182, "parameter is not in the shader")                              \
   X(183, "slot and shader type do not fit")                               \
   X(184, "parameter and shader type do not fit")                          \
   X(185, "unknown member of the View block")                              \

@@ -172,17 +172,6 @@ class Checker {
         d.found = graph::toText(value);
       }
     }
-    if (!block) return;
-    for (const gl::BlockMember& member : block->members) {
-      const auto given = [&](const graph::UniformSpec& u) { return u.name == member.name; };
-      if (std::ranges::none_of(spec_.uniforms, given)) {
-        std::vector<std::string> names;
-        for (const graph::UniformSpec& u : spec_.uniforms) names.push_back(u.name);
-        fail(Code::W182, spec_.shaderPlace,
-             fmt::format("the shader's parameter '{}' gets no value from pass '{}'", member.name, spec_.name))
-            .hint = fmt::format("add \"{}\" to the pass's \"parameters\"", member.name);
-      }
-    }
   }
 
   std::string withNearest(const std::string& name) const {

@@ -1,0 +1,107 @@
+#include "engine/runtime/cadence.h"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+
+using namespace weft::graph;
+using weft::runtime::Cadence;
+
+namespace {
+
+struct Builder {
+  std::shared_ptr<FlatGraph> graph = std::make_shared<FlatGraph>();
+
+  std::uint32_t resource(std::uint8_t history = 0) {
+    FlatResource r;
+    r.format = Format::rgba16f;
+    r.bytes = 8;
+    r.history = history;
+    graph->resources.push_back(r);
+    graph->resourceNames.push_back("r" + std::to_string(graph->resources.size()));
+    return static_cast<std::uint32_t>(graph->resources.size() - 1);
+  }
+  void pass(weft::graph::Cadence cadence, std::vector<std::pair<std::uint32_t, Access>> uses) {
+    FlatPass p;
+    p.cadence = cadence;
+    p.firstUse = static_cast<std::uint32_t>(graph->uses.size());
+    p.useCount = static_cast<std::uint32_t>(uses.size());
+    for (const auto& [r, access] : uses)
+      graph->uses.push_back({.resource = r, .kind = access == Access::read ? Kind::sampled : Kind::color, .access = access});
+    graph->passes.push_back(p);
+    graph->passNames.push_back("p" + std::to_string(graph->passes.size()));
+  }
+  Plan compile(std::uint32_t present) {
+    graph->present = {.resource = present};
+    return weft::graph::compile(graph);
+  }
+};
+
+// Runs a frame: what ran, with generations of written resources moved on.
+std::vector<int> runFrame(Cadence& cadence, const Plan& plan, std::vector<std::uint64_t>& own,
+                          std::vector<std::uint64_t>& generations) {
+  cadence.decide(own, generations);
+  std::vector<int> ran;
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    ran.push_back(cadence.runs(s));
+    if (!cadence.runs(s)) continue;
+    cadence.remember(s, own[s], generations);
+    const FlatPass& pass = plan.graph->passes[plan.steps[s].pass];
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+      if (plan.graph->uses[u].access != Access::read) ++generations[plan.graph->uses[u].resource];
+  }
+  return ran;
+}
+
+constexpr auto kAlways = weft::graph::Cadence::always;
+constexpr auto kOnce = weft::graph::Cadence::once;
+constexpr auto kOnChange = weft::graph::Cadence::on_change;
+
+}  // namespace
+
+TEST_CASE("once runs once, on_change runs when its input or its own hash changes") {
+  Builder b;
+  const auto table = b.resource(), map = b.resource(), picture = b.resource();
+  b.pass(kOnce, {{table, Access::write}});
+  b.pass(kOnChange, {{table, Access::read}, {map, Access::write}});
+  b.pass(kAlways, {{map, Access::read}, {picture, Access::write}});
+  const Plan plan = b.compile(picture);
+  Cadence cadence(plan);
+  std::vector<std::uint64_t> own(3, 1), generations(3, 1);
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1});
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 0, 1});
+  own[1] = 2;  // a parameter
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 1, 1});
+  own[0] = 2;  // the once pass's storage was made anew: its reader follows in the same frame
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1});
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 0, 1});
+}
+
+TEST_CASE("a chain of on_change passes wakes in one frame") {
+  Builder b;
+  const auto a = b.resource(), c = b.resource(), d = b.resource();
+  b.pass(kOnChange, {{a, Access::write}});
+  b.pass(kOnChange, {{a, Access::read}, {c, Access::write}});
+  b.pass(kOnChange, {{c, Access::read}, {d, Access::write}});
+  const Plan plan = b.compile(d);
+  Cadence cadence(plan);
+  std::vector<std::uint64_t> own(3, 1), generations(3, 1);
+  runFrame(cadence, plan, own, generations);
+  own[0] = 9;
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1});
+}
+
+TEST_CASE("writers that build one resource by modify run all or none") {
+  Builder b;
+  const auto map = b.resource(), other = b.resource();
+  b.pass(kOnChange, {{map, Access::write}});
+  b.pass(kOnChange, {{map, Access::modify}});
+  b.pass(kAlways, {{map, Access::read}, {other, Access::write}});
+  const Plan plan = b.compile(other);
+  Cadence cadence(plan);
+  std::vector<std::uint64_t> own(3, 1), generations(2, 1);
+  runFrame(cadence, plan, own, generations);
+  own[1] = 5;  // only the second writer changed: the first must lay the ground again
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1});
+  CHECK(cadence.countRunning() == 3);
+}
