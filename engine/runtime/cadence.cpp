@@ -25,7 +25,7 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i) {
 
 }  // namespace
 
-Cadence::Cadence(const graph::Plan& plan) : plan_(plan) {
+FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
   const std::size_t steps = plan.steps.size();
   const std::size_t resources = plan.graph->resources.size();
   memories_.resize(steps);
@@ -58,7 +58,7 @@ Cadence::Cadence(const graph::Plan& plan) : plan_(plan) {
   setRuns_.assign(steps, 0);
 }
 
-bool Cadence::wants(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& generations) const {
+bool FrameCadence::wants(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& generations) const {
   const graph::Cadence cadence = plan_.graph->passes[plan_.steps[step].pass].cadence;
   const PassMemory& memory = memories_[step];
   if (cadence == graph::Cadence::always || !memory.ran || memory.own != own) return true;
@@ -73,7 +73,7 @@ bool Cadence::wants(std::size_t step, std::uint64_t own, const std::vector<std::
   return changed;
 }
 
-void Cadence::decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations) {
+void FrameCadence::decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations) {
   std::fill(setRuns_.begin(), setRuns_.end(), std::uint8_t{0});
   const std::size_t steps = plan_.steps.size();
   for (std::size_t s = 0; s < steps; ++s) run_[s] = wants(s, own[s], generations);
@@ -104,11 +104,11 @@ void Cadence::decide(const std::vector<std::uint64_t>& own, const std::vector<st
   }
 }
 
-std::size_t Cadence::countRunning() const {
+std::size_t FrameCadence::countRunning() const {
   return static_cast<std::size_t>(std::count(run_.begin(), run_.end(), std::uint8_t{1}));
 }
 
-void Cadence::remember(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& generations) {
+void FrameCadence::remember(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& generations) {
   PassMemory& memory = memories_[step];
   std::size_t input = 0;
   forEachUse(plan_, step, [&](const FlatUse& use, std::size_t) {

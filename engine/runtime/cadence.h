@@ -19,9 +19,9 @@ struct PassMemory {
   std::vector<std::uint64_t> inputs;         // generation of each read use, in use order
 };
 
-class Cadence {
+class FrameCadence {
  public:
-  explicit Cadence(const graph::Plan& plan);
+  explicit FrameCadence(const graph::Plan& plan);
 
   // `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) answers.
   void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);

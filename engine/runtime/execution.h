@@ -86,7 +86,7 @@ class Execution {
   std::shared_ptr<const graph::Plan> plan_;
   std::unique_ptr<ResourcePool> pool_;
   std::vector<PreparedPass> passes_;             // per step
-  std::unique_ptr<Cadence> cadence_;
+  std::unique_ptr<FrameCadence> cadence_;
   FramebufferCache framebuffers_;
   std::vector<gl::Attachment> attachmentScratch_;
   gl::Buffer uniforms_;

@@ -56,7 +56,7 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   generations_.resize(resources);
   for (std::uint64_t& generation : generations_) generation = nextGeneration_++;
   rotated_.assign(resources, 0);
-  cadence_ = std::make_unique<Cadence>(*plan_);
+  cadence_ = std::make_unique<FrameCadence>(*plan_);
   own_.assign(plan_->steps.size(), 0);
   resetState_.assign(plan_->graph->histories.size(), 0);
   PrepareContext context{.plan = *plan_,

@@ -5,7 +5,7 @@
 #include <memory>
 
 using namespace weft::graph;
-using weft::runtime::Cadence;
+using weft::runtime::FrameCadence;
 
 namespace {
 
@@ -21,7 +21,7 @@ struct Builder {
     graph->resourceNames.push_back("r" + std::to_string(graph->resources.size()));
     return static_cast<std::uint32_t>(graph->resources.size() - 1);
   }
-  void pass(weft::graph::Cadence cadence, std::vector<std::pair<std::uint32_t, Access>> uses) {
+  void pass(Cadence cadence, std::vector<std::pair<std::uint32_t, Access>> uses) {
     FlatPass p;
     p.cadence = cadence;
     p.firstUse = static_cast<std::uint32_t>(graph->uses.size());
@@ -38,7 +38,7 @@ struct Builder {
 };
 
 // Runs a frame: what ran, with generations of written resources moved on.
-std::vector<int> runFrame(Cadence& cadence, const Plan& plan, std::vector<std::uint64_t>& own,
+std::vector<int> runFrame(FrameCadence& cadence, const Plan& plan, std::vector<std::uint64_t>& own,
                           std::vector<std::uint64_t>& generations) {
   cadence.decide(own, generations);
   std::vector<int> ran;
@@ -53,9 +53,9 @@ std::vector<int> runFrame(Cadence& cadence, const Plan& plan, std::vector<std::u
   return ran;
 }
 
-constexpr auto kAlways = weft::graph::Cadence::always;
-constexpr auto kOnce = weft::graph::Cadence::once;
-constexpr auto kOnChange = weft::graph::Cadence::on_change;
+constexpr auto kAlways = Cadence::always;
+constexpr auto kOnce = Cadence::once;
+constexpr auto kOnChange = Cadence::on_change;
 
 }  // namespace
 
@@ -66,7 +66,7 @@ TEST_CASE("once runs once, on_change runs when its input or its own hash changes
   b.pass(kOnChange, {{table, Access::read}, {map, Access::write}});
   b.pass(kAlways, {{map, Access::read}, {picture, Access::write}});
   const Plan plan = b.compile(picture);
-  Cadence cadence(plan);
+  FrameCadence cadence(plan);
   std::vector<std::uint64_t> own(3, 1), generations(3, 1);
   CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1});
   CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 0, 1});
@@ -84,7 +84,7 @@ TEST_CASE("a chain of on_change passes wakes in one frame") {
   b.pass(kOnChange, {{a, Access::read}, {c, Access::write}});
   b.pass(kOnChange, {{c, Access::read}, {d, Access::write}});
   const Plan plan = b.compile(d);
-  Cadence cadence(plan);
+  FrameCadence cadence(plan);
   std::vector<std::uint64_t> own(3, 1), generations(3, 1);
   runFrame(cadence, plan, own, generations);
   own[0] = 9;
@@ -98,7 +98,7 @@ TEST_CASE("writers that build one resource by modify run all or none") {
   b.pass(kOnChange, {{map, Access::modify}});
   b.pass(kAlways, {{map, Access::read}, {other, Access::write}});
   const Plan plan = b.compile(other);
-  Cadence cadence(plan);
+  FrameCadence cadence(plan);
   std::vector<std::uint64_t> own(3, 1), generations(2, 1);
   runFrame(cadence, plan, own, generations);
   own[1] = 5;  // only the second writer changed: the first must lay the ground again
