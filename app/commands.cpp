@@ -51,4 +51,10 @@ int runCheck(const Options& options) {
   return code;
 }
 
+int runDot(const Options&) { return 2; }
+int runPlan(const Options&) { return 2; }
+int runBench(const Options&) { return 2; }
+int runSchema(const Options&) { return 2; }
+int runTypes(const Options&) { return 2; }
+
 }  // namespace weft::app

@@ -1,4 +1,5 @@
 // weft view: a graph in a window, with an orbiting camera.
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
