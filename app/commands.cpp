@@ -2,11 +2,14 @@
 #include "app/commands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 
+#include "app/bench/workload_bench.h"
 #include "app/device_session.h"
 #include "app/session.h"
+#include "engine/graph/schema.h"
 #include "engine/runtime/prepared_pass.h"
 
 namespace weft::app {
@@ -51,10 +54,41 @@ int runCheck(const Options& options) {
   return code;
 }
 
+int runBench(const Options& options) {
+  base::Diagnostics diagnostics;
+  WorkloadBenchOptions wanted;
+  wanted.files = options.workloads;
+  const auto text = options.workloads.size() == 1 ? benchWorkload(options.workloads[0], diagnostics)
+                                                  : benchWorkloads(wanted, diagnostics);
+  if (text) fmt::print("{}\n", *text);
+  return report(diagnostics);
+}
+
+int runSchema(const Options&) {
+  fmt::print("{}", graph::graphSchema());
+  return 0;
+}
+
+// What a graph may name, from the registry itself.
+int runTypes(const Options&) {
+  const graph::Registry registry = runtime::makeRegistry(passes::PassRegistry::builtin(), {});
+  fmt::print("pass types\n");
+  for (const graph::PassType& type : registry.passTypes) {
+    fmt::print("  {}\n    {}\n", type.name, type.doc);
+    if (!type.keys.empty()) fmt::print("    keys: {}\n", fmt::join(type.keys, ", "));
+    for (const graph::FixedSlot& slot : type.fixedSlots) fmt::print("    slot {}: {}\n", slot.name, slot.doc);
+  }
+  fmt::print("\nimports\n");
+  for (const graph::ImportType& type : registry.imports) {
+    fmt::print("  @{}\n    {}\n", type.name, type.doc);
+    for (const graph::ImportArgument& argument : type.arguments)
+      fmt::print("    {} (default {}): {}\n", argument.name, graph::toText(argument.initial), argument.doc);
+  }
+  return 0;
+}
+
+// plan and dot wait for the dumps of the graph room.
 int runDot(const Options&) { return 2; }
 int runPlan(const Options&) { return 2; }
-int runBench(const Options&) { return 2; }
-int runSchema(const Options&) { return 2; }
-int runTypes(const Options&) { return 2; }
 
 }  // namespace weft::app

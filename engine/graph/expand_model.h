@@ -78,6 +78,7 @@ struct Entity {
   std::uint32_t depth = 0;                       // of the history
   std::uint32_t import = kNone;                  // index into FlatGraph::imports
   bool exists = true;                            // imports only
+  bool fallback = false;                         // imports only: a plain read may do without
   double count = 0;                              // imports only
   // input: what it stands for
   Progress bindState = Progress::fresh;

@@ -258,6 +258,10 @@ class PassWalk {
     }
     flat.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - flat.firstUse;
     spec.slotCount = static_cast<std::uint32_t>(slots.size());
+    // A depth test reads what it writes, so the attachment stays even when no other pass reads it.
+    const bool tests = spec.state.depthTest && spec.state.depthCompare != Compare::always;
+    for (std::uint32_t use = flat.firstUse; use < flat.firstUse + flat.useCount; ++use)
+      if (tests && graph_.uses[use].kind == Kind::depth && graph_.uses[use].access != Access::read) graph_.uses[use].keep = true;
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
       if (slot.useCount == 0 || slot.access == Access::read) continue;

@@ -245,6 +245,7 @@ bool evaluateImport(Model& model, Entity& entity) {
   if (!good) return false;
   const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
   entity.exists = facts.exists;
+  entity.fallback = facts.fallback;
   entity.count = facts.count;
   FlatResource& shape = entity.shape;
   shape.kind = type->kind == ImportKind::texture ? ResourceKind::imported_texture : ResourceKind::imported_buffer;

@@ -55,7 +55,7 @@ std::uint32_t currentResource(Model& model, std::uint32_t index, std::uint32_t e
 }
 
 VersionCheck checkVersion(const Entity& entity, std::uint32_t element, const FlatUse& rect) {
-  if (entity.kind == ResourceDesc::Kind::import) return {entity.exists, entity.exists, 0};
+  if (entity.kind == ResourceDesc::Kind::import) return {entity.exists || entity.fallback, entity.exists, 0};
   const Element& e = entity.elements[element];
   if (e.writers.empty()) {
     const bool written = e.wholeWriter != kNone;

@@ -57,6 +57,7 @@ struct ImportRequest {
 // What is known of an import before anything runs.
 struct ImportFacts {
   bool exists = false;          // false: has() is 0, `?` slots lose it, alternatives skip it
+  bool fallback = false;        // the runtime has a stand-in that plain reads accept, as they accept a version zero
   Format format = Format::none; // textures
   std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
   std::uint64_t bytes = 0;      // buffers; 0 when not yet known

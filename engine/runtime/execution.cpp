@@ -33,12 +33,16 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   FrameReport report;
   device_.timers.beginFrame(static_cast<std::uint32_t>(passes_.size()));
   for (std::size_t step = 0; step < passes_.size(); ++step) {
-    const std::uint16_t barriers = plan_->steps[step].barriers;
-    if (barriers) {
-      glMemoryBarrier(glBarriersOf(barriers));
+    const graph::Step& planned = plan_->steps[step];
+    if (planned.barriers) {
+      GLbitfield bits = glBarriersOf(planned.barriers);
+      // The plan counts a clear as a texture update; a clear of an attachment goes through the framebuffer instead.
+      if (planned.barriers & graph::kBarrierTextureUpdate) bits |= GL_FRAMEBUFFER_BARRIER_BIT;
+      glMemoryBarrier(bits);
       ++report.barriers;
     }
     if (!cadence_->runs(step) || !passes_[step].usable) {
+      if (planned.barriersAfterClears) glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
       ++report.passesSkipped;
       continue;
     }
@@ -200,6 +204,7 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
       }
     }
   }
+  if (const std::uint16_t after = plan_->steps[step].barriersAfterClears) glMemoryBarrier(glBarriersOf(after));
   bind(pass, diagnostics);
   if (framebuffer) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -71,6 +71,7 @@ graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldF
     ImportFacts result;
     if (request.type == "environment") {
       result.exists = facts.environment;
+      result.fallback = true;  // graphs/daylight.json
       result.format = graph::Format::rgba16f;
       result.width = facts.environmentWidth;
       result.height = facts.environmentHeight;

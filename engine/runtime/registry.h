@@ -13,7 +13,7 @@ namespace weft::runtime {
 
 // The facts of a scene and an environment that a graph can ask for: size(environment), count(spheres), has(environment).
 struct WorldFacts {
-  bool environment = false;              // one was loaded; otherwise @environment has only its fallback
+  bool environment = false;              // one was loaded; otherwise @environment has only its fallback, graphs/daylight.json
   std::uint32_t environmentWidth = 1024, environmentHeight = 512;
   struct List {
     std::string name;                    // draw list: "spheres"
