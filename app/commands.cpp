@@ -9,6 +9,9 @@
 #include "app/bench/workload_bench.h"
 #include "app/device_session.h"
 #include "app/session.h"
+#include "engine/graph/dump_dot.h"
+#include "engine/graph/dump_json.h"
+#include "engine/graph/dump_text.h"
 #include "engine/graph/schema.h"
 #include "engine/runtime/prepared_pass.h"
 
@@ -54,6 +57,19 @@ int runCheck(const Options& options) {
   return code;
 }
 
+int runDot(const Options& options) {
+  base::Diagnostics diagnostics;
+  if (const auto plan = planFor(options, diagnostics)) fmt::print("{}", graph::dumpDot(*plan));
+  return report(diagnostics);
+}
+
+int runPlan(const Options& options) {
+  base::Diagnostics diagnostics;
+  if (const auto plan = planFor(options, diagnostics))
+    fmt::print("{}", options.format == "json" ? graph::dumpJson(*plan, options.explain) : graph::dumpText(*plan, options.explain));
+  return report(diagnostics);
+}
+
 int runBench(const Options& options) {
   base::Diagnostics diagnostics;
   WorkloadBenchOptions wanted;
@@ -86,9 +102,5 @@ int runTypes(const Options&) {
   }
   return 0;
 }
-
-// plan and dot wait for the dumps of the graph room.
-int runDot(const Options&) { return 2; }
-int runPlan(const Options&) { return 2; }
 
 }  // namespace weft::app

@@ -93,6 +93,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   CLI::App* plan = app.add_subcommand("plan", "print the compiled plan: order, barriers, storage, bytes");
   addGraphOptions(*plan, options, raw);
   plan->add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  plan->add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
 
   CLI::App* bench = app.add_subcommand("bench", "measure; prints JSON");
   bench->add_option("--workload", options.workloads, "neutral workload files ({textures, passes}); repeatable");

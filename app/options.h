@@ -24,6 +24,7 @@ struct Options {
   bool stats = false, profile = false, quiet = false;
   bool shaders = true;                       // check: compile every shader too
   std::string format = "text";               // plan: text or json
+  bool explain = false;                      // plan: say why
   std::vector<std::string> workloads;        // bench
   std::string frameGraph;                    // bench --frame
   std::uint32_t maxFrames = 0;               // view: stop after this many frames; 0: until closed
