@@ -1,0 +1,116 @@
+// The sphere layer's alpha sums to the area of the projected sphere, and the eye may be anywhere.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/theory/lab.h"
+#include "tests/theory/oracle.h"
+
+using namespace weft::theory;
+
+namespace {
+
+constexpr std::uint32_t kWidth = 480, kHeight = 360;
+
+struct Sum {
+  double alpha = 0;
+  double border = 0;     // alpha on the picture's rim
+  bool finite = true;
+};
+
+Sum sumOf(const Picture& picture) {
+  Sum sum;
+  for (std::uint32_t y = 0; y < picture.height; ++y)
+    for (std::uint32_t x = 0; x < picture.width; ++x) {
+      const float* texel = picture.at(x, y);
+      sum.alpha += texel[3];
+      for (int c = 0; c < 4; ++c) sum.finite = sum.finite && std::isfinite(texel[c]) && texel[c] >= 0;
+      if (x == 0 || y == 0 || x + 1 == picture.width || y + 1 == picture.height) sum.border += texel[3];
+    }
+  return sum;
+}
+
+Setup scene(std::vector<Ball> balls, double fov) {
+  Setup setup{.graph = "tests/theory/furnace.json", .width = kWidth, .height = kHeight, .balls = std::move(balls)};
+  setup.camera = {.position = {0, 0, 0}, .target = {0, 0, -1}, .fovDegrees = fov, .nearPlane = 0.1};
+  return setup;
+}
+
+}  // namespace
+
+TEST_CASE("coverage: alpha sums to the projected area within 0.2 %") {
+  struct Case {
+    double x, y, z, radius, fov;
+  };
+  // Centred, towards the corners (strongly stretched), close, and down to a few pixels.
+  const Case cases[] = {{0, 0, 20, 1, 60},        {0.013, 0.02, 20, 1, 60}, {9, 6, 20, 1, 60},   {6, -5, 14, 1, 60},
+                        {0.1, 0.2, 1.8, 1, 90},   {2.5, 1.2, 3.5, 1, 100},  {5, -3.9, 5.2, 0.7, 120}, {0.31, 0.7, 60, 1, 60},
+                        {-11.3, 7.1, 100, 1, 60}, {100, 50, 2000, 40, 60}};
+  double worst = 0;
+  for (const Case& c : cases) {
+    const Ball ball{.center = {c.x, c.y, -c.z}, .radius = static_cast<float>(c.radius)};
+    Lab lab(scene({ball}, c.fov));
+    lab.frame();
+    const Sum sum = sumOf(lab.read("hdr"));
+    const double f = kHeight / 2.0 / std::tan(c.fov * std::numbers::pi / 360);
+    const double area = projectedSphereArea(f, c.radius, std::sqrt(c.x * c.x + c.y * c.y + c.z * c.z), c.z);
+    CAPTURE(c.x);
+    CAPTURE(c.z);
+    CAPTURE(area);
+    REQUIRE(sum.border == 0);  // wholly in frame
+    CHECK(sum.finite);
+    CHECK(sum.alpha == doctest::Approx(area).epsilon(0.002));
+    worst = std::max(worst, std::abs(sum.alpha / area - 1));
+    CHECK(lab.complaints() == "");
+  }
+  MESSAGE("worst relative error ", worst);
+}
+
+TEST_CASE("coverage: two spheres side by side, each with its own area") {
+  const Ball left{.center = {-3, 0, -12}}, right{.center = {3, 1, -15}, .radius = 1.5f};
+  Lab lab(scene({left, right}, 60));
+  lab.frame();
+  const double f = kHeight / 2.0 / std::tan(std::numbers::pi / 6);
+  const double area = projectedSphereArea(f, 1, std::sqrt(9.0 + 144), 12) + projectedSphereArea(f, 1.5, std::sqrt(9.0 + 1 + 225), 15);
+  CHECK(sumOf(lab.read("hdr")).alpha == doctest::Approx(area).epsilon(0.002));
+}
+
+TEST_CASE("coverage: the eye inside, the sphere behind, across the eye's plane, and degenerate ones") {
+  const double whole = kWidth * kHeight;
+  const auto alphaOf = [&](Ball ball) {
+    Lab lab(scene({ball}, 60));
+    lab.frame();
+    const Sum sum = sumOf(lab.read("hdr"));
+    CHECK(sum.finite);
+    CHECK(lab.complaints() == "");
+    return sum.alpha;
+  };
+  CHECK(alphaOf({.center = {0.2, 0.1, 0.3}, .radius = 2}) == whole);         // inside: its inner surface everywhere
+  CHECK(alphaOf({.center = {0, 0, 5}, .radius = 2}) == 0);                   // behind
+  CHECK(alphaOf({.center = {0, 0, -0.02}, .radius = 0.05f}) == 0);           // wholly before the near plane
+  CHECK(alphaOf({.center = {0, 0, -5}, .radius = 0}) == 0);                  // no extent
+  CHECK(alphaOf({.center = {300, 0, -5}, .radius = 2}) == 0);                // outside the frame
+  CHECK(alphaOf({.center = {0, 0, -1.05f}, .radius = 1}) == whole);          // near hit before the near plane: inside seen
+
+  // Beside the eye and across its plane: the silhouette is a hyperbola. Covered is what lies right of a curve: between
+  // nothing and half of the picture, and symmetric about the horizontal.
+  Lab lab(scene({{.center = {1.5, 0, -0.5}, .radius = 1}}, 90));
+  lab.frame();
+  const Picture picture = lab.read("hdr");
+  const Sum sum = sumOf(picture);
+  CHECK(sum.finite);
+  CHECK(sum.alpha > 0.05 * whole);
+  CHECK(sum.alpha < 0.5 * whole);
+  for (std::uint32_t y = 0; y < kHeight / 2; ++y)
+    for (std::uint32_t x = 0; x < kWidth; x += 7)
+      CHECK(std::abs(picture.at(x, y)[3] - picture.at(x, kHeight - 1 - y)[3]) < 2e-3);
+}
+
+TEST_CASE("depth: near / distance along the view axis at the sphere's front") {
+  Lab lab(scene({{.center = {0, 0, -10}, .radius = 2}}, 60));
+  lab.frame();
+  const Picture depth = lab.read("depth");
+  CHECK(depth.at(kWidth / 2, kHeight / 2)[0] == doctest::Approx(0.1 / 8).epsilon(1e-3));
+  CHECK(depth.at(2, 2)[0] == 0);  // infinity
+}

@@ -1,0 +1,98 @@
+#include "tests/theory/lab.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace weft::theory {
+
+namespace {
+
+gl::Context& sharedContext() {
+  static std::unique_ptr<gl::Context> context = [] {
+    base::Diagnostics diagnostics;
+    auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
+    if (!made) {
+      std::puts("skipped: no OSMesa context");
+      std::exit(77);
+    }
+    return made;
+  }();
+  return *context;
+}
+
+scene::Scene sceneOf(const Setup& setup) {
+  scene::Scene scene;
+  scene.cameras.add({.name = "camera", .pose = setup.camera, .orbitDegreesPerSecond = 0, .path = {}});
+  for (const Ball& ball : setup.balls) {
+    const auto material = scene.materials.add(
+        {.name = "", .albedo = ball.albedo, .metallic = ball.metallic, .roughness = ball.roughness});
+    scene.spheres.add({.center = ball.center, .radius = ball.radius, .velocity = glm::vec3(0), .material = material});
+  }
+  return scene;
+}
+
+}  // namespace
+
+std::shared_ptr<const assets::ImageF> constantEnvironment(float r, float g, float b) {
+  auto image = std::make_shared<assets::ImageF>();
+  image->width = 256;
+  image->height = 128;
+  image->channels = 4;
+  for (int i = 0; i < image->width * image->height; ++i) image->texels.insert(image->texels.end(), {r, g, b, 1.0f});
+  return image;
+}
+
+Lab::Lab(const Setup& setup) : setup_(setup), world_(sceneOf(setup)) {
+  world_.setEnvironment(setup.environment ? setup.environment : constantEnvironment(1, 1, 1));
+  renderer_ = std::make_unique<runtime::Renderer>(
+      sharedContext(), std::string(WEFT_SOURCE_DIR) + "/" + setup.graph,
+      runtime::Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = ""});
+  graph::Settings settings;
+  settings.screenWidth = setup.width;
+  settings.screenHeight = setup.height;
+  settings.software = true;
+  settings.sets = setup.sets;
+  settings.disables = setup.disables;
+  const bool loaded = renderer_->load(settings, world_, diagnostics_);
+  INFO(diagnostics_.text());
+  REQUIRE(loaded);
+}
+
+void Lab::frame(std::uint32_t number) {
+  renderer_->frame(world_, runtime::headlessFrame(world_, number, 60), diagnostics_);
+  INFO(diagnostics_.text());
+  REQUIRE_FALSE(diagnostics_.hasErrors());
+}
+
+Picture Lab::read(const std::string& resource, std::uint32_t mip) {
+  const gl::TextureRef texture = renderer_->execution()->texture(resource);
+  INFO(resource);
+  REQUIRE(texture.id != 0);
+  const gl::Extent extent = gl::extentOf(texture.desc, mip);
+  return {extent.width, extent.height, gl::floatChannelsOf(texture.desc.format), gl::readFloats(texture, mip)};
+}
+
+std::vector<std::uint32_t> Lab::readBuffer(const std::string& resource, std::size_t words) {
+  std::uint64_t offset = 0;
+  const runtime::BufferRef buffer = renderer_->execution()->buffer(resource, offset);
+  INFO(resource);
+  REQUIRE(buffer.id != 0);
+  const std::vector<std::byte> bytes = gl::readBuffer(buffer.id, offset, words * 4);
+  std::vector<std::uint32_t> out(words);
+  std::memcpy(out.data(), bytes.data(), bytes.size());
+  return out;
+}
+
+std::string Lab::complaints() {
+  sharedContext().debugLog().drain(diagnostics_);
+  return diagnostics_.text();
+}
+
+scene::ViewData Lab::view() const {
+  return scene::makeView({.pose = setup_.camera, .previousPose = setup_.camera, .viewport = {setup_.width, setup_.height}});
+}
+
+}  // namespace weft::theory

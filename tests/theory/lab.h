@@ -1,0 +1,60 @@
+// A graph running on software GL for a test: a world built in C++, frames, and textures read back by resource name.
+// Skips by process exit code 77 when no context can be made.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/gl/context.h"
+#include "engine/runtime/renderer.h"
+#include "engine/runtime/world.h"
+
+namespace weft::theory {
+
+struct Ball {
+  glm::vec3 center{0};
+  float radius = 1;
+  glm::vec3 albedo{1};
+  float metallic = 1, roughness = 0.5f;
+};
+
+struct Setup {
+  std::string graph;                                           // relative to the source folder
+  std::uint32_t width = 64, height = 64;
+  std::vector<std::pair<std::string, std::string>> sets;
+  std::vector<std::string> disables;
+  std::vector<Ball> balls;
+  scene::CameraPose camera{.position = {0, 0, 20}, .target = {0, 0, 0}, .fovDegrees = 60, .nearPlane = 0.1};
+  std::shared_ptr<const assets::ImageF> environment;           // null: a white one
+};
+
+std::shared_ptr<const assets::ImageF> constantEnvironment(float r, float g, float b);
+
+struct Picture {
+  std::uint32_t width = 0, height = 0, channels = 4;
+  std::vector<float> texels;                                   // row 0 first, as stored
+  const float* at(std::uint32_t x, std::uint32_t y) const { return &texels[(std::size_t{y} * width + x) * channels]; }
+};
+
+class Lab {
+ public:
+  explicit Lab(const Setup& setup);
+  void frame(std::uint32_t number = 0);
+  Picture read(const std::string& resource, std::uint32_t mip = 0);
+  std::vector<std::uint32_t> readBuffer(const std::string& resource, std::size_t words);
+  // Everything the driver and the engine said; "" when there is nothing above a note.
+  std::string complaints();
+  const runtime::World& world() const { return world_; }
+  scene::ViewData view() const;
+
+ private:
+  Setup setup_;
+  runtime::World world_;
+  std::unique_ptr<runtime::Renderer> renderer_;
+  base::Diagnostics diagnostics_;
+};
+
+}  // namespace weft::theory

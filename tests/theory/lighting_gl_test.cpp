@@ -1,0 +1,88 @@
+// Irradiance and the prefiltered environment against brute-force integrals of an analytic radiance; the seam at +-180 degrees.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/theory/lab.h"
+#include "tests/theory/oracle.h"
+
+using namespace weft::theory;
+
+namespace {
+
+constexpr double kPower = 12;
+const Vec3 kLobe{-0.8, 0.36, 0.48};  // across the seam's side of the map
+
+// max(0, l . lobe)^power, at texel centres.
+std::shared_ptr<const weft::assets::ImageF> lobeEnvironment() {
+  auto image = std::make_shared<weft::assets::ImageF>();
+  image->width = 512;
+  image->height = 256;
+  image->channels = 4;
+  for (int y = 0; y < image->height; ++y)
+    for (int x = 0; x < image->width; ++x) {
+      const double value = std::pow(std::max(0.0, dot(equirectDirection(x, y, 512, 256), kLobe)), kPower);
+      for (int c = 0; c < 3; ++c) image->texels.push_back(static_cast<float>(value));
+      image->texels.push_back(1);
+    }
+  return image;
+}
+
+Setup lit() {
+  Setup setup{.graph = "tests/theory/furnace.json", .balls = {{}}};
+  setup.environment = lobeEnvironment();
+  return setup;
+}
+
+}  // namespace
+
+TEST_CASE("irradiance: within 0.5 % of its greatest value") {
+  Lab lab(lit());
+  lab.frame();
+  const Picture map = lab.read("ibl.irradiance");
+  const double peak = lobeIrradiance(kLobe, kLobe, kPower);
+  double worst = 0;
+  for (std::uint32_t y = 1; y < map.height; y += 7)
+    for (std::uint32_t x = 0; x < map.width; x += 9) {
+      const Vec3 normal = equirectDirection(static_cast<int>(x), static_cast<int>(y), static_cast<int>(map.width), static_cast<int>(map.height));
+      worst = std::max(worst, std::abs(map.at(x, y)[0] - lobeIrradiance(normal, kLobe, kPower, 150)));
+    }
+  MESSAGE("worst error, relative to the peak: ", worst / peak);
+  CHECK(worst < 0.005 * peak);
+  CHECK(lab.complaints() == "");
+}
+
+TEST_CASE("prefilter: each level matches its roughness within 3 % of the lobe's peak, and the mirror is a copy") {
+  Lab lab(lit());
+  lab.frame();
+  for (std::uint32_t level = 0; level < 5; ++level) {
+    const Picture map = lab.read("ibl.specular", level);
+    double worst = 0;
+    for (std::uint32_t y = 2; y < map.height; y += map.height / 16)
+      for (std::uint32_t x = 1; x < map.width; x += map.width / 16) {
+        const Vec3 normal = equirectDirection(static_cast<int>(x), static_cast<int>(y), static_cast<int>(map.width), static_cast<int>(map.height));
+        const double truth = level == 0 ? std::pow(std::max(0.0, dot(normal, kLobe)), kPower)
+                                        : lobeReflection(normal, kLobe, kPower, level / 4.0, 120);
+        worst = std::max(worst, std::abs(map.at(x, y)[0] - truth));
+      }
+    CAPTURE(level);
+    MESSAGE("level ", level, ": worst error ", worst);
+    CHECK(worst < (level == 0 ? 0.004 : 0.03));
+  }
+}
+
+TEST_CASE("no seam: the first and the last column of every map continue each other") {
+  Lab lab(lit());
+  lab.frame();
+  for (const char* name : {"ibl.irradiance", "ibl.specular"}) {
+    const Picture map = lab.read(name);
+    for (std::uint32_t y = 0; y < map.height; y += 5) {
+      // The step across the seam is no larger than its neighbours' steps, give or take rounding.
+      const auto value = [&](std::uint32_t x) { return map.at(x % map.width, y)[0]; };
+      const float across = std::abs(value(map.width) - value(map.width - 1));
+      const float beside = std::max(std::abs(value(map.width - 1) - value(map.width - 2)), std::abs(value(1) - value(0)));
+      CAPTURE(y);
+      CHECK(across <= 1.5f * beside + 0.002f);
+    }
+  }
+}
