@@ -5,7 +5,7 @@
 //         samples         per texel, at most 256. Level 0 is the mirror: a resampled copy, no samples (define COPY)
 //
 // Samples of the normal distribution, each read at the level whose texels match the sample's share of the sphere
-// (Krivanek and Colbert, EGSR 2008) plus one, weighted by N.L. Around the axis all texels of a row see the same samples,
+// (Krivanek and Colbert, EGSR 2008) and weighted by N.L. Around the axis all texels of a row see the same samples,
 // only turned: their map coordinates relative to the texel are computed once per work group.
 #include "common/equirect.glsl"
 #include "roughness_level.glsl"
@@ -25,6 +25,7 @@ layout(std140) uniform Parameters {
 
 #if !COPY
 const int kMaxSamples = 256;
+const float kSpread = 0.5;       // levels beyond a sample's share of the sphere, so that neighbours overlap
 shared vec4 table[kMaxSamples];  // u offset, v, level of the environment, weight
 
 float radicalInverse(uint bits) { return float(bitfieldReverse(bits)) * 2.3283064365386963e-10; }
@@ -47,7 +48,7 @@ void fillTable(float theta, int count) {
     vec3 direction = vec3(sin_n * local.z + cos_n * local.x, cos_n * local.z - sin_n * local.x, local.y);
     vec2 at = equirectUv(direction);
     float share = 1.0 / (float(count) * pdf);
-    float lod = 0.5 * log2(share / (texel * max(length(direction.xz), 0.05))) + 1.0;
+    float lod = 0.5 * log2(share / (texel * max(length(direction.xz), 0.05))) + kSpread;
     lod = clamp(lod, 0.0, float(textureQueryLevels(environment) - 1));
     float half_texel = 0.5 * exp2(ceil(lod)) / base.y;
     at.y = clamp(at.y, min(half_texel, 0.5), max(1.0 - half_texel, 0.5));

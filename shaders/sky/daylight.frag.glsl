@@ -1,6 +1,6 @@
 // An analytic clear sky with a sun and a plain ground, as an equirectangular map: the environment when none is loaded.
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
-// Sun: its light after Rayleigh and aerosol extinction, in a lobe about three degrees wide with the right irradiance, so that a
+// Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
 // small map can hold it. Ground: Lambertian, lit by both.
 // write   radiance   scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near 1 at exposure 0
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
@@ -62,8 +62,8 @@ void main() {
   float air_mass = 1.0 / (sin(high) + 0.50572 * pow(elevation + 6.07995, -1.6364));
   vec3 depth = vec3(0.041, 0.097, 0.243) + (0.046 * turbidity - 0.046) * vec3(0.76, 1.0, 1.34);
   vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass);
-  const float kWidth2 = 0.022 * 0.022;  // radians squared; the lobe's integral is pi * kWidth2
-  sky += sun_light * exp(-gamma * gamma / kWidth2) / (kPi * kWidth2) * step(gamma, 0.12);
+  const float kWidth2 = 0.035 * 0.035;  // radians squared; the lobe's integral is pi * kWidth2
+  sky += sun_light * exp(-gamma * gamma / kWidth2) / (kPi * kWidth2) * step(gamma, 0.15);
 
   vec3 sky_light = kUnit * colorOf(top) * kPi;
   vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * sun.y + sky_light) / kPi;

@@ -1,6 +1,7 @@
 // The BRDF table of graphs/ibl.json at texel centres, against independent integration.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/theory/lab.h"

@@ -1,6 +1,7 @@
 // The sphere layer's alpha sums to the area of the projected sphere, and the eye may be anywhere.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

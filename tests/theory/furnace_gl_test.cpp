@@ -2,6 +2,7 @@
 // angle; with compensation off they show the single-scattering albedo. Also: nothing but the roughness decides it.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/theory/lab.h"

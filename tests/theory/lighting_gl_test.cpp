@@ -1,6 +1,7 @@
 // Irradiance and the prefiltered environment against brute-force integrals of an analytic radiance; the seam at +-180 degrees.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/theory/lab.h"
@@ -52,7 +53,7 @@ TEST_CASE("irradiance: within 0.5 % of its greatest value") {
   CHECK(lab.complaints() == "");
 }
 
-TEST_CASE("prefilter: each level matches its roughness within 3 % of the lobe's peak, and the mirror is a copy") {
+TEST_CASE("prefilter: each level matches its roughness within 2.5 % of the lobe's peak, and the mirror is a copy") {
   Lab lab(lit());
   lab.frame();
   for (std::uint32_t level = 0; level < 5; ++level) {
@@ -67,7 +68,7 @@ TEST_CASE("prefilter: each level matches its roughness within 3 % of the lobe's 
       }
     CAPTURE(level);
     MESSAGE("level ", level, ": worst error ", worst);
-    CHECK(worst < (level == 0 ? 0.004 : 0.03));
+    CHECK(worst < (level == 0 ? 0.004 : 0.025));
   }
 }
 
