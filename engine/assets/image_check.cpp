@@ -60,8 +60,38 @@ std::string checkHdr(std::string_view bytes) {
   return "";
 }
 
+bool isJpeg(std::string_view bytes) {
+  const std::size_t at = bytes.find_first_not_of('\xff');
+  return at != std::string_view::npos && at > 0 && bytes[at] == '\xd8';
+}
+
+// ITU T.81, annex B. Markers are taken exactly where stb_image takes them: any run of 0xff, then a byte that is neither
+// 0 (stuffing) nor a restart. What lies between segments, entropy-coded data included, is skipped.
 std::string checkJpeg(std::string_view bytes) {
-  return bytes.rfind("\xff\xd9") == std::string_view::npos ? "the file ends before its end marker" : "";
+  const std::string early = "the file ends before its end marker";
+  const auto word = [&](std::size_t i) { return std::size_t{byteAt(bytes, i)} << 8 | byteAt(bytes, i + 1); };
+  for (std::size_t at = bytes.find('\xd8') + 1;;) {
+    at = bytes.find('\xff', at);
+    if (at != std::string_view::npos) at = bytes.find_first_not_of('\xff', at);
+    if (at == std::string_view::npos) return early;
+    const std::uint8_t marker = byteAt(bytes, at++);
+    if (marker == 0xd9) return "";
+    if (marker == 0 || (marker >= 0xd0 && marker <= 0xd7)) continue;
+    if (at + 2 > bytes.size()) return early;
+    const std::size_t end = at + word(at);
+    if (end > bytes.size()) return early;
+    if (end < at + 2) return fmt::format("a segment at byte {} has no length", at);
+    if (marker == 0xc4) {  // Huffman tables: class and id, 16 counts, that many values
+      for (std::size_t table = at + 2; table < end;) {
+        if (table + 17 > end) return fmt::format("a Huffman table at byte {} is cut off", table);
+        std::size_t codes = 0;
+        for (std::size_t i = 1; i <= 16; ++i) codes += byteAt(bytes, table + i);
+        if (codes > 256) return fmt::format("a Huffman table at byte {} has {} codes, more than 256", table, codes);
+        table += 17 + codes;
+      }
+    }
+    at = end;
+  }
 }
 
 // Truevision TGA 2.0: 18 bytes of header, id, colour map, then texels or run-length packets.

@@ -1,13 +1,16 @@
-// .exr through tinyexr: single-part scanline or tiled pictures in, 32-bit float ZIP scanlines out.
+// .exr through tinyexr: single-part scanline pictures in, 32-bit float ZIP scanlines out.
+// Built on the library's low-level calls: its one-call LoadEXRFromMemory leaks whenever it fails.
 #include <array>
 #include <cassert>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <memory>
 
 #include <fmt/format.h>
 #include <tinyexr.h>
 
+#include "engine/assets/image_check.h"
 #include "engine/assets/image_codecs.h"
 #include "engine/base/file.h"
 
@@ -32,45 +35,102 @@ struct HeaderOwner {
   HeaderOwner& operator=(const HeaderOwner&) = delete;
 };
 
+struct PictureOwner {
+  EXRImage image;
+  PictureOwner() { InitEXRImage(&image); }
+  ~PictureOwner() { FreeEXRImage(&image); }
+  PictureOwner(const PictureOwner&) = delete;
+  PictureOwner& operator=(const PictureOwner&) = delete;
+};
+
 const unsigned char* dataOf(std::string_view bytes) { return reinterpret_cast<const unsigned char*>(bytes.data()); }
+
+// Header fields that the library multiplies and allocates by without a look at the file's length.
+bool areCountsSound(const EXRHeader& header, long long width, long long height, std::size_t fileSize) {
+  const long long most = 2 * static_cast<long long>(kMaxImageTexels);
+  if (header.num_channels < 1 || width * height * header.num_channels > 2 * most) return false;
+  return header.chunk_count >= 0 && static_cast<std::size_t>(header.chunk_count) <= fileSize / 8;
+}
+
+// Which channel of the file each of R, G, B, A is, -1 for none. Of layers ("diffuse.R") the last one counts. A file
+// with one channel is grey in all three.
+std::array<int, 4> findChannels(const EXRHeader& header) {
+  std::array<int, 4> found = {-1, -1, -1, -1};
+  for (int c = 0; c < header.num_channels; ++c) {
+    const std::string_view name = header.channels[c].name;
+    const std::string_view last = name.substr(name.find_last_of('.') + 1);
+    const std::size_t index = last.size() == 1 ? std::string_view("RGBA").find(last[0]) : std::string_view::npos;
+    if (index != std::string_view::npos) found[index] = c;
+  }
+  if (header.num_channels == 1 && found[3] < 0) found = {0, 0, 0, -1};
+  return found;
+}
+
+std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+  if (const std::string problem = checkExr(bytes); !problem.empty()) {
+    reportUnreadable(diagnostics, name, problem);
+    return {};
+  }
+  EXRVersion version{};
+  if (ParseEXRVersionFromMemory(&version, dataOf(bytes), bytes.size()) != TINYEXR_SUCCESS) {
+    reportUnreadable(diagnostics, name, "its version is not valid");
+    return {};
+  }
+  HeaderOwner owner;
+  EXRHeader& header = owner.header;
+  const char* message = nullptr;
+  if (ParseEXRHeaderFromMemory(&header, &version, dataOf(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
+    reportUnreadable(diagnostics, name, takeMessage(message));
+    return {};
+  }
+  const EXRBox2i& box = header.data_window;
+  const long long width = static_cast<long long>(box.max_x) - box.min_x + 1;
+  const long long height = static_cast<long long>(box.max_y) - box.min_y + 1;
+  if (!checkSize(diagnostics, name, width, height)) return {};
+  if (!areCountsSound(header, width, height, bytes.size())) {
+    reportUnreadable(diagnostics, name, "its header has impossible channel or chunk counts");
+    return {};
+  }
+  const std::array<int, 4> channels = findChannels(header);
+  if (channels[0] < 0 || channels[1] < 0 || channels[2] < 0) {
+    reportUnreadable(diagnostics, name, "it has no channels R, G and B");
+    return {};
+  }
+  for (const int channel : channels) {
+    if (channel < 0) continue;
+    int& type = header.requested_pixel_types[channel];
+    if (type == TINYEXR_PIXELTYPE_HALF) type = TINYEXR_PIXELTYPE_FLOAT;
+    if (type == TINYEXR_PIXELTYPE_FLOAT) continue;
+    reportUnreadable(diagnostics, name, "a colour channel holds whole numbers");
+    return {};
+  }
+
+  PictureOwner picture;
+  picture.image.num_channels = header.num_channels;  // on failure the library frees so many planes, else it leaks them
+  if (LoadEXRImageFromMemory(&picture.image, &header, dataOf(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
+    InitEXRImage(&picture.image);  // on failure the library has freed what it points to
+    reportUnreadable(diagnostics, name, takeMessage(message));
+    return {};
+  }
+  ImageF image{static_cast<int>(width), static_cast<int>(height), 4, {}};
+  image.texels.assign(static_cast<std::size_t>(width * height) * 4, 1.0f);
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (channels[c] < 0) continue;
+    const float* plane = reinterpret_cast<const float*>(picture.image.images[channels[c]]);
+    for (std::size_t i = 0; i * 4 < image.texels.size(); ++i) image.texels[i * 4 + c] = plane[i];
+  }
+  return image;
+}
 
 }  // namespace
 
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  EXRVersion version{};
-  if (ParseEXRVersionFromMemory(&version, dataOf(bytes), bytes.size()) != TINYEXR_SUCCESS) {
-    reportUnreadable(diagnostics, name, "it does not begin as an OpenEXR picture");
+  try {
+    return decode(bytes, name, diagnostics);
+  } catch (const std::exception& error) {  // the library's own containers
+    reportUnreadable(diagnostics, name, fmt::format("decoding failed ({})", error.what()));
     return {};
   }
-  if (version.multipart || version.non_image) {
-    reportUnreadable(diagnostics, name, "it has several parts or deep data; save it as one flat picture");
-    return {};
-  }
-  HeaderOwner owner;
-  const char* message = nullptr;
-  if (ParseEXRHeaderFromMemory(&owner.header, &version, dataOf(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
-    reportUnreadable(diagnostics, name, takeMessage(message));
-    return {};
-  }
-  const EXRBox2i& box = owner.header.data_window;
-  const long long width = static_cast<long long>(box.max_x) - box.min_x + 1;
-  const long long height = static_cast<long long>(box.max_y) - box.min_y + 1;
-  if (!checkSize(diagnostics, name, width, height)) return {};
-
-  float* texels = nullptr;
-  int loadedWidth = 0, loadedHeight = 0;
-  const int result = LoadEXRFromMemory(&texels, &loadedWidth, &loadedHeight, dataOf(bytes), bytes.size(), &message);
-  const std::unique_ptr<float, decltype(&std::free)> memory(texels, &std::free);
-  if (result != TINYEXR_SUCCESS || !texels) {
-    reportUnreadable(diagnostics, name, takeMessage(message));
-    return {};
-  }
-  const std::size_t count = static_cast<std::size_t>(loadedWidth) * static_cast<std::size_t>(loadedHeight);
-  ImageF image{loadedWidth, loadedHeight, 4, std::vector<float>(texels, texels + count * 4)};
-  // A single channel is copied to all four; as a grey picture its alpha is 1.
-  if (owner.header.num_channels == 1 && std::strcmp(owner.header.channels[0].name, "A") != 0)
-    for (std::size_t i = 0; i < count; ++i) image.texels[i * 4 + 3] = 1;
-  return image;
 }
 
 bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnostics) {

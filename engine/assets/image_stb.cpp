@@ -48,14 +48,18 @@ std::optional<Header> readPictureHeader(std::string_view bytes, const std::strin
     reportUnreadable(diagnostics, name, "it holds a Radiance picture; rename it to .hdr");
     return {};
   }
+  const bool jpeg = isJpeg(bytes), png = bytes.starts_with("\x89PNG");
+  if (const std::string problem = jpeg ? checkJpeg(bytes) : ""; !problem.empty()) {
+    reportUnreadable(diagnostics, name, problem);
+    return {};
+  }
   const std::optional<Header> header = readHeader(bytes, name, diagnostics);
-  if (!header) return {};
-  std::string problem;
-  if (bytes.starts_with("\xff\xd8")) problem = checkJpeg(bytes);
-  else if (!bytes.starts_with("\x89PNG")) problem = checkTga(bytes);
-  if (problem.empty()) return header;
-  reportUnreadable(diagnostics, name, problem);
-  return {};
+  if (!header || jpeg || png) return header;
+  if (const std::string problem = checkTga(bytes); !problem.empty()) {
+    reportUnreadable(diagnostics, name, problem);
+    return {};
+  }
+  return header;
 }
 
 std::size_t componentCount(int width, int height, int channels) {
