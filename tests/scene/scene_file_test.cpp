@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "engine/base/file.h"
 #include "tests/assets/temporary.h"
 
 using namespace weft;
@@ -73,6 +74,18 @@ TEST_CASE("every scene of the folder loads") {
     ++count;
   }
   CHECK(count >= 3);
+}
+
+TEST_CASE("the example of docs/scenes.md loads") {
+  base::Diagnostics diagnostics;
+  const auto page = base::readFile(WEFT_SOURCE_DIR "/docs/scenes.md", diagnostics);
+  REQUIRE(page);
+  const std::size_t begin = page->find("```json") + 7, end = page->find("```", begin);
+  const auto scene = readScene(std::string_view(*page).substr(begin, end - begin), WEFT_SOURCE_DIR "/scenes/example.json", diagnostics);
+  REQUIRE_MESSAGE(scene, diagnostics.text());
+  CHECK(scene->cameras.size() == 3);
+  CHECK(scene->spheres.size() == 102);
+  CHECK(scene->pointLights.size() == 1);
 }
 
 TEST_CASE("a grid of any shape is centred; materials repeat; layers go away from the viewer") {
