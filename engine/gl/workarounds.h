@@ -23,19 +23,20 @@ inline bool timerQueriesLie(const DeviceInfo& device) {
 // view-names-from-gen: glTextureView wants a name that has never been bound; glCreateTextures binds.
 // OpenGL 4.5 8.18, enforced by Mesa 22.3.6, 2026-11-21.
 
-// source-numbers-lost: Mesa's log has source string 0 for expressions, whatever #line said (its parser's
-// YYLLOC_DEFAULT resets it), and the right line; so lines are numbered through the whole text
+// source-numbers-lost: Mesa's log names source string 0 for some expressions whatever #line said, beside the
+// right line (seen; the cause was not looked for); so lines are numbered through the whole text
 // (shader_source.h). Mesa 22.3.6, 2026-11-21.
 
-// columns-after-preprocessing: Mesa counts the columns of its log in preprocessed text, where a run of blanks
-// is one; mapLog counts back (in lines without macros). NVIDIA gives no columns. Mesa 22.3.6, 2026-11-21.
+// columns-after-preprocessing: the columns of Mesa's log count a run of blanks as one (seen on lines with and
+// without such runs), as its preprocessor would leave them; mapLog counts back, in lines without macros.
+// Mesa 22.3.6, 2026-11-21.
 
 // storage-flag-without-storage: after glNamedBufferStorage ran out of memory Mesa still answers GL_TRUE for
 // GL_BUFFER_IMMUTABLE_STORAGE (for textures the flag is true to fact), so Buffer asks glGetError.
 // Mesa 22.3.6, 2026-11-21.
 
-// compiler-messages-twice: Mesa sends every line of a shader's log, warnings included, as a KHR_debug message
-// of high severity besides the log that Program reads and maps. Messages of the shader compiler of type error
-// or other are therefore switched off; its performance messages stay. Mesa 22.3.6, 2026-11-21.
+// compiler-messages-twice: Mesa sends every error of a shader's log also as a KHR_debug message of the shader
+// compiler (type error, above notification), besides the log that Program reads and maps. Its messages of
+// type error and other are therefore switched off; those about performance stay. Mesa 22.3.6, 2026-11-21.
 
 }  // namespace weft::gl::workarounds
