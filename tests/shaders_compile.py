@@ -97,22 +97,27 @@ def variants(stanza, desc):
             yield {**has, **extra}
 
 
-def check(files, stage, defines, roots, folder):
-    text = ["#version 450 core", *(f"#define {k} {v}" for k, v in defines.items()), *expand(files, roots)]
-    path = folder / f"shader.{stage}"
-    path.write_text("\n".join(text) + "\n")
-    result = subprocess.run(["glslangValidator", str(path)], capture_output=True, text=True)
-    if result.returncode == 0:
-        return None
-    lines = [line for line in result.stdout.splitlines() if "ERROR" in line][:6]
-    context = []
-    for line in lines:
-        at = re.search(r":(\d+):", line)
-        if at and int(at.group(1)) <= len(text):
-            context.append(f"    {line.strip()}\n      > {text[int(at.group(1)) - 1].strip()}")
-        else:
-            context.append(f"    {line.strip()}")
-    return "\n".join(context)
+def source_of(path, defines, roots):
+    return ["#version 450 core", *(f"#define {k} {v}" for k, v in defines.items()), *expand(path, roots)]
+
+
+def validate(jobs):
+    """jobs: (path of the text, its lines, where it stands); one run of the validator for all. Yields problems."""
+    result = subprocess.run(["glslangValidator", *(str(path) for path, _, _ in jobs)], capture_output=True, text=True)
+    errors, current = {}, None
+    names = {str(path) for path, _, _ in jobs}
+    for line in result.stdout.splitlines():
+        if line.strip() in names:
+            current = line.strip()
+        elif "ERROR" in line and current:
+            errors.setdefault(current, []).append(line.strip())
+    if result.returncode != 0 and not errors:
+        yield f"glslangValidator: {result.stdout}{result.stderr}"
+    for path, text, where in jobs:
+        for line in errors.get(str(path), [])[:4]:
+            at = re.search(r":(\d+):", line)
+            number = int(at.group(1)) if at else 0
+            yield f"{where}\n    {line}" + (f"\n      > {text[number - 1].strip()}" if 0 < number <= len(text) else "")
 
 
 def main():
@@ -123,7 +128,7 @@ def main():
     if not graphs:
         for folder in ("graphs", "tests/golden", "tests/theory"):
             graphs += sorted(g for g in (TOP / folder).glob("*.json") if '"passes"' in g.read_text())
-    done, problems, used = set(), [], set()
+    done, problems, used, jobs = set(), [], set(), []
     with tempfile.TemporaryDirectory() as temporary:
         for graph in graphs:
             roots = shader_folders(graph)
@@ -146,11 +151,14 @@ def main():
                             continue
                         done.add(key)
                         try:
-                            error = check(path, stage, defines, roots, pathlib.Path(temporary))
+                            text = source_of(path, defines, roots)
                         except ValueError as reason:
-                            error = f"    {reason}"
-                        if error:
-                            problems.append(f"{where}: {path.relative_to(TOP)} with {defines}\n{error}")
+                            problems.append(f"{where}: {reason}")
+                            continue
+                        file = pathlib.Path(temporary) / f"{len(jobs)}.{stage}"
+                        file.write_text("\n".join(text) + "\n")
+                        jobs.append((file, text, f"{where}: {path.relative_to(TOP)} with {defines}"))
+        problems += validate(jobs)
     unused = sorted(p for p in (TOP / "shaders").rglob("*.*.glsl") if p.name.split(".")[-2] in STAGES and p not in used)
     problems += [f"{p.relative_to(TOP)}: no graph uses it" for p in unused]
     print("\n".join(problems) or f"shaders_compile: {len(used)} shaders, {len(done)} variants")

@@ -33,7 +33,7 @@ Sum sumOf(const Picture& picture) {
 }
 
 Setup scene(std::vector<Ball> balls, double fov) {
-  Setup setup{.graph = "tests/theory/furnace.json", .width = kWidth, .height = kHeight, .balls = std::move(balls)};
+  Setup setup{.graph = "tests/theory/coverage.json", .width = kWidth, .height = kHeight, .balls = std::move(balls)};
   setup.camera = {.position = {0, 0, 0}, .target = {0, 0, -1}, .fovDegrees = fov, .nearPlane = 0.1};
   return setup;
 }
