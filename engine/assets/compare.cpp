@@ -18,11 +18,14 @@ double difference(float a, float b) {
   return std::isnan(d) ? kInfinity : d;
 }
 
-double difference(std::uint8_t a, std::uint8_t b) { return std::abs(static_cast<int>(a) - static_cast<int>(b)); }
+double difference(std::uint8_t a, std::uint8_t b) {
+  return std::abs(static_cast<int>(a) - static_cast<int>(b));
+}
 
 template <class Image>
 bool haveSameShape(const Image& a, const Image& b) {
-  return a.width == b.width && a.height == b.height && a.channels == b.channels && a.texels.size() == b.texels.size();
+  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+         a.texels.size() == b.texels.size();
 }
 
 template <class Image>
@@ -60,14 +63,19 @@ Comparison compare(const Image& a, const Image& b, double tolerance, double peak
 
 }  // namespace
 
-Comparison compareImages(const Image8& a, const Image8& b, double tolerance) { return compare(a, b, tolerance, 255); }
-Comparison compareImages(const ImageF& a, const ImageF& b, double tolerance) { return compare(a, b, tolerance, 1); }
+Comparison compareImages(const Image8& a, const Image8& b, double tolerance) {
+  return compare(a, b, tolerance, 255);
+}
+Comparison compareImages(const ImageF& a, const ImageF& b, double tolerance) {
+  return compare(a, b, tolerance, 1);
+}
 
 Image8 makeDifference(const Image8& a, const Image8& b, int gain) {
   assert(haveSameShape(a, b));
   Image8 result = a;
   for (std::size_t i = 0; i < a.texels.size(); ++i) {
-    const bool alpha = a.channels % 2 == 0 && i % static_cast<std::size_t>(a.channels) + 1 == static_cast<std::size_t>(a.channels);
+    const bool alpha = a.channels % 2 == 0 &&
+                       i % static_cast<std::size_t>(a.channels) + 1 == static_cast<std::size_t>(a.channels);
     const int d = std::abs(static_cast<int>(a.texels[i]) - static_cast<int>(b.texels[i])) * gain;
     result.texels[i] = alpha ? 255 : static_cast<std::uint8_t>(std::clamp(d, 0, 255));
   }

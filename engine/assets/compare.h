@@ -8,12 +8,13 @@
 namespace weft::assets {
 
 struct Comparison {
-  bool sameShape = false;          // width, height and channels agree; everything below is 0 when they do not
-  double maxDifference = 0;        // largest |a - b| of any component; infinite when one is NaN and the other is not
-  double meanDifference = 0;       // mean |a - b| over all components
-  double psnr = 0;                 // dB relative to 255 (Image8) or 1.0 (ImageF); infinite for equal pictures
-  std::size_t differingPixels = 0; // pixels with a component that differs by more than the tolerance
-  int worstX = 0, worstY = 0;      // where maxDifference is; y counts from the top
+  bool sameShape = false;  // width, height and channels agree; everything below is 0 when they do not
+  double maxDifference =
+      0;  // largest |a - b| of any component; infinite when one is NaN and the other is not
+  double meanDifference = 0;  // mean |a - b| over all components
+  double psnr = 0;            // dB relative to 255 (Image8) or 1.0 (ImageF); infinite for equal pictures
+  std::size_t differingPixels = 0;  // pixels with a component that differs by more than the tolerance
+  int worstX = 0, worstY = 0;       // where maxDifference is; y counts from the top
   bool equal() const { return sameShape && maxDifference == 0; }
 };
 

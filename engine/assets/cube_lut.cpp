@@ -1,10 +1,10 @@
 #include "engine/assets/cube_lut.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <memory>
-
-#include <fmt/format.h>
 
 #include "engine/base/file.h"
 
@@ -65,9 +65,11 @@ class Reader {
     if (words.empty() || words[0].text[0] == '#') return;
     const std::string_view key = words[0].text;
     const char first = key[0];
-    if ((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.') return readTriple(words, 0, "a table row", nullptr);
+    if ((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.')
+      return readTriple(words, 0, "a table row", nullptr);
     if (key == "TITLE") return readTitle(line);
-    if (!lut_.texels.empty()) return fail(words[0].column, fmt::format("keyword '{}' stands after the table began", key));
+    if (!lut_.texels.empty())
+      return fail(words[0].column, fmt::format("keyword '{}' stands after the table began", key));
     if (key == "LUT_1D_SIZE") return readSize(words, 1, kMaxSize1d);
     if (key == "LUT_3D_SIZE") return readSize(words, 3, kMaxSize3d);
     if (key == "DOMAIN_MIN") return readTriple(words, 1, "DOMAIN_MIN", &lut_.domainMin);
@@ -79,8 +81,10 @@ class Reader {
   void readTitle(std::string_view line) {
     const std::size_t open = line.find('"');
     const std::size_t close = line.rfind('"');
-    if (open != std::string_view::npos && close > open) lut_.title = line.substr(open + 1, close - open - 1);
-    else fail(1, "TITLE has no text in double quotes");
+    if (open != std::string_view::npos && close > open)
+      lut_.title = line.substr(open + 1, close - open - 1);
+    else
+      fail(1, "TITLE has no text in double quotes");
   }
 
   void readSize(const std::vector<Word>& words, int dimensions, int largest) {
@@ -90,11 +94,13 @@ class Reader {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
     if (error != std::errc() || end != text.data() + text.size() || size < 2 || size > largest)
       return fail(words.size() > 1 ? words[1].column : words[0].column,
-                  fmt::format("{} needs one whole number from 2 to {}", words[0].text, largest), std::string(text));
+                  fmt::format("{} needs one whole number from 2 to {}", words[0].text, largest),
+                  std::string(text));
     lut_.dimensions = dimensions;
     lut_.size = size;
     expected_ = dimensions == 1 ? static_cast<std::size_t>(size)
-                                : static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+                                : static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
+                                      static_cast<std::size_t>(size);
     lut_.texels.reserve(dimensions == 1 ? expected_ * 3 : 0);
   }
 
@@ -109,8 +115,11 @@ class Reader {
   }
 
   // Three numbers from words[first]; to `domain`, or appended to the table.
-  void readTriple(const std::vector<Word>& words, std::size_t first, const char* what, std::array<float, 3>* domain) {
-    if (words.size() != first + 3) return fail(words[0].column, fmt::format("{} needs three numbers", what), fmt::format("{}", words.size() - first));
+  void readTriple(const std::vector<Word>& words, std::size_t first, const char* what,
+                  std::array<float, 3>* domain) {
+    if (words.size() != first + 3)
+      return fail(words[0].column, fmt::format("{} needs three numbers", what),
+                  fmt::format("{}", words.size() - first));
     std::array<float, 3> values{};
     for (std::size_t c = 0; c < 3; ++c) {
       const std::optional<float> value = readNumber(words[first + c]);
@@ -122,7 +131,8 @@ class Reader {
       return;
     }
     if (lut_.size == 0) return fail(words[0].column, "a table row before LUT_1D_SIZE or LUT_3D_SIZE");
-    if (lut_.texels.size() == expected_ * 3) return fail(words[0].column, fmt::format("more than {} table rows", expected_));
+    if (lut_.texels.size() == expected_ * 3)
+      return fail(words[0].column, fmt::format("more than {} table rows", expected_));
     lut_.texels.insert(lut_.texels.end(), values.begin(), values.end());
   }
 
@@ -138,7 +148,8 @@ class Reader {
   void checkWhole() {
     if (lut_.size == 0) return fail(0, "neither LUT_1D_SIZE nor LUT_3D_SIZE");
     if (lut_.texels.size() != expected_ * 3)
-      return fail(0, fmt::format("the table ends early: {} rows are needed", expected_), fmt::format("{}", lut_.texels.size() / 3));
+      return fail(0, fmt::format("the table ends early: {} rows are needed", expected_),
+                  fmt::format("{}", lut_.texels.size() / 3));
     for (std::size_t c = 0; c < 3; ++c)
       if (!(lut_.domainMin[c] < lut_.domainMax[c])) return fail(0, "DOMAIN_MIN is not below DOMAIN_MAX");
   }

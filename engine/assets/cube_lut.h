@@ -1,5 +1,6 @@
-// .cube colour tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX, comments.
-// Errors are W154 with line and column; an unreadable file is W1. Does not apply the table: that is a shader's work.
+// .cube colour tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX,
+// comments. Errors are W154 with line and column; an unreadable file is W1. Does not apply the table: that is
+// a shader's work.
 #pragma once
 
 #include <array>
@@ -14,14 +15,15 @@ namespace weft::assets {
 
 struct CubeLut {
   std::string title;
-  int dimensions = 3;                        // 1: three curves; 3: a cube
-  int size = 0;                              // entries per axis, 2..65536 (1D) or 2..256 (3D)
-  std::array<float, 3> domainMin{0, 0, 0};   // input that hits the first entry
-  std::array<float, 3> domainMax{1, 1, 1};   // input that hits the last entry
-  std::vector<float> texels;                 // RGB triples, red fastest, size or size^3 of them; finite
+  int dimensions = 3;                       // 1: three curves; 3: a cube
+  int size = 0;                             // entries per axis, 2..65536 (1D) or 2..256 (3D)
+  std::array<float, 3> domainMin{0, 0, 0};  // input that hits the first entry
+  std::array<float, 3> domainMax{1, 1, 1};  // input that hits the last entry
+  std::vector<float> texels;                // RGB triples, red fastest, size or size^3 of them; finite
 };
 
 std::optional<CubeLut> loadCubeLut(const std::string& path, base::Diagnostics& diagnostics);
-std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& name,
+                                   base::Diagnostics& diagnostics);
 
 }  // namespace weft::assets

@@ -16,9 +16,11 @@ std::uint16_t floatToHalf(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
   const std::uint32_t sign = (bits >> 16) & 0x8000u;
   const std::uint32_t magnitude = bits & 0x7fffffffu;
-  if (magnitude > 0x7f800000u) return static_cast<std::uint16_t>(sign | 0x7e00u | ((magnitude >> 13) & 0x1ffu));
-  if (magnitude >= 0x477ff000u) return static_cast<std::uint16_t>(sign | 0x7c00u);  // 65520 and up rounds to infinity
-  if (magnitude >= 0x38800000u) {                                                   // normal: 2^-14 and up
+  if (magnitude > 0x7f800000u)
+    return static_cast<std::uint16_t>(sign | 0x7e00u | ((magnitude >> 13) & 0x1ffu));
+  if (magnitude >= 0x477ff000u)
+    return static_cast<std::uint16_t>(sign | 0x7c00u);  // 65520 and up rounds to infinity
+  if (magnitude >= 0x38800000u) {                       // normal: 2^-14 and up
     const std::uint32_t rebased = magnitude - 0x38000000u;
     return static_cast<std::uint16_t>(sign | ((rebased + 0x0fffu + ((rebased >> 13) & 1u)) >> 13));
   }
@@ -55,7 +57,8 @@ bool hasF16c() {
 }
 
 // Both return how many elements they did: the greatest multiple of 8.
-__attribute__((target("avx,f16c"))) std::size_t toHalvesF16c(const float* from, std::uint16_t* to, std::size_t count) {
+__attribute__((target("avx,f16c"))) std::size_t toHalvesF16c(const float* from, std::uint16_t* to,
+                                                             std::size_t count) {
   std::size_t i = 0;
   for (; i + 8 <= count; i += 8) {
     const __m128i halves = _mm256_cvtps_ph(_mm256_loadu_ps(from + i), _MM_FROUND_TO_NEAREST_INT);
@@ -64,7 +67,8 @@ __attribute__((target("avx,f16c"))) std::size_t toHalvesF16c(const float* from, 
   return i;
 }
 
-__attribute__((target("avx,f16c"))) std::size_t toFloatsF16c(const std::uint16_t* from, float* to, std::size_t count) {
+__attribute__((target("avx,f16c"))) std::size_t toFloatsF16c(const std::uint16_t* from, float* to,
+                                                             std::size_t count) {
   std::size_t i = 0;
   for (; i + 8 <= count; i += 8)
     _mm256_storeu_ps(to + i, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from + i))));

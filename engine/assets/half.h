@@ -1,5 +1,6 @@
-// IEEE 754 binary16 <-> binary32. To half rounds to nearest even, overflows to infinity, keeps subnormals; a NaN stays
-// a quiet NaN with the top ten bits of its payload (what F16C and NEON do, so that every path gives the same bits).
+// IEEE 754 binary16 <-> binary32. To half rounds to nearest even, overflows to infinity, keeps subnormals; a
+// NaN stays a quiet NaN with the top ten bits of its payload (what F16C and NEON do, so that every path gives
+// the same bits).
 #pragma once
 
 #include <cstdint>

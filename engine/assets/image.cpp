@@ -1,12 +1,12 @@
 #include "engine/assets/image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <memory>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "engine/assets/half.h"
 #include "engine/assets/image_codecs.h"
@@ -20,7 +20,9 @@ using base::Place;
 
 namespace {
 
-Place placeOf(const std::string& name) { return {std::make_shared<const std::string>(name)}; }
+Place placeOf(const std::string& name) {
+  return {std::make_shared<const std::string>(name)};
+}
 
 std::string extensionOf(const std::string& name) {
   const std::size_t dot = name.find_last_of('.');
@@ -32,7 +34,8 @@ std::string extensionOf(const std::string& name) {
 }
 
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  base::Diagnostic& d = diagnostics.error(Code::W151, placeOf(name), fmt::format("'{}' is no kind of image that is known", name));
+  base::Diagnostic& d = diagnostics.error(Code::W151, placeOf(name),
+                                          fmt::format("'{}' is no kind of image that is known", name));
   d.expected = std::move(expected);
   d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
 }
@@ -60,7 +63,8 @@ ImageKind kindOfName(const std::string& name) {
   const std::string extension = extensionOf(name);
   if (extension == ".hdr") return ImageKind::hdr;
   if (extension == ".exr") return ImageKind::exr;
-  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga") return ImageKind::eight_bit;
+  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
+    return ImageKind::eight_bit;
   return ImageKind::unknown;
 }
 
@@ -72,7 +76,8 @@ bool checkSize(Diagnostics& diagnostics, const std::string& name, long long widt
   const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
                         width * height > static_cast<long long>(kMaxImageTexels);
   if (width >= 1 && height >= 1 && !tooLarge) return true;
-  base::Diagnostic& d = diagnostics.error(Code::W152, placeOf(name), fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"));
+  base::Diagnostic& d = diagnostics.error(
+      Code::W152, placeOf(name), fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"));
   d.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels);
   d.found = fmt::format("{} x {}", width, height);
   return false;
@@ -134,12 +139,13 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
     }
   }
   if (undefined + negative + tooBright == 0) return;
-  base::Diagnostic& d = diagnostics.warning(
-      Code::W153, placeOf(name),
-      fmt::format("{} of {} values in '{}' are no radiance and were replaced", undefined + negative + tooBright, image.texels.size(), name));
+  base::Diagnostic& d =
+      diagnostics.warning(Code::W153, placeOf(name),
+                          fmt::format("{} of {} values in '{}' are no radiance and were replaced",
+                                      undefined + negative + tooBright, image.texels.size(), name));
   d.expected = fmt::format("numbers from 0 to {}", kHalfMax);
-  d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite or above the range (now {})", undefined, negative,
-                        tooBright, kHalfMax);
+  d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite or above the range (now {})",
+                        undefined, negative, tooBright, kHalfMax);
 }
 
 float decodeSrgb(float encoded) {

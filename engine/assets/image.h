@@ -1,7 +1,8 @@
 // Pictures as CPU data: decoding, saving, cleaning an environment map. Row 0 is the top row, as in the files.
-// Every failure is a Diagnostic: W150 (cannot be read), W151 (unknown kind of file), W152 (empty or too large),
-// W153 (warning: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never crash.
-// Thread safe: no state is shared between calls. Does not: know GL, build mips, convert colour spaces other than sRGB.
+// Every failure is a Diagnostic: W150 (cannot be read), W151 (unknown kind of file), W152 (empty or too
+// large), W153 (warning: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never
+// crash. Thread safe: no state is shared between calls. Does not: know GL, build mips, convert colour spaces
+// other than sRGB.
 #pragma once
 
 #include <cstddef>
@@ -31,23 +32,24 @@ struct Image8 {
 constexpr int kMaxImageSide = 32768;
 constexpr std::size_t kMaxImageTexels = std::size_t{1} << 27;  // 16384 x 8192
 
-// .hdr (RGB), .exr (RGBA; RGB and grey are widened), .png .jpg .jpeg .tga (channels as stored, 8 or 16 bit; colour is decoded from sRGB,
-// alpha is not). The kind comes from the extension, case-insensitive.
+// .hdr (RGB), .exr (RGBA; RGB and grey are widened), .png .jpg .jpeg .tga (channels as stored, 8 or 16 bit;
+// colour is decoded from sRGB, alpha is not). The kind comes from the extension, case-insensitive.
 std::optional<ImageF> loadImage(const std::string& path, base::Diagnostics& diagnostics);
 // The same for bytes in memory; `name` gives the extension and stands in messages.
-std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name,
+                                  base::Diagnostics& diagnostics);
 
 // .png .jpg .jpeg .tga; `channels` 1 to 4, or 0 for what the file has. 16-bit files are reduced.
 std::optional<Image8> loadImage8(const std::string& path, int channels, base::Diagnostics& diagnostics);
 
-// loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite and beyond 65504 become
-// 65504. Adds one W153 warning with the counts when anything was replaced.
+// loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite and beyond 65504
+// become 65504. Adds one W153 warning with the counts when anything was replaced.
 std::optional<ImageF> loadEnvironment(const std::string& path, base::Diagnostics& diagnostics);
 // The cleaning step alone: all channels of `image`, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
 
-bool savePng8(const std::string& path, int width, int height, int channels, std::span<const std::uint8_t> texels,
-              base::Diagnostics& diagnostics);
+bool savePng8(const std::string& path, int width, int height, int channels,
+              std::span<const std::uint8_t> texels, base::Diagnostics& diagnostics);
 // 32-bit float, ZIP scanlines; 1, 3 or 4 channels.
 bool saveExr(const std::string& path, const ImageF& image, base::Diagnostics& diagnostics);
 // Radiance RGBE with 3 channels.

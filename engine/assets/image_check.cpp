@@ -1,16 +1,18 @@
 #include "engine/assets/image_check.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
-
-#include <fmt/format.h>
 
 namespace weft::assets {
 
 namespace {
 
-std::uint8_t byteAt(std::string_view bytes, std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); }
+std::uint8_t byteAt(std::string_view bytes, std::size_t i) {
+  return static_cast<std::uint8_t>(bytes[i]);
+}
 
 std::string endsEarly(std::size_t line, std::size_t lines) {
   return fmt::format("the file ends in line {} of {}", line + 1, lines);
@@ -18,7 +20,8 @@ std::string endsEarly(std::size_t line, std::size_t lines) {
 
 }  // namespace
 
-// Ward, "Real Pixels", Graphics Gems II: text header, empty line, "-Y height +X width", then lines of four RLE planes.
+// Ward, "Real Pixels", Graphics Gems II: text header, empty line, "-Y height +X width", then lines of four
+// RLE planes.
 std::string checkHdr(std::string_view bytes) {
   std::size_t at = bytes.find("\n\n");
   if (at == std::string_view::npos) return "the header has no end";
@@ -28,13 +31,14 @@ std::string checkHdr(std::string_view bytes) {
   const std::string_view line = bytes.substr(at, end - at);
   std::size_t width = 0, height = 0;
   const std::size_t x = line.find(" +X ");
-  if (!line.starts_with("-Y ") || x == std::string_view::npos) return "the resolution line is not '-Y height +X width'";
+  if (!line.starts_with("-Y ") || x == std::string_view::npos)
+    return "the resolution line is not '-Y height +X width'";
   std::from_chars(line.data() + 3, line.data() + x, height);
   std::from_chars(line.data() + x + 4, line.data() + line.size(), width);
   at = end + 1;
   const auto isRle = [&] {
-    return width >= 8 && width < 32768 && at + 4 <= bytes.size() && byteAt(bytes, at) == 2 && byteAt(bytes, at + 1) == 2 &&
-           byteAt(bytes, at + 2) < 128;
+    return width >= 8 && width < 32768 && at + 4 <= bytes.size() && byteAt(bytes, at) == 2 &&
+           byteAt(bytes, at + 1) == 2 && byteAt(bytes, at + 2) < 128;
   };
   if (!isRle()) {
     if (bytes.size() - at < width * height * 4) return endsEarly((bytes.size() - at) / (width * 4), height);
@@ -50,7 +54,8 @@ std::string checkHdr(std::string_view bytes) {
         if (at + 2 > bytes.size()) return endsEarly(y, height);
         const std::size_t code = byteAt(bytes, at);
         const std::size_t run = code > 128 ? code - 128 : code;
-        if (run == 0 || done + run > width) return fmt::format("line {} of {} has a wrong run length", y + 1, height);
+        if (run == 0 || done + run > width)
+          return fmt::format("line {} of {} has a wrong run length", y + 1, height);
         done += run;
         at += 1 + (code > 128 ? 1 : run);
       }
@@ -65,8 +70,8 @@ bool isJpeg(std::string_view bytes) {
   return at != std::string_view::npos && at > 0 && bytes[at] == '\xd8';
 }
 
-// ITU T.81, annex B. Markers are taken exactly where stb_image takes them: any run of 0xff, then a byte that is neither
-// 0 (stuffing) nor a restart. What lies between segments, entropy-coded data included, is skipped.
+// ITU T.81, annex B. Markers are taken exactly where stb_image takes them: any run of 0xff, then a byte that
+// is neither 0 (stuffing) nor a restart. What lies between segments, entropy-coded data included, is skipped.
 std::string checkJpeg(std::string_view bytes) {
   const std::string early = "the file ends before its end marker";
   const auto word = [&](std::size_t i) { return std::size_t{byteAt(bytes, i)} << 8 | byteAt(bytes, i + 1); };
@@ -86,7 +91,8 @@ std::string checkJpeg(std::string_view bytes) {
         if (table + 17 > end) return fmt::format("a Huffman table at byte {} is cut off", table);
         std::size_t codes = 0;
         for (std::size_t i = 1; i <= 16; ++i) codes += byteAt(bytes, table + i);
-        if (codes > 256) return fmt::format("a Huffman table at byte {} has {} codes, more than 256", table, codes);
+        if (codes > 256)
+          return fmt::format("a Huffman table at byte {} has {} codes, more than 256", table, codes);
         table += 17 + codes;
       }
     }
@@ -97,14 +103,17 @@ std::string checkJpeg(std::string_view bytes) {
 // Truevision TGA 2.0: 18 bytes of header, id, colour map, then texels or run-length packets.
 std::string checkTga(std::string_view bytes) {
   if (bytes.size() < 18) return "the file ends in its header";
-  const auto word = [&](std::size_t i) { return static_cast<std::size_t>(byteAt(bytes, i) | byteAt(bytes, i + 1) << 8); };
+  const auto word = [&](std::size_t i) {
+    return static_cast<std::size_t>(byteAt(bytes, i) | byteAt(bytes, i + 1) << 8);
+  };
   const std::size_t kind = byteAt(bytes, 2);
   const std::size_t width = word(12), height = word(14), texel = (std::size_t{byteAt(bytes, 16)} + 7) / 8;
   std::size_t at = 18 + byteAt(bytes, 0);
   if (byteAt(bytes, 1) == 1) at += word(5) * ((std::size_t{byteAt(bytes, 7)} + 7) / 8);
   const std::size_t texels = width * height;
   if (at > bytes.size()) return "the file ends before its texels";
-  if (kind < 8) return bytes.size() - at < texels * texel ? endsEarly((bytes.size() - at) / (width * texel), height) : "";
+  if (kind < 8)
+    return bytes.size() - at < texels * texel ? endsEarly((bytes.size() - at) / (width * texel), height) : "";
   for (std::size_t done = 0; done < texels;) {
     if (at >= bytes.size()) return endsEarly(done / width, height);
     const std::size_t packet = byteAt(bytes, at), run = (packet & 127) + 1;

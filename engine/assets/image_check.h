@@ -1,7 +1,9 @@
-// What stb_image and tinyexr do not survive or let pass. Files that end early: it fills what is missing with zeros (.hdr at a line's start, .jpg) or
-// leaves it uninitialised (.tga). Huffman tables of more than 256 codes in a .jpg: it writes beyond its arrays (the
-// packaged version of 2022-09 does; found by the fuzz test). Attributes of an .exr of a wrong size or value: tinyexr asserts. These functions walk a file's structure without decoding.
-// Does not: validate what the libraries themselves report. Internal to the room.
+// What stb_image and tinyexr do not survive or let pass. Files that end early: stb_image fills what is
+// missing with zeros (.hdr at a line's start, .jpg) or leaves it uninitialised (.tga). Huffman tables of more
+// than 256 codes in a .jpg: stb_image writes beyond its arrays (the packaged version of 2022-09 does; found
+// by the fuzz test). Attributes of an .exr of a wrong size or value: tinyexr asserts. These functions walk a
+// file's structure without decoding. Does not: validate what the libraries themselves report. Internal to the
+// room.
 #pragma once
 
 #include <string>

@@ -1,9 +1,9 @@
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
-
-#include <fmt/format.h>
 
 #include "engine/assets/image_check.h"
 
@@ -54,7 +54,8 @@ std::string checkChannels(std::string_view value) {
   for (int count = 0;; ++count) {
     const auto name = bytes.text();
     if (!name) return "its channel list is cut off";
-    if (name->empty()) return count == 0 ? "it has no channels" : bytes.size() > 0 ? "its channel list has no end" : "";
+    if (name->empty())
+      return count == 0 ? "it has no channels" : bytes.size() > 0 ? "its channel list has no end" : "";
     const auto type = bytes.word(), linear = bytes.word(), x = bytes.word(), y = bytes.word();
     if (!type || !linear || !x || !y) return "its channel list is cut off";
     if (*type > 2) return fmt::format("channel '{}' has pixel type {}, none of 0 to 2", *name, *type);
@@ -73,25 +74,29 @@ std::size_t sizeOf(std::string_view name) {
 
 std::string checkAttribute(std::string_view name, std::string_view value) {
   const std::size_t size = sizeOf(name);
-  if (size == 0 ? value.empty() : value.size() != size) return fmt::format("its attribute '{}' has {} bytes", name, value.size());
+  if (size == 0 ? value.empty() : value.size() != size)
+    return fmt::format("its attribute '{}' has {} bytes", name, value.size());
   if (name == "channels") return checkChannels(value);
   if (name == "compression" && static_cast<std::uint8_t>(value[0]) > 4)
-    return fmt::format("compression {} is not read; none, RLE, ZIP and PIZ are", static_cast<std::uint8_t>(value[0]));
-  if (name == "type" && value.substr(0, value.find('\0')) != "scanlineimage") return "its type does not fit its version";
+    return fmt::format("compression {} is not read; none, RLE, ZIP and PIZ are",
+                       static_cast<std::uint8_t>(value[0]));
+  if (name == "type" && value.substr(0, value.find('\0')) != "scanlineimage")
+    return "its type does not fit its version";
   return "";
 }
 
 }  // namespace
 
-// "OpenEXR File Layout" (openexr.com): magic, version and flags, then attributes (name, type, size, value) up to an
-// empty name.
+// "OpenEXR File Layout" (openexr.com): magic, version and flags, then attributes (name, type, size, value) up
+// to an empty name.
 std::string checkExr(std::string_view file) {
   Bytes bytes(file);
   if (bytes.word() != 20000630u) return "it does not begin as an OpenEXR picture";
   const std::uint32_t version = bytes.word().value_or(0);
   if ((version & 0xff) != 2) return fmt::format("its version is {}, not 2", version & 0xff);
   if ((version & kTiled) != 0) return "it is stored in tiles; save it as scan lines";
-  if ((version & ~(0xffu | kLongNames)) != 0) return "it has several parts or deep data; save it as one flat picture";
+  if ((version & ~(0xffu | kLongNames)) != 0)
+    return "it has several parts or deep data; save it as one flat picture";
   std::set<std::string_view> seen;
   for (;;) {
     const auto name = bytes.text();
@@ -104,8 +109,8 @@ std::string checkExr(std::string_view file) {
     if (!seen.insert(*name).second) return fmt::format("its attribute '{}' stands twice", *name);
     if (const std::string problem = checkAttribute(*name, *value); !problem.empty()) return problem;
   }
-  for (const char* needed : {"channels", "compression", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio",
-                             "screenWindowCenter", "screenWindowWidth"})
+  for (const char* needed : {"channels", "compression", "dataWindow", "displayWindow", "lineOrder",
+                             "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth"})
     if (!seen.contains(needed)) return fmt::format("its header has no '{}'", needed);
   return "";
 }

@@ -18,9 +18,12 @@ void reportUnreadable(base::Diagnostics& diagnostics, const std::string& name, c
 // True when the size is sound; else adds W152.
 bool checkSize(base::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
 
-std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
-std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
-std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
+                                base::Diagnostics& diagnostics);
+std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
+                                base::Diagnostics& diagnostics);
+std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name,
+                                   base::Diagnostics& diagnostics);
 std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const std::string& name,
                                   base::Diagnostics& diagnostics);
 

@@ -1,14 +1,14 @@
 // .exr through tinyexr: single-part scanline pictures in, 32-bit float ZIP scanlines out.
 // Built on the library's low-level calls: its one-call LoadEXRFromMemory leaks whenever it fails.
+#include <fmt/format.h>
+#include <tinyexr.h>
+
 #include <array>
 #include <cassert>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
-
-#include <fmt/format.h>
-#include <tinyexr.h>
 
 #include "engine/assets/image_check.h"
 #include "engine/assets/image_codecs.h"
@@ -43,7 +43,9 @@ struct PictureOwner {
   PictureOwner& operator=(const PictureOwner&) = delete;
 };
 
-const unsigned char* dataOf(std::string_view bytes) { return reinterpret_cast<const unsigned char*>(bytes.data()); }
+const unsigned char* dataOf(std::string_view bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes.data());
+}
 
 // Header fields that the library multiplies and allocates by without a look at the file's length.
 bool areCountsSound(const EXRHeader& header, long long width, long long height, std::size_t fileSize) {
@@ -52,14 +54,15 @@ bool areCountsSound(const EXRHeader& header, long long width, long long height, 
   return header.chunk_count >= 0 && static_cast<std::size_t>(header.chunk_count) <= fileSize / 8;
 }
 
-// Which channel of the file each of R, G, B, A is, -1 for none. Of layers ("diffuse.R") the last one counts. A file
-// with one channel is grey in all three.
+// Which channel of the file each of R, G, B, A is, -1 for none. Of layers ("diffuse.R") the last one counts.
+// A file with one channel is grey in all three.
 std::array<int, 4> findChannels(const EXRHeader& header) {
   std::array<int, 4> found = {-1, -1, -1, -1};
   for (int c = 0; c < header.num_channels; ++c) {
     const std::string_view name = header.channels[c].name;
     const std::string_view last = name.substr(name.find_last_of('.') + 1);
-    const std::size_t index = last.size() == 1 ? std::string_view("RGBA").find(last[0]) : std::string_view::npos;
+    const std::size_t index =
+        last.size() == 1 ? std::string_view("RGBA").find(last[0]) : std::string_view::npos;
     if (index != std::string_view::npos) found[index] = c;
   }
   if (header.num_channels == 1 && found[3] < 0) found = {0, 0, 0, -1};
@@ -106,8 +109,10 @@ std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Di
   }
 
   PictureOwner picture;
-  picture.image.num_channels = header.num_channels;  // on failure the library frees so many planes, else it leaks them
-  if (LoadEXRImageFromMemory(&picture.image, &header, dataOf(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
+  picture.image.num_channels =
+      header.num_channels;  // on failure the library frees so many planes, else it leaks them
+  if (LoadEXRImageFromMemory(&picture.image, &header, dataOf(bytes), bytes.size(), &message) !=
+      TINYEXR_SUCCESS) {
     InitEXRImage(&picture.image);  // on failure the library has freed what it points to
     reportUnreadable(diagnostics, name, takeMessage(message));
     return {};

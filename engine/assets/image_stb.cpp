@@ -1,11 +1,11 @@
 // .hdr, .png, .jpg and .tga through stb_image and stb_image_write.
-#include <array>
-#include <cassert>
-#include <memory>
-
 #include <fmt/format.h>
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
+
+#include <array>
+#include <cassert>
+#include <memory>
 
 #include "engine/assets/image_check.h"
 #include "engine/assets/image_codecs.h"
@@ -20,8 +20,12 @@ namespace {
 template <class T>
 using StbMemory = std::unique_ptr<T, decltype(&stbi_image_free)>;
 
-const stbi_uc* dataOf(std::string_view bytes) { return reinterpret_cast<const stbi_uc*>(bytes.data()); }
-int sizeOf(std::string_view bytes) { return static_cast<int>(bytes.size()); }
+const stbi_uc* dataOf(std::string_view bytes) {
+  return reinterpret_cast<const stbi_uc*>(bytes.data());
+}
+int sizeOf(std::string_view bytes) {
+  return static_cast<int>(bytes.size());
+}
 
 struct Header {
   int width = 0, height = 0, channels = 0;
@@ -43,7 +47,8 @@ std::optional<Header> readHeader(std::string_view bytes, const std::string& name
 }
 
 // A header for the kinds that decodeLinear and decodeBytes take, of a file that is complete.
-std::optional<Header> readPictureHeader(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+std::optional<Header> readPictureHeader(std::string_view bytes, const std::string& name,
+                                        Diagnostics& diagnostics) {
   if (stbi_is_hdr_from_memory(dataOf(bytes), sizeOf(bytes))) {
     reportUnreadable(diagnostics, name, "it holds a Radiance picture; rename it to .hdr");
     return {};
@@ -63,11 +68,13 @@ std::optional<Header> readPictureHeader(std::string_view bytes, const std::strin
 }
 
 std::size_t componentCount(int width, int height, int channels) {
-  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+         static_cast<std::size_t>(channels);
 }
 
 template <class T>
-std::optional<std::vector<T>> take(T* texels, std::size_t count, const std::string& name, Diagnostics& diagnostics) {
+std::optional<std::vector<T>> take(T* texels, std::size_t count, const std::string& name,
+                                   Diagnostics& diagnostics) {
   const StbMemory<T> owner(texels, &stbi_image_free);
   if (!texels) {
     reportUnreadable(diagnostics, name, fmt::format("its texels are not valid ({})", stbi_failure_reason()));
@@ -82,7 +89,8 @@ const std::vector<float>& srgbTable() {
   static const std::vector<float> table = [] {
     constexpr std::size_t kCount = std::size_t{1} << Bits;
     std::vector<float> values(kCount);
-    for (std::size_t i = 0; i < kCount; ++i) values[i] = decodeSrgb(static_cast<float>(i) / static_cast<float>(kCount - 1));
+    for (std::size_t i = 0; i < kCount; ++i)
+      values[i] = decodeSrgb(static_cast<float>(i) / static_cast<float>(kCount - 1));
     return values;
   }();
   return table;
@@ -96,7 +104,8 @@ ImageF linearize(const Header& header, const std::vector<T>& encoded) {
   const bool hasAlpha = channels % 2 == 0;
   for (std::size_t i = 0; i < encoded.size(); ++i) {
     const bool alpha = hasAlpha && i % channels == channels - 1;
-    image.texels[i] = alpha ? static_cast<float>(encoded[i]) / static_cast<float>(table.size() - 1) : table[encoded[i]];
+    image.texels[i] =
+        alpha ? static_cast<float>(encoded[i]) / static_cast<float>(table.size() - 1) : table[encoded[i]];
   }
   return image;
 }
@@ -125,24 +134,28 @@ std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
   return ImageF{header->width, header->height, 3, std::move(*values)};
 }
 
-std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name,
+                                   Diagnostics& diagnostics) {
   const std::optional<Header> header = readPictureHeader(bytes, name, diagnostics);
   if (!header) return {};
   const std::size_t count = componentCount(header->width, header->height, header->channels);
   int width = 0, height = 0, channels = 0;
   if (stbi_is_16_bit_from_memory(dataOf(bytes), sizeOf(bytes))) {
-    stbi_us* texels = stbi_load_16_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, header->channels);
+    stbi_us* texels =
+        stbi_load_16_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, header->channels);
     const auto values = take(texels, count, name, diagnostics);
     if (!values) return {};
     return linearize<16>(*header, *values);
   }
-  stbi_uc* texels = stbi_load_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, header->channels);
+  stbi_uc* texels =
+      stbi_load_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, header->channels);
   const auto values = take(texels, count, name, diagnostics);
   if (!values) return {};
   return linearize<8>(*header, *values);
 }
 
-std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const std::string& name, Diagnostics& diagnostics) {
+std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const std::string& name,
+                                  Diagnostics& diagnostics) {
   assert(channels >= 0 && channels <= 4);
   const std::optional<Header> header = readPictureHeader(bytes, name, diagnostics);
   if (!header) return {};
@@ -154,14 +167,16 @@ std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const st
   return Image8{header->width, header->height, wanted, std::move(*values)};
 }
 
-bool savePng8(const std::string& path, int width, int height, int channels, std::span<const std::uint8_t> texels,
-              Diagnostics& diagnostics) {
+bool savePng8(const std::string& path, int width, int height, int channels,
+              std::span<const std::uint8_t> texels, Diagnostics& diagnostics) {
   assert(width > 0 && height > 0 && channels >= 1 && channels <= 4);
   assert(texels.size() == componentCount(width, height, channels));
   std::string bytes;
-  const int done = stbi_write_png_to_func(appendBytes, &bytes, width, height, channels, texels.data(), width * channels);
+  const int done =
+      stbi_write_png_to_func(appendBytes, &bytes, width, height, channels, texels.data(), width * channels);
   if (done) return base::writeFile(path, bytes, diagnostics);
-  diagnostics.error(base::Code::W180, {std::make_shared<const std::string>(path)}, fmt::format("cannot encode '{}' as PNG", path));
+  diagnostics.error(base::Code::W180, {std::make_shared<const std::string>(path)},
+                    fmt::format("cannot encode '{}' as PNG", path));
   return false;
 }
 
@@ -169,9 +184,11 @@ bool saveHdr(const std::string& path, const ImageF& image, Diagnostics& diagnost
   assert(image.width > 0 && image.height > 0 && image.channels == 3);
   assert(image.texels.size() == componentCount(image.width, image.height, 3));
   std::string bytes;
-  const int done = stbi_write_hdr_to_func(appendBytes, &bytes, image.width, image.height, 3, image.texels.data());
+  const int done =
+      stbi_write_hdr_to_func(appendBytes, &bytes, image.width, image.height, 3, image.texels.data());
   if (done) return base::writeFile(path, bytes, diagnostics);
-  diagnostics.error(base::Code::W180, {std::make_shared<const std::string>(path)}, fmt::format("cannot encode '{}' as .hdr", path));
+  diagnostics.error(base::Code::W180, {std::make_shared<const std::string>(path)},
+                    fmt::format("cannot encode '{}' as .hdr", path));
   return false;
 }
 

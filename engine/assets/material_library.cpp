@@ -1,10 +1,10 @@
 #include "engine/assets/material_library.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <unordered_map>
-
-#include <fmt/format.h>
 
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
@@ -22,8 +22,9 @@ constexpr base::NumberRange kUnit{.min = 0, .max = 1};
 
 MaterialPreset readPreset(const JsonValue& value, std::size_t index, Diagnostics& diagnostics) {
   const JsonValue* named = value.find("name");
-  const std::string what = named && named->is(JsonValue::Type::string) ? fmt::format("material '{}'", named->text)
-                                                                       : fmt::format("material {}", index);
+  const std::string what = named && named->is(JsonValue::Type::string)
+                               ? fmt::format("material '{}'", named->text)
+                               : fmt::format("material {}", index);
   JsonFields fields(value, what, Code::W155, diagnostics);
   fields.require({"name", "albedo", "metallic", "roughness"});
   MaterialPreset preset;
@@ -41,7 +42,8 @@ MaterialPreset readPreset(const JsonValue& value, std::size_t index, Diagnostics
 }  // namespace
 
 const MaterialPreset* MaterialLibrary::find(std::string_view name) const {
-  const auto found = std::find_if(materials.begin(), materials.end(), [&](const MaterialPreset& m) { return m.name == name; });
+  const auto found = std::find_if(materials.begin(), materials.end(),
+                                  [&](const MaterialPreset& m) { return m.name == name; });
   return found == materials.end() ? nullptr : &*found;
 }
 
@@ -52,7 +54,8 @@ std::vector<std::string> MaterialLibrary::names() const {
   return names;
 }
 
-std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
+std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const std::string& name,
+                                                   Diagnostics& diagnostics) {
   const std::size_t errorsBefore = diagnostics.errorCount();
   const auto root = base::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
   if (!root || !base::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
@@ -63,11 +66,13 @@ std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const 
     MaterialPreset preset = readPreset(value, i, diagnostics);
     const auto [before, fresh] = places.try_emplace(preset.name, value.place);
     if (!fresh && !preset.name.empty()) {
-      base::Diagnostic& d = diagnostics.error(Code::W156, value.place, fmt::format("a second material '{}'", preset.name));
+      base::Diagnostic& d =
+          diagnostics.error(Code::W156, value.place, fmt::format("a second material '{}'", preset.name));
       d.pointer = value.pointer;
       d.hint = fmt::format("rename one; the first stands in line {}", before->second.line);
     }
-    if (std::find(library.categories.begin(), library.categories.end(), preset.category) == library.categories.end())
+    if (std::find(library.categories.begin(), library.categories.end(), preset.category) ==
+        library.categories.end())
       library.categories.push_back(preset.category);
     library.materials.push_back(std::move(preset));
   }

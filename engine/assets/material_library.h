@@ -1,5 +1,5 @@
-// Named material presets from materials/*.json: an array of {"name", "albedo", "metallic", "roughness"} and, when known,
-// "category" and "source". JSON mistakes are W2..W6 with their place; W155 is a value out of
+// Named material presets from materials/*.json: an array of {"name", "albedo", "metallic", "roughness"} and,
+// when known, "category" and "source". JSON mistakes are W2..W6 with their place; W155 is a value out of
 // range, W156 a name that stands twice. Does not: know textures or shader parameters.
 #pragma once
 
@@ -14,12 +14,12 @@
 namespace weft::assets {
 
 struct MaterialPreset {
-  std::string name;                     // unique in its library
-  std::string category;                 // may be empty
-  std::array<float, 3> albedo{};        // linear sRGB primaries, 0..1: F0 of a metal, diffuse reflectance otherwise
-  float metallic = 0;                   // 0..1
-  float roughness = 0;                  // perceptual, 0..1; the GGX alpha is its square
-  std::string source;                   // where the values are from: "measured: ..." or "estimated: ..."; may be empty
+  std::string name;               // unique in its library
+  std::string category;           // may be empty
+  std::array<float, 3> albedo{};  // linear sRGB primaries, 0..1: F0 of a metal, diffuse reflectance otherwise
+  float metallic = 0;             // 0..1
+  float roughness = 0;            // perceptual, 0..1; the GGX alpha is its square
+  std::string source;  // where the values are from: "measured: ..." or "estimated: ..."; may be empty
 };
 
 struct MaterialLibrary {

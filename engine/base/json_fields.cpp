@@ -1,9 +1,9 @@
 #include "engine/base/json_fields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "engine/base/nearest.h"
 
@@ -14,14 +14,18 @@ namespace {
 std::string describeRange(const NumberRange& range) {
   const char* noun = range.whole ? "a whole number" : "a number";
   const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
-  if (low && high) return fmt::format("{} {} {} {} {}", noun, range.aboveMin ? "over" : "from", range.min, range.aboveMin ? "up to" : "to", range.max);
+  if (low && high)
+    return fmt::format("{} {} {} {} {}", noun, range.aboveMin ? "over" : "from", range.min,
+                       range.aboveMin ? "up to" : "to", range.max);
   if (low) return fmt::format("{} {} {}", noun, range.aboveMin ? "over" : "of at least", range.min);
   if (high) return fmt::format("{} of at most {}", noun, range.max);
   return noun;
 }
 
-Diagnostic& reportType(const JsonValue& value, std::string_view name, Diagnostics& diagnostics, std::string expected) {
-  Diagnostic& d = diagnostics.error(Code::W3, value.place, fmt::format("{} has the wrong type of value", name));
+Diagnostic& reportType(const JsonValue& value, std::string_view name, Diagnostics& diagnostics,
+                       std::string expected) {
+  Diagnostic& d =
+      diagnostics.error(Code::W3, value.place, fmt::format("{} has the wrong type of value", name));
   d.pointer = value.pointer;
   d.expected = std::move(expected);
   d.found = describe(value);
@@ -30,8 +34,8 @@ Diagnostic& reportType(const JsonValue& value, std::string_view name, Diagnostic
 
 }  // namespace
 
-std::optional<double> readNumber(const JsonValue& value, std::string_view name, const NumberRange& range, Code rangeCode,
-                                 Diagnostics& diagnostics) {
+std::optional<double> readNumber(const JsonValue& value, std::string_view name, const NumberRange& range,
+                                 Code rangeCode, Diagnostics& diagnostics) {
   if (!value.is(JsonValue::Type::number)) {
     reportType(value, name, diagnostics, describeRange(range));
     return {};
@@ -52,8 +56,9 @@ std::optional<std::string> readText(const JsonValue& value, std::string_view nam
   return value.text;
 }
 
-std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name, const NumberRange& range,
-                                                Code rangeCode, Diagnostics& diagnostics) {
+std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name,
+                                                const NumberRange& range, Code rangeCode,
+                                                Diagnostics& diagnostics) {
   if (!value.is(JsonValue::Type::array) || value.items.size() != 3) {
     Diagnostic& d = reportType(value, name, diagnostics, "an array of three numbers");
     if (value.is(JsonValue::Type::array)) d.found = fmt::format("an array of {}", value.items.size());
@@ -62,7 +67,8 @@ std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::str
   std::array<double, 3> numbers{};
   bool good = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto number = readNumber(value.items[i], fmt::format("{}[{}]", name, i), range, rangeCode, diagnostics);
+    const auto number =
+        readNumber(value.items[i], fmt::format("{}[{}]", name, i), range, rangeCode, diagnostics);
     good = good && number.has_value();
     numbers[i] = number.value_or(0);
   }
@@ -70,18 +76,25 @@ std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::str
   return numbers;
 }
 
-bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type type, Diagnostics& diagnostics) {
+bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type type,
+                Diagnostics& diagnostics) {
   if (value.is(type)) return true;
   reportType(value, name, diagnostics, nameOf(type));
   return false;
 }
 
 JsonFields::JsonFields(const JsonValue& object, std::string what, Code rangeCode, Diagnostics& diagnostics)
-    : object_(object), what_(std::move(what)), rangeCode_(rangeCode), diagnostics_(diagnostics), known_{"$schema"} {
+    : object_(object),
+      what_(std::move(what)),
+      rangeCode_(rangeCode),
+      diagnostics_(diagnostics),
+      known_{"$schema"} {
   expectType(object, what_, JsonValue::Type::object, diagnostics);
 }
 
-std::string JsonFields::nameOfMember(std::string_view key) const { return fmt::format("'{}' of {}", key, what_); }
+std::string JsonFields::nameOfMember(std::string_view key) const {
+  return fmt::format("'{}' of {}", key, what_);
+}
 
 const JsonValue* JsonFields::find(std::string_view key) {
   known_.emplace_back(key);
@@ -124,18 +137,21 @@ std::optional<std::array<double, 3>> JsonFields::triple(std::string_view key, co
 
 const JsonValue* JsonFields::object(std::string_view key) {
   const JsonValue* value = find(key);
-  return value && expectType(*value, nameOfMember(key), JsonValue::Type::object, diagnostics_) ? value : nullptr;
+  return value && expectType(*value, nameOfMember(key), JsonValue::Type::object, diagnostics_) ? value
+                                                                                               : nullptr;
 }
 
 const JsonValue* JsonFields::array(std::string_view key) {
   const JsonValue* value = find(key);
-  return value && expectType(*value, nameOfMember(key), JsonValue::Type::array, diagnostics_) ? value : nullptr;
+  return value && expectType(*value, nameOfMember(key), JsonValue::Type::array, diagnostics_) ? value
+                                                                                              : nullptr;
 }
 
 void JsonFields::finish() {
   for (const JsonMember& member : object_.members) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
-    Diagnostic& d = diagnostics_.error(Code::W4, member.place, fmt::format("{} has no key '{}'", what_, member.key));
+    Diagnostic& d =
+        diagnostics_.error(Code::W4, member.place, fmt::format("{} has no key '{}'", what_, member.key));
     d.pointer = member.value.pointer;
     d.hint = nearestHint(member.key, known_);
   }

@@ -1,7 +1,7 @@
-// Reading the members of a JSON object by key. A key that is asked for is known; finish() reports the others as W4 with
-// the nearest known name. An absent key yields nothing; a present but wrong one is reported (W3, or the range code
-// given to the constructor) and yields nothing too.
-// Does not: hold defaults, or know what the keys mean.
+// Reading the members of a JSON object by key. A key that is asked for is known; finish() reports the others
+// as W4 with the nearest known name. An absent key yields nothing; a present but wrong one is reported (W3,
+// or the range code given to the constructor) and yields nothing too. Does not: hold defaults, or know what
+// the keys mean.
 #pragma once
 
 #include <array>
@@ -25,17 +25,20 @@ struct NumberRange {
 };
 
 // The value as a number in range, or a report: `name` stands in the message ("radius of spheres[3]").
-std::optional<double> readNumber(const JsonValue& value, std::string_view name, const NumberRange& range, Code rangeCode,
-                                 Diagnostics& diagnostics);
+std::optional<double> readNumber(const JsonValue& value, std::string_view name, const NumberRange& range,
+                                 Code rangeCode, Diagnostics& diagnostics);
 std::optional<std::string> readText(const JsonValue& value, std::string_view name, Diagnostics& diagnostics);
-std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name, const NumberRange& range,
-                                                Code rangeCode, Diagnostics& diagnostics);
+std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name,
+                                                const NumberRange& range, Code rangeCode,
+                                                Diagnostics& diagnostics);
 // False after a W3 that says what was expected.
-bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type type, Diagnostics& diagnostics);
+bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type type,
+                Diagnostics& diagnostics);
 
 class JsonFields {
  public:
-  // `what` names the object in messages: "camera 'front'". Reports W3 when `object` is none; then it has no members.
+  // `what` names the object in messages: "camera 'front'". Reports W3 when `object` is none; then it has no
+  // members.
   JsonFields(const JsonValue& object, std::string what, Code rangeCode, Diagnostics& diagnostics);
 
   // The member, or null.

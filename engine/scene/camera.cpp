@@ -45,7 +45,9 @@ CameraPose poseAt(const Camera& camera, double time) {
   return pose;
 }
 
-bool isMoving(const Camera& camera) { return camera.path.size() > 1 || camera.orbitDegreesPerSecond != 0; }
+bool isMoving(const Camera& camera) {
+  return camera.path.size() > 1 || camera.orbitDegreesPerSecond != 0;
+}
 
 glm::dmat4 viewMatrix(const CameraPose& pose) {
   const glm::dvec3 back = glm::normalize(pose.position - pose.target);
@@ -59,11 +61,13 @@ glm::dmat4 viewMatrix(const CameraPose& pose) {
     view[i][1] = above[i];
     view[i][2] = back[i];
   }
-  view[3] = {-glm::dot(right, pose.position), -glm::dot(above, pose.position), -glm::dot(back, pose.position), 1};
+  view[3] = {-glm::dot(right, pose.position), -glm::dot(above, pose.position), -glm::dot(back, pose.position),
+             1};
   return view;
 }
 
-// Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012: reversed, far plane at infinity.
+// Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012: reversed, far plane at
+// infinity.
 glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane, glm::dvec2 jitterNdc) {
   assert(fovDegrees > 0 && fovDegrees < 180 && aspect > 0 && nearPlane > 0);
   const double f = 1 / std::tan(fovDegrees * kRadiansPerDegree / 2);
@@ -89,7 +93,8 @@ ViewData makeView(const ViewRequest& request) {
   data.projection = glm::mat4(projection);
   data.view_projection = glm::mat4(projection * view);
   data.inverse_view_projection = glm::mat4(glm::inverse(view) * glm::inverse(projection));
-  data.previous_view_projection = glm::mat4(projectionOf(request.previousPose) * viewMatrix(request.previousPose));
+  data.previous_view_projection =
+      glm::mat4(projectionOf(request.previousPose) * viewMatrix(request.previousPose));
   data.eye = glm::vec3(request.pose.position);
   data.previous_eye = glm::vec3(request.previousPose.position);
   data.near_plane = static_cast<float>(request.pose.nearPlane);
@@ -104,7 +109,8 @@ ViewData makeView(const ViewRequest& request) {
 glm::vec2 jitterAt(std::uint32_t frame, std::uint32_t count) {
   if (count <= 1) return {0, 0};
   const std::uint32_t index = frame % count + 1;  // element 0 of the sequence is the corner
-  return {static_cast<float>(radicalInverse(index, 2) - 0.5), static_cast<float>(radicalInverse(index, 3) - 0.5)};
+  return {static_cast<float>(radicalInverse(index, 2) - 0.5),
+          static_cast<float>(radicalInverse(index, 3) - 0.5)};
 }
 
 }  // namespace weft::scene

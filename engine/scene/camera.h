@@ -1,63 +1,65 @@
-// Cameras: where they stand at a time, and the matrices a shader's View block wants. Right-handed world, +Y up, view
-// space looks along -Z; perspective is reversed-Z with an infinite far plane and [0,1] clip depth: the near plane maps
-// to 1, infinity to 0 (glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE), depth test "greater").
-// Everything is a pure function of its arguments. Does not: read input devices or keep the last frame.
+// Cameras: where they stand at a time, and the matrices a shader's View block wants. Right-handed world, +Y
+// up, view space looks along -Z; perspective is reversed-Z with an infinite far plane and [0,1] clip depth:
+// the near plane maps to 1, infinity to 0 (glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE), depth test
+// "greater"). Everything is a pure function of its arguments. Does not: read input devices or keep the last
+// frame.
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 namespace weft::scene {
 
 // A camera at one moment.
 struct CameraPose {
   glm::dvec3 position{0, 0, 5};
-  glm::dvec3 target{0, 0, 0};       // differs from position
-  double fovDegrees = 60;           // vertical, over 0 and under 180
-  double nearPlane = 0.1;           // world units, over 0
+  glm::dvec3 target{0, 0, 0};  // differs from position
+  double fovDegrees = 60;      // vertical, over 0 and under 180
+  double nearPlane = 0.1;      // world units, over 0
   friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 
 struct CameraKey {
-  double time = 0;                  // seconds, ascending within a path
+  double time = 0;  // seconds, ascending within a path
   glm::dvec3 position{0};
   glm::dvec3 target{0};
   double fovDegrees = 60;
 };
 
-// A row of Scene::cameras. A path of keys replaces position, target and fov; an orbit turns the position about the
-// vertical axis through the target. At most one of the two (the scene file says so when both are given).
+// A row of Scene::cameras. A path of keys replaces position, target and fov; an orbit turns the position
+// about the vertical axis through the target. At most one of the two (the scene file says so when both are
+// given).
 struct Camera {
   std::string name;
-  CameraPose pose{};                // at time 0, without a path
-  double orbitDegreesPerSecond = 0; // positive is counter-clockwise seen from above (+Z towards +X)
-  std::vector<CameraKey> path{};    // linear in between, held before the first and after the last
+  CameraPose pose{};                 // at time 0, without a path
+  double orbitDegreesPerSecond = 0;  // positive is counter-clockwise seen from above (+Z towards +X)
+  std::vector<CameraKey> path{};     // linear in between, held before the first and after the last
 };
 
 CameraPose poseAt(const Camera& camera, double time);
 bool isMoving(const Camera& camera);
 
-// What common/view.glsl declares, spelled the same. Matrices are column-major, world to view, view to clip and so on.
+// What common/view.glsl declares, spelled the same. Matrices are column-major, world to view, view to clip
+// and so on.
 struct ViewData {
   glm::mat4 view{1}, projection{1}, view_projection{1}, inverse_view_projection{1};
-  // The previous frame's view with the previous projection, but this frame's jitter: the difference of the two
-  // projections of a point is its motion, free of jitter.
+  // The previous frame's view with the previous projection, but this frame's jitter: the difference of the
+  // two projections of a point is its motion, free of jitter.
   glm::mat4 previous_view_projection{1};
   glm::vec3 eye{0}, previous_eye{0};
   float near_plane = 0.1f;
-  glm::vec2 viewport{1};            // pixels
-  glm::vec2 jitter{0};              // pixels; already in projection
+  glm::vec2 viewport{1};  // pixels
+  glm::vec2 jitter{0};    // pixels; already in projection
   std::uint32_t frame = 0;
-  float time = 0, delta_time = 0;   // seconds
+  float time = 0, delta_time = 0;  // seconds
 };
 
 struct ViewRequest {
   CameraPose pose, previousPose;
   glm::uvec2 viewport{1, 1};
-  glm::vec2 jitter{0};              // pixels: a point moves this far right and up in the picture
+  glm::vec2 jitter{0};  // pixels: a point moves this far right and up in the picture
   std::uint32_t frame = 0;
   double time = 0, deltaTime = 0;
 };
@@ -65,10 +67,13 @@ struct ViewRequest {
 ViewData makeView(const ViewRequest& request);
 
 // The parts, for tests and for other views.
-glm::dmat4 viewMatrix(const CameraPose& pose);  // straight down shows -Z upwards, straight up shows +Z upwards
-glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane, glm::dvec2 jitterNdc = {0, 0});
+glm::dmat4 viewMatrix(
+    const CameraPose& pose);  // straight down shows -Z upwards, straight up shows +Z upwards
+glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane,
+                            glm::dvec2 jitterNdc = {0, 0});
 
-// Offset of frame `frame` in [-0.5, 0.5) pixels: Halton (2, 3) with period `count`; zero when count is 0 or 1.
+// Offset of frame `frame` in [-0.5, 0.5) pixels: Halton (2, 3) with period `count`; zero when count is 0
+// or 1.
 glm::vec2 jitterAt(std::uint32_t frame, std::uint32_t count);
 
 }  // namespace weft::scene

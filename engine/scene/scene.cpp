@@ -5,7 +5,8 @@
 namespace weft::scene {
 
 const std::vector<std::string>& drawListNames() {
-  static const std::vector<std::string> names = {"spheres", "opaque", "shadow_casters", "transparent_spheres"};
+  static const std::vector<std::string> names = {"spheres", "opaque", "shadow_casters",
+                                                 "transparent_spheres"};
   return names;
 }
 
@@ -24,8 +25,8 @@ const Camera* findCamera(const Scene& scene, std::string_view name) {
 
 std::size_t countInstances(const Scene& scene, DrawList list) {
   const std::span<const Sphere> spheres = scene.spheres.rows();
-  return static_cast<std::size_t>(
-      std::count_if(spheres.begin(), spheres.end(), [&](const Sphere& s) { return (s.lists & maskOf(list)) != 0; }));
+  return static_cast<std::size_t>(std::count_if(
+      spheres.begin(), spheres.end(), [&](const Sphere& s) { return (s.lists & maskOf(list)) != 0; }));
 }
 
 bool isMoving(const Scene& scene, DrawList list) {
@@ -35,7 +36,8 @@ bool isMoving(const Scene& scene, DrawList list) {
   });
 }
 
-void fillInstances(const Scene& scene, DrawList list, double time, double previousTime, std::vector<Instance>& out) {
+void fillInstances(const Scene& scene, DrawList list, double time, double previousTime,
+                   std::vector<Instance>& out) {
   out.clear();
   out.reserve(countInstances(scene, list));
   const float now = static_cast<float>(time), before = static_cast<float>(previousTime);
@@ -44,8 +46,9 @@ void fillInstances(const Scene& scene, DrawList list, double time, double previo
     if ((sphere.lists & maskOf(list)) == 0) continue;
     const Material* found = scene.materials.find(sphere.material);
     const Material& material = found ? *found : kNoMaterial;
-    out.push_back({sphere.center + sphere.velocity * now, sphere.radius, sphere.center + sphere.velocity * before,
-                   material.roughness, material.albedo, material.metallic});
+    out.push_back({sphere.center + sphere.velocity * now, sphere.radius,
+                   sphere.center + sphere.velocity * before, material.roughness, material.albedo,
+                   material.metallic});
   }
 }
 

@@ -1,15 +1,15 @@
-// The scene as tables with stable ids. Rows are plain values; nothing here owns GPU memory or knows a clock: motion is
-// a function of the time that the caller gives. Meshes and textures join as further tables when models are loaded.
+// The scene as tables with stable ids. Rows are plain values; nothing here owns GPU memory or knows a clock:
+// motion is a function of the time that the caller gives. Meshes and textures join as further tables when
+// models are loaded.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "engine/scene/camera.h"
 #include "engine/scene/table.h"
@@ -21,20 +21,22 @@ enum class DrawList : std::uint8_t { spheres, opaque, shadow_casters, transparen
 constexpr int kDrawListCount = 4;
 const std::vector<std::string>& drawListNames();  // in the order of the enum
 std::optional<DrawList> findDrawList(std::string_view name);
-constexpr std::uint8_t maskOf(DrawList list) { return static_cast<std::uint8_t>(1u << static_cast<unsigned>(list)); }
+constexpr std::uint8_t maskOf(DrawList list) {
+  return static_cast<std::uint8_t>(1u << static_cast<unsigned>(list));
+}
 
 struct Material {
   std::string name;
-  glm::vec3 albedo{0.5f};           // linear; F0 of a metal
+  glm::vec3 albedo{0.5f};  // linear; F0 of a metal
   float metallic = 0;
-  float roughness = 0.5f;           // perceptual
+  float roughness = 0.5f;  // perceptual
 };
 using MaterialId = Table<Material>::Id;
 
 struct Sphere {
-  glm::vec3 center{0};              // world, at time 0
-  float radius = 1;                 // over 0
-  glm::vec3 velocity{0};            // world units per second, constant
+  glm::vec3 center{0};    // world, at time 0
+  float radius = 1;       // over 0
+  glm::vec3 velocity{0};  // world units per second, constant
   MaterialId material;
   std::uint8_t lists = maskOf(DrawList::spheres);
 };
@@ -43,14 +45,14 @@ using SphereId = Table<Sphere>::Id;
 struct PointLight {
   std::string name;
   glm::vec3 position{0};
-  glm::vec3 intensity{1};           // linear RGB radiant intensity: irradiance at distance d is intensity / d^2
-  float range = 0;                  // no contribution beyond; 0 for none
+  glm::vec3 intensity{1};  // linear RGB radiant intensity: irradiance at distance d is intensity / d^2
+  float range = 0;         // no contribution beyond; 0 for none
   bool shadow = false;
 };
 
 struct Sun {
-  glm::vec3 direction{0, 1, 0};     // unit, from the scene towards the sun
-  glm::vec3 irradiance{1};          // linear RGB on a surface that faces it
+  glm::vec3 direction{0, 1, 0};  // unit, from the scene towards the sun
+  glm::vec3 irradiance{1};       // linear RGB on a surface that faces it
 };
 
 struct Scene {
@@ -59,8 +61,8 @@ struct Scene {
   Table<Sphere> spheres;
   Table<PointLight> pointLights;
   std::optional<Sun> sun;
-  Table<Camera> cameras;            // at least one after loading; the first is the default
-  std::vector<std::string> files;   // what it was read from, for watching
+  Table<Camera> cameras;           // at least one after loading; the first is the default
+  std::vector<std::string> files;  // what it was read from, for watching
 };
 
 // Null when no camera has the name; the first camera for "".
@@ -80,6 +82,7 @@ std::size_t countInstances(const Scene& scene, DrawList list);
 // Whether the list's instances differ from one time to another.
 bool isMoving(const Scene& scene, DrawList list);
 // Replaces `out` by the list's instances in table order. Linear in spheres; reuses the capacity of `out`.
-void fillInstances(const Scene& scene, DrawList list, double time, double previousTime, std::vector<Instance>& out);
+void fillInstances(const Scene& scene, DrawList list, double time, double previousTime,
+                   std::vector<Instance>& out);
 
 }  // namespace weft::scene

@@ -1,12 +1,12 @@
 #include "engine/scene/scene_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
-
-#include <fmt/format.h>
 
 #include "engine/assets/material_library.h"
 #include "engine/base/file.h"
@@ -25,15 +25,19 @@ using base::NumberRange;
 namespace {
 
 constexpr NumberRange kUnit{.min = 0, .max = 1};
-constexpr NumberRange kWorld{.min = -1e9, .max = 1e9};          // float keeps 64 units apart there
+constexpr NumberRange kWorld{.min = -1e9, .max = 1e9};  // float keeps 64 units apart there
 constexpr NumberRange kSize{.min = 0, .max = 1e9, .aboveMin = true};
 constexpr NumberRange kRadiance{.min = 0, .max = 1e9};
 constexpr NumberRange kFov{.min = 1, .max = 170};
 constexpr NumberRange kGridCount{.min = 1, .max = 65536, .whole = true};
 constexpr double kMaxSpheres = 1 << 24;
 
-glm::vec3 toVec3(const std::array<double, 3>& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}; }
-glm::dvec3 toDvec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+glm::vec3 toVec3(const std::array<double, 3>& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+glm::dvec3 toDvec3(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
 
 class Reader {
  public:
@@ -81,7 +85,8 @@ class Reader {
   std::vector<MaterialId> readLibrary(const JsonValue& value, const std::string& what) {
     const auto given = base::readText(value, what, diagnostics_);
     if (!given) return {};
-    const std::string path = (std::filesystem::path(name_).parent_path() / *given).lexically_normal().string();
+    const std::string path =
+        (std::filesystem::path(name_).parent_path() / *given).lexically_normal().string();
     if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
     std::vector<MaterialId>& ids = libraries_[path];
     const auto text = base::readFile(path, diagnostics_, Code::W1, value.place);
@@ -89,19 +94,24 @@ class Reader {
     scene_.files.push_back(path);
     const auto library = assets::readMaterialLibrary(*text, path, diagnostics_);
     if (!library) return {};
-    if (library->materials.empty()) fail(Code::W161, value, fmt::format("the material library '{}' is empty", path));
+    if (library->materials.empty())
+      fail(Code::W161, value, fmt::format("the material library '{}' is empty", path));
     for (const assets::MaterialPreset& preset : library->materials) {
       if (byName_.contains(preset.name)) {
         fail(Code::W156, value, fmt::format("a second material '{}', from '{}'", preset.name, path));
         continue;
       }
-      ids.push_back(add({preset.name, {preset.albedo[0], preset.albedo[1], preset.albedo[2]}, preset.metallic, preset.roughness}));
+      ids.push_back(add({preset.name,
+                         {preset.albedo[0], preset.albedo[1], preset.albedo[2]},
+                         preset.metallic,
+                         preset.roughness}));
     }
     return ids;
   }
 
   MaterialId addMaterial(const std::string& name, const JsonValue& value, const base::Place& place) {
-    JsonFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name), Code::W155, diagnostics_);
+    JsonFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name), Code::W155,
+                      diagnostics_);
     fields.require({"albedo"});
     Material material;
     material.name = name;
@@ -110,7 +120,8 @@ class Reader {
     material.roughness = static_cast<float>(fields.number("roughness", kUnit).value_or(0.5));
     fields.finish();
     if (byName_.contains(name)) {
-      diagnostics_.error(Code::W156, place, fmt::format("a second material '{}'", name)).hint = "rename it; the library has one of this name";
+      diagnostics_.error(Code::W156, place, fmt::format("a second material '{}'", name)).hint =
+          "rename it; the library has one of this name";
       return byName_[name];
     }
     return add(std::move(material));
@@ -124,7 +135,8 @@ class Reader {
     std::vector<std::string> names;
     for (const auto& [known, id] : byName_) names.push_back(known);
     fail(Code::W161, value, fmt::format("unknown material '{}'", *name)).hint =
-        names.empty() ? "name a \"library\", or define it under \"materials\"" : base::nearestHint(*name, names);
+        names.empty() ? "name a \"library\", or define it under \"materials\""
+                      : base::nearestHint(*name, names);
     return {};
   }
 
@@ -135,8 +147,11 @@ class Reader {
     for (const JsonValue& item : lists->items) {
       const auto name = base::readText(item, fmt::format("a draw list of {}", what), diagnostics_);
       if (!name) continue;
-      if (const auto list = findDrawList(*name)) mask = static_cast<std::uint8_t>(mask | maskOf(*list));
-      else fail(Code::W162, item, fmt::format("unknown draw list '{}'", *name)).hint = base::nearestHint(*name, drawListNames());
+      if (const auto list = findDrawList(*name))
+        mask = static_cast<std::uint8_t>(mask | maskOf(*list));
+      else
+        fail(Code::W162, item, fmt::format("unknown draw list '{}'", *name)).hint =
+            base::nearestHint(*name, drawListNames());
     }
     return mask;
   }
@@ -157,7 +172,8 @@ class Reader {
     std::vector<MaterialId> ids;
     if (materials && materials->is(JsonValue::Type::array)) {
       if (materials->items.empty()) fail(Code::W161, *materials, "the grid names no material");
-      for (const JsonValue& item : materials->items) ids.push_back(findMaterial(item, "a material of the grid"));
+      for (const JsonValue& item : materials->items)
+        ids.push_back(findMaterial(item, "a material of the grid"));
     } else if (materials) {
       ids = readLibrary(*materials, "'materials' of the grid");
     }
@@ -169,10 +185,14 @@ class Reader {
       d.found = fmt::format("{}", total);
       return;
     }
-    const std::array<int, 3> n = {static_cast<int>((*count)[0]), static_cast<int>((*count)[1]), static_cast<int>((*count)[2])};
+    const std::array<int, 3> n = {static_cast<int>((*count)[0]), static_cast<int>((*count)[1]),
+                                  static_cast<int>((*count)[2])};
     scene_.spheres.reserve(scene_.spheres.size() + static_cast<std::size_t>(total));
     std::size_t index = 0;
-    const auto offset = [&](int i, int axis) { return (static_cast<float>(i) - static_cast<float>(n[static_cast<std::size_t>(axis)] - 1) / 2) * spacing; };
+    const auto offset = [&](int i, int axis) {
+      return (static_cast<float>(i) - static_cast<float>(n[static_cast<std::size_t>(axis)] - 1) / 2) *
+             spacing;
+    };
     for (int z = 0; z < n[2]; ++z)
       for (int y = 0; y < n[1]; ++y)
         for (int x = 0; x < n[0]; ++x) {
@@ -192,8 +212,9 @@ class Reader {
     sphere.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
     sphere.lists = readLists(fields, what);
     if (const JsonValue* material = fields.find("material"))
-      sphere.material = material->is(JsonValue::Type::object) ? addMaterial("", *material, material->place)
-                                                              : findMaterial(*material, fmt::format("'material' of {}", what));
+      sphere.material = material->is(JsonValue::Type::object)
+                            ? addMaterial("", *material, material->place)
+                            : findMaterial(*material, fmt::format("'material' of {}", what));
     fields.finish();
     scene_.spheres.add(sphere);
   }
@@ -211,13 +232,17 @@ class Reader {
     if (!path) fields.require({"position"});
     fields.finish();
     if (!path) checkDirection(value, what, camera.pose.position, camera.pose.target);
-    if (path && camera.orbitDegreesPerSecond != 0) fail(Code::W160, *path, fmt::format("{} has both 'path' and 'orbit'", what)).hint = "keep one";
+    if (path && camera.orbitDegreesPerSecond != 0)
+      fail(Code::W160, *path, fmt::format("{} has both 'path' and 'orbit'", what)).hint = "keep one";
     if (path) readPath(*path, what, camera);
     scene_.cameras.add(std::move(camera));
   }
 
-  void checkDirection(const JsonValue& value, const std::string& what, glm::dvec3 position, glm::dvec3 target) {
-    if (glm::length(position - target) < 1e-6) fail(Code::W160, value, fmt::format("{} stands on its target", what)).hint = "move 'position' or 'target'";
+  void checkDirection(const JsonValue& value, const std::string& what, glm::dvec3 position,
+                      glm::dvec3 target) {
+    if (glm::length(position - target) < 1e-6)
+      fail(Code::W160, value, fmt::format("{} stands on its target", what)).hint =
+          "move 'position' or 'target'";
   }
 
   void readPath(const JsonValue& path, const std::string& what, Camera& camera) {
@@ -263,8 +288,10 @@ class Reader {
     const auto direction = fields.triple("direction", kWorld);
     if (direction) {
       const double length = glm::length(toDvec3(*direction));
-      if (length < 1e-6) fail(Code::W160, *value.find("direction"), "the sun's direction has no length");
-      else sun.direction = glm::vec3(toDvec3(*direction) / length);
+      if (length < 1e-6)
+        fail(Code::W160, *value.find("direction"), "the sun's direction has no length");
+      else
+        sun.direction = glm::vec3(toDvec3(*direction) / length);
     }
     if (const auto irradiance = fields.triple("irradiance", kRadiance)) sun.irradiance = toVec3(*irradiance);
     fields.finish();

@@ -1,6 +1,6 @@
-// Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W2..W6 with their place,
-// values out of range as W160, unknown materials as W161, unknown draw lists as W162, and what its material
-// library reports. The format is described in docs/scenes.md.
+// Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W2..W6 with
+// their place, values out of range as W160, unknown materials as W161, unknown draw lists as W162, and what
+// its material library reports. The format is described in docs/scenes.md.
 #pragma once
 
 #include <optional>
@@ -15,6 +15,7 @@ namespace weft::scene {
 // Paths in the file are relative to it. Empty after any error.
 std::optional<Scene> loadScene(const std::string& path, base::Diagnostics& diagnostics);
 // The same for text in memory; paths are relative to the folder of `name`.
-std::optional<Scene> readScene(std::string_view text, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<Scene> readScene(std::string_view text, const std::string& name,
+                               base::Diagnostics& diagnostics);
 
 }  // namespace weft::scene

@@ -8,8 +8,8 @@ namespace weft::scene {
 
 namespace {
 
-// Least significant digit first, three digits of 11 bits: stable, 2 * 8 bytes moved per element and digit. A digit that
-// all keys share is skipped.
+// Least significant digit first, three digits of 11 bits: stable, 2 * 8 bytes moved per element and digit. A
+// digit that all keys share is skipped.
 void sortRadix(std::vector<SortElement>& elements, std::vector<SortElement>& scratch) {
   constexpr std::size_t kBuckets = 2048;
   constexpr std::uint32_t kMask = kBuckets - 1;

@@ -1,29 +1,28 @@
-// Back-to-front draw order on the CPU, and the contract it shares with shaders/sort/keys.comp.glsl.
+// Back-to-front draw order on the CPU, and the contract it shares with shaders/sort/order.glsl.
 //
-// Depth of an instance: d = -(((V[0].z * x + V[1].z * y) + V[2].z * z) + V[3].z), that is -z of its centre in view
-// space, in float, in exactly this order without fused operations (`precise` in GLSL).
-// Key, a uint, of *descending* depth (farthest first when sorted ascending):
+// Depth of an instance: d = -(((V[0].z * x + V[1].z * y) + V[2].z * z) + V[3].z), that is -z of its centre in
+// view space, in float, in exactly this order without fused operations (`precise` in GLSL). Key, a uint, of
+// *descending* depth (farthest first when sorted ascending):
 //   d is NaN  -> 0xffffffff (last);     d == 0 -> d = +0 (so that -0 equals +0)
 //   b = floatBitsToUint(d);   u = (b & 0x80000000) != 0 ? ~b : b | 0x80000000;   key = ~u
-// Elements are (key, index), sorted ascending by key, then by index. Padding to a power of two is (0xffffffff, i) with
-// i >= count: it follows every real element, NaN included.
+// Elements are (key, index), sorted ascending by key, then by index. Padding of the GPU sort is
+// (0xffffffff, i) with i >= count: it follows every real element, NaN included.
 #pragma once
 
 #include <bit>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "engine/scene/scene.h"
 
 namespace weft::scene {
 
-struct SortElement {                // uvec2 of the GPU buffer
+struct SortElement {  // uvec2 of the GPU buffer
   std::uint32_t key = 0, index = 0;
   friend auto operator<=>(const SortElement&, const SortElement&) = default;
 };
@@ -39,8 +38,9 @@ constexpr std::uint32_t depthKey(float depth) {
 }
 float viewDepth(const glm::mat4& view, glm::vec3 center);
 
-// Sorts by (key, index) ascending. `elements` must come with ascending indices (as makeKeys leaves them): both methods
-// are stable and look at the key only. `scratch` is working memory, reused from call to call; cpu_std leaves it alone.
+// Sorts by (key, index) ascending. `elements` must come with ascending indices (as makeKeys leaves them):
+// both methods are stable and look at the key only. `scratch` is working memory, reused from call to call;
+// cpu_std leaves it alone.
 void sortElements(std::vector<SortElement>& elements, SortMethod method, std::vector<SortElement>& scratch);
 
 // Replaces `out` by (key, index) of each instance, unsorted.

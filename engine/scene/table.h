@@ -1,6 +1,6 @@
-// A table of plain rows with stable ids (a dense slot map): rows lie contiguously in insertion order, ids survive the
-// growth of the table and are recognised as stale after their row is removed. Removal is O(rows) and keeps the order.
-// Does not: notify anyone; readers compare revision().
+// A table of plain rows with stable ids (a dense slot map): rows lie contiguously in insertion order, ids
+// survive the growth of the table and are recognised as stale after their row is removed. Removal is O(rows)
+// and keeps the order. Does not: notify anyone; readers compare revision().
 #pragma once
 
 #include <cassert>
@@ -49,7 +49,8 @@ class Table {
     const std::uint32_t row = slots_[id.index].row;
     rows_.erase(rows_.begin() + row);
     slotOfRow_.erase(slotOfRow_.begin() + row);
-    for (std::size_t i = row; i < slotOfRow_.size(); ++i) slots_[slotOfRow_[i]].row = static_cast<std::uint32_t>(i);
+    for (std::size_t i = row; i < slotOfRow_.size(); ++i)
+      slots_[slotOfRow_[i]].row = static_cast<std::uint32_t>(i);
     ++slots_[id.index].generation;
     free_.push_back(id.index);
     ++revision_;

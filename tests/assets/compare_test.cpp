@@ -32,7 +32,8 @@ TEST_CASE("one changed component is found, measured and located") {
 }
 
 TEST_CASE("NaN equals NaN and nothing else; infinities equal themselves") {
-  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
   const ImageF a{3, 1, 1, {nan, infinity, 1}};
   CHECK(compareImages(a, a).equal());
   ImageF b = a;

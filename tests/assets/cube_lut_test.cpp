@@ -23,7 +23,9 @@ static base::Diagnostic failureOf(std::string_view text) {
 
 TEST_CASE("a 3D table with comments, a title, a domain and carriage returns") {
   base::Diagnostics diagnostics;
-  std::string text = "# by hand\r\nTITLE \"warm look\"\r\nLUT_3D_SIZE 2\r\nDOMAIN_MIN 0 -1 0\r\nDOMAIN_MAX 1 +2.5 4e0\r\n\r\n";
+  std::string text =
+      "# by hand\r\nTITLE \"warm look\"\r\nLUT_3D_SIZE 2\r\nDOMAIN_MIN 0 -1 0\r\nDOMAIN_MAX 1 +2.5 "
+      "4e0\r\n\r\n";
   for (int i = 0; i < 8; ++i) text += fmt::format("{} {} {}\r\n", i & 1, (i >> 1) & 1, (i >> 2) * 0.5);
   const auto lut = read(text, diagnostics);
   REQUIRE(lut);
@@ -34,14 +36,15 @@ TEST_CASE("a 3D table with comments, a title, a domain and carriage returns") {
   CHECK(lut->domainMin == std::array<float, 3>{0, -1, 0});
   CHECK(lut->domainMax == std::array<float, 3>{1, 2.5f, 4});
   REQUIRE(lut->texels.size() == 24);
-  CHECK(lut->texels[3] == 1);       // red is fastest
+  CHECK(lut->texels[3] == 1);  // red is fastest
   CHECK(lut->texels[23] == 0.5f);
 }
 
 TEST_CASE("a 1D table, without a final newline, from a file") {
   const TemporaryFolder folder;
   base::Diagnostics diagnostics;
-  const auto lut = assets::loadCubeLut(folder.write("a.cube", "LUT_1D_SIZE 3\nLUT_1D_INPUT_RANGE 0 2\n0 0 0\n.5 .5 .5\n1 1 1"), diagnostics);
+  const auto lut = assets::loadCubeLut(
+      folder.write("a.cube", "LUT_1D_SIZE 3\nLUT_1D_INPUT_RANGE 0 2\n0 0 0\n.5 .5 .5\n1 1 1"), diagnostics);
   REQUIRE(lut);
   CHECK(lut->dimensions == 1);
   CHECK(lut->domainMax[2] == 2);
@@ -63,7 +66,8 @@ TEST_CASE("every mistake names its line") {
   CHECK(failureOf("LUT_2D_SIZE 4\n").message.find("LUT_2D_SIZE") != std::string::npos);
   CHECK(failureOf("LUT_3D_SIZE 1000000000\n").message.find("256") != std::string::npos);
   CHECK(failureOf("LUT_3D_SIZE 2.5\n").found == "2.5");
-  CHECK(failureOf("LUT_1D_SIZE 2\nDOMAIN_MIN 1 1 1\n0 0 0\n1 1 1\n").message.find("DOMAIN_MIN") != std::string::npos);
+  CHECK(failureOf("LUT_1D_SIZE 2\nDOMAIN_MIN 1 1 1\n0 0 0\n1 1 1\n").message.find("DOMAIN_MIN") !=
+        std::string::npos);
   CHECK(failureOf("LUT_1D_SIZE 2\n0 0 0\nDOMAIN_MIN 0 0 0\n1 1 1\n").place.line == 3);
   CHECK(failureOf("TITLE no quotes\n").place.line == 1);
 }

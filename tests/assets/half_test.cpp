@@ -38,10 +38,10 @@ TEST_CASE("known conversions") {
   CHECK(floatToHalf(65520.0f) == 0x7c00);
   CHECK(floatToHalf(-std::numeric_limits<float>::infinity()) == 0xfc00);
   CHECK(floatToHalf(0x1p-24f) == 1);
-  CHECK(floatToHalf(0x1p-25f) == 0);                       // a tie goes to even
+  CHECK(floatToHalf(0x1p-25f) == 0);  // a tie goes to even
   CHECK(floatToHalf(std::nextafter(0x1p-25f, 1.0f)) == 1);
-  CHECK(floatToHalf(1.0f + 0x1p-11f) == 0x3c00);           // tie, even below
-  CHECK(floatToHalf(1.0f + 3 * 0x1p-11f) == 0x3c02);       // tie, even above
+  CHECK(floatToHalf(1.0f + 0x1p-11f) == 0x3c00);      // tie, even below
+  CHECK(floatToHalf(1.0f + 3 * 0x1p-11f) == 0x3c02);  // tie, even above
   CHECK(halfToFloat(0x3555) == doctest::Approx(0.33325195));
 }
 
@@ -49,9 +49,12 @@ TEST_CASE("the bulk path gives the bits of the scalar for random floats, ties, N
   std::mt19937 random(7);
   std::vector<float> from;
   for (int i = 0; i < 400000; ++i) from.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
-  for (std::uint32_t exponent = 0; exponent < 256; ++exponent)        // around every rounding tie of every binade
+  for (std::uint32_t exponent = 0; exponent < 256; ++exponent)  // around every rounding tie of every binade
     for (std::uint32_t i = 0; i < 64; ++i)
-      from.push_back(std::bit_cast<float>(exponent << 23 | (i / 4) << 12 | (i % 4 == 0 ? 0u : i % 4 == 1 ? 1u : 0xfffu)));
+      from.push_back(std::bit_cast<float>(exponent << 23 | (i / 4) << 12 |
+                                          (i % 4 == 0   ? 0u
+                                           : i % 4 == 1 ? 1u
+                                                        : 0xfffu)));
   std::vector<std::uint16_t> to(from.size());
   floatsToHalves(from, to);
   std::size_t wrong = 0;
@@ -72,7 +75,9 @@ TEST_CASE("rounding is to the nearest half, by search") {
     const float x = std::exp2(exponent(random));
     const std::uint16_t h = floatToHalf(x);
     const double error = std::abs(static_cast<double>(halfToFloat(h)) - x);
-    if (h > 0) REQUIRE(error <= std::abs(static_cast<double>(halfToFloat(static_cast<std::uint16_t>(h - 1))) - x));
-    if (h < 0x7bff) REQUIRE(error <= std::abs(static_cast<double>(halfToFloat(static_cast<std::uint16_t>(h + 1))) - x));
+    if (h > 0)
+      REQUIRE(error <= std::abs(static_cast<double>(halfToFloat(static_cast<std::uint16_t>(h - 1))) - x));
+    if (h < 0x7bff)
+      REQUIRE(error <= std::abs(static_cast<double>(halfToFloat(static_cast<std::uint16_t>(h + 1))) - x));
   }
 }

@@ -1,11 +1,11 @@
-// Files that are wrong in every way a file can be: each gives a diagnostic, none crashes (the sanitizers watch).
+// Files that are wrong in every way a file can be: each gives a diagnostic, none crashes (the sanitizers
+// watch).
 #include <doctest/doctest.h>
+#include <stb/stb_image_write.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <random>
-
-#include <stb/stb_image_write.h>
 
 #include "engine/assets/image.h"
 #include "engine/base/file.h"
@@ -68,7 +68,9 @@ std::vector<Sample> makeSamples(const TemporaryFolder& folder) {
   REQUIRE(savePng8(folder.at("a.png"), 40, 24, 3, bytes, diagnostics));
   std::string jpeg;
   stbi_write_jpg_to_func(
-      [](void* out, void* data, int count) { static_cast<std::string*>(out)->append(static_cast<char*>(data), static_cast<std::size_t>(count)); },
+      [](void* out, void* data, int count) {
+        static_cast<std::string*>(out)->append(static_cast<char*>(data), static_cast<std::size_t>(count));
+      },
       &jpeg, 40, 24, 3, bytes.data(), 90);
   folder.write("a.jpg", jpeg);
   folder.write("flat.tga", tga(40, 24, false));
@@ -94,8 +96,8 @@ TEST_CASE("missing, directory, empty, unknown and foreign files") {
   CHECK(failureOf(folder.write("noextension", "x")).code == base::Code::W151);
   for (const char* name : {"text.hdr", "text.exr", "text.png", "text.jpg", "text.tga"})
     CHECK(failureOf(folder.write(name, "this is a text, and not a picture at all")).code == base::Code::W150);
-  CHECK(failureOf(folder.write("radiance.png", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd")).message.find("Radiance") !=
-        std::string::npos);
+  CHECK(failureOf(folder.write("radiance.png", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd"))
+            .message.find("Radiance") != std::string::npos);
 }
 
 TEST_CASE("an 8-bit load of a float file says what it takes") {
@@ -114,7 +116,8 @@ TEST_CASE("the samples are sound, and each cut anywhere is refused") {
       const std::size_t length = sample.bytes.size() * cut / 61;
       // The end of a PNG is a marker behind the texels, of an EXR its last block.
       diagnostics.clear();
-      const auto image = decodeImage(std::string_view(sample.bytes).substr(0, length), sample.name, diagnostics);
+      const auto image =
+          decodeImage(std::string_view(sample.bytes).substr(0, length), sample.name, diagnostics);
       CHECK_MESSAGE(!image, sample.name << " cut to " << length << " of " << sample.bytes.size());
       CHECK(diagnostics.errorCount() == 1);
     }
@@ -123,7 +126,9 @@ TEST_CASE("the samples are sound, and each cut anywhere is refused") {
 
 TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
   const TemporaryFolder folder;
-  const auto hdr = [](const char* size) { return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nabcd"; };
+  const auto hdr = [](const char* size) {
+    return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nabcd";
+  };
   CHECK(failureOf(folder.write("a.hdr", hdr("-Y 1000000000 +X 1000000000"))).code == base::Code::W152);
   CHECK(failureOf(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == base::Code::W152);
   CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == base::Code::W152);
@@ -132,7 +137,9 @@ TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
   CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == base::Code::W152);
 }
 
-TEST_CASE("a JPEG whose Huffman table has more than 256 codes is refused before it is decoded, also with fill bytes in front") {
+TEST_CASE(
+    "a JPEG whose Huffman table has more than 256 codes is refused before it is decoded, also with fill "
+    "bytes in front") {
   const TemporaryFolder folder;
   for (const Sample& sample : makeSamples(folder)) {
     if (sample.name != "a.jpg") continue;
@@ -145,7 +152,8 @@ TEST_CASE("a JPEG whose Huffman table has more than 256 codes is refused before 
     CHECK_FALSE(decodeImage(bytes, "a.jpg", diagnostics));
     CHECK_FALSE(decodeImage("\xff" + bytes, "a.jpg", diagnostics));
     REQUIRE(diagnostics.errorCount() == 2);
-    for (const base::Diagnostic& d : diagnostics.items()) CHECK(d.message.find("Huffman") != std::string::npos);
+    for (const base::Diagnostic& d : diagnostics.items())
+      CHECK(d.message.find("Huffman") != std::string::npos);
     diagnostics.clear();
     CHECK(decodeImage("\xff" + sample.bytes, "a.jpg", diagnostics));
   }
@@ -170,7 +178,8 @@ TEST_CASE("ten thousand files with random bytes changed: an image or an error, a
       const auto image = decodeImage(bytes, sample.name, diagnostics);
       REQUIRE(image.has_value() == !diagnostics.hasErrors());
       if (image) {
-        REQUIRE(image->texels.size() == static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height) *
+        REQUIRE(image->texels.size() == static_cast<std::size_t>(image->width) *
+                                            static_cast<std::size_t>(image->height) *
                                             static_cast<std::size_t>(image->channels));
         ++images;
       } else {

@@ -17,7 +17,9 @@ namespace {
 
 constexpr int kWidth = 70, kHeight = 41;
 
-float valueAt(int x, int y, int c) { return static_cast<float>(x + 100 * c) + static_cast<float>(y) / 64.0f; }
+float valueAt(int x, int y, int c) {
+  return static_cast<float>(x + 100 * c) + static_cast<float>(y) / 64.0f;
+}
 
 // A picture whose channel `names[c]` holds valueAt(x, y, c), as half floats.
 std::string encode(const char* names, int compression, bool tiled) {
@@ -32,7 +34,8 @@ std::string encode(const char* names, int compression, bool tiled) {
     infos[static_cast<std::size_t>(c)] = {};
     infos[static_cast<std::size_t>(c)].name[0] = names[c];
     for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) planes[static_cast<std::size_t>(c)].push_back(floatToHalf(valueAt(x, y, c)));
+      for (int x = 0; x < kWidth; ++x)
+        planes[static_cast<std::size_t>(c)].push_back(floatToHalf(valueAt(x, y, c)));
     pointers.push_back(reinterpret_cast<unsigned char*>(planes[static_cast<std::size_t>(c)].data()));
   }
   EXRHeader header;
@@ -69,7 +72,8 @@ std::string encode(const char* names, int compression, bool tiled) {
           std::vector<std::uint16_t>& plane = tilePlanes.emplace_back(static_cast<std::size_t>(step * step));
           for (int y = 0; y < tile.height; ++y)
             for (int x = 0; x < tile.width; ++x)
-              plane[static_cast<std::size_t>(y * step + x)] = floatToHalf(valueAt(tx * step + x, ty * step + y, c));
+              plane[static_cast<std::size_t>(y * step + x)] =
+                  floatToHalf(valueAt(tx * step + x, ty * step + y, c));
           here.push_back(reinterpret_cast<unsigned char*>(plane.data()));
         }
         tile.images = here.data();
@@ -102,7 +106,8 @@ int countWrong(const ImageF& image, const std::array<int, 4>& channels) {
 }  // namespace
 
 TEST_CASE("half floats in every lossless compression") {
-  for (int compression = TINYEXR_COMPRESSIONTYPE_NONE; compression <= TINYEXR_COMPRESSIONTYPE_PIZ; ++compression) {
+  for (int compression = TINYEXR_COMPRESSIONTYPE_NONE; compression <= TINYEXR_COMPRESSIONTYPE_PIZ;
+       ++compression) {
     CAPTURE(compression);
     base::Diagnostics diagnostics;
     const auto image = decodeImage(encode("ABGR", compression, false), "a.exr", diagnostics);
@@ -124,12 +129,14 @@ TEST_CASE("files with random bytes changed, in every compression") {
   const char* seed = std::getenv("WEFT_FUZZ_SEED");
   std::mt19937 random(seed ? static_cast<std::uint32_t>(std::atoi(seed)) : 9u);
   int images = 0, refused = 0;
-  for (int compression = TINYEXR_COMPRESSIONTYPE_NONE; compression <= TINYEXR_COMPRESSIONTYPE_PIZ; ++compression) {
+  for (int compression = TINYEXR_COMPRESSIONTYPE_NONE; compression <= TINYEXR_COMPRESSIONTYPE_PIZ;
+       ++compression) {
     const std::string sound = encode("ABGR", compression, false);
     for (int i = 0; i < 600; ++i) {
       std::string bytes = sound;
       for (std::size_t k = 0, changes = 1 + random() % 8; k < changes; ++k)
-        bytes[random() % (random() % 2 ? bytes.size() : 400)] = static_cast<char>(random() % 4 ? random() : 0xff * (random() % 2));
+        bytes[random() % (random() % 2 ? bytes.size() : 400)] =
+            static_cast<char>(random() % 4 ? random() : 0xff * (random() % 2));
       base::Diagnostics diagnostics;
       const auto image = decodeImage(bytes, "a.exr", diagnostics);
       REQUIRE(image.has_value() == !diagnostics.hasErrors());
@@ -143,8 +150,10 @@ TEST_CASE("files with random bytes changed, in every compression") {
 
 TEST_CASE("RGB gets alpha 1, one channel is grey, and a file without colour is refused") {
   base::Diagnostics diagnostics;
-  CHECK(countWrong(*decodeImage(encode("BGR", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics), {2, 1, 0, -1}) == 0);
-  CHECK(countWrong(*decodeImage(encode("Z", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics), {0, 0, 0, -1}) == 0);
+  CHECK(countWrong(*decodeImage(encode("BGR", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics),
+                   {2, 1, 0, -1}) == 0);
+  CHECK(countWrong(*decodeImage(encode("Z", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics),
+                   {0, 0, 0, -1}) == 0);
   CHECK(diagnostics.empty());
   CHECK_FALSE(decodeImage(encode("XZ", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics));
   CHECK_FALSE(decodeImage(encode("A", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics));

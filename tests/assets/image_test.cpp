@@ -48,7 +48,8 @@ TEST_CASE("a PNG as floats is decoded from sRGB, its alpha is not") {
   CHECK(image->texels[2] == doctest::Approx(0.502886).epsilon(1e-5));
   CHECK(image->texels[3] == doctest::Approx(128 / 255.0));
   CHECK(image->texels[4] == 1);
-  for (int i = 0; i <= 100; ++i) CHECK(encodeSrgb(decodeSrgb(static_cast<float>(i) / 100)) == doctest::Approx(i / 100.0).epsilon(1e-5));
+  for (int i = 0; i <= 100; ++i)
+    CHECK(encodeSrgb(decodeSrgb(static_cast<float>(i) / 100)) == doctest::Approx(i / 100.0).epsilon(1e-5));
 }
 
 TEST_CASE("EXR keeps floats exactly, for 1, 3 and 4 channels") {
@@ -65,7 +66,8 @@ TEST_CASE("EXR keeps floats exactly, for 1, 3 and 4 channels") {
     int wrong = 0;
     for (std::size_t i = 0; i < 33 * 17; ++i) {
       for (std::size_t c = 0; c < 3; ++c)
-        wrong += loaded->texels[i * 4 + c] != image.texels[i * static_cast<std::size_t>(channels) + (channels == 1 ? 0 : c)];
+        wrong += loaded->texels[i * 4 + c] !=
+                 image.texels[i * static_cast<std::size_t>(channels) + (channels == 1 ? 0 : c)];
       wrong += loaded->texels[i * 4 + 3] != (channels == 4 ? image.texels[i * 4 + 3] : 1.0f);
     }
     CHECK(wrong == 0);
@@ -92,7 +94,8 @@ TEST_CASE("Radiance keeps values to its 8-bit mantissa, narrow (flat) and wide (
 TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how much was replaced") {
   const TemporaryFolder folder;
   base::Diagnostics diagnostics;
-  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
   ImageF image = makeRamp(4, 2, 3);
   image.texels[0] = nan;
   image.texels[1] = -1;
@@ -146,7 +149,7 @@ TEST_CASE("the real environment loads clean") {
   CHECK_FALSE(diagnostics.hasErrors());
   CHECK(environment->width == 1024);
   CHECK(environment->height == 512);
-  double top = 0, bottom = 0;   // sky over sea: the sky is the brighter half
+  double top = 0, bottom = 0;  // sky over sea: the sky is the brighter half
   for (std::size_t i = 0; i < 1024 * 256; ++i) {
     top += environment->texels[i * 4 + 1];
     bottom += environment->texels[(1024 * 256 + i) * 4 + 1];

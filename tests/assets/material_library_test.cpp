@@ -38,8 +38,9 @@ TEST_CASE("our library: at least 101 presets in nine categories, in range, uniqu
   const MaterialLibrary library = loadOurs();
   CHECK(library.materials.size() >= 101);
   CHECK(std::set<std::string>(library.categories.begin(), library.categories.end()) ==
-        std::set<std::string>{"pure metals", "weathered metals", "glossy dielectrics", "matte", "stones and minerals", "organics",
-                              "paint and coatings", "technical", "anodized and patina"});
+        std::set<std::string>{"pure metals", "weathered metals", "glossy dielectrics", "matte",
+                              "stones and minerals", "organics", "paint and coatings", "technical",
+                              "anodized and patina"});
   std::set<std::string> names;
   int measured = 0;
   for (const MaterialPreset& m : library.materials) {
@@ -47,7 +48,8 @@ TEST_CASE("our library: at least 101 presets in nine categories, in range, uniqu
     for (const float a : m.albedo) CHECK((a >= 0 && a <= 1));
     CHECK((m.metallic >= 0 && m.metallic <= 1));
     CHECK((m.roughness >= 0 && m.roughness <= 1));
-    const bool isMeasured = m.source.starts_with("measured: "), isEstimated = m.source.starts_with("estimated: ");
+    const bool isMeasured = m.source.starts_with("measured: "),
+               isEstimated = m.source.starts_with("estimated: ");
     CHECK_MESSAGE((isMeasured || isEstimated), m.name);
     measured += isMeasured;
     if (m.category == "pure metals") CHECK(m.metallic == 1);
@@ -56,10 +58,12 @@ TEST_CASE("our library: at least 101 presets in nine categories, in range, uniqu
   }
   CHECK(measured >= 30);
   for (const std::string& category : library.categories)
-    CHECK(std::count_if(library.materials.begin(), library.materials.end(), [&](const auto& m) { return m.category == category; }) >= 10);
+    CHECK(std::count_if(library.materials.begin(), library.materials.end(),
+                        [&](const auto& m) { return m.category == category; }) >= 10);
 }
 
-TEST_CASE("gold, silver and copper agree with Fresnel's formula and the n and k of Johnson and Christy (1972)") {
+TEST_CASE(
+    "gold, silver and copper agree with Fresnel's formula and the n and k of Johnson and Christy (1972)") {
   struct Row {
     const char* name;
     std::array<std::array<double, 2>, 3> nk;  // at 616.8, 548.6 and 450.9 nm
@@ -74,7 +78,8 @@ TEST_CASE("gold, silver and copper agree with Fresnel's formula and the n and k 
       const double n = row.nk[c][0], k = row.nk[c][1];
       const double f0 = ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
       // Three wavelengths stand for the whole visible and the primaries are no spectral lines: hence 0.08.
-      CHECK_MESSAGE(std::abs(f0 - static_cast<double>(m->albedo[c])) < 0.08, row.name << " " << c << ": " << f0);
+      CHECK_MESSAGE(std::abs(f0 - static_cast<double>(m->albedo[c])) < 0.08,
+                    row.name << " " << c << ": " << f0);
     }
   }
 }
@@ -89,16 +94,21 @@ TEST_CASE("presets are found by name") {
 
 TEST_CASE("category and source may be absent") {
   base::Diagnostics diagnostics;
-  const auto library = readMaterialLibrary(R"([{"name": "a", "albedo": [0, 0.5, 1], "metallic": 0, "roughness": 1}])", "m.json", diagnostics);
+  const auto library = readMaterialLibrary(
+      R"([{"name": "a", "albedo": [0, 0.5, 1], "metallic": 0, "roughness": 1}])", "m.json", diagnostics);
   REQUIRE(library);
   CHECK(library->materials[0].albedo == std::array<float, 3>{0, 0.5f, 1});
   const std::string seed = WEFT_SOURCE_DIR "/../shared/data/ref/seed_materials.json";
-  if (!std::filesystem::exists(seed)) MESSAGE("skipped: no " << seed);
-  else CHECK(loadMaterialLibrary(seed, diagnostics)->materials.size() == 100);
+  if (!std::filesystem::exists(seed))
+    MESSAGE("skipped: no " << seed);
+  else
+    CHECK(loadMaterialLibrary(seed, diagnostics)->materials.size() == 100);
 }
 
 TEST_CASE("every mistake is reported with its place") {
-  const auto with = [](const char* rest) { return std::string("[\n  {\"name\": \"a\", \"metallic\": 0, \"roughness\": 0, ") + rest + "}\n]"; };
+  const auto with = [](const char* rest) {
+    return std::string("[\n  {\"name\": \"a\", \"metallic\": 0, \"roughness\": 0, ") + rest + "}\n]";
+  };
   CHECK(failureOf("[").code == base::Code::W2);
   CHECK(failureOf("{}").code == base::Code::W3);
   CHECK(failureOf("[3]").code == base::Code::W3);
@@ -119,7 +129,8 @@ TEST_CASE("duplicate names are errors, and all problems come at once") {
   CHECK_FALSE(readMaterialLibrary(R"([
     {"name": "a", "albedo": [0, 0, 0], "metallic": 0, "roughness": 0},
     {"name": "a", "albedo": [0, 0, 0], "metallic": 2, "roughness": 0}
-  ])", "m.json", diagnostics));
+  ])",
+                                  "m.json", diagnostics));
   CHECK(diagnostics.errorCount() == 2);
   CHECK(diagnostics.contains(base::Code::W155));
   CHECK(diagnostics.contains(base::Code::W156));

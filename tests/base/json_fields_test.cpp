@@ -28,7 +28,8 @@ TEST_CASE("present members are read, absent ones are nothing, and neither is an 
 }
 
 TEST_CASE("wrong types, ranges, unknown and missing keys") {
-  const JsonValue value = parse("{\"n\": \"x\",\n \"m\": 3, \"v\": [1, 2], \"w\": [1, null, 9], \"lenght\": 1}");
+  const JsonValue value =
+      parse("{\"n\": \"x\",\n \"m\": 3, \"v\": [1, 2], \"w\": [1, null, 9], \"lenght\": 1}");
   Diagnostics diagnostics;
   JsonFields fields(value, "the thing", Code::W160, diagnostics);
   fields.require({"n", "absent"});

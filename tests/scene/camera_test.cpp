@@ -57,7 +57,8 @@ TEST_CASE("the inverse takes clip back to world") {
     for (int r = 0; r < 4; ++r) CHECK(exact[c][r] == doctest::Approx(c == r ? 1 : 0).epsilon(1e-4));
 }
 
-TEST_CASE("jitter moves every point by so many pixels, right and up, at every distance; motion is free of it") {
+TEST_CASE(
+    "jitter moves every point by so many pixels, right and up, at every distance; motion is free of it") {
   ViewRequest request = standard();
   const ViewData still = makeView(request);
   request.jitter = {0.5f, 0.25f};
@@ -98,7 +99,8 @@ TEST_CASE("an orbit turns +Z towards +X and comes round; a still camera never mo
 
 TEST_CASE("a path is linear between its keys and held outside") {
   Camera camera;
-  camera.path = {{1, {0, 0, 10}, {0, 0, 0}, 60}, {3, {4, 0, 10}, {0, 2, 0}, 40}, {4, {4, 0, 0}, {0, 2, -5}, 40}};
+  camera.path = {
+      {1, {0, 0, 10}, {0, 0, 0}, 60}, {3, {4, 0, 10}, {0, 2, 0}, 40}, {4, {4, 0, 0}, {0, 2, -5}, 40}};
   CHECK(isMoving(camera));
   CHECK(poseAt(camera, -5).position == glm::dvec3(0, 0, 10));
   CHECK(poseAt(camera, 1).position == glm::dvec3(0, 0, 10));

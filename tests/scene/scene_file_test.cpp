@@ -35,9 +35,12 @@ base::Diagnostic failureOf(std::string_view text) {
   return diagnostics.items()[0];
 }
 
-const char* kTwoMaterials = R"("materials": {"a": {"albedo": [1, 0, 0]}, "b": {"albedo": [0, 1, 0], "metallic": 1, "roughness": 0.1}})";
+const char* kTwoMaterials =
+    R"("materials": {"a": {"albedo": [1, 0, 0]}, "b": {"albedo": [0, 1, 0], "metallic": 1, "roughness": 0.1}})";
 
-std::string withMaterials(const std::string& rest) { return std::string("{") + kTwoMaterials + ", " + rest + "}"; }
+std::string withMaterials(const std::string& rest) {
+  return std::string("{") + kTwoMaterials + ", " + rest + "}";
+}
 
 }  // namespace
 
@@ -81,7 +84,8 @@ TEST_CASE("the example of docs/scenes.md loads") {
   const auto page = base::readFile(WEFT_SOURCE_DIR "/docs/scenes.md", diagnostics);
   REQUIRE(page);
   const std::size_t begin = page->find("```json") + 7, end = page->find("```", begin);
-  const auto scene = readScene(std::string_view(*page).substr(begin, end - begin), WEFT_SOURCE_DIR "/scenes/example.json", diagnostics);
+  const auto scene = readScene(std::string_view(*page).substr(begin, end - begin),
+                               WEFT_SOURCE_DIR "/scenes/example.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK(scene->cameras.size() == 3);
   CHECK(scene->spheres.size() == 102);
@@ -104,7 +108,8 @@ TEST_CASE("a grid of any shape is centred; materials repeat; layers go away from
 }
 
 TEST_CASE("a million spheres") {
-  const Scene scene = readGood(withMaterials(R"("grid": {"count": [100, 100, 100], "materials": ["a", "b"]})"));
+  const Scene scene =
+      readGood(withMaterials(R"("grid": {"count": [100, 100, 100], "materials": ["a", "b"]})"));
   CHECK(scene.spheres.size() == 1000000);
   CHECK(sizeof(Sphere) <= 40);
   std::vector<Instance> instances;
@@ -146,7 +151,9 @@ TEST_CASE("spheres, cameras, lights and the sun, with comments") {
 
 TEST_CASE("a library names materials too, and is read once") {
   const TemporaryFolder folder;
-  folder.write("m.json", R"([{"name": "x", "albedo": [1, 1, 1], "metallic": 0, "roughness": 0}, {"name": "y", "albedo": [0, 0, 0], "metallic": 0, "roughness": 0}])");
+  folder.write(
+      "m.json",
+      R"([{"name": "x", "albedo": [1, 1, 1], "metallic": 0, "roughness": 0}, {"name": "y", "albedo": [0, 0, 0], "metallic": 0, "roughness": 0}])");
   const Scene scene = loadGood(folder.write("s.json", R"({"library": "m.json",
     "grid": {"count": [2, 1, 1], "materials": "./m.json"}, "spheres": [{"center": [0, 0, 0], "material": "y"}]})"));
   CHECK(scene.materials.size() == 2);
@@ -172,33 +179,44 @@ TEST_CASE("every mistake has its code and place") {
   CHECK(key.hint == "did you mean 'spheres'?");
   CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fovv": 3}}})").hint == "did you mean 'fov'?");
   CHECK(failureOf(R"({"cameras": {"a": {}}})").code == Code::W5);
-  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 0]}}})").message.find("target") != std::string::npos);
+  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 0]}}})").message.find("target") !=
+        std::string::npos);
   CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fov": 180}}})").code == Code::W160);
   CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "near": 0}}})").code == Code::W160);
   CHECK(failureOf(R"({"cameras": {"a": {"path": []}}})").code == Code::W160);
-  CHECK(failureOf(R"({"cameras": {"a": {"orbit": 1, "path": [{"time": 0, "position": [0, 0, 1]}]}}})").code == Code::W160);
-  CHECK(failureOf(R"({"cameras": {"a": {"path": [{"time": 1, "position": [0, 0, 1]}, {"time": 1, "position": [0, 0, 2]}]}}})").code == Code::W160);
+  CHECK(failureOf(R"({"cameras": {"a": {"orbit": 1, "path": [{"time": 0, "position": [0, 0, 1]}]}}})").code ==
+        Code::W160);
+  CHECK(
+      failureOf(
+          R"({"cameras": {"a": {"path": [{"time": 1, "position": [0, 0, 1]}, {"time": 1, "position": [0, 0, 2]}]}}})")
+          .code == Code::W160);
   CHECK(failureOf(R"({"materials": {"a": {"albedo": [0, 0, 2]}}})").code == Code::W155);
   CHECK(failureOf(R"({"grid": {"count": [1, 1, 1], "materials": "nowhere.json"}})").code == Code::W1);
   CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1]})")).code == Code::W5);
   CHECK(failureOf(withMaterials(R"("grid": {"count": [0, 1, 1], "materials": ["a"]})")).code == Code::W160);
   CHECK(failureOf(withMaterials(R"("grid": {"count": [1.5, 1, 1], "materials": ["a"]})")).code == Code::W160);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [60000, 60000, 60000], "materials": ["a"]})")).code == Code::W160);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "radius": -1, "materials": ["a"]})")).code == Code::W160);
+  CHECK(failureOf(withMaterials(R"("grid": {"count": [60000, 60000, 60000], "materials": ["a"]})")).code ==
+        Code::W160);
+  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "radius": -1, "materials": ["a"]})")).code ==
+        Code::W160);
   CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": []})")).code == Code::W161);
-  const base::Diagnostic material = failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": ["c"]})"));
+  const base::Diagnostic material =
+      failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": ["c"]})"));
   CHECK(material.code == Code::W161);
   CHECK(material.hint.find("a, b") != std::string::npos);
   CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": "gold"}]})").code == Code::W161);
   CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": 3}]})").code == Code::W3);
   CHECK(failureOf(R"({"spheres": [3]})").code == Code::W3);
-  const base::Diagnostic list = failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": {"albedo": [1, 1, 1]}, "lists": ["sphere"]}]})");
+  const base::Diagnostic list = failureOf(
+      R"({"spheres": [{"center": [0, 0, 0], "material": {"albedo": [1, 1, 1]}, "lists": ["sphere"]}]})");
   CHECK(list.code == Code::W162);
   CHECK(list.hint == "did you mean 'spheres'?");
-  CHECK(failureOf(R"({"point_lights": {"a": {"position": [0, 0, 0], "intensity": [-1, 0, 0]}}})").code == Code::W160);
+  CHECK(failureOf(R"({"point_lights": {"a": {"position": [0, 0, 0], "intensity": [-1, 0, 0]}}})").code ==
+        Code::W160);
   CHECK(failureOf(R"({"sun": {"direction": [0, 0, 0], "irradiance": [1, 1, 1]}})").code == Code::W160);
   CHECK(failureOf(R"({"sun": 3})").code == Code::W3);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "direction": [0, 1, 0], "irradiance": [1, 1, 1]}})").code == Code::W6);
+  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "direction": [0, 1, 0], "irradiance": [1, 1, 1]}})")
+            .code == Code::W6);
 }
 
 TEST_CASE("a name in both the library and the scene, a broken library, a missing scene, a directory") {
@@ -206,7 +224,9 @@ TEST_CASE("a name in both the library and the scene, a broken library, a missing
   folder.write("m.json", R"([{"name": "x", "albedo": [1, 1, 1], "metallic": 0, "roughness": 0}])");
   folder.write("broken.json", R"([{"name": "x", "albedo": [1, 1, 7], "metallic": 0, "roughness": 0}])");
   base::Diagnostics diagnostics;
-  CHECK_FALSE(loadScene(folder.write("a.json", R"({"library": "m.json", "materials": {"x": {"albedo": [0, 0, 0]}}})"), diagnostics));
+  CHECK_FALSE(
+      loadScene(folder.write("a.json", R"({"library": "m.json", "materials": {"x": {"albedo": [0, 0, 0]}}})"),
+                diagnostics));
   CHECK(diagnostics.contains(base::Code::W156));
   diagnostics.clear();
   CHECK_FALSE(loadScene(folder.write("b.json", R"({"library": "broken.json"})"), diagnostics));
@@ -220,6 +240,8 @@ TEST_CASE("a name in both the library and the scene, a broken library, a missing
 
 TEST_CASE("everything wrong is reported at once") {
   base::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(R"({"nam": "x", "sun": 3, "spheres": [{"center": [0, 0], "material": "q"}], "grid": {"count": [1, 1, 1], "materials": "no.json"}})", "s.json", diagnostics));
+  CHECK_FALSE(readScene(
+      R"({"nam": "x", "sun": 3, "spheres": [{"center": [0, 0], "material": "q"}], "grid": {"count": [1, 1, 1], "materials": "no.json"}})",
+      "s.json", diagnostics));
   CHECK(diagnostics.errorCount() == 5);
 }

@@ -50,7 +50,8 @@ TEST_CASE("moving spheres stand where the time says, then and before") {
 }
 
 TEST_CASE("lists and cameras are found by name") {
-  for (std::size_t i = 0; i < kDrawListCount; ++i) CHECK(findDrawList(drawListNames()[i]) == static_cast<DrawList>(i));
+  for (std::size_t i = 0; i < kDrawListCount; ++i)
+    CHECK(findDrawList(drawListNames()[i]) == static_cast<DrawList>(i));
   CHECK_FALSE(findDrawList("sphere"));
   Scene scene;
   CHECK(findCamera(scene, "") == nullptr);

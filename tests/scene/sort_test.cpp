@@ -16,7 +16,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<SortElement> keysOf(const std::vector<float>& depths) {
   std::vector<SortElement> elements;
-  for (std::size_t i = 0; i < depths.size(); ++i) elements.push_back({depthKey(depths[i]), static_cast<std::uint32_t>(i)});
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    elements.push_back({depthKey(depths[i]), static_cast<std::uint32_t>(i)});
   return elements;
 }
 
@@ -25,7 +26,8 @@ std::vector<std::uint32_t> orderByMeaning(const std::vector<float>& depths) {
   std::vector<std::uint32_t> order(depths.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (std::isnan(depths[a]) || std::isnan(depths[b])) return !std::isnan(depths[a]) && std::isnan(depths[b]);
+    if (std::isnan(depths[a]) || std::isnan(depths[b]))
+      return !std::isnan(depths[a]) && std::isnan(depths[b]);
     return depths[a] > depths[b];
   });
   return order;
@@ -45,7 +47,8 @@ void checkBoth(const std::vector<float>& depths) {
 
 TEST_CASE("keys ascend as depth descends; zeros are one; NaN is last; padding follows everything") {
   const std::vector<float> descending = {kInfinity, 3e38f, 2, 1, 1e-40f, 0, -1e-40f, -1, -3e38f, -kInfinity};
-  for (std::size_t i = 1; i < descending.size(); ++i) CHECK(depthKey(descending[i - 1]) < depthKey(descending[i]));
+  for (std::size_t i = 1; i < descending.size(); ++i)
+    CHECK(depthKey(descending[i - 1]) < depthKey(descending[i]));
   CHECK(depthKey(0.0f) == depthKey(-0.0f));
   CHECK(depthKey(kNan) == 0xffffffffu);
   CHECK(depthKey(-kNan) == 0xffffffffu);
@@ -60,7 +63,9 @@ TEST_CASE("both methods give the order of the depths, for every count to 2000") 
   for (std::size_t n = 0; n <= 2000; ++n) {
     depths.resize(n);
     const bool few = n % 3 == 0;  // many equal keys
-    for (float& d : depths) d = few ? static_cast<float>(random() % 7) - 3 : std::uniform_real_distribution<float>(-100, 100)(random);
+    for (float& d : depths)
+      d = few ? static_cast<float>(random() % 7) - 3
+              : std::uniform_real_distribution<float>(-100, 100)(random);
     for (std::size_t special = 0; special < n / 8; ++special) {
       constexpr float kSpecials[] = {kInfinity, -kInfinity, 0.0f, -0.0f, kNan, -kNan};
       depths[random() % n] = kSpecials[random() % 6];
