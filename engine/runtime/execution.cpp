@@ -163,8 +163,9 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
   PreparedPass& pass = passes_[step];
   const gl::DebugGroup group(device_.context.debugLog(), pass.context.spec->name);
   device_.timers.begin(static_cast<std::uint32_t>(step));
-  cadence_->remember(step, own_[step], generations_);
+  // In this order: a pass that reads one level of what it writes (mipmap) does not wake itself.
   rotateWritten(pass);
+  cadence_->remember(step, own_[step], generations_);
   const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
   if (!pass.clears.empty()) {
     openMasks();
