@@ -8,8 +8,8 @@
 
 namespace weft::graph {
 
-std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry, const Settings& settings,
-                                             base::Diagnostics& diagnostics) {
+std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry,
+                                             const Settings& settings, base::Diagnostics& diagnostics) {
   using namespace expansion;
   base::Diagnostics own;
   Model model{desc, registry, settings, own};
@@ -19,8 +19,10 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   for (std::uint32_t i = 0; i < model.entities.size(); ++i) {
     const auto kind = model.entities[i].kind;
     // An import's arguments are checked here; so is an input of the root, which nobody may read.
-    if (kind == ResourceDesc::Kind::input) findEntity(model, *model.entities[i].scope, model.entities[i].desc->name, false);
-    else if (kind != ResourceDesc::Kind::alternatives) ensureShape(model, i);
+    if (kind == ResourceDesc::Kind::input)
+      findEntity(model, *model.entities[i].scope, model.entities[i].desc->name, false);
+    else if (kind != ResourceDesc::Kind::alternatives)
+      ensureShape(model, i);
   }
   std::vector<DeferredUniform> deferred;
   expandPasses(model, deferred);

@@ -1,5 +1,6 @@
-// GraphDesc to FlatGraph: scopes of includes, parameters, repeats, conditions, alternatives, disabled passes, renames,
-// versions, sizes and every check of the design's "Diagnostics". Pure: no clock, no device, no files.
+// GraphDesc to FlatGraph: scopes of includes, parameters, repeats, conditions, alternatives, disabled passes,
+// renames, versions, sizes and every check of the design's "Diagnostics". Pure: no clock, no device, no
+// files.
 #pragma once
 
 #include <memory>
@@ -17,14 +18,14 @@ namespace weft::graph {
 
 struct Settings {
   std::uint32_t screenWidth = 1280, screenHeight = 720;
-  bool software = false;                                     // device.software
-  std::vector<std::pair<std::string, std::string>> sets;     // --set NAME=VALUE; NAME is any unique suffix
-  std::vector<std::string> disables;                         // --disable NAME; any unique suffix, all its repeats
+  bool software = false;                                  // device.software
+  std::vector<std::pair<std::string, std::string>> sets;  // --set NAME=VALUE; NAME is any unique suffix
+  std::vector<std::string> disables;  // --disable NAME; any unique suffix, all its repeats
 };
 
-// The expanded graph, or null after errors. Warnings leave a graph. `diagnostics` may hold errors of the reader already:
-// then everything is checked as far as it goes, and null is returned.
-std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry, const Settings& settings,
-                                             base::Diagnostics& diagnostics);
+// The expanded graph, or null after errors. Warnings leave a graph. `diagnostics` may hold errors of the
+// reader already: then everything is checked as far as it goes, and null is returned.
+std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry,
+                                             const Settings& settings, base::Diagnostics& diagnostics);
 
 }  // namespace weft::graph

@@ -28,7 +28,8 @@ const PassType* findPassType(const Registry& registry, std::string_view name) {
 }
 
 const char* wordFor(Kind kind) {
-  static constexpr const char* kWords[] = {"sampled", "image", "uniform", "storage", "vertex", "index", "indirect", "color", "depth", "copy"};
+  static constexpr const char* kWords[] = {"sampled", "image",    "uniform", "storage", "vertex",
+                                           "index",   "indirect", "color",   "depth",   "copy"};
   return kWords[static_cast<int>(kind)];
 }
 
@@ -41,7 +42,8 @@ Kind defaultKind(const PassType* type, Access access, const FlatResource& shape)
   if (!type) return Kind::copy;
   if (!isTexture(shape)) return Kind::storage;
   if (access == Access::read) return type->defaultReadTexture;
-  return type->defaultWriteTexture == Kind::color && isDepth(shape.format) ? Kind::depth : type->defaultWriteTexture;
+  return type->defaultWriteTexture == Kind::color && isDepth(shape.format) ? Kind::depth
+                                                                           : type->defaultWriteTexture;
 }
 
 bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work) {
@@ -54,47 +56,77 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     d.resource = entity.name;
     d.expected = std::move(expected);
     d.found = ref.text;
+    d.pointer = ref.pointer;
     return false;
   };
   const auto kindMisfit = [&](std::string expected) {
-    return report(Code::W56, fmt::format("{} cannot {} '{}' as {}", context.user, wordFor(access), entity.name, wordFor(kind)), std::move(expected));
+    return report(
+        Code::W56,
+        fmt::format("{} cannot {} '{}' as {}", context.user, wordFor(access), entity.name, wordFor(kind)),
+        std::move(expected));
   };
   if (entity.import != kNone && context.model.graph.imports[entity.import].kind == ImportKind::event)
-    return report(Code::W56, fmt::format("{} uses '{}', which is an event and holds nothing", context.user, entity.name), "a texture or a buffer; events stand in \"reset\"");
+    return report(Code::W56,
+                  fmt::format("{} uses '{}', which is an event and holds nothing", context.user, entity.name),
+                  "a texture or a buffer; events stand in \"reset\"");
   const bool texture = isTexture(shape);
-  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || kind == Kind::vertex || kind == Kind::index || kind == Kind::indirect;
+  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || kind == Kind::vertex ||
+                          kind == Kind::index || kind == Kind::indirect;
   if (texture && bufferKind) return kindMisfit("sampled, image, color, depth or copy for a texture");
-  if (!texture && !bufferKind && kind != Kind::copy) return kindMisfit("uniform, storage, vertex, index, indirect or copy for a buffer");
+  if (!texture && !bufferKind && kind != Kind::copy)
+    return kindMisfit("uniform, storage, vertex, index, indirect or copy for a buffer");
   const ShaderShape shader = context.type ? context.type->shader : ShaderShape::none;
   if (context.type && shader == ShaderShape::none && kind != defaultKind(context.type, access, shape))
-    return kindMisfit(fmt::format("a {} pass uses {}", context.type->name, wordFor(defaultKind(context.type, access, shape))));
+    return kindMisfit(fmt::format("a {} pass uses {}", context.type->name,
+                                  wordFor(defaultKind(context.type, access, shape))));
   const bool draws = shader == ShaderShape::fragment || shader == ShaderShape::draw;
   if (context.type && shader != ShaderShape::none) {
     if (kind == Kind::copy) return kindMisfit("a kind that a shader has; copies are made by blit passes");
-    if ((kind == Kind::color || kind == Kind::depth) && !draws) return kindMisfit("image in a pass without attachments");
-    if ((kind == Kind::vertex || kind == Kind::index) && shader != ShaderShape::draw) return kindMisfit("vertices in draw passes only");
-    if (kind == Kind::indirect && shader == ShaderShape::fragment) return kindMisfit("indirect arguments in draw and compute passes");
+    if ((kind == Kind::color || kind == Kind::depth) && !draws)
+      return kindMisfit("image in a pass without attachments");
+    if ((kind == Kind::vertex || kind == Kind::index) && shader != ShaderShape::draw)
+      return kindMisfit("vertices in draw passes only");
+    if (kind == Kind::indirect && shader == ShaderShape::fragment)
+      return kindMisfit("indirect arguments in draw and compute passes");
   }
-  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform || kind == Kind::vertex || kind == Kind::index || kind == Kind::indirect;
+  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform || kind == Kind::vertex ||
+                        kind == Kind::index || kind == Kind::indirect;
   if (readOnly && access != Access::read) return kindMisfit("reading only for this kind");
   if (kind == Kind::color && access == Access::read) return kindMisfit("writing or modifying for color");
 
   const bool known = shape.format != Format::none;
   const auto formatMisfit = [&](std::string expected) {
-    return report(Code::W57, fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user, infoOf(shape.format).name, entity.name, wordFor(kind)), std::move(expected));
+    return report(Code::W57,
+                  fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
+                              infoOf(shape.format).name, entity.name, wordFor(kind)),
+                  std::move(expected));
   };
-  if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable) return formatMisfit("a format that can be rendered to");
-  if (known && kind == Kind::image && !infoOf(shape.format).imageStorable) return formatMisfit("a format that images can have");
+  if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable)
+    return formatMisfit("a format that can be rendered to");
+  if (known && kind == Kind::image && !infoOf(shape.format).imageStorable)
+    return formatMisfit("a format that images can have");
   if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
   const Sampler& sampler = work.sampler;
-  const bool blit = kind == Kind::copy && shader == ShaderShape::none && !sampler.wrap && !sampler.compare;  // may filter
+  const bool blit =
+      kind == Kind::copy && shader == ShaderShape::none && !sampler.wrap && !sampler.compare;  // may filter
   if ((sampler.linear || sampler.wrap || sampler.compare) && kind != Kind::sampled && !blit)
-    return report(Code::W56, fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name), "linear, wrap and compare for sampled textures");
-  if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format)) return formatMisfit("a depth format for compare");
-  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2)) return formatMisfit("a format that can be filtered, or no linear");
-  if (shape.samples > 1 && sampler.linear) return report(Code::W56, fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name), "no linear");
+    return report(Code::W56,
+                  fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
+                  "linear, wrap and compare for sampled textures");
+  if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format))
+    return formatMisfit("a depth format for compare");
+  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2))
+    return formatMisfit("a format that can be filtered, or no linear");
+  if (shape.samples > 1 && sampler.linear)
+    return report(
+        Code::W56,
+        fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name),
+        "no linear");
   if (work.array && (kind == Kind::color || kind == Kind::depth))
-    return report(Code::W56, fmt::format("{}: '{}' is an array, an attachment is one texture", context.user, entity.name), fmt::format("one element, '{}[0]'", entity.name));
+    return report(
+        Code::W56,
+        fmt::format("{}: '{}' is an array, an attachment is one texture", context.user, entity.name),
+        fmt::format("one element, '{}[0]'", entity.name));
   return true;
 }
 
@@ -113,11 +145,13 @@ std::string attachmentText(const Attachment& a) {
 }
 
 bool overlaps(const SlotWork& a, const SlotWork& b) {
-  const auto meet = [](std::uint32_t first, std::uint32_t count, std::uint32_t otherFirst, std::uint32_t otherCount) {
+  const auto meet = [](std::uint32_t first, std::uint32_t count, std::uint32_t otherFirst,
+                       std::uint32_t otherCount) {
     return first < otherFirst + otherCount && otherFirst < first + count;
   };
-  return a.entity == b.entity && meet(a.firstElement, a.elementCount, b.firstElement, b.elementCount) && (a.use.planes & b.use.planes) != 0 &&
-         meet(a.use.mip, a.use.mips, b.use.mip, b.use.mips) && meet(a.use.layer, a.use.layers, b.use.layer, b.use.layers);
+  return a.entity == b.entity && meet(a.firstElement, a.elementCount, b.firstElement, b.elementCount) &&
+         (a.use.planes & b.use.planes) != 0 && meet(a.use.mip, a.use.mips, b.use.mip, b.use.mips) &&
+         meet(a.use.layer, a.use.layers, b.use.layer, b.use.layers);
 }
 
 bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& slots) {
@@ -130,9 +164,13 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
     const FlatResource& shape = entity.shape;
     if (work.use.kind == Kind::color) ++colors;
     const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> work.use.mip); };
-    const Attachment here{&work, side(shape.width), side(shape.height), shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers, shape.samples};
+    const Attachment here{&work, side(shape.width), side(shape.height),
+                          shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers,
+                          shape.samples};
     if (work.use.mips > 1) {
-      auto& d = context.model.diagnostics.error(Code::W58, work.slot->ref.place, fmt::format("{} attaches {} levels of '{}' at once", context.user, work.use.mips, entity.name));
+      auto& d = context.model.diagnostics.error(
+          Code::W58, work.slot->ref.place,
+          fmt::format("{} attaches {} levels of '{}' at once", context.user, work.use.mips, entity.name));
       d.pass = context.pass;
       d.resource = entity.name;
       d.expected = "one level";
@@ -143,8 +181,13 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
       first = here;
       continue;
     }
-    if (here.width == first->width && here.height == first->height && here.layers == first->layers && here.samples == first->samples) continue;
-    auto& d = context.model.diagnostics.error(Code::W58, work.slot->ref.place, fmt::format("{}: attachments '{}' and '{}' differ", context.user, first->slot->slot->name, work.slot->name));
+    if (here.width == first->width && here.height == first->height && here.layers == first->layers &&
+        here.samples == first->samples)
+      continue;
+    auto& d =
+        context.model.diagnostics.error(Code::W58, work.slot->ref.place,
+                                        fmt::format("{}: attachments '{}' and '{}' differ", context.user,
+                                                    first->slot->slot->name, work.slot->name));
     d.pass = context.pass;
     d.resource = entity.name;
     d.expected = fmt::format("{} as '{}'", attachmentText(*first), first->slot->slot->ref.text);
@@ -152,7 +195,8 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
     return false;
   }
   if (colors > 8) {
-    auto& d = context.model.diagnostics.error(Code::W58, slots[0].slot->place, fmt::format("{} has {} colour attachments", context.user, colors));
+    auto& d = context.model.diagnostics.error(
+        Code::W58, slots[0].slot->place, fmt::format("{} has {} colour attachments", context.user, colors));
     d.pass = context.pass;
     d.expected = "at most 8";
     return false;
@@ -169,13 +213,19 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
   const Entity& source = context.model.entities[from->entity];
   const Entity& target = context.model.entities[to->entity];
   if (context.type->name == "mipmap") {
-    const bool follows = from->entity == to->entity && from->firstElement == to->firstElement && from->use.mips == 1 &&
-                         to->use.mip == from->use.mip + 1 && from->use.layer == to->use.layer && from->use.layers == to->use.layers;
+    const bool follows = from->entity == to->entity && from->firstElement == to->firstElement &&
+                         from->use.mips == 1 && to->use.mip == from->use.mip + 1 &&
+                         from->use.layer == to->use.layer && from->use.layers == to->use.layers;
     if (follows) return true;
-    auto& d = context.model.diagnostics.error(Code::W66, to->slot->ref.place, fmt::format("{}: the levels of '{}' do not follow '{}'", context.user, to->slot->ref.text, from->slot->ref.text));
+    auto& d =
+        context.model.diagnostics.error(Code::W66, to->slot->ref.place,
+                                        fmt::format("{}: the levels of '{}' do not follow '{}'", context.user,
+                                                    to->slot->ref.text, from->slot->ref.text));
     d.pass = context.pass;
     d.resource = target.name;
-    d.hint = fmt::format("\"read\": {{ \"source\": \"{0}.mip[0]\" }}, \"write\": {{ \"result\": \"{0}.mip[1..]\" }}", to->slot->ref.name);
+    d.hint = fmt::format(
+        "\"read\": {{ \"source\": \"{0}.mip[0]\" }}, \"write\": {{ \"result\": \"{0}.mip[1..]\" }}",
+        to->slot->ref.name);
     return false;
   }
   const Format a = source.shape.format, b = target.shape.format;
@@ -183,7 +233,10 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
   const bool depth = isDepth(a) || isDepth(b), integer = isInteger(a) || isInteger(b);
   const bool fits = depth ? a == b : !integer || infoOf(a).kind == infoOf(b).kind;
   if (fits) return true;
-  auto& d = context.model.diagnostics.error(Code::W57, to->slot->ref.place, fmt::format("{}: '{}' ({}) cannot be copied to '{}' ({})", context.user, source.name, infoOf(a).name, target.name, infoOf(b).name));
+  auto& d =
+      context.model.diagnostics.error(Code::W57, to->slot->ref.place,
+                                      fmt::format("{}: '{}' ({}) cannot be copied to '{}' ({})", context.user,
+                                                  source.name, infoOf(a).name, target.name, infoOf(b).name));
   d.pass = context.pass;
   d.resource = target.name;
   d.expected = "equal depth formats, or both integer of one sign, or both neither";
@@ -204,18 +257,27 @@ bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::
       const std::string& name = context.model.entities[a.entity].name;
       if (b.use.access != Access::read) {
         if (j < i) continue;
-        auto& d = context.model.diagnostics.error(Code::W65, b.slot->ref.place, fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text, a.slot->name, b.slot->name));
+        auto& d = context.model.diagnostics.error(
+            Code::W65, b.slot->ref.place,
+            fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text,
+                        a.slot->name, b.slot->name));
         d.pass = context.pass;
         d.resource = name;
         d.hint = "one pass writes a sub-resource once";
         good = false;
-      } else if (b.use.history == 0 && !(a.use.access == Access::write && a.whole) && !(a.use.access == Access::modify && desc.feedback)) {
+      } else if (b.use.history == 0 && !(a.use.access == Access::write && a.whole) &&
+                 !(a.use.access == Access::modify && desc.feedback)) {
         // Both attachments of one kind: depth tested by a read slot and modified by another.
-        auto& d = context.model.diagnostics.error(Code::W64, b.slot->ref.place, fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text, a.use.access == Access::write ? "writes" : "modifies", a.slot->ref.text));
+        auto& d = context.model.diagnostics.error(
+            Code::W64, b.slot->ref.place,
+            fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text,
+                        a.use.access == Access::write ? "writes" : "modifies", a.slot->ref.text));
         d.pass = context.pass;
         d.resource = name;
-        d.hint = a.use.access == Access::modify ? "\"feedback\": true lets a pass read its own texel of what it modifies"
-                                                : "write another level or layer, or read and write the whole resource, which makes its next version";
+        d.hint = a.use.access == Access::modify
+                     ? "\"feedback\": true lets a pass read its own texel of what it modifies"
+                     : "write another level or layer, or read and write the whole resource, which makes its "
+                       "next version";
         good = false;
       }
     }

@@ -1,5 +1,6 @@
-// Checks of uses against what they use: kind, access, format and pass type for one slot; sizes, layers, samples,
-// overlaps and cadences for the slots of one pass; names of one pass. They report and never change anything.
+// Checks of uses against what they use: kind, access, format and pass type for one slot; sizes, layers,
+// samples, overlaps and cadences for the slots of one pass; names of one pass. They report and never change
+// anything.
 #pragma once
 
 #include "engine/graph/expand_slots.h"
@@ -12,13 +13,15 @@ Kind defaultKind(const PassType* type, Access access, const FlatResource& shape)
 // One use: the kind fits the resource, the access, the pass type and the format; sampler words fit.
 bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work);
 
-// All uses of one pass: attachments of one size, layer count and sample count, nothing written twice, nothing read and
-// written at once unless by feedback.
+// All uses of one pass: attachments of one size, layer count and sample count, nothing written twice, nothing
+// read and written at once unless by feedback.
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots);
 
-// What is checked once per stanza: type, keys, slots of fixed types, draw list, geometry, cadence, expressions in
-// branches not taken. (That slots, parameters and defines share one namespace is the reader's.)
-bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type, const std::string& declared);
+// What is checked once per stanza: type, keys, slots of fixed types, draw list, geometry, cadence,
+// expressions in branches not taken. (That slots, parameters and defines share one namespace is the
+// reader's.)
+bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type,
+                 const std::string& declared);
 
 const PassType* findPassType(const Registry& registry, std::string_view name);
 const char* wordFor(Kind kind);

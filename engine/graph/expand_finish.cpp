@@ -24,7 +24,8 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
   if (!model.missing.empty() && model.missing.back().ref == &slot.ref) model.missing.back().ref = &ref;
   if (work.state != SlotWork::State::connected) return std::nullopt;
   if (work.array) {
-    auto& d = model.diagnostics.error(Code::W56, ref.place, fmt::format("{} '{}', which is an array", user, ref.text));
+    auto& d = model.diagnostics.error(Code::W56, ref.place,
+                                      fmt::format("{} '{}', which is an array", user, ref.text));
     d.expected = fmt::format("one element, '{}[0]'", ref.name);
     return std::nullopt;
   }
@@ -42,9 +43,11 @@ void resolvePresent(Model& model) {
   auto use = resolveFinal(model, model.scopes[0], ref, "present", "present", &model.presentDeps);
   if (!use || model.diagnostics.errorCount() > before) return;
   const FlatResource& resource = model.graph.resources[use->resource];
-  const bool texture = resource.kind == ResourceKind::texture || resource.kind == ResourceKind::imported_texture;
+  const bool texture =
+      resource.kind == ResourceKind::texture || resource.kind == ResourceKind::imported_texture;
   if (!texture || isDepth(resource.format) || use->history > 0) {
-    auto& d = model.diagnostics.error(Code::W56, ref.place, fmt::format("present shows '{}', which is no colour texture", ref.text));
+    auto& d = model.diagnostics.error(
+        Code::W56, ref.place, fmt::format("present shows '{}', which is no colour texture", ref.text));
     d.expected = "a colour texture of this frame";
     return;
   }
@@ -68,7 +71,8 @@ void resolveOutputs(Model& model) {
 
 void resolveHistories(Model& model) {
   FlatGraph& graph = model.graph;
-  for (const Model::HistoryUse& use : model.historyUses) graph.uses[use.use].resource = currentResource(model, use.entity, use.element);
+  for (const Model::HistoryUse& use : model.historyUses)
+    graph.uses[use.use].resource = currentResource(model, use.entity, use.element);
   for (std::uint32_t index = 0; index < model.entities.size(); ++index) {
     Entity& entity = model.entities[index];
     if (entity.depth == 0 || entity.state != Progress::done) continue;
@@ -81,13 +85,16 @@ void resolveHistories(Model& model) {
     }
     for (const RefDesc& ref : entity.desc->resetRefs) {
       markStructural(model, *entity.scope, ref);
-      const auto holds = evaluateCondition(names, ref.condition, true, fmt::format("a reset of '{}'", entity.name));
-      const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place, fmt::format("the reset of '{}' names the", entity.name));
+      const auto holds =
+          evaluateCondition(names, ref.condition, true, fmt::format("a reset of '{}'", entity.name));
+      const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
+                                                     fmt::format("the reset of '{}' names the", entity.name));
       if (found == kNone) continue;
       mention(model, found, kNone);
       if (!holds || !*holds) continue;
       // An import that has nothing now may have something later.
-      const std::uint32_t target = model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);
+      const std::uint32_t target =
+          model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);
       if (target == kNone || !ensureShape(model, target)) continue;
       const Entity& reset = model.entities[target];
       if (reset.import != kNone) {
@@ -110,7 +117,8 @@ void foldUniforms(Model& model, const std::vector<DeferredUniform>& deferred) {
   for (const DeferredUniform& uniform : deferred) {
     Names names(model, *uniform.scope);
     names.indices = uniform.indices;
-    model.graph.specs[uniform.pass].uniforms[uniform.uniform].dynamic = uniform.desc->value.fold(names, model.diagnostics);
+    model.graph.specs[uniform.pass].uniforms[uniform.uniform].dynamic =
+        uniform.desc->value.fold(names, model.diagnostics);
   }
 }
 
@@ -123,7 +131,8 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   foldUniforms(model, deferred);
   resolveHistories(model);
   for (const Parameter& parameter : model.parameters)
-    model.graph.parameters.push_back({*parameter.desc, parameter.path, parameter.value, parameter.structural});
+    model.graph.parameters.push_back(
+        {*parameter.desc, parameter.path, parameter.value, parameter.structural});
   model.graph.files = model.desc.files;
   model.graph.name = model.desc.name;
   model.graph.screenWidth = model.settings.screenWidth;

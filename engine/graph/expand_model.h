@@ -1,6 +1,7 @@
-// The working tables of one expansion: scopes of included files, their parameters and lets, and entities (declared
-// resources and imports). They live while expandGraph runs and point into the GraphDesc. Plain data; the files
-// expand_*.cpp each do one job on it. Does not: outlive expandGraph, or hold anything of the finished FlatGraph.
+// The working tables of one expansion: scopes of included files, their parameters and lets, and entities
+// (declared resources and imports). They live while expandGraph runs and point into the GraphDesc. Plain
+// data; the files expand_*.cpp each do one job on it. Does not: outlive expandGraph, or hold anything of the
+// finished FlatGraph.
 #pragma once
 
 #include <deque>
@@ -37,7 +38,7 @@ struct Scope;
 
 struct Parameter {
   const ParameterDesc* desc = nullptr;
-  std::string path;        // "post.exposure", "post.composite.vignette"
+  std::string path;  // "post.exposure", "post.composite.vignette"
   Value value;
   bool structural = false;
 };
@@ -47,44 +48,45 @@ struct Let {
   Scope* scope = nullptr;
   std::string path;
   Progress state = Progress::fresh;
-  Value value;                                   // when done
+  Value value;  // when done
   Progress dynamicState = Progress::fresh;
-  bool dynamic = false;                          // contains age(), perhaps through another let
-  std::optional<Expr> folded;                    // of a dynamic one, after all passes are known
+  bool dynamic = false;        // contains age(), perhaps through another let
+  std::optional<Expr> folded;  // of a dynamic one, after all passes are known
   bool structural = false;
 };
 
 // The versions of one texture or buffer (one array element of it) while passes are walked in declared order.
 struct Element {
-  std::uint32_t resource = kNone;                // the current FlatResource
-  std::uint32_t count = 0;                       // FlatResources made so far
-  std::uint32_t wholeWriter = kNone;             // use that wrote everything, while `writers` is empty
-  std::uint32_t written = 0;                     // sub-resources with a version above zero
-  std::vector<std::uint32_t> writers;            // per sub-resource (plane, layer, mip): use, or kNone
-  bool zeroUsed = false;                         // version zero was read or modified
+  std::uint32_t resource = kNone;      // the current FlatResource
+  std::uint32_t count = 0;             // FlatResources made so far
+  std::uint32_t wholeWriter = kNone;   // use that wrote everything, while `writers` is empty
+  std::uint32_t written = 0;           // sub-resources with a version above zero
+  std::vector<std::uint32_t> writers;  // per sub-resource (plane, layer, mip): use, or kNone
+  bool zeroUsed = false;               // version zero was read or modified
 };
 
 struct Entity {
   ResourceDesc::Kind kind = ResourceDesc::Kind::texture;
-  const ResourceDesc* desc = nullptr;            // null: an import named only by @x
-  Scope* scope = nullptr;                        // where it is declared
-  std::string name;                              // "ibl.brdf", "@environment"
+  const ResourceDesc* desc = nullptr;  // null: an import named only by @x
+  Scope* scope = nullptr;              // where it is declared
+  std::string name;                    // "ibl.brdf", "@environment"
   // texture and buffer: the shape of every FlatResource of it. import: what the registry says.
   Progress state = Progress::fresh;
   FlatResource shape;
   Value clear, first;
-  std::uint32_t arrayCount = 0;                  // 0: not an array
-  std::uint16_t writtenMips = 1;                 // as the file says, before the clamp to the size
-  std::uint32_t depth = 0;                       // of the history
-  std::uint32_t import = kNone;                  // index into FlatGraph::imports
-  bool exists = true;                            // imports only
-  bool fallback = false;                         // imports only: a plain read may do without
-  double count = 0;                              // imports only
+  std::uint32_t arrayCount = 0;   // 0: not an array
+  std::uint16_t writtenMips = 1;  // as the file says, before the clamp to the size
+  std::uint32_t depth = 0;        // of the history
+  std::uint32_t import = kNone;   // index into FlatGraph::imports
+  bool exists = true;             // imports only
+  bool fallback = false;          // imports only: a plain read may do without
+  double count = 0;               // imports only
   // input: what it stands for
   Progress bindState = Progress::fresh;
   std::uint32_t bound = kNone;
-  Progress listState = Progress::fresh;          // alternatives: cycle check
-  std::vector<std::uint32_t> candidates;         // alternatives: entities, parallel to desc->alternatives; kNone: unknown
+  Progress listState = Progress::fresh;  // alternatives: cycle check
+  std::vector<std::uint32_t>
+      candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
   // positions (instances in declared order) at which anything may read it, ascending; kNone: after all passes
   std::vector<std::uint32_t> mentions;
@@ -94,28 +96,28 @@ struct Entity {
 struct Scope {
   const GraphDesc* desc = nullptr;
   Scope* parent = nullptr;
-  const PassDesc* stanza = nullptr;              // the include in the parent
-  std::string prefix;                            // "" or "post."
-  NameMap<std::uint32_t> resources;              // entities
+  const PassDesc* stanza = nullptr;  // the include in the parent
+  std::string prefix;                // "" or "post."
+  NameMap<std::uint32_t> resources;  // entities
   NameMap<std::uint32_t> parameters, lets;
-  NameMap<std::uint32_t> passParameters;         // "composite.fog"
+  NameMap<std::uint32_t> passParameters;  // "composite.fog"
   NameMap<Scope*> includes;
   NameMap<const PassDesc*> passes;
-  std::string disabledBy;                        // "--disable post"; empty: not disabled
+  std::string disabledBy;  // "--disable post"; empty: not disabled
 };
 
 // What --disable matched.
 struct DisableRule {
-  std::string why;                               // "--disable fxaa"
-  std::string declared;                          // full declared name of a pass
-  std::string instance;                          // full instance name, or empty: all repeats
+  std::string why;       // "--disable fxaa"
+  std::string declared;  // full declared name of a pass
+  std::string instance;  // full instance name, or empty: all repeats
 };
 
 // Which uses a use sees: the writers of the sub-resources it reads or modifies.
 struct Flow {
-  std::vector<std::uint32_t> passOf;             // per use: index into FlatGraph::passes
-  std::vector<std::uint32_t> firstDep, depCount; // per use: into deps
-  std::vector<std::uint32_t> deps;               // uses
+  std::vector<std::uint32_t> passOf;              // per use: index into FlatGraph::passes
+  std::vector<std::uint32_t> firstDep, depCount;  // per use: into deps
+  std::vector<std::uint32_t> deps;                // uses
 };
 
 // Who writes what, enabled or not, in declared order: for "who would have written it".
@@ -123,8 +125,8 @@ struct WriteRecord {
   std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
   FlatUse rect;
   std::uint32_t position = 0;
-  std::uint32_t pass = kNone;                    // of FlatGraph::passes when enabled
-  std::uint32_t disabled = kNone;                // of FlatGraph::disabled otherwise
+  std::uint32_t pass = kNone;      // of FlatGraph::passes when enabled
+  std::uint32_t disabled = kNone;  // of FlatGraph::disabled otherwise
   bool whole = false;
 };
 
@@ -136,7 +138,7 @@ struct MissingRead {
     FlatUse rect;
   };
   Cause cause = Cause::version;
-  std::uint32_t pass = kNone;                    // kNone: present or an output
+  std::uint32_t pass = kNone;  // kNone: present or an output
   std::uint32_t position = kNone;
   std::string slot;
   const RefDesc* ref = nullptr;
@@ -150,12 +152,12 @@ struct Model {
   const Settings& settings;
   base::Diagnostics& diagnostics;
   FlatGraph graph{};
-  std::deque<Scope> scopes{};                    // scopes[0] is the root
+  std::deque<Scope> scopes{};  // scopes[0] is the root
   std::vector<Parameter> parameters{};
   std::deque<Let> lets{};
   std::deque<Entity> entities{};
-  NameMap<std::uint32_t> implicitImports{};      // "environment" of @environment
-  std::vector<std::uint32_t> importResource{};   // per import: its FlatResource or kNone
+  NameMap<std::uint32_t> implicitImports{};     // "environment" of @environment
+  std::vector<std::uint32_t> importResource{};  // per import: its FlatResource or kNone
   std::unordered_map<std::string, std::vector<std::uint32_t>> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   Flow flow{};
@@ -164,16 +166,19 @@ struct Model {
   struct HistoryUse {
     std::uint32_t use, entity, element;
   };
-  std::vector<HistoryUse> historyUses{};         // their resource is the last one, known at the end
-  std::vector<std::uint32_t> presentDeps{};      // uses that write what is presented
-  std::vector<std::uint32_t> positionOf{};       // per pass of the FlatGraph
-  bool incomplete = false;                       // mistakes kept some writes out: what nobody writes is no news
-  std::uint32_t position = 0;                    // of the instance being expanded
-  std::vector<std::string> evaluating{};         // what is being evaluated now, for the path of a cycle
+  std::vector<HistoryUse> historyUses{};     // their resource is the last one, known at the end
+  std::vector<std::uint32_t> presentDeps{};  // uses that write what is presented
+  std::vector<std::uint32_t> positionOf{};   // per pass of the FlatGraph
+  bool incomplete = false;                   // mistakes kept some writes out: what nobody writes is no news
+  std::uint32_t position = 0;                // of the instance being expanded
+  std::vector<std::string> evaluating{};     // what is being evaluated now, for the path of a cycle
 };
 
 // "a -> b -> a" from the stack of what is being evaluated, closed by `again`.
 std::string cyclePath(const Model& model, const std::string& again);
+
+// W050 with the message and what to do about it.
+base::Diagnostic& reportCycle(Model& model, const Place& place, std::string message);
 
 // A number to people: shortest text.
 std::string numberText(double x);

@@ -17,7 +17,8 @@ std::optional<Value> letValue(Model& model, Let& let) {
   if (let.state == Progress::failed) return Value{};
   const std::string label = "$" + let.path;
   if (let.state == Progress::active) {
-    model.diagnostics.error(Code::W50, let.desc->place, fmt::format("'{}' depends on itself: {}", label, cyclePath(model, label)));
+    reportCycle(model, let.desc->place,
+                fmt::format("'{}' depends on itself: {}", label, cyclePath(model, label)));
     let.state = Progress::failed;
     return Value{};
   }
@@ -32,11 +33,16 @@ std::optional<Value> letValue(Model& model, Let& let) {
 
 const char* wordFor(const Value& value) {
   switch (value.type) {
-    case Value::Type::number: return "a number";
-    case Value::Type::boolean: return "true or false";
-    case Value::Type::list: return "a list";
-    case Value::Type::symbol: return "a word";
-    case Value::Type::none: break;
+    case Value::Type::number:
+      return "a number";
+    case Value::Type::boolean:
+      return "true or false";
+    case Value::Type::list:
+      return "a list";
+    case Value::Type::symbol:
+      return "a word";
+    case Value::Type::none:
+      break;
   }
   return "nothing";
 }
@@ -49,23 +55,30 @@ std::optional<Value> Names::variable(std::string_view name) {
     case Variable::Kind::none:
       if (isUnread(scope_, name)) return Value{};
       return std::nullopt;
-    case Variable::Kind::parameter: return model_.parameters[found.index].value;
+    case Variable::Kind::parameter:
+      return model_.parameters[found.index].value;
     case Variable::Kind::ambiguous: {
       std::string all;
       for (const Parameter& parameter : model_.parameters)
-        if (parameter.path.starts_with(scope_.prefix) && parameter.path.ends_with("." + std::string(name))) all += (all.empty() ? "$" : ", $") + parameter.path.substr(scope_.prefix.size());
-      auto& d = model_.diagnostics.error(Code::W46, {}, fmt::format("'${}' may mean several parameters of included files", name));
+        if (parameter.path.starts_with(scope_.prefix) && parameter.path.ends_with("." + std::string(name)))
+          all += (all.empty() ? "$" : ", $") + parameter.path.substr(scope_.prefix.size());
+      auto& d = model_.diagnostics.error(
+          Code::W46, {}, fmt::format("'${}' may mean several parameters of included files", name));
       d.place = scope_.desc->place;
       d.hint = "write one of " + all;
       return Value{};
     }
-    case Variable::Kind::let: break;
+    case Variable::Kind::let:
+      break;
   }
   Let& let = model_.lets[found.index];
   if (isDynamicLet(model_, let)) {
     if (dynamicAllowed_) return Value::number(1);
     if (!model_.evaluating.empty() && let.state == Progress::active) return letValue(model_, let);
-    auto& d = model_.diagnostics.error(Code::W78, let.desc->place, fmt::format("'${}' contains age() and changes from frame to frame, but stands where a value must be known before", let.path));
+    auto& d = model_.diagnostics.error(Code::W78, let.desc->place,
+                                       fmt::format("'${}' contains age() and changes from frame to frame, "
+                                                   "but stands where a value must be known before",
+                                                   let.path));
     d.hint = "age() may stand in uniform parameters of passes only";
     return Value{};
   }
@@ -83,7 +96,8 @@ std::optional<Value> Names::builtin(std::string_view name) {
     Value value;
     value.type = Value::Type::list;
     value.count = 2;
-    value.v = {static_cast<double>(model_.settings.screenWidth), static_cast<double>(model_.settings.screenHeight), 0, 0};
+    value.v = {static_cast<double>(model_.settings.screenWidth),
+               static_cast<double>(model_.settings.screenHeight), 0, 0};
     return value;
   }
   if (name == "device.software") return Value::boolean(model_.settings.software);
@@ -105,7 +119,8 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   const std::uint32_t target = isImport && fact != Fact::has ? index : staticTarget(model_, index, &mip);
   if (fact == Fact::has) return Value::boolean(target != kNone);
   if (target == kNone) {
-    auto& d = model_.diagnostics.error(Code::W85, place, fmt::format("no alternative of '{}' holds, so it has no size", asked));
+    auto& d = model_.diagnostics.error(Code::W85, place,
+                                       fmt::format("no alternative of '{}' holds, so it has no size", asked));
     d.resource = asked;
     return Value{};
   }
@@ -114,26 +129,31 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   const FlatResource& shape = entity.shape;
   const bool texture = shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
   const auto misfit = [&](const char* expected) {
-    auto& d = model_.diagnostics.error(Code::W51, place, fmt::format("'{}' is asked for what it does not have", entity.name));
+    auto& d = model_.diagnostics.error(Code::W51, place,
+                                       fmt::format("'{}' is asked for what it does not have", entity.name));
     d.expected = expected;
     d.resource = entity.name;
     return Value{};
   };
   switch (fact) {
-    case Fact::mips: return texture ? Value::number(shape.mips) : misfit("a texture for mips()");
+    case Fact::mips:
+      return texture ? Value::number(shape.mips) : misfit("a texture for mips()");
     case Fact::count:
       if (entity.kind == ResourceDesc::Kind::import) return Value::number(entity.count);
-      return entity.arrayCount > 0 ? Value::number(entity.arrayCount) : misfit("an import or an array for count()");
+      return entity.arrayCount > 0 ? Value::number(entity.arrayCount)
+                                   : misfit("an import or an array for count()");
     case Fact::size: {
       if (!texture) return Value::number(static_cast<double>(shape.bytes));
       Value value;
       value.type = Value::Type::list;
       value.count = shape.target == Target::texture_3d ? 3 : 2;
-      value.v = {static_cast<double>(std::max(1u, shape.width >> mip)), static_cast<double>(std::max(1u, shape.height >> mip)),
+      value.v = {static_cast<double>(std::max(1u, shape.width >> mip)),
+                 static_cast<double>(std::max(1u, shape.height >> mip)),
                  value.count == 3 ? static_cast<double>(std::max(1u, shape.depth >> mip)) : 0.0, 0};
       return value;
     }
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -156,7 +176,8 @@ std::vector<std::string> Names::choicesOf(std::string_view variable) {
 std::vector<std::string> Names::candidates(NameKind kind) {
   std::vector<std::string> names;
   switch (kind) {
-    case NameKind::builtin: return {"screen", "device.software"};
+    case NameKind::builtin:
+      return {"screen", "device.software"};
     case NameKind::fact_argument:
       names = resourceNames(model_, scope_);
       for (const ImportType& type : model_.registry.imports) names.push_back(type.name);
@@ -191,7 +212,8 @@ const Expr* Names::folded(std::string_view variable) {
   if (!isDynamicLet(model_, let)) return nullptr;
   const std::string label = "$" + let.path;
   if (let.state == Progress::active) {
-    model_.diagnostics.error(Code::W50, let.desc->place, fmt::format("'{}' depends on itself: {}", label, cyclePath(model_, label)));
+    reportCycle(model_, let.desc->place,
+                fmt::format("'{}' depends on itself: {}", label, cyclePath(model_, label)));
     let.state = Progress::failed;
     return nullptr;
   }
@@ -222,22 +244,28 @@ std::optional<double> evaluateNumber(Names& names, const Expr& expr, double abse
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric() && std::isfinite(value.v[0])) return value.v[0];
-  auto& d = names.model().diagnostics.error(Code::W51, expr.place(), fmt::format("{} is {}", what, value.isNumeric() ? "not finite" : wordFor(value)));
+  auto& d = names.model().diagnostics.error(
+      Code::W51, expr.place(),
+      fmt::format("{} is {}", what, value.isNumeric() ? "not finite" : wordFor(value)));
   d.expected = "a number";
   d.found = toText(value);
   return std::nullopt;
 }
 
-std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent, std::int64_t low,
-                                          std::int64_t high, std::string_view what, bool floors) {
+std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
+                                          std::int64_t low, std::int64_t high, std::string_view what,
+                                          bool floors) {
   if (!expr.present()) return absent;
   std::optional<double> number = evaluateNumber(names, expr, 0, what);
   if (!number) return std::nullopt;
   if (floors) number = std::floor(*number);
-  if (*number >= static_cast<double>(low) && *number <= static_cast<double>(high) && *number == std::floor(*number))
+  if (*number >= static_cast<double>(low) && *number <= static_cast<double>(high) &&
+      *number == std::floor(*number))
     return static_cast<std::int64_t>(*number);
   const bool whole = *number == std::floor(*number);
-  auto& d = names.model().diagnostics.error(whole ? Code::W48 : Code::W51, expr.place(), fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"));
+  auto& d = names.model().diagnostics.error(
+      whole ? Code::W48 : Code::W51, expr.place(),
+      fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"));
   d.expected = fmt::format("a whole number from {} to {}", low, high);
   d.found = numberText(*number);
   return std::nullopt;

@@ -17,14 +17,17 @@ using State = SlotWork::State;
 
 class PassWalk {
  public:
-  PassWalk(Model& model, std::vector<DeferredUniform>& deferred) : model_(model), graph_(model.graph), deferred_(deferred) {}
+  PassWalk(Model& model, std::vector<DeferredUniform>& deferred)
+      : model_(model), graph_(model.graph), deferred_(deferred) {}
 
   void walk(Scope& scope, const std::string& outerWhy) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
     for (const PassDesc& desc : scope.desc->passes) {
       if (tooMany_) return;
-      if (desc.include) walkInclude(scope, desc, why);
-      else if (scope.passes.find(desc.name)->second == &desc) walkStanza(scope, desc, why);
+      if (desc.include)
+        walkInclude(scope, desc, why);
+      else if (scope.passes.find(desc.name)->second == &desc)
+        walkStanza(scope, desc, why);
     }
   }
 
@@ -34,8 +37,11 @@ class PassWalk {
     if (child == scope.includes.end() || child->second->stanza != &desc) return;
     markStructural(model_, scope, desc.enabled);
     Names names(model_, scope);
-    const auto enabled = evaluateCondition(names, desc.enabled, true, fmt::format("'enabled' of include '{}'", desc.include->as));
-    walk(*child->second, why.empty() && enabled && !*enabled ? fmt::format("enabled: {} is false", desc.enabled.text()) : why);
+    const auto enabled = evaluateCondition(names, desc.enabled, true,
+                                           fmt::format("'enabled' of include '{}'", desc.include->as));
+    walk(*child->second, why.empty() && enabled && !*enabled
+                             ? fmt::format("enabled: {} is false", desc.enabled.text())
+                             : why);
   }
 
   // ---- one stanza: its repeats ----
@@ -57,12 +63,6 @@ class PassWalk {
 
   void repeat(Names& names, std::size_t depth) {
     if (depth == desc_->repeat.size()) {
-      if (model_.position >= kMaxInstances) {
-        auto& d = model_.diagnostics.error(Code::W81, desc_->namePlace, fmt::format("pass '{}' makes more than {} passes in all", declared_, kMaxInstances));
-        d.pass = declared_;
-        tooMany_ = true;
-        return;
-      }
       instance(names);
       ++model_.position;
       return;
@@ -74,12 +74,30 @@ class PassWalk {
     const auto last = evaluateWhole(names, range.last, 0, -kFar, kFar, what);
     const auto step = evaluateWhole(names, range.step, 1, -kFar, kFar, what);
     if (!first || !last || !step || *step == 0) {
-      if (step && *step == 0) model_.diagnostics.error(Code::W48, range.place, fmt::format("pass '{}' repeats '{}' in steps of 0", declared_, range.index)).expected = "a step that leads from the first to the last index";
+      if (step && *step == 0)
+        model_.diagnostics
+            .error(Code::W48, range.place,
+                   fmt::format("pass '{}' repeats '{}' in steps of 0", declared_, range.index))
+            .expected = "a step that leads from the first to the last index";
       failed_ = true;
       return;
     }
+    // Counted before the innermost range runs; outer ranges around empty ones count as well.
+    const std::int64_t steps = (*last - *first) / *step + 1;
+    if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
+    walked_ += std::max<std::int64_t>(steps, 1);
+    if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
+      auto& d = model_.diagnostics.error(
+          Code::W81, range.place,
+          fmt::format("pass '{}' makes more than {} passes in all", declared_, kMaxInstances));
+      d.pass = declared_;
+      d.hint = "a graph that repeats this often belongs into one compute pass with more threads";
+      tooMany_ = model_.incomplete = true;
+      return;
+    }
     names.indices.push_back({range.index, 0});
-    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !failed_ && !tooMany_; i += *step) {
+    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !failed_ && !tooMany_;
+         i += *step) {
       names.indices.back().value = static_cast<double>(i);
       repeat(names, depth + 1);
     }
@@ -89,7 +107,8 @@ class PassWalk {
   std::string instanceName(const Names& names) const {
     if (names.indices.empty()) return declared_;
     std::string name = declared_ + "[";
-    for (std::size_t i = 0; i < names.indices.size(); ++i) name += fmt::format("{}{}", i ? "," : "", static_cast<std::int64_t>(names.indices[i].value));
+    for (std::size_t i = 0; i < names.indices.size(); ++i)
+      name += fmt::format("{}{}", i ? "," : "", static_cast<std::int64_t>(names.indices[i].value));
     return name + "]";
   }
 
@@ -97,7 +116,8 @@ class PassWalk {
 
   // Why it is disabled; empty: it is not. nullopt after a report.
   std::optional<std::string> whyDisabled(Names& names, const std::string& name, bool& byItself) {
-    const auto enabled = evaluateCondition(names, desc_->enabled, true, fmt::format("'enabled' of pass '{}'", name));
+    const auto enabled =
+        evaluateCondition(names, desc_->enabled, true, fmt::format("'enabled' of pass '{}'", name));
     if (!enabled) return std::nullopt;
     byItself = !*enabled;
     if (rules_)
@@ -142,12 +162,14 @@ class PassWalk {
     if (model_.diagnostics.errorCount() > before && !names.indices.empty()) failed_ = true;
   }
 
-  void disabledInstance(const SlotContext& context, const std::vector<SlotWork>& slots, const std::string& name, const std::string& why) {
+  void disabledInstance(const SlotContext& context, const std::vector<SlotWork>& slots,
+                        const std::string& name, const std::string& why) {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
     graph_.disabled.push_back({name, why});
     for (const SlotWork& work : slots)
       if (work.state == State::connected && work.slot->access != Access::read)
-        model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position, kNone, index, work.whole});
+        model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
+                                 kNone, index, work.whole});
     if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
     std::vector<std::pair<std::uint32_t, const PassParameterDesc*>> deferred;
@@ -168,16 +190,20 @@ class PassWalk {
     flat.cadence = desc_->cadence;
     flat.sideEffect = desc_->sideEffect;
     flat.group = groupOf();
-    const auto slices = evaluateWhole(names, desc_->slices, 1, 0, 65536, fmt::format("the slices of {}", context.user));
+    const auto slices =
+        evaluateWhole(names, desc_->slices, 1, 0, 65536, fmt::format("the slices of {}", context.user));
     if (!slices) return;
     flat.slices = static_cast<std::uint32_t>(*slices);
     if (flat.slices > 0 || flat.group != kNone) return;
-    auto& d = model_.diagnostics.error(Code::W77, desc_->slices.place(), fmt::format("{} has no slices of its own and no group to ride with", context.user));
+    auto& d = model_.diagnostics.error(
+        Code::W77, desc_->slices.place(),
+        fmt::format("{} has no slices of its own and no group to ride with", context.user));
     d.pass = context.pass;
     d.hint = "0 slices go with a \"group\": the pass runs with its predecessor";
   }
 
-  // Uses of one slot, in element order. Reads and modifies take the current resource, writes perhaps a new one.
+  // Uses of one slot, in element order. Reads and modifies take the current resource, writes perhaps a new
+  // one.
   void emitUses(const SlotWork& work, std::uint32_t pass) {
     Entity& entity = model_.entities[work.entity];
     for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
@@ -194,7 +220,8 @@ class PassWalk {
         use.resource = currentResource(model_, work.entity, e);
         collectWriters(entity, e, use, model_.flow.deps);
       }
-      model_.flow.depCount.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()) - model_.flow.firstDep.back());
+      model_.flow.depCount.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()) -
+                                     model_.flow.firstDep.back());
       model_.flow.passOf.push_back(pass);
       graph_.uses.push_back(use);
     }
@@ -208,7 +235,8 @@ class PassWalk {
       if (use.access == Access::write) use.resource = resourceToWrite(model_, work.entity, e, work.whole);
       setWriter(entity, e, use, index, work.whole);
     }
-    model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position, pass, kNone, work.whole});
+    model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
+                             pass, kNone, work.whole});
   }
 
   // An always pass would add to what a slower pass made, again in every frame.
@@ -219,10 +247,16 @@ class PassWalk {
         const std::uint32_t writer = model_.flow.passOf[model_.flow.deps[model_.flow.firstDep[use] + d]];
         if (writer >= graph_.passes.size() || graph_.passes[writer].cadence == Cadence::always) continue;
         const Entity& entity = model_.entities[work.entity];
-        auto& report = model_.diagnostics.error(Code::W76, work.slot->ref.place, fmt::format("{} runs in every frame and modifies '{}', which '{}' makes only {}", context.user, work.slot->ref.text, graph_.passNames[writer], graph_.passes[writer].cadence == Cadence::once ? "once" : "on change"));
+        auto& report = model_.diagnostics.error(
+            Code::W76, work.slot->ref.place,
+            fmt::format("{} runs in every frame and modifies '{}', which '{}' makes only {}", context.user,
+                        work.slot->ref.text, graph_.passNames[writer],
+                        graph_.passes[writer].cadence == Cadence::once ? "once" : "on change"));
         report.pass = context.pass;
         report.resource = entity.name;
-        report.hint = "it would add up from frame to frame: read it and write another resource, or give both passes one \"update\"";
+        report.hint =
+            "it would add up from frame to frame: read it and write another resource, or give both passes "
+            "one \"update\"";
         return;
       }
     }
@@ -253,7 +287,9 @@ class PassWalk {
       slot.array = work.array;
       slot.optional = work.slot->ref.optional;
       slot.place = work.slot->place;
-      const bool used = work.state == State::connected || (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
+      const bool used =
+          work.state == State::connected ||
+          (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
       if (used && model_.entities[work.entity].state == Progress::done) emitUses(work, pass);
       slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
       graph_.slots.push_back(std::move(slot));
@@ -267,10 +303,12 @@ class PassWalk {
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
       if (slot.useCount == 0 || slot.access == Access::read) continue;
-      if (slot.access == Access::modify && flat.cadence == Cadence::always) checkAccumulation(context, slots[i], slot.firstUse);
+      if (slot.access == Access::modify && flat.cadence == Cadence::always)
+        checkAccumulation(context, slots[i], slot.firstUse);
       emitWrites(slots[i], slot, pass);
     }
-    for (const auto& [uniform, desc] : dynamic) deferred_.push_back({pass, uniform, desc, scope_, names.indices});
+    for (const auto& [uniform, desc] : dynamic)
+      deferred_.push_back({pass, uniform, desc, scope_, names.indices});
     graph_.passes.push_back(flat);
     graph_.passNames.push_back(context.pass);
     graph_.specs.push_back(std::move(spec));
@@ -282,6 +320,7 @@ class PassWalk {
   std::vector<DeferredUniform>& deferred_;
   NameMap<std::uint32_t> groups_;
   bool tooMany_ = false;
+  std::int64_t planned_ = 0, walked_ = 0;  // instances, and steps of all ranges, so far
   // of the stanza
   Scope* scope_ = nullptr;
   const PassDesc* desc_ = nullptr;
@@ -293,6 +332,8 @@ class PassWalk {
 
 }  // namespace
 
-void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) { PassWalk(model, deferred).walk(model.scopes[0], {}); }
+void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
+  PassWalk(model, deferred).walk(model.scopes[0], {});
+}
 
 }  // namespace weft::graph::expansion

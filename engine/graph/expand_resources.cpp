@@ -24,14 +24,16 @@ Value evaluateTexel(Names& names, const Expr& expr, const std::string& what) {
   return value;
 }
 
-bool rangeError(Model& model, const Expr& expr, const std::string& what, const std::string& expected, double found) {
+bool rangeError(Model& model, const Expr& expr, const std::string& what, const std::string& expected,
+                double found) {
   auto& d = model.diagnostics.error(Code::W48, expr.place(), what + " is out of its range");
   d.expected = expected;
   d.found = numberText(found);
   return false;
 }
 
-bool contradiction(Model& model, const Entity& entity, const Place& place, std::string message, std::string expected) {
+bool contradiction(Model& model, const Entity& entity, const Place& place, std::string message,
+                   std::string expected) {
   auto& d = model.diagnostics.error(Code::W82, place, fmt::format("texture '{}': {}", entity.name, message));
   d.resource = entity.name;
   d.expected = std::move(expected);
@@ -40,14 +42,17 @@ bool contradiction(Model& model, const Entity& entity, const Place& place, std::
 
 bool evaluateSize(Model& model, Names& names, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
-  if (!desc.size.present()) return contradiction(model, entity, desc.place, "has no size", "\"size\": \"screen\", a number or a list");
+  if (!desc.size.present())
+    return contradiction(model, entity, desc.place, "has no size",
+                         "\"size\": \"screen\", a number or a list");
   Value value = desc.size.evaluate(names, model.diagnostics);
   if (value.type == Value::Type::none) return false;
   if (value.isNumeric()) {
     value.v[1] = value.v[0];
     value.count = 2;
   } else if (value.type != Value::Type::list || value.count < 2 || value.count > 3) {
-    auto& d = model.diagnostics.error(Code::W51, desc.size.place(), fmt::format("the size of '{}' is no size", entity.name));
+    auto& d = model.diagnostics.error(Code::W51, desc.size.place(),
+                                      fmt::format("the size of '{}' is no size", entity.name));
     d.expected = "a number, or a list of 2 or 3 numbers";
     d.found = toText(value);
     d.resource = entity.name;
@@ -58,11 +63,14 @@ bool evaluateSize(Model& model, Names& names, Entity& entity) {
     // Written as such, 0 is a mistake; computed, a size is floored and at least 1.
     const bool low = value.v[i] < 0 || (value.v[i] < 1 && desc.size.isConstant());
     if (!std::isfinite(value.v[i]) || low || value.v[i] > limit) {
-      rangeError(model, desc.size, fmt::format("the size of '{}'", entity.name), fmt::format("1 to {} texels a side", limit), value.v[i]);
+      rangeError(model, desc.size, fmt::format("the size of '{}'", entity.name),
+                 fmt::format("1 to {} texels a side", limit), value.v[i]);
       return false;
     }
   }
-  const auto side = [&](std::size_t i) { return static_cast<std::uint32_t>(std::max(1.0, std::floor(value.v[i]))); };
+  const auto side = [&](std::size_t i) {
+    return static_cast<std::uint32_t>(std::max(1.0, std::floor(value.v[i])));
+  };
   entity.shape.width = side(0);
   entity.shape.height = side(1);
   entity.shape.depth = value.count == 3 ? side(2) : 1;
@@ -76,23 +84,34 @@ bool decideTarget(Model& model, Entity& entity) {
   FlatResource& shape = entity.shape;
   const bool volume = shape.target == Target::texture_3d, layered = desc.layers.present();
   if (!desc.view.empty() && volume != (desc.view == "3d"))
-    return contradiction(model, entity, desc.viewPlace, fmt::format("view '{}' with a size of {} numbers", desc.view, volume ? 3 : 2), "3 numbers for a 3d texture, 2 for the others");
-  if (volume && layered) return contradiction(model, entity, desc.layers.place(), "a 3d texture has no layers", "a size of 3 numbers, or layers");
+    return contradiction(model, entity, desc.viewPlace,
+                         fmt::format("view '{}' with a size of {} numbers", desc.view, volume ? 3 : 2),
+                         "3 numbers for a 3d texture, 2 for the others");
+  if (volume && layered)
+    return contradiction(model, entity, desc.layers.place(), "a 3d texture has no layers",
+                         "a size of 3 numbers, or layers");
   const bool cube = desc.view == "cube" || desc.view == "cube_array";
   if (cube && shape.width != shape.height)
-    return contradiction(model, entity, desc.size.place(), fmt::format("a cube of {}x{} texels", shape.width, shape.height), "faces as wide as high");
+    return contradiction(model, entity, desc.size.place(),
+                         fmt::format("a cube of {}x{} texels", shape.width, shape.height),
+                         "faces as wide as high");
   if (desc.view == "cube" && shape.layers > 1)
-    return contradiction(model, entity, desc.layers.place(), fmt::format("a cube with {} layers", shape.layers), "\"view\": \"cube_array\"");
+    return contradiction(model, entity, desc.layers.place(),
+                         fmt::format("a cube with {} layers", shape.layers), "\"view\": \"cube_array\"");
   if (shape.samples > 1) {
     if (volume || layered || cube || desc.view == "2d_array")
-      return contradiction(model, entity, desc.samples.place(), "several samples in a texture that is not plain 2d", "no layers, cube or 3d");
-    if (desc.fullMips || shape.mips > 1) return contradiction(model, entity, desc.samples.place(), "several samples and several levels", "\"mips\": 1");
+      return contradiction(model, entity, desc.samples.place(),
+                           "several samples in a texture that is not plain 2d", "no layers, cube or 3d");
+    if (desc.fullMips || shape.mips > 1)
+      return contradiction(model, entity, desc.samples.place(), "several samples and several levels",
+                           "\"mips\": 1");
     shape.target = Target::texture_2d_multisample;
   }
   if (cube) {
     shape.target = desc.view == "cube" ? Target::texture_cube : Target::texture_cube_array;
     if (shape.layers * 6u > kMaxLayers)
-      return rangeError(model, desc.layers, fmt::format("the layers of '{}'", entity.name), fmt::format("0 to {} cubes", kMaxLayers / 6), shape.layers);
+      return rangeError(model, desc.layers, fmt::format("the layers of '{}'", entity.name),
+                        fmt::format("0 to {} cubes", kMaxLayers / 6), shape.layers);
     shape.layers = static_cast<std::uint16_t>(shape.layers * 6);
   } else if (layered || desc.view == "2d_array") {
     shape.target = Target::texture_2d_array;
@@ -107,18 +126,24 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   if (const auto format = findFormat(desc.format)) {
     shape.format = *format;
   } else {
-    auto& d = model.diagnostics.error(Code::W42, desc.formatPlace, fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format));
+    auto& d = model.diagnostics.error(
+        Code::W42, desc.formatPlace,
+        fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format));
     d.resource = entity.name;
     d.hint = base::nearestHint(desc.format, formatNames());
     good = false;
   }
   good = evaluateSize(model, names, entity) && good;
-  const auto mips = evaluateWhole(names, desc.mips, 1, 1, kMaxMips, fmt::format("the number of mips of '{}'", entity.name), true);
-  const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers, fmt::format("the number of layers of '{}'", entity.name), true);
-  const auto samples = evaluateWhole(names, desc.samples, 1, 1, 32, fmt::format("the number of samples of '{}'", entity.name));
+  const auto mips = evaluateWhole(names, desc.mips, 1, 1, kMaxMips,
+                                  fmt::format("the number of mips of '{}'", entity.name), true);
+  const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers,
+                                    fmt::format("the number of layers of '{}'", entity.name), true);
+  const auto samples =
+      evaluateWhole(names, desc.samples, 1, 1, 32, fmt::format("the number of samples of '{}'", entity.name));
   if (!mips || !layers || !samples) return false;
   if ((*samples & (*samples - 1)) != 0) {
-    rangeError(model, desc.samples, fmt::format("the number of samples of '{}'", entity.name), "1, 2, 4, 8, 16 or 32", static_cast<double>(*samples));
+    rangeError(model, desc.samples, fmt::format("the number of samples of '{}'", entity.name),
+               "1, 2, 4, 8, 16 or 32", static_cast<double>(*samples));
     return false;
   }
   if (!good) return false;
@@ -130,8 +155,9 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
   entity.writtenMips = desc.fullMips ? full : static_cast<std::uint16_t>(*mips);
   if (!decideTarget(model, entity)) return false;
   for (std::uint16_t level = 0; level < shape.mips; ++level)
-    shape.bytes += static_cast<std::uint64_t>(std::max(1u, shape.width >> level)) * std::max(1u, shape.height >> level) *
-                   std::max(1u, shape.depth >> level) * shape.layers * shape.samples * infoOf(shape.format).bytes;
+    shape.bytes += static_cast<std::uint64_t>(std::max(1u, shape.width >> level)) *
+                   std::max(1u, shape.height >> level) * std::max(1u, shape.depth >> level) * shape.layers *
+                   shape.samples * infoOf(shape.format).bytes;
   return true;
 }
 
@@ -153,12 +179,16 @@ bool evaluateBuffer(Model& model, Names& names, Entity& entity) {
 bool evaluateDeclared(Model& model, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   Names names(model, *entity.scope);
-  for (const Expr* expr : {&desc.size, &desc.mips, &desc.layers, &desc.array, &desc.samples, &desc.bytes, &desc.history})
+  for (const Expr* expr :
+       {&desc.size, &desc.mips, &desc.layers, &desc.array, &desc.samples, &desc.bytes, &desc.history})
     markStructural(model, *entity.scope, *expr);
   for (const Expr* expr : {&desc.clear, &desc.first}) markStructural(model, *entity.scope, *expr);
-  const bool shaped = entity.kind == ResourceDesc::Kind::texture ? evaluateTexture(model, names, entity) : evaluateBuffer(model, names, entity);
-  const auto array = evaluateWhole(names, desc.array, 0, 1, kMaxArray, fmt::format("the array size of '{}'", entity.name));
-  const auto depth = evaluateWhole(names, desc.history, 0, 0, kMaxHistory, fmt::format("the history of '{}'", entity.name));
+  const bool shaped = entity.kind == ResourceDesc::Kind::texture ? evaluateTexture(model, names, entity)
+                                                                 : evaluateBuffer(model, names, entity);
+  const auto array =
+      evaluateWhole(names, desc.array, 0, 1, kMaxArray, fmt::format("the array size of '{}'", entity.name));
+  const auto depth =
+      evaluateWhole(names, desc.history, 0, 0, kMaxHistory, fmt::format("the history of '{}'", entity.name));
   const std::size_t before = model.diagnostics.errorCount();
   entity.clear = evaluateTexel(names, desc.clear, fmt::format("the clear value of '{}'", entity.name));
   entity.first = evaluateTexel(names, desc.first, fmt::format("the first value of '{}'", entity.name));
@@ -170,11 +200,14 @@ bool evaluateDeclared(Model& model, Entity& entity) {
   return true;
 }
 
-bool evaluateArgument(Model& model, Names& names, const Entity& entity, const ImportArgument& argument, const Expr& expr, Value& out) {
+bool evaluateArgument(Model& model, Names& names, const Entity& entity, const ImportArgument& argument,
+                      const Expr& expr, Value& out) {
   out = expr.evaluate(names, model.diagnostics);
   if (out.type == Value::Type::none) return false;
   const auto report = [&](std::string expected, std::string hint) {
-    auto& d = model.diagnostics.error(Code::W72, expr.place(), fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name));
+    auto& d = model.diagnostics.error(
+        Code::W72, expr.place(),
+        fmt::format("import '{}': argument '{}' does not fit", entity.name, argument.name));
     d.resource = entity.name;
     d.expected = std::move(expected);
     d.found = toText(out);
@@ -184,7 +217,9 @@ bool evaluateArgument(Model& model, Names& names, const Entity& entity, const Im
   if (argument.name == "list" && out.type == Value::Type::symbol) {
     const auto& lists = model.registry.drawLists;
     if (std::find(lists.begin(), lists.end(), out.symbol) == lists.end()) {
-      auto& d = model.diagnostics.error(Code::W69, expr.place(), fmt::format("import '{}' names the unknown draw list '{}'", entity.name, out.symbol));
+      auto& d = model.diagnostics.error(
+          Code::W69, expr.place(),
+          fmt::format("import '{}' names the unknown draw list '{}'", entity.name, out.symbol));
       d.hint = base::nearestHint(out.symbol, lists);
       return false;
     }
@@ -192,14 +227,20 @@ bool evaluateArgument(Model& model, Names& names, const Entity& entity, const Im
   if (!argument.choices.empty()) {
     std::string all;
     for (const std::string& choice : argument.choices) all += (all.empty() ? "" : ", ") + choice;
-    if (out.type != Value::Type::symbol || std::find(argument.choices.begin(), argument.choices.end(), out.symbol) == argument.choices.end())
+    if (out.type != Value::Type::symbol ||
+        std::find(argument.choices.begin(), argument.choices.end(), out.symbol) == argument.choices.end())
       return report("one of " + all, base::nearestHint(out.symbol, argument.choices));
   }
   const Value& initial = argument.initial;
   if (initial.type == Value::Type::none) return true;
-  const bool fits = initial.isNumeric() ? out.isNumeric() : initial.type == out.type && (initial.type != Value::Type::list || initial.count == out.count);
+  const bool fits = initial.isNumeric() ? out.isNumeric()
+                                        : initial.type == out.type && (initial.type != Value::Type::list ||
+                                                                       initial.count == out.count);
   if (fits) return true;
-  return report(initial.isNumeric() ? "a number" : initial.type == Value::Type::list ? fmt::format("a list of {}", initial.count) : "a word", "");
+  return report(initial.isNumeric()                 ? "a number"
+                : initial.type == Value::Type::list ? fmt::format("a list of {}", initial.count)
+                                                    : "a word",
+                "");
 }
 
 bool evaluateImport(Model& model, Entity& entity) {
@@ -208,7 +249,9 @@ bool evaluateImport(Model& model, Entity& entity) {
   if (!type) {
     std::vector<std::string> types;
     for (const ImportType& known : model.registry.imports) types.push_back(known.name);
-    auto& d = model.diagnostics.error(Code::W43, entity.desc->place, fmt::format("resource '{}' is of the unknown import '{}'", entity.name, typeName));
+    auto& d = model.diagnostics.error(
+        Code::W43, entity.desc->place,
+        fmt::format("resource '{}' is of the unknown import '{}'", entity.name, typeName));
     d.resource = entity.name;
     d.hint = base::nearestHint(typeName, types);
     return false;
@@ -221,23 +264,31 @@ bool evaluateImport(Model& model, Entity& entity) {
   bool good = true;
   for (const NamedExpr& argument : given) {
     markStructural(model, *entity.scope, argument.expr);
-    if (std::any_of(type->arguments.begin(), type->arguments.end(), [&](const ImportArgument& a) { return a.name == argument.name; })) continue;
+    if (std::any_of(type->arguments.begin(), type->arguments.end(),
+                    [&](const ImportArgument& a) { return a.name == argument.name; }))
+      continue;
     std::vector<std::string> known;
     for (const ImportArgument& a : type->arguments) known.push_back(a.name);
-    auto& d = model.diagnostics.error(Code::W72, argument.place, fmt::format("import '{}' has no argument '{}'", typeName, argument.name));
+    auto& d = model.diagnostics.error(
+        Code::W72, argument.place, fmt::format("import '{}' has no argument '{}'", typeName, argument.name));
     d.resource = entity.name;
     d.hint = base::nearestHint(argument.name, known);
     good = false;
   }
   for (const ImportArgument& argument : type->arguments) {
-    const auto found = std::find_if(given.begin(), given.end(), [&](const NamedExpr& g) { return g.name == argument.name; });
+    const auto found =
+        std::find_if(given.begin(), given.end(), [&](const NamedExpr& g) { return g.name == argument.name; });
     Value value = argument.initial;
     if (found != given.end()) {
       good = evaluateArgument(model, names, entity, argument, found->expr, value) && good;
     } else if (argument.initial.type == Value::Type::none) {
-      auto& d = model.diagnostics.error(Code::W72, entity.desc ? entity.desc->place : Place{}, fmt::format("import '{}' needs the argument '{}'", typeName, argument.name));
+      auto& d = model.diagnostics.error(
+          Code::W72, entity.desc ? entity.desc->place : Place{},
+          fmt::format("import '{}' needs the argument '{}'", typeName, argument.name));
       d.resource = entity.name;
-      if (!entity.desc) d.hint = fmt::format("declare it: \"{}\": {{ \"import\": \"{}\", \"{}\": … }}", typeName, typeName, argument.name);
+      if (!entity.desc)
+        d.hint = fmt::format("declare it: \"{}\": {{ \"import\": \"{}\", \"{}\": … }}", typeName, typeName,
+                             argument.name);
       good = false;
     }
     request.arguments.emplace_back(argument.name, std::move(value));
@@ -248,7 +299,8 @@ bool evaluateImport(Model& model, Entity& entity) {
   entity.fallback = facts.fallback;
   entity.count = facts.count;
   FlatResource& shape = entity.shape;
-  shape.kind = type->kind == ImportKind::texture ? ResourceKind::imported_texture : ResourceKind::imported_buffer;
+  shape.kind =
+      type->kind == ImportKind::texture ? ResourceKind::imported_texture : ResourceKind::imported_buffer;
   shape.format = facts.format;
   shape.width = std::max(1u, facts.width);
   shape.height = std::max(1u, facts.height);
@@ -256,7 +308,9 @@ bool evaluateImport(Model& model, Entity& entity) {
   shape.layers = static_cast<std::uint16_t>(std::clamp(facts.layers, 1u, kMaxLayers));
   shape.mips = static_cast<std::uint16_t>(std::clamp(facts.mips, 1u, kMaxMips));
   shape.bytes = facts.bytes;
-  shape.target = shape.depth > 1 ? Target::texture_3d : shape.layers > 1 ? Target::texture_2d_array : Target::texture_2d;
+  shape.target = shape.depth > 1    ? Target::texture_3d
+                 : shape.layers > 1 ? Target::texture_2d_array
+                                    : Target::texture_2d;
   entity.import = internImport(model, std::move(request), type->kind, entity.name);
   shape.import = entity.import;
   entity.elements.resize(1);
@@ -286,14 +340,17 @@ bool ensureShape(Model& model, std::uint32_t index) {
   if (entity.state == Progress::failed) return false;
   const std::string label = "'" + entity.name + "'";
   if (entity.state == Progress::active) {
-    auto& d = model.diagnostics.error(Code::W50, entity.desc ? entity.desc->place : Place{}, fmt::format("the size of {} depends on itself: {}", label, cyclePath(model, label)));
+    auto& d =
+        reportCycle(model, entity.desc ? entity.desc->place : Place{},
+                    fmt::format("the size of {} depends on itself: {}", label, cyclePath(model, label)));
     d.resource = entity.name;
     entity.state = Progress::failed;
     return false;
   }
   entity.state = Progress::active;
   model.evaluating.push_back(label);
-  const bool good = entity.kind == ResourceDesc::Kind::import ? evaluateImport(model, entity) : evaluateDeclared(model, entity);
+  const bool good = entity.kind == ResourceDesc::Kind::import ? evaluateImport(model, entity)
+                                                              : evaluateDeclared(model, entity);
   model.evaluating.pop_back();
   // A cycle met on the way has failed it already.
   entity.state = good && entity.state == Progress::active ? Progress::done : Progress::failed;
@@ -302,7 +359,8 @@ bool ensureShape(Model& model, std::uint32_t index) {
 
 std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip) {
   Entity& entity = model.entities[index];
-  if (entity.kind == ResourceDesc::Kind::import) return ensureShape(model, index) && entity.exists ? index : kNone;
+  if (entity.kind == ResourceDesc::Kind::import)
+    return ensureShape(model, index) && entity.exists ? index : kNone;
   if (entity.kind != ResourceDesc::Kind::alternatives) return index;
   if (entity.listState == Progress::active) return kNone;  // its own condition asks for its size
   const Progress before = std::exchange(entity.listState, Progress::active);
@@ -315,13 +373,18 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
     if (!holds || !*holds) continue;
     result = staticTarget(model, entity.candidates[i], mip);
     if (result != kNone && mip && ref.mip && ref.mip->first.present())
-      *mip = static_cast<std::uint32_t>(evaluateWhole(names, ref.mip->first, 0, 0, kMaxMips, "a level").value_or(0));
+      *mip = static_cast<std::uint32_t>(
+          evaluateWhole(names, ref.mip->first, 0, 0, kMaxMips, "a level").value_or(0));
   }
   entity.listState = before;
   return result;
 }
 
-std::uint32_t planeCount(const FlatResource& shape) { return hasStencil(shape.format) ? 2 : 1; }
-std::uint32_t subresourceCount(const FlatResource& shape) { return planeCount(shape) * shape.layers * shape.mips; }
+std::uint32_t planeCount(const FlatResource& shape) {
+  return hasStencil(shape.format) ? 2 : 1;
+}
+std::uint32_t subresourceCount(const FlatResource& shape) {
+  return planeCount(shape) * shape.layers * shape.mips;
+}
 
 }  // namespace weft::graph::expansion

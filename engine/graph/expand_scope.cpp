@@ -36,14 +36,21 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
     if (resource.kind == ResourceDesc::Kind::input) inputs.push_back(resource.name);
   for (const auto& [name, ref] : include.binds) {
     if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) {
-      auto& d = model.diagnostics.error(Code::W75, ref.place, fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file));
+      auto& d = model.diagnostics.error(
+          Code::W75, ref.place,
+          fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file));
       d.hint = base::nearestHint(name, inputs);
     }
-    if (ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history || ref.kind || ref.condition.present() || ref.optional) {
-      auto& d = model.diagnostics.error(Code::W75, ref.place, fmt::format("include '{}' binds '{}' to a part of a resource", include.as, name));
+    if (ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history || ref.kind ||
+        ref.condition.present() || ref.optional) {
+      auto& d = model.diagnostics.error(
+          Code::W75, ref.place,
+          fmt::format("include '{}' binds '{}' to a part of a resource", include.as, name));
       d.expected = "the name of a whole resource";
       d.found = ref.text;
-      d.hint = fmt::format("give the part a name with a resource that is a list, \"{}\": [\"{}\"], and bind that", name, ref.text);
+      d.hint =
+          fmt::format("give the part a name with a resource that is a list, \"{}\": [\"{}\"], and bind that",
+                      name, ref.text);
     }
   }
 }
@@ -51,7 +58,8 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
 void buildScope(Model& model, Scope& scope) {
   const GraphDesc& desc = *scope.desc;
   for (const ParameterDesc& parameter : desc.parameters)
-    scope.parameters.try_emplace(parameter.name, addParameter(model, parameter, scope.prefix + parameter.name));
+    scope.parameters.try_emplace(parameter.name,
+                                 addParameter(model, parameter, scope.prefix + parameter.name));
   for (const NamedExpr& let : desc.lets) {
     scope.lets.try_emplace(let.name, static_cast<std::uint32_t>(model.lets.size()));
     Let& made = model.lets.emplace_back();
@@ -60,7 +68,8 @@ void buildScope(Model& model, Scope& scope) {
     made.path = scope.prefix + let.name;
   }
   for (const ResourceDesc& resource : desc.resources) {
-    if (!scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second) continue;
+    if (!scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second)
+      continue;
     Entity& entity = model.entities.emplace_back();
     entity.kind = resource.kind;
     entity.desc = &resource;
@@ -75,8 +84,9 @@ void buildScope(Model& model, Scope& scope) {
     if (!scope.passes.try_emplace(pass.name, &pass).second) continue;  // W009 of the reader
     for (const PassParameterDesc& parameter : pass.parameters)
       if (parameter.declared)
-        scope.passParameters.try_emplace(pass.name + "." + parameter.name,
-                                         addParameter(model, *parameter.declared, scope.prefix + pass.name + "." + parameter.name));
+        scope.passParameters.try_emplace(
+            pass.name + "." + parameter.name,
+            addParameter(model, *parameter.declared, scope.prefix + pass.name + "." + parameter.name));
   }
 }
 
@@ -86,7 +96,7 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   if (entity.kind != ResourceDesc::Kind::input) return index;
   if (entity.bindState == Progress::done || entity.bindState == Progress::failed) return entity.bound;
   if (entity.bindState == Progress::active) {
-    model.diagnostics.error(Code::W50, entity.desc->place, fmt::format("input '{}' stands for itself", entity.name));
+    reportCycle(model, entity.desc->place, fmt::format("input '{}' stands for itself", entity.name));
     entity.bindState = Progress::failed;
     return kNone;
   }
@@ -95,7 +105,9 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   const std::string& name = entity.desc->name;
   std::uint32_t target = kNone;
   if (!scope.parent) {
-    auto& d = model.diagnostics.error(Code::W74, entity.desc->place, fmt::format("input '{}' has nothing behind it: this file is not included by another", name));
+    auto& d = model.diagnostics.error(
+        Code::W74, entity.desc->place,
+        fmt::format("input '{}' has nothing behind it: this file is not included by another", name));
     d.resource = entity.name;
     d.hint = "open the graph that includes this file";
   } else {
@@ -103,13 +115,17 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
     for (const auto& [input, ref] : scope.stanza->include->binds)
       if (input == name) bind = &ref;
     if (bind) {
-      target = findEntityOrReport(model, *scope.parent, bind->name, bind->import, bind->place, fmt::format("include '{}' binds '{}' to", scope.stanza->include->as, name));
+      target = findEntityOrReport(model, *scope.parent, bind->name, bind->import, bind->place,
+                                  fmt::format("include '{}' binds '{}' to", scope.stanza->include->as, name));
     } else {
       target = findEntity(model, *scope.parent, name, false);
       if (target == kNone) {
-        auto& d = model.diagnostics.error(Code::W74, scope.stanza->place, fmt::format("include '{}' leaves the input '{}' without a resource", scope.stanza->include->as, name));
+        auto& d = model.diagnostics.error(Code::W74, scope.stanza->place,
+                                          fmt::format("include '{}' leaves the input '{}' without a resource",
+                                                      scope.stanza->include->as, name));
         d.resource = entity.name;
-        d.expected = fmt::format("a resource '{}' in the including file, or \"bind\": {{ \"{}\": … }}", name, name);
+        d.expected =
+            fmt::format("a resource '{}' in the including file, or \"bind\": {{ \"{}\": … }}", name, name);
         d.hint = base::nearestHint(name, resourceNames(model, *scope.parent));
       }
     }
@@ -117,9 +133,13 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   if (target != kNone) {
     const Entity& bound = model.entities[target];
     const bool wantsBuffer = entity.desc->input == "buffer";
-    const bool fits = bound.kind == ResourceDesc::Kind::texture ? !wantsBuffer : bound.kind == ResourceDesc::Kind::buffer ? wantsBuffer : true;
+    const bool fits = bound.kind == ResourceDesc::Kind::texture  ? !wantsBuffer
+                      : bound.kind == ResourceDesc::Kind::buffer ? wantsBuffer
+                                                                 : true;
     if (!fits) {
-      auto& d = model.diagnostics.error(Code::W75, scope.stanza->place, fmt::format("input '{}' is a {}, '{}' is not", entity.name, entity.desc->input, bound.name));
+      auto& d = model.diagnostics.error(
+          Code::W75, scope.stanza->place,
+          fmt::format("input '{}' is a {}, '{}' is not", entity.name, entity.desc->input, bound.name));
       d.resource = bound.name;
     }
   }
@@ -135,17 +155,22 @@ void linkAlternatives(Model& model) {
     if (entity.kind != ResourceDesc::Kind::alternatives) continue;
     for (const RefDesc& ref : entity.desc->alternatives) {
       markStructural(model, *entity.scope, ref);
-      entity.candidates.push_back(findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place, fmt::format("resource '{}' lists the", entity.name)));
+      entity.candidates.push_back(findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
+                                                     fmt::format("resource '{}' lists the", entity.name)));
     }
   }
 }
 
 void checkListCycle(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
-  if (entity.kind != ResourceDesc::Kind::alternatives || entity.listState == Progress::done || entity.listState == Progress::failed) return;
+  if (entity.kind != ResourceDesc::Kind::alternatives || entity.listState == Progress::done ||
+      entity.listState == Progress::failed)
+    return;
   const std::string label = "'" + entity.name + "'";
   if (entity.listState == Progress::active) {
-    auto& d = model.diagnostics.error(Code::W50, entity.desc->place, fmt::format("the alternatives of {} lead back to it: {}", label, cyclePath(model, label)));
+    auto& d = reportCycle(
+        model, entity.desc->place,
+        fmt::format("the alternatives of {} lead back to it: {}", label, cyclePath(model, label)));
     d.resource = entity.name;
     entity.listState = Progress::failed;
     entity.candidates.assign(entity.candidates.size(), kNone);  // nothing walks round it again
@@ -176,7 +201,15 @@ std::string cyclePath(const Model& model, const std::string& again) {
   return path + again;
 }
 
-std::string numberText(double x) { return toText(Value::number(x)); }
+base::Diagnostic& reportCycle(Model& model, const Place& place, std::string message) {
+  base::Diagnostic& d = model.diagnostics.error(Code::W50, place, std::move(message));
+  d.hint = "one of them must not refer to the next";
+  return d;
+}
+
+std::string numberText(double x) {
+  return toText(Value::number(x));
+}
 
 void buildScopes(Model& model) {
   Scope& root = model.scopes.emplace_back();
@@ -187,7 +220,8 @@ void buildScopes(Model& model) {
 }
 
 std::uint32_t implicitImport(Model& model, std::string_view type) {
-  if (const auto found = model.implicitImports.find(type); found != model.implicitImports.end()) return found->second;
+  if (const auto found = model.implicitImports.find(type); found != model.implicitImports.end())
+    return found->second;
   if (!findImportType(model.registry, type)) return kNone;
   const auto index = static_cast<std::uint32_t>(model.entities.size());
   Entity& entity = model.entities.emplace_back();
@@ -208,17 +242,20 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
     const std::uint32_t dotted = findEntity(model, scope, name, false);
     return dotted != kNone && model.entities[dotted].kind == ResourceDesc::Kind::import ? dotted : kNone;
   }
-  if (const auto found = scope.resources.find(name); found != scope.resources.end()) return followInput(model, found->second);
+  if (const auto found = scope.resources.find(name); found != scope.resources.end())
+    return followInput(model, found->second);
   const std::size_t dot = name.find('.');
   if (dot == std::string_view::npos) return kNone;
   const auto child = scope.includes.find(name.substr(0, dot));
-  return child == scope.includes.end() ? kNone : findEntity(model, *child->second, name.substr(dot + 1), false);
+  return child == scope.includes.end() ? kNone
+                                       : findEntity(model, *child->second, name.substr(dot + 1), false);
 }
 
 std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
   std::vector<std::string> names;
   for (const Entity& entity : model.entities)
-    if (entity.desc && entity.name.starts_with(scope.prefix)) names.push_back(entity.name.substr(scope.prefix.size()));
+    if (entity.desc && entity.name.starts_with(scope.prefix))
+      names.push_back(entity.name.substr(scope.prefix.size()));
   return names;
 }
 
@@ -239,8 +276,8 @@ bool isUnread(const Scope& from, std::string_view name) {
   return false;
 }
 
-std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import, const Place& place,
-                                 std::string_view user, const std::string& pass) {
+std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
+                                 const Place& place, std::string_view user, const std::string& pass) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
@@ -253,7 +290,9 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
     for (const ImportType& type : model.registry.imports) types.push_back(type.name);
     d.resource = "@" + std::string(name);
     d.pass = pass;
-    d.hint = scope.resources.contains(name) ? fmt::format("'{}' is a resource of this graph: write it without the @", name) : base::nearestHint(name, types);
+    d.hint = scope.resources.contains(name)
+                 ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
+                 : base::nearestHint(name, types);
     return kNone;
   }
   auto& d = model.diagnostics.error(Code::W40, place, fmt::format("{} unknown resource '{}'", user, name));
@@ -263,7 +302,9 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
   if (findImportType(model.registry, name)) d.hint = fmt::format("did you mean the import '@{}'?", name);
   for (Scope* outer = scope.parent; outer; outer = outer->parent)
     if (outer->resources.contains(name)) {
-      d.hint = fmt::format("the including file has it: declare it here as an input, \"{}\": {{ \"input\": \"texture\" }}", name);
+      d.hint = fmt::format(
+          "the including file has it: declare it here as an input, \"{}\": {{ \"input\": \"texture\" }}",
+          name);
       break;
     }
   return kNone;
@@ -275,9 +316,11 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
     Scope* at = scope;
     std::string_view rest = name;
     while (true) {
-      if (const auto found = at->parameters.find(rest); found != at->parameters.end()) return {Kind::parameter, found->second};
+      if (const auto found = at->parameters.find(rest); found != at->parameters.end())
+        return {Kind::parameter, found->second};
       if (const auto found = at->lets.find(rest); found != at->lets.end()) return {Kind::let, found->second};
-      if (const auto found = at->passParameters.find(rest); found != at->passParameters.end()) return {Kind::parameter, found->second};
+      if (const auto found = at->passParameters.find(rest); found != at->passParameters.end())
+        return {Kind::parameter, found->second};
       const std::size_t dot = rest.find('.');
       if (dot == std::string_view::npos) break;
       const auto child = at->includes.find(rest.substr(0, dot));
@@ -325,7 +368,8 @@ void markStructural(Model& model, Scope& scope, const RefDesc& ref) {
 
 bool isDynamicLet(Model& model, Let& let) {
   if (let.dynamicState == Progress::fresh) {
-    let.dynamicState = Progress::active;  // met again in a cycle it is not dynamic; evaluation reports the cycle
+    let.dynamicState =
+        Progress::active;  // met again in a cycle it is not dynamic; evaluation reports the cycle
     let.dynamic = isDynamic(model, *let.scope, let.desc->expr);
     let.dynamicState = Progress::done;
   }

@@ -1,9 +1,12 @@
-// Names: builds the scopes of a graph and its includes, finds resources and variables by name, and answers for names
-// while expressions are evaluated.
-//   $x       own parameters and lets; $pass.parameter; $include.x; then enclosing files, the nearest first; then the
+// Names: builds the scopes of a graph and its includes, finds resources and variables by name, and answers
+// for names while expressions are evaluated.
+//   $x       own parameters and lets; $pass.parameter; $include.x; then enclosing files, the nearest first;
+//   then the
 //            only parameter of any file included below this one whose dotted name ends in it
-//   name     own resources, then `include.name`; an input stands for what the includer binds or calls the same
-//   @name    an import declared here or in an enclosing file, else the import type of that name with its defaults
+//   name     own resources, then `include.name`; an input stands for what the includer binds or calls the
+//   same
+//   @name    an import declared here or in an enclosing file, else the import type of that name with its
+//   defaults
 // Does not evaluate shapes (expand_resources) nor know versions.
 #pragma once
 
@@ -16,13 +19,14 @@ namespace weft::graph::expansion {
 // Fills scopes, parameters with their defaults (the reader has checked those), lets and entities.
 void buildScopes(Model& model);
 
-// The entity a name stands for, with inputs followed; kNone when there is none (nothing is reported) or when an input
-// has nothing behind it (reported once).
+// The entity a name stands for, with inputs followed; kNone when there is none (nothing is reported) or when
+// an input has nothing behind it (reported once).
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
 // The same, and reports W040 or W043 with the nearest name at `place`.
-std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import, const Place& place,
-                                 std::string_view user, const std::string& pass = {});
-// True when the reader reported the declaration of this name and left it out: a use of it is no second mistake.
+std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
+                                 const Place& place, std::string_view user, const std::string& pass = {});
+// True when the reader reported the declaration of this name and left it out: a use of it is no second
+// mistake.
 bool isUnread(const Scope& from, std::string_view name);
 // The import type's entity with default arguments; kNone when there is no such type.
 std::uint32_t implicitImport(Model& model, std::string_view type);
@@ -53,7 +57,7 @@ class Names final : public EvalScope {
   Names(Model& model, Scope& scope, bool dynamicAllowed = false)
       : model_(model), scope_(scope), dynamicAllowed_(dynamicAllowed) {}
 
-  std::vector<Index> indices;   // of the pass instance
+  std::vector<Index> indices;  // of the pass instance
 
   std::optional<Value> variable(std::string_view name) override;
   std::optional<Value> index(std::string_view name) override;
@@ -70,15 +74,16 @@ class Names final : public EvalScope {
  private:
   Model& model_;
   Scope& scope_;
-  bool dynamicAllowed_;         // a let with age() answers 1 instead of an error (checks of uniforms)
+  bool dynamicAllowed_;  // a let with age() answers 1 instead of an error (checks of uniforms)
 };
 
 // Evaluation with the expected type held: nullopt after a report. An absent expression yields `absent`.
 std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, std::string_view what);
 std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, std::string_view what);
 // A whole number from `low` to `high`, floored first when `floors`.
-std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent, std::int64_t low,
-                                          std::int64_t high, std::string_view what, bool floors = false);
+std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
+                                          std::int64_t low, std::int64_t high, std::string_view what,
+                                          bool floors = false);
 
 // The nearest names for hints.
 std::vector<std::string> resourceNames(const Model& model, const Scope& scope);

@@ -74,18 +74,21 @@ std::vector<std::size_t> matches(const std::vector<std::string>& names, std::str
 
 // The nearest of the names and of their last parts.
 std::string hintAmong(std::string_view wanted, const std::vector<std::string>& names) {
-  if (const std::string near = base::nearestName(wanted, names); !near.empty()) return fmt::format("did you mean '{}'?", near);
+  if (const std::string near = base::nearestName(wanted, names); !near.empty())
+    return fmt::format("did you mean '{}'?", near);
   std::vector<std::string> leaves;
   for (const std::string& name : names) leaves.push_back(name.substr(name.rfind('.') + 1));
   return base::nearestHint(wanted, leaves);
 }
 
-bool reportUnlessOne(Model& model, const std::vector<std::string>& names, const std::vector<std::size_t>& found,
-                     const std::string& source, std::string_view wanted, std::string_view noun) {
+bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
+                     const std::vector<std::size_t>& found, const std::string& source,
+                     std::string_view wanted, std::string_view noun) {
   if (found.size() == 1) return false;
   std::string all;
   for (const std::size_t i : found) all += (all.empty() ? "" : ", ") + names[i];
-  auto& d = model.diagnostics.error(Code::W46, {}, fmt::format("{}: '{}' may mean several {}", source, wanted, noun));
+  auto& d = model.diagnostics.error(Code::W46, {},
+                                    fmt::format("{}: '{}' may mean several {}", source, wanted, noun));
   d.found = all;
   d.hint = fmt::format("write more of the name, such as '{}'", names[found[0]]);
   return true;
@@ -97,7 +100,8 @@ void applySet(Model& model, const std::string& wanted, const std::string& text) 
   for (const Parameter& parameter : model.parameters) names.push_back(parameter.path);
   const std::vector<std::size_t> found = matches(names, wanted);
   if (found.empty()) {
-    auto& d = model.diagnostics.error(Code::W44, {}, fmt::format("{}: no parameter is called '{}'", source, wanted));
+    auto& d = model.diagnostics.error(Code::W44, {},
+                                      fmt::format("{}: no parameter is called '{}'", source, wanted));
     d.hint = hintAmong(wanted, names);
     return;
   }
@@ -111,8 +115,8 @@ void applyDisable(Model& model, const std::string& wanted) {
   const std::string source = "--disable " + wanted;
   const std::string declared = wanted.substr(0, wanted.find('['));
   struct Candidate {
-    Scope* scope;            // an include
-    std::string pass;        // or a pass
+    Scope* scope;      // an include
+    std::string pass;  // or a pass
   };
   std::vector<std::string> names;
   std::vector<Candidate> candidates;
@@ -142,9 +146,11 @@ void applyDisable(Model& model, const std::string& wanted) {
   std::vector<std::string> parameters;
   for (const Parameter& parameter : model.parameters) parameters.push_back(parameter.path);
   if (const auto named = matches(parameters, wanted); !named.empty()) {
-    auto& d = model.diagnostics.error(Code::W84, {}, fmt::format("{}: '{}' is a parameter, not a pass", source, parameters[named[0]]));
+    auto& d = model.diagnostics.error(
+        Code::W84, {}, fmt::format("{}: '{}' is a parameter, not a pass", source, parameters[named[0]]));
     const Parameter& parameter = model.parameters[named[0]];
-    d.hint = parameter.desc->type == Type::boolean ? fmt::format("--set {}=false", wanted) : fmt::format("set it with --set {}=VALUE", wanted);
+    d.hint = parameter.desc->type == Type::boolean ? fmt::format("--set {}=false", wanted)
+                                                   : fmt::format("set it with --set {}=VALUE", wanted);
     return;
   }
   auto& d = model.diagnostics.error(Code::W45, {}, fmt::format("{}: no pass is called '{}'", source, wanted));
@@ -162,10 +168,12 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
                          const std::string& source) {
   const ParameterDesc& desc = *parameter.desc;
   const auto wrongType = [&](std::string expected) {
-    auto& d = model.diagnostics.error(Code::W47, place, fmt::format("parameter '{}': {} is of the wrong type", parameter.path, source));
+    auto& d = model.diagnostics.error(
+        Code::W47, place, fmt::format("parameter '{}': {} is of the wrong type", parameter.path, source));
     d.expected = std::move(expected);
     d.found = toText(value);
-    if (!desc.choices.empty() && value.type == Value::Type::symbol) d.hint = base::nearestHint(value.symbol, desc.choices);
+    if (!desc.choices.empty() && value.type == Value::Type::symbol)
+      d.hint = base::nearestHint(value.symbol, desc.choices);
     return false;
   };
   const auto listOf = [&](int n) { return value.type == Value::Type::list && value.count == n; };
@@ -174,7 +182,8 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
       if (value.type != Value::Type::boolean) return wrongType("true or false");
       break;
     case Type::integer:
-      if (value.type != Value::Type::number || value.v[0] != std::floor(value.v[0])) return wrongType("a whole number");
+      if (value.type != Value::Type::number || value.v[0] != std::floor(value.v[0]))
+        return wrongType("a whole number");
       break;
     case Type::number:
       if (value.type != Value::Type::number) return wrongType("a number");
@@ -189,7 +198,8 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
       if (!listOf(4)) return wrongType("a list of 4 numbers");
       break;
     case Type::choice:
-      if (value.type != Value::Type::symbol || std::find(desc.choices.begin(), desc.choices.end(), value.symbol) == desc.choices.end())
+      if (value.type != Value::Type::symbol ||
+          std::find(desc.choices.begin(), desc.choices.end(), value.symbol) == desc.choices.end())
         return wrongType("one of " + joined(desc.choices));
       break;
     case Type::file:
@@ -197,8 +207,11 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
       break;
   }
   for (std::size_t i = 0; i < value.count; ++i)
-    if (value.type != Value::Type::boolean && (!std::isfinite(value.v[i]) || (desc.min && value.v[i] < *desc.min) || (desc.max && value.v[i] > *desc.max))) {
-      auto& d = model.diagnostics.error(Code::W48, place, fmt::format("parameter '{}': {} is out of its range", parameter.path, source));
+    if (value.type != Value::Type::boolean &&
+        (!std::isfinite(value.v[i]) || (desc.min && value.v[i] < *desc.min) ||
+         (desc.max && value.v[i] > *desc.max))) {
+      auto& d = model.diagnostics.error(
+          Code::W48, place, fmt::format("parameter '{}': {} is out of its range", parameter.path, source));
       d.expected = rangeText(desc);
       d.found = toText(value);
       return false;

@@ -13,14 +13,16 @@ namespace {
 
 using base::Diagnostic;
 
-Diagnostic& report(const SlotContext& context, Code code, const Place& place, std::string message, const std::string& resource) {
+Diagnostic& report(const SlotContext& context, Code code, const Place& place, std::string message,
+                   const std::string& resource) {
   Diagnostic& d = context.model.diagnostics.error(code, place, std::move(message));
   d.pass = context.pass;
   d.resource = resource;
   return d;
 }
 
-constexpr std::int64_t kFar = 1'000'000;  // further out than any limit; ranges are checked against shapes later
+constexpr std::int64_t kFar =
+    1'000'000;  // further out than any limit; ranges are checked against shapes later
 
 bool evaluateSpan(Names& names, const SpanDesc& desc, const char* word, std::optional<Selection::Span>& out) {
   Selection::Span span;
@@ -36,7 +38,8 @@ bool evaluateSpan(Names& names, const SpanDesc& desc, const char* word, std::opt
   return true;
 }
 
-// Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an alternative).
+// Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an
+// alternative).
 bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, Selection& into) {
   Selection own;
   if (ref.mip && !evaluateSpan(names, *ref.mip, "the level", own.mip)) return false;
@@ -47,9 +50,11 @@ bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, 
     if (!element) return false;
     own.element = *element;
   }
-  const bool clash = (own.mip && into.mip) || (own.layer && into.layer) || (own.face && into.face) || (own.element && into.element) || (own.stencil && into.stencil);
+  const bool clash = (own.mip && into.mip) || (own.layer && into.layer) || (own.face && into.face) ||
+                     (own.element && into.element) || (own.stencil && into.stencil);
   if (clash) {
-    auto& d = report(context, Code::W53, ref.place, fmt::format("{} selects twice in '{}'", context.user, ref.text), ref.name);
+    auto& d = report(context, Code::W53, ref.place,
+                     fmt::format("{} selects twice in '{}'", context.user, ref.text), ref.name);
     d.hint = "the list of alternatives selects this already";
     return false;
   }
@@ -64,22 +69,27 @@ bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, 
   return true;
 }
 
-bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity& entity, std::string message) {
+bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity& entity,
+                    std::string message) {
   auto& d = report(context, Code::W53, ref.place, fmt::format("{}: {}", context.user, message), entity.name);
   d.found = ref.text;
+  d.pointer = ref.pointer;
+  d.hint = "leave the selector out, or name a resource that has such parts";
   return false;
 }
 
-// Fills open ends and holds a span against `count`. `written` is what the file says: levels between the two were taken
-// away by the clamp to the size. False after a report; `empty` when nothing of the span is there.
-bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity, const char* word, std::int64_t count,
-               std::int64_t written, const Selection::Span& span, std::int64_t& first, std::int64_t& size, bool& empty) {
+// Fills open ends and holds a span against `count`. `written` is what the file says: levels between the two
+// were taken away by the clamp to the size. False after a report; `empty` when nothing of the span is there.
+bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity, const char* word,
+               std::int64_t count, std::int64_t written, const Selection::Span& span, std::int64_t& first,
+               std::int64_t& size, bool& empty) {
   first = span.openFirst ? 0 : span.first;
   std::int64_t last = span.openLast ? count - 1 : span.last;
   const bool clamped = first >= 0 && first < written && last >= first && last < written;
   if (clamped) last = std::min(last, count - 1);
   size = last - first + 1;
-  const bool nothingLeft = clamped ? first >= count : span.openLast && first >= count && first <= std::max(count, written);
+  const bool nothingLeft =
+      clamped ? first >= count : span.openLast && first >= count && first <= std::max(count, written);
   if (nothingLeft || (!context.ranges && (first < 0 || last >= count || size < 1))) {
     empty = true;
     first = 0;
@@ -87,19 +97,28 @@ bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& ent
     return true;
   }
   if (first >= 0 && last < count && size >= 1) return true;
-  auto& d = report(context, Code::W52, span.place.line ? span.place : ref.place, fmt::format("{} uses {} {} of '{}', which is not there", context.user, word, first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last), entity.name), entity.name);
-  d.expected = count == 1 ? fmt::format("{} 0, the only one", word) : fmt::format("{} 0 to {}", word, count - 1);
+  auto& d = report(
+      context, Code::W52, span.place.line ? span.place : ref.place,
+      fmt::format("{} uses {} {} of '{}', which is not there", context.user, word,
+                  first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last), entity.name),
+      entity.name);
+  d.expected =
+      count == 1 ? fmt::format("{} 0, the only one", word) : fmt::format("{} 0 to {}", word, count - 1);
   d.found = ref.text;
-  if (std::string_view(word) == "level") d.hint = fmt::format("\"mips\" says how many levels there are; bounds can be written with mips({})", ref.name);
+  if (std::string_view(word) == "level")
+    d.hint =
+        fmt::format("\"mips\" says how many levels there are; bounds can be written with mips({})", ref.name);
   return false;
 }
 
 }  // namespace
 
-bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer, std::vector<Leaf>& leaves) {
+bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer,
+                   std::vector<Leaf>& leaves) {
   Model& model = context.model;
   Leaf leaf = outer;
-  leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place, context.user + " uses the", context.pass);
+  leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place,
+                                   context.user + " uses the", context.pass);
   if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
@@ -116,7 +135,8 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
     if (entity.candidates[i] == kNone) continue;
     const RefDesc& alternative = entity.desc->alternatives[i];
-    const auto holds = evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
+    const auto holds =
+        evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
     if (!holds) good = false;
     if (holds && *holds) good = collectLeaves(context, listNames, alternative, leaf, leaves) && good;
   }
@@ -133,23 +153,35 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   const bool texture = shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
   const bool cube = shape.target == Target::texture_cube || shape.target == Target::texture_cube_array;
   if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
-    return selectorMisfit(context, ref, entity, fmt::format("'{}' is no texture, it has no levels, layers or planes", entity.name));
+    return selectorMisfit(context, ref, entity,
+                          fmt::format("'{}' is no texture, it has no levels, layers or planes", entity.name));
   if (selection.element && entity.arrayCount == 0)
     return selectorMisfit(context, ref, entity, fmt::format("'{}' is no array", entity.name));
   if (selection.layer && shape.target == Target::texture_3d)
-    return selectorMisfit(context, ref, entity, fmt::format("'{}' is a 3d texture, it has no layers", entity.name));
-  if (selection.face && !cube) return selectorMisfit(context, ref, entity, fmt::format("'{}' is no cube, it has no faces", entity.name));
+    return selectorMisfit(context, ref, entity,
+                          fmt::format("'{}' is a 3d texture, it has no layers", entity.name));
+  if (selection.face && !cube)
+    return selectorMisfit(context, ref, entity, fmt::format("'{}' is no cube, it has no faces", entity.name));
   if (selection.stencil && !hasStencil(shape.format))
-    return selectorMisfit(context, ref, entity, fmt::format("'{}' ({}) has no stencil", entity.name, infoOf(shape.format).name));
+    return selectorMisfit(context, ref, entity,
+                          fmt::format("'{}' ({}) has no stencil", entity.name, infoOf(shape.format).name));
 
   bool empty = false;
   std::int64_t mip = 0, mips = shape.mips, layer = 0, layers = cube ? shape.layers / 6 : shape.layers;
-  if (selection.mip && !closeSpan(context, ref, entity, "level", shape.mips, entity.writtenMips, *selection.mip, mip, mips, empty)) return false;
-  if (selection.layer && !closeSpan(context, ref, entity, "layer", layers, layers, *selection.layer, layer, layers, empty)) return false;
+  if (selection.mip && !closeSpan(context, ref, entity, "level", shape.mips, entity.writtenMips,
+                                  *selection.mip, mip, mips, empty))
+    return false;
+  if (selection.layer &&
+      !closeSpan(context, ref, entity, "layer", layers, layers, *selection.layer, layer, layers, empty))
+    return false;
   if (cube) {
     std::int64_t face = 0, faces = 6;
-    if (selection.face && !closeSpan(context, ref, entity, "face", 6, 6, *selection.face, face, faces, empty)) return false;
-    if (faces < 6 && layers > 1) return selectorMisfit(context, ref, entity, fmt::format("faces of several cubes of '{}' are not next to each other", entity.name));
+    if (selection.face && !closeSpan(context, ref, entity, "face", 6, 6, *selection.face, face, faces, empty))
+      return false;
+    if (faces < 6 && layers > 1)
+      return selectorMisfit(
+          context, ref, entity,
+          fmt::format("faces of several cubes of '{}' are not next to each other", entity.name));
     layer = layer * 6 + face;
     layers = faces < 6 ? faces : layers * 6;
   }
@@ -159,7 +191,9 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   if (selection.element) {
     Selection::Span span{*selection.element, *selection.element, false, false, selection.elementPlace};
     std::int64_t first = 0, size = 0;
-    if (!closeSpan(context, ref, entity, "element", entity.arrayCount, entity.arrayCount, span, first, size, empty)) return false;
+    if (!closeSpan(context, ref, entity, "element", entity.arrayCount, entity.arrayCount, span, first, size,
+                   empty))
+      return false;
     work.firstElement = static_cast<std::uint32_t>(first);
     work.elementCount = 1;
   }
@@ -177,7 +211,8 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
 namespace {
 
 // Kind and planes, once the rectangle is known.
-bool finishUse(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, Access access, SlotWork& work) {
+bool finishUse(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, Access access,
+               SlotWork& work) {
   const FlatResource& shape = context.model.entities[work.entity].shape;
   work.use.access = access;
   work.use.kind = leaf.kind.value_or(defaultKind(context.type, access, shape));
@@ -203,7 +238,10 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
   } else {
     return true;
   }
-  auto& d = report(context, Code::W55, slot.ref.place, fmt::format("{} {} '{}', which is {} and cannot be written", context.user, slot.access == Access::write ? "writes" : "modifies", slot.ref.text, why), entity.name);
+  auto& d = report(context, Code::W55, slot.ref.place,
+                   fmt::format("{} {} '{}', which is {} and cannot be written", context.user,
+                               slot.access == Access::write ? "writes" : "modifies", slot.ref.text, why),
+                   entity.name);
   d.hint = hint;
   return false;
 }
@@ -211,9 +249,15 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
 bool checkHistory(const SlotContext& context, const RefDesc& ref, const Entity& entity) {
   const auto depth = static_cast<int>(entity.depth);
   if (ref.history <= depth && entity.kind != ResourceDesc::Kind::import) return true;
-  auto& d = report(context, Code::W54, ref.place, fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name), entity.name);
-  d.expected = entity.kind == ResourceDesc::Kind::import ? "an import has no history" : depth == 0 ? "no history is declared" : fmt::format("@-1 to @-{}", depth);
-  if (entity.kind != ResourceDesc::Kind::import) d.hint = fmt::format("declare \"history\": {} on '{}'", ref.history, entity.name);
+  auto& d = report(
+      context, Code::W54, ref.place,
+      fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name),
+      entity.name);
+  d.expected = entity.kind == ResourceDesc::Kind::import ? "an import has no history"
+               : depth == 0                              ? "no history is declared"
+                                                         : fmt::format("@-1 to @-{}", depth);
+  if (entity.kind != ResourceDesc::Kind::import)
+    d.hint = fmt::format("declare \"history\": {} on '{}'", ref.history, entity.name);
   return false;
 }
 
@@ -235,14 +279,22 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   work.slot = &slot;
   work.use.access = slot.access;
 
-  const std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place, fmt::format("{} {} the", context.user, slot.access == Access::read ? "reads" : slot.access == Access::write ? "writes" : "modifies"), context.pass);
+  const std::uint32_t found =
+      findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place,
+                         fmt::format("{} {} the", context.user,
+                                     slot.access == Access::read    ? "reads"
+                                     : slot.access == Access::write ? "writes"
+                                                                    : "modifies"),
+                         context.pass);
   if (found == kNone) return work;
   if (slot.access == Access::read) mention(model, found, ref.history > 0 ? kNone : model.position);
   if (slot.access != Access::read && !isWritable(context, slot, found)) return work;
 
-  const auto holds = evaluateCondition(context.names, ref.condition, true, fmt::format("the condition of slot '{}'", slot.name));
+  const auto holds = evaluateCondition(context.names, ref.condition, true,
+                                       fmt::format("the condition of slot '{}'", slot.name));
   if (!holds) return work;
-  // A slot whose condition is false may select what is not there; the rest of it must make sense all the same.
+  // A slot whose condition is false may select what is not there; the rest of it must make sense all the
+  // same.
   SlotContext checked = context;
   if (!*holds) checked.ranges = false;
 
@@ -256,13 +308,16 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   missing.ref = &ref;
   missing.access = slot.access;
 
-  const bool looksForVersions = context.versions && *holds && slot.access != Access::write && ref.history == 0;
+  const bool looksForVersions =
+      context.versions && *holds && slot.access != Access::write && ref.history == 0;
   bool onlyImports = !leaves.empty();
   const SlotWork blank = work;
-  std::optional<SlotWork> zero;      // the first candidate that has no more than version zero
+  std::optional<SlotWork> zero;  // the first candidate that has no more than version zero
   for (const Leaf& leaf : leaves) {
     SlotWork candidate = blank;
-    if (!placeSelection(checked, leaf, ref, candidate) || !finishUse(checked, leaf, ref, slot.access, candidate)) return work;
+    if (!placeSelection(checked, leaf, ref, candidate) ||
+        !finishUse(checked, leaf, ref, slot.access, candidate))
+      return work;
     const Entity& entity = model.entities[candidate.entity];
     if (ref.history > 0 && !checkHistory(context, ref, entity)) return work;
     if (!*holds) {
@@ -284,7 +339,8 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     for (std::uint32_t e = candidate.firstElement; e < candidate.firstElement + candidate.elementCount; ++e) {
       const VersionCheck check = checkVersion(entity, e, candidate.use);
       real = real || check.real;
-      if (complete && !check.complete) missing.wanted.push_back({candidate.entity, e, check.missing, candidate.use});
+      if (complete && !check.complete)
+        missing.wanted.push_back({candidate.entity, e, check.missing, candidate.use});
       complete = complete && check.complete;
     }
     if (complete && real) return candidate;
@@ -302,7 +358,9 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     return work;
   }
   work.state = State::missing;
-  missing.cause = leaves.empty() ? MissingRead::Cause::condition : onlyImports ? MissingRead::Cause::import : MissingRead::Cause::version;
+  missing.cause = leaves.empty() ? MissingRead::Cause::condition
+                  : onlyImports  ? MissingRead::Cause::import
+                                 : MissingRead::Cause::version;
   model.missing.push_back(std::move(missing));
   return work;
 }

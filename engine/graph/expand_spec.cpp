@@ -15,14 +15,23 @@ namespace {
 
 std::string upper(std::string_view name) {
   std::string out;
-  for (const char c : name) out += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : '_';
+  for (const char c : name)
+    out += std::isalnum(static_cast<unsigned char>(c))
+               ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
+               : '_';
   return out;
 }
 
 class SpecFiller {
  public:
-  SpecFiller(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots, PassSpec& spec)
-      : context_(context), model_(context.model), names_(context.names), desc_(desc), slots_(slots), spec_(spec) {}
+  SpecFiller(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+             PassSpec& spec)
+      : context_(context),
+        model_(context.model),
+        names_(context.names),
+        desc_(desc),
+        slots_(slots),
+        spec_(spec) {}
 
   bool run(std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
     const std::size_t before = model_.diagnostics.errorCount();
@@ -55,7 +64,8 @@ class SpecFiller {
         if (words[i] == value.symbol) return static_cast<int>(i);
     std::string all;
     for (const std::string& w : words) all += (all.empty() ? "" : ", ") + w;
-    auto& d = error(Code::W79, state.expr.place(), fmt::format("has an unknown value for the state '{}'", state.name));
+    auto& d = error(Code::W79, state.expr.place(),
+                    fmt::format("has an unknown value for the state '{}'", state.name));
     d.expected = all;
     d.found = toText(value);
     if (value.type == Value::Type::symbol) d.hint = base::nearestHint(value.symbol, words);
@@ -63,17 +73,20 @@ class SpecFiller {
   }
 
   bool flag(const NamedExpr& state, bool absent) {
-    return evaluateCondition(names_, state.expr, absent, fmt::format("the state '{}'", state.name)).value_or(absent);
+    return evaluateCondition(names_, state.expr, absent, fmt::format("the state '{}'", state.name))
+        .value_or(absent);
   }
 
   bool isColorSlot(const std::string& name) const {
     for (const SlotWork& work : slots_)
-      if (work.slot->name == name && work.slot->access != Access::read) return work.entity == kNone || work.use.kind == Kind::color;
+      if (work.slot->name == name && work.slot->access != Access::read)
+        return work.entity == kNone || work.use.kind == Kind::color;
     return false;
   }
 
   void addBlend(const NamedExpr& state) {
-    static const std::vector<std::string> kWords = {"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
+    static const std::vector<std::string> kWords = {"none",     "add", "alpha", "premultiplied",
+                                                    "multiply", "min", "max"};
     const int found = word(state, kWords);
     if (found < 0) return;
     const auto blend = static_cast<Blend>(found);
@@ -90,7 +103,8 @@ class SpecFiller {
     std::vector<std::string> colors;
     for (const SlotWork& work : slots_)
       if (isColorSlot(work.slot->name)) colors.push_back(work.slot->name);
-    error(Code::W79, state.place, fmt::format("blends '{}', which is no colour slot of it", slot)).hint = base::nearestHint(slot, colors);
+    error(Code::W79, state.place, fmt::format("blends '{}', which is no colour slot of it", slot)).hint =
+        base::nearestHint(slot, colors);
   }
 
   void setBlend(const std::string& slot, Blend blend) {
@@ -103,7 +117,8 @@ class SpecFiller {
   }
 
   void addState(const NamedExpr& state) {
-    static const std::vector<std::string> kCompare = {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
+    static const std::vector<std::string> kCompare = {"never",   "less",      "equal",         "less_equal",
+                                                      "greater", "not_equal", "greater_equal", "always"};
     StateSpec& s = spec_.state;
     if (state.name == "blend" || state.name.starts_with("blend.")) {
       addBlend(state);
@@ -116,7 +131,8 @@ class SpecFiller {
     } else if (state.name == "depth_write") {
       s.depthWrite = flag(state, true);
     } else if (state.name == "cull") {
-      if (const int found = word(state, {"none", "front", "back"}); found >= 0) s.cull = static_cast<Cull>(found);
+      if (const int found = word(state, {"none", "front", "back"}); found >= 0)
+        s.cull = static_cast<Cull>(found);
     } else if (state.name == "polygon") {
       s.lines = word(state, {"fill", "line"}) == 1;
     } else if (state.name == "scissor") {
@@ -132,8 +148,10 @@ class SpecFiller {
         d.found = toText(value);
       }
     } else {
-      static const std::vector<std::string> kKeys = {"blend", "depth_test", "depth_write", "cull", "polygon", "scissor", "offset"};
-      error(Code::W79, state.place, fmt::format("has the unknown state '{}'", state.name)).hint = base::nearestHint(state.name, kKeys);
+      static const std::vector<std::string> kKeys = {"blend",   "depth_test", "depth_write", "cull",
+                                                     "polygon", "scissor",    "offset"};
+      error(Code::W79, state.place, fmt::format("has the unknown state '{}'", state.name)).hint =
+          base::nearestHint(state.name, kKeys);
     }
   }
 
@@ -142,7 +160,9 @@ class SpecFiller {
     for (const SlotWork& work : slots_)
       if (work.entity == kNone || work.use.kind == Kind::depth) return;
     auto& d = error(Code::W79, depthTestPlace_, "tests depth but has no depth attachment");
-    d.hint = "add a slot such as \"modify\": { \"depth\": \"depth\" } or \"read\": { \"test\": \"depth as depth\" }";
+    d.hint =
+        "add a slot such as \"modify\": { \"depth\": \"depth\" } or \"read\": { \"test\": \"depth as depth\" "
+        "}";
   }
 
   // ---- defines and uniforms ----
@@ -154,23 +174,33 @@ class SpecFiller {
     return findVariable(model_, names_.scope(), variables[0]);
   }
 
-  void emitDefine(const std::string& name, const Value& value, const std::vector<std::string>& choices, const Place& place, const std::string& from) {
+  void emitDefine(const std::string& name, const Value& value, const std::vector<std::string>& choices,
+                  const Place& place, const std::string& from) {
     switch (value.type) {
-      case Value::Type::none: return;
-      case Value::Type::boolean: spec_.defines.push_back({name, value.truth() ? "1" : "0"}); return;
-      case Value::Type::number: spec_.defines.push_back({name, numberText(value.v[0])}); return;
+      case Value::Type::none:
+        return;
+      case Value::Type::boolean:
+        spec_.defines.push_back({name, value.truth() ? "1" : "0"});
+        return;
+      case Value::Type::number:
+        spec_.defines.push_back({name, numberText(value.v[0])});
+        return;
       case Value::Type::symbol: {
         const auto found = std::find(choices.begin(), choices.end(), value.symbol);
         if (found != choices.end()) {
           spec_.defines.push_back({name, fmt::format("{}", found - choices.begin())});
-          for (std::size_t i = 0; i < choices.size(); ++i) spec_.defines.push_back({name + "_" + upper(choices[i]), fmt::format("{}", i)});
+          for (std::size_t i = 0; i < choices.size(); ++i)
+            spec_.defines.push_back({name + "_" + upper(choices[i]), fmt::format("{}", i)});
           return;
         }
         break;
       }
-      case Value::Type::list: break;
+      case Value::Type::list:
+        break;
     }
-    auto& d = error(Code::W80, place, fmt::format("cannot define '{}' as {}", from, value.type == Value::Type::list ? "a list" : "a word"));
+    auto& d = error(
+        Code::W80, place,
+        fmt::format("cannot define '{}' as {}", from, value.type == Value::Type::list ? "a list" : "a word"));
     d.expected = "true, false, a number or a choice parameter";
     d.found = toText(value);
   }
@@ -188,7 +218,8 @@ class SpecFiller {
     emitDefine(name, value, choices, expr.place(), from);
   }
 
-  void addParameter(const PassParameterDesc& desc, std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
+  void addParameter(const PassParameterDesc& desc,
+                    std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
     UniformSpec uniform;
     uniform.name = desc.name;
     uniform.place = desc.place;
@@ -196,7 +227,8 @@ class SpecFiller {
     if (desc.declared) {
       const auto found = names_.scope().passParameters.find(desc_.name + "." + desc.name);
       if (found != names_.scope().passParameters.end()) parameter = &model_.parameters[found->second];
-    } else if (const Variable variable = onlyVariable(desc.value); variable.kind == Variable::Kind::parameter) {
+    } else if (const Variable variable = onlyVariable(desc.value);
+               variable.kind == Variable::Kind::parameter) {
       parameter = &model_.parameters[variable.index];
     }
     if (parameter) {
@@ -220,7 +252,8 @@ class SpecFiller {
       d.expected = "a number, true, false or a list";
       d.found = toText(uniform.value);
       const bool choice = parameter && parameter->desc->type == ParameterDesc::Type::choice;
-      d.hint = choice ? "a choice becomes a define: put it under \"defines\", or give it \"define\": true" : "a path can be an argument of an import only";
+      d.hint = choice ? "a choice becomes a define: put it under \"defines\", or give it \"define\": true"
+                      : "a path can be an argument of an import only";
       return;
     }
     spec_.uniforms.push_back(std::move(uniform));
@@ -231,7 +264,8 @@ class SpecFiller {
     for (const DefineSpec& define : spec_.defines) all.push_back(define.name);
     std::sort(all.begin(), all.end());
     if (const auto twice = std::adjacent_find(all.begin(), all.end()); twice != all.end())
-      error(Code::W49, desc_.namePlace, fmt::format("defines '{}' twice", *twice)).hint = "a choice also defines NAME_CHOICE, a parameter its name in capitals";
+      error(Code::W49, desc_.namePlace, fmt::format("defines '{}' twice", *twice)).hint =
+          "a choice also defines NAME_CHOICE, a parameter its name in capitals";
   }
 
   // ---- compute and draw ----
@@ -259,12 +293,14 @@ class SpecFiller {
       return;
     }
     for (const SlotWork& work : slots_) {
-      if (work.slot->access == Access::read || work.entity == kNone || work.state == SlotWork::State::failed) continue;
+      if (work.slot->access == Access::read || work.entity == kNone || work.state == SlotWork::State::failed)
+        continue;
       const FlatResource& shape = model_.entities[work.entity].shape;
       if (shape.kind != ResourceKind::texture) continue;
       spec_.threads[0] = std::max(1u, shape.width >> work.use.mip);
       spec_.threads[1] = std::max(1u, shape.height >> work.use.mip);
-      spec_.threads[2] = shape.target == Target::texture_3d ? std::max(1u, shape.depth >> work.use.mip) : work.use.layers;
+      spec_.threads[2] =
+          shape.target == Target::texture_3d ? std::max(1u, shape.depth >> work.use.mip) : work.use.layers;
       return;
     }
     if (model_.incomplete) return;  // the slot that would say may have been left out for its mistakes
@@ -275,9 +311,12 @@ class SpecFiller {
   void addGeometry() {
     spec_.list = desc_.list;
     spec_.geometry = desc_.geometry;
-    if (const auto instances = evaluateWhole(names_, desc_.instances, 1, 0, 2147483647, "the number of instances", true)) spec_.instances = static_cast<std::uint32_t>(*instances);
+    if (const auto instances =
+            evaluateWhole(names_, desc_.instances, 1, 0, 2147483647, "the number of instances", true))
+      spec_.instances = static_cast<std::uint32_t>(*instances);
     for (const Expr& argument : desc_.geometryArguments) {
-      const auto value = evaluateNumber(names_, argument, 0, fmt::format("an argument of '{}'", desc_.geometry));
+      const auto value =
+          evaluateNumber(names_, argument, 0, fmt::format("an argument of '{}'", desc_.geometry));
       if (value) spec_.geometryArguments.push_back(*value);
     }
   }
@@ -298,11 +337,13 @@ std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassD
   if (!desc.view) {
     // A camera declared here or in an enclosing file is the default of every pass.
     const std::uint32_t camera = findEntity(model, context.names.scope(), "camera", true);
-    if (camera != kNone && model.entities[camera].desc && ensureShape(model, camera)) spec.view = model.entities[camera].import;
+    if (camera != kNone && model.entities[camera].desc && ensureShape(model, camera))
+      spec.view = model.entities[camera].import;
     return spec.view;
   }
   const RefDesc& ref = *desc.view;
-  const auto fail = [&](Code code, std::string message, std::string expected, std::string hint) -> std::optional<std::uint32_t> {
+  const auto fail = [&](Code code, std::string message, std::string expected,
+                        std::string hint) -> std::optional<std::uint32_t> {
     auto& d = model.diagnostics.error(code, ref.place, fmt::format("{} {}", context.user, message));
     d.pass = context.pass;
     d.found = ref.text;
@@ -310,35 +351,44 @@ std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassD
     d.hint = std::move(hint);
     return std::nullopt;
   };
-  std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place, context.user + " is seen from the", context.pass);
+  std::uint32_t found = findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place,
+                                           context.user + " is seen from the", context.pass);
   if (found == kNone || !ensureShape(model, found)) return std::nullopt;
   const Entity& entity = model.entities[found];
-  if (entity.kind != ResourceDesc::Kind::import || model.graph.imports[entity.import].kind != ImportKind::view) {
+  if (entity.kind != ResourceDesc::Kind::import ||
+      model.graph.imports[entity.import].kind != ImportKind::view) {
     std::string views;
     for (const ImportType& type : model.registry.imports)
       if (type.kind == ImportKind::view) views += (views.empty() ? "@" : ", @") + type.name;
-    return fail(Code::W71, fmt::format("is seen from '{}', which is no view", ref.text), "a view: " + views, "");
+    return fail(Code::W71, fmt::format("is seen from '{}', which is no view", ref.text), "a view: " + views,
+                "");
   }
-  if (ref.mip || ref.layer || ref.stencil || ref.history || ref.kind) return fail(Code::W71, fmt::format("is seen from '{}'", ref.text), "a view, perhaps with [element] and .face", "");
+  if (ref.mip || ref.layer || ref.stencil || ref.history || ref.kind)
+    return fail(Code::W71, fmt::format("is seen from '{}'", ref.text),
+                "a view, perhaps with [element] and .face", "");
   if (context.versions && !entity.exists)
-    return fail(Code::W73, fmt::format("is seen from '{}', which the scene does not have", ref.text), "", fmt::format("\"enabled\": \"has({})\" leaves the pass out then", ref.name));
+    return fail(Code::W73, fmt::format("is seen from '{}', which the scene does not have", ref.text), "",
+                fmt::format("\"enabled\": \"has({})\" leaves the pass out then", ref.name));
   if (ref.element) {
-    const std::int64_t last = entity.count > 0 && context.ranges ? static_cast<std::int64_t>(entity.count) - 1 : 65535;
+    const std::int64_t last =
+        entity.count > 0 && context.ranges ? static_cast<std::int64_t>(entity.count) - 1 : 65535;
     const auto element = evaluateWhole(context.names, *ref.element, 0, 0, last, "the element of the view");
     if (!element) return std::nullopt;
     spec.viewLayer = static_cast<std::uint16_t>(*element);
   }
   if (ref.face) {
     const auto face = evaluateWhole(context.names, ref.face->first, 0, 0, 5, "the face of the view");
-    if (!face || ref.face->range) return face ? fail(Code::W71, "is seen from several faces", "one face", "repeat the pass over them") : std::nullopt;
+    if (!face || ref.face->range)
+      return face ? fail(Code::W71, "is seen from several faces", "one face", "repeat the pass over them")
+                  : std::nullopt;
     spec.viewFace = static_cast<std::uint16_t>(*face);
   }
   spec.view = entity.import;
   return spec.view;
 }
 
-bool fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots, PassSpec& spec,
-              std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
+bool fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+              PassSpec& spec, std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
   return SpecFiller(context, desc, slots, spec).run(deferred);
 }
 

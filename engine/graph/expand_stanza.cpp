@@ -18,7 +18,8 @@ struct Stanza {
   const std::string& declared;
 
   base::Diagnostic& error(Code code, const Place& place, std::string message) const {
-    base::Diagnostic& d = model.diagnostics.error(code, place.line ? place : desc.place, fmt::format("pass '{}' {}", declared, std::move(message)));
+    base::Diagnostic& d = model.diagnostics.error(code, place.line ? place : desc.place,
+                                                  fmt::format("pass '{}' {}", declared, std::move(message)));
     d.pass = declared;
     return d;
   }
@@ -28,7 +29,9 @@ struct Stanza {
 void checkKey(const Stanza& stanza, bool present, const char* key, const Place& place) {
   const auto& keys = stanza.type->keys;
   if (!present || std::find(keys.begin(), keys.end(), key) != keys.end()) return;
-  auto& d = stanza.error(Code::W67, place, fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
+  auto& d =
+      stanza.error(Code::W67, place,
+                   fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
   d.hint = keys.empty() ? "" : base::nearestHint(key, keys);
 }
 
@@ -40,9 +43,11 @@ void checkKeys(const Stanza& stanza) {
   checkKey(stanza, !desc.geometry.empty(), "geometry", desc.geometryPlace);
   const ShaderShape shader = stanza.type->shader;
   const auto notTaken = [&](const char* key, const Place& place) {
-    stanza.error(Code::W67, place, fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
+    stanza.error(Code::W67, place,
+                 fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
   };
-  if (!desc.state.empty() && shader != ShaderShape::fragment && shader != ShaderShape::draw) notTaken("state", desc.state[0].place);
+  if (!desc.state.empty() && shader != ShaderShape::fragment && shader != ShaderShape::draw)
+    notTaken("state", desc.state[0].place);
   if (shader == ShaderShape::none) {
     if (!desc.shader.empty()) notTaken("shader", desc.shaderPlace);
     if (desc.view) notTaken("view", desc.view->place);
@@ -50,24 +55,35 @@ void checkKeys(const Stanza& stanza) {
     if (!desc.defines.empty()) notTaken("defines", desc.defines[0].place);
     return;
   }
-  const auto lacks = [&](const char* what, const char* expected) { stanza.error(Code::W68, desc.namePlace, fmt::format("lacks {}", what)).expected = expected; };
-  if (desc.shader.empty()) lacks("a shader", shader == ShaderShape::draw ? "\"shader\": \"spheres/billboard\", without stage and ending" : "\"shader\": \"folder/name.stage.glsl\"");
+  const auto lacks = [&](const char* what, const char* expected) {
+    stanza.error(Code::W68, desc.namePlace, fmt::format("lacks {}", what)).expected = expected;
+  };
+  if (desc.shader.empty())
+    lacks("a shader", shader == ShaderShape::draw
+                          ? "\"shader\": \"spheres/billboard\", without stage and ending"
+                          : "\"shader\": \"folder/name.stage.glsl\"");
   if (shader == ShaderShape::draw) {
     if (desc.list.empty() && !desc.instances.present()) lacks("what to draw", "\"list\" or \"instances\"");
     if (desc.geometry.empty()) lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");
   }
   if (shader != ShaderShape::compute && !stanza.model.incomplete &&
-      std::none_of(desc.slots.begin(), desc.slots.end(), [](const SlotDesc& s) { return s.access != Access::read && s.ref.kind != Kind::image && s.ref.kind != Kind::storage; }))
+      std::none_of(desc.slots.begin(), desc.slots.end(), [](const SlotDesc& s) {
+        return s.access != Access::read && s.ref.kind != Kind::image && s.ref.kind != Kind::storage;
+      }))
     lacks("something to draw into", "a slot in \"write\" or \"modify\" that is an attachment");
 }
 
 void checkLists(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
   const Registry& registry = stanza.model.registry;
-  if (!desc.list.empty() && std::find(registry.drawLists.begin(), registry.drawLists.end(), desc.list) == registry.drawLists.end())
-    stanza.error(Code::W69, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list)).hint = base::nearestHint(desc.list, registry.drawLists);
-  if (!desc.geometry.empty() && std::find(registry.geometries.begin(), registry.geometries.end(), desc.geometry) == registry.geometries.end())
-    stanza.error(Code::W70, desc.geometryPlace, fmt::format("draws the unknown geometry '{}'", desc.geometry)).hint = base::nearestHint(desc.geometry, registry.geometries);
+  if (!desc.list.empty() &&
+      std::find(registry.drawLists.begin(), registry.drawLists.end(), desc.list) == registry.drawLists.end())
+    stanza.error(Code::W69, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list)).hint =
+        base::nearestHint(desc.list, registry.drawLists);
+  if (!desc.geometry.empty() && std::find(registry.geometries.begin(), registry.geometries.end(),
+                                          desc.geometry) == registry.geometries.end())
+    stanza.error(Code::W70, desc.geometryPlace, fmt::format("draws the unknown geometry '{}'", desc.geometry))
+        .hint = base::nearestHint(desc.geometry, registry.geometries);
 }
 
 void checkFixedSlots(const Stanza& stanza) {
@@ -77,19 +93,27 @@ void checkFixedSlots(const Stanza& stanza) {
   for (const FixedSlot& slot : fixed) names.push_back(slot.name);
   std::vector<std::string> meant;  // by misspelt ones
   for (const SlotDesc& slot : stanza.desc.slots) {
-    const auto found = std::find_if(fixed.begin(), fixed.end(), [&](const FixedSlot& f) { return f.name == slot.name; });
+    const auto found =
+        std::find_if(fixed.begin(), fixed.end(), [&](const FixedSlot& f) { return f.name == slot.name; });
     if (found == fixed.end()) {
-      stanza.error(Code::W66, slot.place, fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name)).hint = base::nearestHint(slot.name, names);
+      stanza
+          .error(
+              Code::W66, slot.place,
+              fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name))
+          .hint = base::nearestHint(slot.name, names);
       meant.push_back(base::nearestName(slot.name, names));
     } else if ((slot.access == Access::read) != (found->access == Access::read)) {
-      auto& d = stanza.error(Code::W66, slot.place, fmt::format("has the slot '{}' on the wrong side", slot.name));
+      auto& d =
+          stanza.error(Code::W66, slot.place, fmt::format("has the slot '{}' on the wrong side", slot.name));
       d.expected = fmt::format("'{}' in \"{}\"", slot.name, wordFor(found->access));
     }
   }
   for (const FixedSlot& slot : fixed)
     if (std::find(meant.begin(), meant.end(), slot.name) == meant.end() &&
-        std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(), [&](const SlotDesc& s) { return s.name == slot.name; }))
-      stanza.error(Code::W66, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name)).expected = fmt::format("\"{}\": {{ \"{}\": … }}", wordFor(slot.access), slot.name);
+        std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(),
+                     [&](const SlotDesc& s) { return s.name == slot.name; }))
+      stanza.error(Code::W66, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name)).expected =
+          fmt::format("\"{}\": {{ \"{}\": … }}", wordFor(slot.access), slot.name);
 }
 
 void checkReference(const Stanza& stanza, const RefDesc& ref) {
@@ -133,7 +157,9 @@ void checkCadence(const Stanza& stanza) {
   if (desc.cadence == Cadence::always) return;
   for (const PassParameterDesc& parameter : desc.parameters)
     if (!parameter.declared && isDynamic(stanza.model, stanza.scope, parameter.value)) {
-      auto& d = stanza.error(Code::W78, parameter.value.place(), fmt::format("sees time in parameter '{}', but does not run in every frame", parameter.name));
+      auto& d = stanza.error(
+          Code::W78, parameter.value.place(),
+          fmt::format("sees time in parameter '{}', but does not run in every frame", parameter.name));
       d.found = parameter.value.text();
       d.hint = "age() belongs into passes that are \"update\": \"always\"";
     }
@@ -141,7 +167,8 @@ void checkCadence(const Stanza& stanza) {
 
 }  // namespace
 
-bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type, const std::string& declared) {
+bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type,
+                 const std::string& declared) {
   const std::size_t before = model.diagnostics.errorCount();
   const Stanza stanza{model, scope, desc, type, declared};
   if (type) {
@@ -151,7 +178,8 @@ bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassTyp
   } else {
     std::vector<std::string> types;
     for (const PassType& known : model.registry.passTypes) types.push_back(known.name);
-    stanza.error(Code::W41, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type)).hint = base::nearestHint(desc.type, types);
+    stanza.error(Code::W41, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type)).hint =
+        base::nearestHint(desc.type, types);
   }
   checkExpressions(stanza);
   checkCadence(stanza);

@@ -81,12 +81,15 @@ VersionCheck checkVersion(const Entity& entity, std::uint32_t element, const Fla
   return check;
 }
 
-void collectWriters(Entity& entity, std::uint32_t element, const FlatUse& rect, std::vector<std::uint32_t>& out) {
+void collectWriters(Entity& entity, std::uint32_t element, const FlatUse& rect,
+                    std::vector<std::uint32_t>& out) {
   if (entity.kind == ResourceDesc::Kind::import) return;
   Element& e = entity.elements[element];
   if (e.writers.empty()) {
-    if (e.wholeWriter != kNone) out.push_back(e.wholeWriter);
-    else e.zeroUsed = true;
+    if (e.wholeWriter != kNone)
+      out.push_back(e.wholeWriter);
+    else
+      e.zeroUsed = true;
     return;
   }
   std::uint32_t last = kNone;
@@ -130,13 +133,17 @@ void setWriter(Entity& entity, std::uint32_t element, const FlatUse& rect, std::
 
 std::string subresourceText(const FlatResource& shape, std::uint32_t index) {
   std::string text;
-  const auto part = [&](const char* word, std::uint32_t n) { text += fmt::format("{}{} {}", text.empty() ? "" : ", ", word, n); };
+  const auto part = [&](const char* word, std::uint32_t n) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", word, n);
+  };
   if (shape.mips > 1) part("mip", index % shape.mips);
   const std::uint32_t layer = index / shape.mips % shape.layers;
   const bool cube = shape.target == Target::texture_cube || shape.target == Target::texture_cube_array;
-  if (shape.target == Target::texture_2d_array || shape.target == Target::texture_cube_array) part("layer", cube ? layer / 6 : layer);
+  if (shape.target == Target::texture_2d_array || shape.target == Target::texture_cube_array)
+    part("layer", cube ? layer / 6 : layer);
   if (cube) part("face", layer % 6);
-  if (planeCount(shape) > 1 && index / shape.mips / shape.layers == 1) text += text.empty() ? "stencil" : ", stencil";
+  if (planeCount(shape) > 1 && index / shape.mips / shape.layers == 1)
+    text += text.empty() ? "stencil" : ", stencil";
   return text;
 }
 

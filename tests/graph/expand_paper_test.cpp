@@ -1,5 +1,5 @@
-// The pipelines of the road, as far as they need no overlays: without errors and warnings in their default settings,
-// and for every variant, size and disable either a graph or diagnostics with their text.
+// The pipelines of the road, as far as they need no overlays: without errors and warnings in their default
+// settings, and for every variant, size and disable either a graph or diagnostics with their text.
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -59,7 +59,8 @@ std::vector<Source> sources() {
   std::vector<Source> all;
   base::Diagnostics diagnostics;
   if (const auto folder = paperFolder())
-    for (const std::string& name : kGraphs) all.push_back({"paper/" + name, readGraph(*folder + "/" + name, diagnostics)});
+    for (const std::string& name : kGraphs)
+      all.push_back({"paper/" + name, readGraph(*folder + "/" + name, diagnostics)});
   else
     MESSAGE("skipped: no ../shared/paper");
   for (const char* name : {"studio.json", "glow.json"})
@@ -114,15 +115,23 @@ TEST_CASE("every parameter at every choice and end of its range, and every size"
       std::vector<std::string> values = parameter.desc.choices;
       if (parameter.desc.type == ParameterDesc::Type::boolean) values = {"true", "false"};
       if (parameter.desc.type == ParameterDesc::Type::file) values = {"a.cube"};
-      if (parameter.desc.min && parameter.value.type == Value::Type::number) values.push_back(toText(Value::number(*parameter.desc.min)));
-      if (parameter.desc.max && parameter.value.type == Value::Type::number) values.push_back(toText(Value::number(*parameter.desc.max)));
+      if (parameter.desc.min && parameter.value.type == Value::Type::number)
+        values.push_back(toText(Value::number(*parameter.desc.min)));
+      if (parameter.desc.max && parameter.value.type == Value::Type::number)
+        values.push_back(toText(Value::number(*parameter.desc.max)));
       for (const std::string& value : values) {
         INFO(source.name, " --set ", parameter.path, "=", value);
         CHECK(settles(source, with({{parameter.path, value}})));
         ++variants;
       }
     }
-    for (const auto& [width, height] : {std::pair(1u, 1u), {2u, 1u}, {1u, 7u}, {31u, 17u}, {640u, 360u}, {1920u, 1080u}, {16384u, 16384u}}) {
+    for (const auto& [width, height] : {std::pair(1u, 1u),
+                                        {2u, 1u},
+                                        {1u, 7u},
+                                        {31u, 17u},
+                                        {640u, 360u},
+                                        {1920u, 1080u},
+                                        {16384u, 16384u}}) {
       INFO(source.name, " ", width, "x", height);
       Settings settings;
       settings.screenWidth = width;
@@ -139,8 +148,14 @@ TEST_CASE("worlds with nothing in them") {
     for (const double count : {0.0, 1.0, 2.0, 3.0, 1000.0}) {
       INFO(source.name, " with ", count);
       // log2ceil(0) is an author's mistake in the paper files, not ours: any diagnostic will do.
-      settles(source, {}, {.environment = false, .sun = false, .spheres = count, .pointLights = count, .shadowedLights = count});
-      settles(source, {}, {.environment = true, .sun = true, .spheres = count, .pointLights = 0, .shadowedLights = 0});
+      settles(source, {},
+              {.environment = false,
+               .sun = false,
+               .spheres = count,
+               .pointLights = count,
+               .shadowedLights = count});
+      settles(source, {},
+              {.environment = true, .sun = true, .spheres = count, .pointLights = 0, .shadowedLights = 0});
     }
 }
 

@@ -30,16 +30,24 @@ Expanded tryPass(const std::string& pass, const Settings& settings = {}, const W
       "buf": { "buffer": 64, "clear": 0 },
       "lut": { "import": "cube_lut", "file": "a.cube" }
     },
-    "passes": [ )J" + pass + R"J( ], "present": "out" })J",
+    "passes": [ )J" + pass +
+                        R"J( ], "present": "out" })J",
                     settings, testRegistry(world));
 }
-std::string fullscreen(const std::string& rest) { return R"J({ "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "result": "out" }, )J" + rest + "}"; }
-std::string compute(const std::string& rest) { return R"J({ "name": "p", "type": "compute", "shader": "a.comp.glsl", "side_effect": true, "threads": 1, )J" + rest + "}"; }
+std::string fullscreen(const std::string& rest) {
+  return R"J({ "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "result": "out" }, )J" +
+         rest + "}";
+}
+std::string compute(const std::string& rest) {
+  return R"J({ "name": "p", "type": "compute", "shader": "a.comp.glsl", "side_effect": true, "threads": 1, )J" +
+         rest + "}";
+}
 
 }  // namespace
 
 TEST_CASE("kinds by default and by word") {
-  const Expanded e = tryPass(fullscreen(R"J("read": { "a": "col", "b": "buf", "c": "buf as uniform", "d": "dep as compare", "t": "lut as linear", "s": "dep.stencil", "i": "@spheres" })J"));
+  const Expanded e = tryPass(fullscreen(
+      R"J("read": { "a": "col", "b": "buf", "c": "buf as uniform", "d": "dep as compare", "t": "lut as linear", "s": "dep.stencil", "i": "@spheres" })J"));
   CHECK(e.text() == "");
   CHECK(e.use("p", "a").kind == Kind::sampled);
   CHECK(e.use("p", "b").kind == Kind::storage);
@@ -52,7 +60,8 @@ TEST_CASE("kinds by default and by word") {
   CHECK(e.use("p", "i").kind == Kind::storage);
   CHECK(e.resource("lut").target == Target::texture_3d);
   CHECK(e.resource("lut").kind == ResourceKind::imported_texture);
-  const Expanded draw = tryPass(R"J({ "name": "p", "type": "draw", "shader": "a", "list": "spheres", "geometry": "quad", "modify": { "radiance": "small", "result": "small" } })J");
+  const Expanded draw = tryPass(
+      R"J({ "name": "p", "type": "draw", "shader": "a", "list": "spheres", "geometry": "quad", "modify": { "radiance": "small", "result": "small" } })J");
   CHECK(draw.has(Code::W65));
   const Expanded c = tryPass(compute(R"J("write": { "result": "vol" })J"));
   CHECK(c.use("p", "result").kind == Kind::image);
@@ -110,15 +119,18 @@ TEST_CASE("kinds and formats that do not fit") {
 }
 
 TEST_CASE("a pass may read one level and write another, and modify with feedback") {
-  const Expanded levels = tryPass(compute(R"J("write": { "a": "col.mip[1]" }, "read": { "b": "col.mip[0]" })J"));
+  const Expanded levels =
+      tryPass(compute(R"J("write": { "a": "col.mip[1]" }, "read": { "b": "col.mip[0]" })J"));
   CHECK(levels.text() == "");
-  const Expanded feedback = tryPass(fullscreen(R"J("feedback": true, "modify": { "a": "col.mip[0]" }, "read": { "b": "col.mip[0]" })J"));
+  const Expanded feedback = tryPass(
+      fullscreen(R"J("feedback": true, "modify": { "a": "col.mip[0]" }, "read": { "b": "col.mip[0]" })J"));
   CHECK(feedback.text() == "");
   CHECK(feedback.use("p", "a").feedback);
 }
 
 TEST_CASE("faces and layers of cubes") {
-  const Expanded e = tryPass(R"J({ "name": "p", "type": "draw", "shader": "a", "list": "opaque", "geometry": "mesh", "side_effect": true,
+  const Expanded e = tryPass(
+      R"J({ "name": "p", "type": "draw", "shader": "a", "list": "opaque", "geometry": "mesh", "side_effect": true,
     "repeat": [{ "l": [0, 1] }, { "f": [0, 5] }], "view": "@shadowed_lights[l].face[f]", "modify": { "depth": "cube.layer[l].face[f]" }, "state": { "depth_test": "less" } })J");
   CHECK(e.text().find("error") == std::string::npos);
   CHECK(e.resource("cube").layers == 18);
@@ -129,7 +141,8 @@ TEST_CASE("faces and layers of cubes") {
   CHECK(e.spec("p[1,4]").viewFace == 4);
   CHECK(e.graph->imports[e.spec("p[1,4]").view].request.type == "shadowed_lights");
   CHECK(e.spec("p[1,4]").declared == "p");
-  const Expanded all = tryPass(fullscreen(R"J("read": { "a": "cube.layer[1]", "b": "cube.layer[1].face[2..3]", "c": "lay.layer[1..]" })J"));
+  const Expanded all = tryPass(fullscreen(
+      R"J("read": { "a": "cube.layer[1]", "b": "cube.layer[1].face[2..3]", "c": "lay.layer[1..]" })J"));
   CHECK(all.use("p", "a").layer == 6);
   CHECK(all.use("p", "a").layers == 6);
   CHECK(all.use("p", "b").layer == 8);
@@ -141,7 +154,8 @@ TEST_CASE("imports that have nothing") {
   const World empty{.environment = false, .sun = false, .spheres = 0, .pointLights = 0, .shadowedLights = 0};
   CHECK(tryPass(fullscreen(R"J("read": { "a": "@environment" })J"), {}, empty).has(Code::W73));
   CHECK(tryPass(fullscreen(R"J("read": { "a": "@environment ?" })J"), {}, empty).useText("p", "a") == "-");
-  const std::string shadow = R"J({ "name": "p", "type": "draw", "shader": "a", "list": "opaque", "geometry": "mesh", "enabled": "has(sun)", "view": "@sun", "side_effect": true, "modify": { "depth": "cube.layer[0].face[0]" } })J";
+  const std::string shadow =
+      R"J({ "name": "p", "type": "draw", "shader": "a", "list": "opaque", "geometry": "mesh", "enabled": "has(sun)", "view": "@sun", "side_effect": true, "modify": { "depth": "cube.layer[0].face[0]" } })J";
   CHECK(tryPass(shadow).names() == "p");
   CHECK(tryPass(shadow, {}, empty).has(Code::W73) == false);
 }
@@ -166,20 +180,30 @@ TEST_CASE("cadence: an always pass may not add to what a slower one made") {
   CHECK(good.graph->passes[1].slices == 0);
   CHECK(good.graph->passes[1].group == good.graph->passes[0].group);
   CHECK(good.graph->groupNames == std::vector<std::string>{"g"});
-  const Expanded bad = expandText(head + R"J(, { "name": "fast", "type": "fullscreen", "shader": "a.frag.glsl", "modify": { "result": "out" }, "state": { "blend": "add" } } ], "present": "out" })J");
+  const Expanded bad = expandText(
+      head +
+      R"J(, { "name": "fast", "type": "fullscreen", "shader": "a.frag.glsl", "modify": { "result": "out" }, "state": { "blend": "add" } } ], "present": "out" })J");
   CHECK(bad.of(Code::W76).pass == "fast");
 }
 
 TEST_CASE("includes: prefixes, binds, inputs of the same name, names from outside") {
   const std::filesystem::path folder = std::filesystem::path(WEFT_BINARY_DIR) / "expand_include";
   std::filesystem::create_directories(folder);
-  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; return (folder / name).string(); };
-  write("inner.json", R"J({ "parameters": { "k": { "default": 2.0 } }, "resources": { "hdr": { "input": "texture" }, "res": { "texture": "rgba8", "size": "size(hdr)" } },
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  };
+  write(
+      "inner.json",
+      R"J({ "parameters": { "k": { "default": 2.0 } }, "resources": { "hdr": { "input": "texture" }, "res": { "texture": "rgba8", "size": "size(hdr)" } },
     "passes": [ { "name": "go", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "hdr" }, "write": { "result": "res" },
                   "parameters": { "k": "$k", "outer": "$outer", "own": { "default": 3 } } } ], "outputs": { "res": "res?" } })J");
   const auto top = [&](const std::string& include, const Settings& settings = {}) {
-    const std::string path = write("top.json", R"J({ "parameters": { "outer": { "default": 5.0 } }, "resources": { "hdr": { "texture": "rgba16f", "size": [4, 2] }, "other": { "texture": "rgba16f", "size": [8, 2] } },
-      "passes": [ { "name": "a", "type": "compute", "shader": "a.comp.glsl", "write": { "r": "hdr" } }, { "name": "b", "type": "compute", "shader": "a.comp.glsl", "write": { "r": "other" } }, )J" + include + R"J( ], "present": "inc.res" })J");
+    const std::string path = write(
+        "top.json",
+        R"J({ "parameters": { "outer": { "default": 5.0 } }, "resources": { "hdr": { "texture": "rgba16f", "size": [4, 2] }, "other": { "texture": "rgba16f", "size": [8, 2] } },
+      "passes": [ { "name": "a", "type": "compute", "shader": "a.comp.glsl", "write": { "r": "hdr" } }, { "name": "b", "type": "compute", "shader": "a.comp.glsl", "write": { "r": "other" } }, )J" +
+            include + R"J( ], "present": "inc.res" })J");
     Expanded e;
     const auto desc = readGraph(path, e.diagnostics);
     REQUIRE_MESSAGE(desc, e.text());
@@ -203,14 +227,18 @@ TEST_CASE("includes: prefixes, binds, inputs of the same name, names from outsid
   const Expanded nowhere = top(R"J({ "include": "inner.json", "as": "inc", "bind": { "hdr": "othr" } })J");
   CHECK(nowhere.of(Code::W40).hint == "did you mean 'other'?");
   const Expanded off = top(R"J({ "include": "inner.json", "as": "inc" })J", with({}, {"inc"}));
-  CHECK(off.of(Code::W60).message.find("'inc.go' that would write it is disabled (--disable inc)") != std::string::npos);
-  const Expanded part = top(R"J({ "include": "inner.json", "as": "inc", "bind": { "hdr": "other.mip[0]" } })J");
+  CHECK(off.of(Code::W60).message.find("'inc.go' that would write it is disabled (--disable inc)") !=
+        std::string::npos);
+  const Expanded part =
+      top(R"J({ "include": "inner.json", "as": "inc", "bind": { "hdr": "other.mip[0]" } })J");
   CHECK(part.has(Code::W75));
 }
 
 TEST_CASE("mipmap and blit hold their two slots against each other") {
   const auto copy = [](const std::string& type, const std::string& source, const std::string& result) {
-    return tryPass(R"J({ "name": "p", "type": ")J" + type + R"J(", "side_effect": true, "read": { "source": ")J" + source + R"J(" }, "write": { ")J" + (type == "blit" ? "destination" : "result") + R"J(": ")J" + result + R"J(" } })J");
+    return tryPass(R"J({ "name": "p", "type": ")J" + type +
+                   R"J(", "side_effect": true, "read": { "source": ")J" + source + R"J(" }, "write": { ")J" +
+                   (type == "blit" ? "destination" : "result") + R"J(": ")J" + result + R"J(" } })J");
   };
   CHECK(copy("mipmap", "col.mip[0]", "col.mip[1..]").text() == "");
   CHECK(copy("mipmap", "col.mip[0]", "col.mip[1..]").use("p", "result").kind == Kind::copy);
@@ -219,5 +247,9 @@ TEST_CASE("mipmap and blit hold their two slots against each other") {
   CHECK(copy("blit", "col.mip[0] as linear", "out").text() == "");
   CHECK(copy("blit", "ids", "out").has(Code::W57));
   CHECK(copy("blit", "dep", "out").has(Code::W57));
-  CHECK(tryPass(R"J({ "name": "p", "type": "blit", "side_effect": true, "read": { "sorce": "col" }, "write": { "destination": "out" } })J").of(Code::W66).hint == "did you mean 'source'?");
+  CHECK(
+      tryPass(
+          R"J({ "name": "p", "type": "blit", "side_effect": true, "read": { "sorce": "col" }, "write": { "destination": "out" } })J")
+          .of(Code::W66)
+          .hint == "did you mean 'source'?");
 }

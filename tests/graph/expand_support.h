@@ -47,7 +47,8 @@ struct Expanded {
   }
   const FlatUse& use(std::string_view passName, std::string_view name, std::uint32_t element = 0) const {
     const SlotSpec& s = slot(passName, name);
-    REQUIRE_MESSAGE(s.useCount > element, "slot ", std::string(name), " of ", std::string(passName), " is not connected");
+    REQUIRE_MESSAGE(s.useCount > element, "slot ", std::string(name), " of ", std::string(passName),
+                    " is not connected");
     return graph->uses[s.firstUse + element];
   }
   // "hdr#2 mip 1" with "@-1", the levels only when not all: enough to compare uses by eye.
@@ -57,8 +58,11 @@ struct Expanded {
     const FlatUse& u = use(passName, name, element);
     const FlatResource& r = graph->resources[u.resource];
     std::string text = graph->resourceNames[u.resource];
-    if (u.mips != r.mips) text += " mip " + std::to_string(u.mip) + (u.mips > 1 ? ".." + std::to_string(u.mip + u.mips - 1) : "");
-    if (u.layers != r.layers) text += " layer " + std::to_string(u.layer) + (u.layers > 1 ? ".." + std::to_string(u.layer + u.layers - 1) : "");
+    if (u.mips != r.mips)
+      text += " mip " + std::to_string(u.mip) + (u.mips > 1 ? ".." + std::to_string(u.mip + u.mips - 1) : "");
+    if (u.layers != r.layers)
+      text += " layer " + std::to_string(u.layer) +
+              (u.layers > 1 ? ".." + std::to_string(u.layer + u.layers - 1) : "");
     if (u.history > 0) text += " @-" + std::to_string(u.history);
     return text;
   }
@@ -89,7 +93,8 @@ struct Expanded {
   }
 };
 
-inline Expanded expandText(std::string_view json, const Settings& settings = {}, const Registry& registry = testRegistry()) {
+inline Expanded expandText(std::string_view json, const Settings& settings = {},
+                           const Registry& registry = testRegistry()) {
   Expanded result;
   const auto desc = readGraphText(json, "test.json", result.diagnostics);
   REQUIRE_MESSAGE(desc, result.text());
@@ -97,7 +102,8 @@ inline Expanded expandText(std::string_view json, const Settings& settings = {},
   return result;
 }
 
-inline Settings with(std::vector<std::pair<std::string, std::string>> sets, std::vector<std::string> disables = {}) {
+inline Settings with(std::vector<std::pair<std::string, std::string>> sets,
+                     std::vector<std::string> disables = {}) {
   Settings settings;
   settings.sets = std::move(sets);
   settings.disables = std::move(disables);

@@ -9,21 +9,29 @@ using base::Code;
 namespace {
 
 Expanded tryPass(const std::string& pass, const std::string& head, const Settings& settings = {}) {
-  return expandText(R"J({ "resources": { "out": { "texture": "rgba8", "size": [16, 8] } }, "passes": [ { "name": "p", "shader": "a.frag.glsl", "type": "fullscreen", "write": { "result": "out" }, )J" + pass + R"J( } ], "present": "out")J" + head + "}", settings);
+  return expandText(
+      R"J({ "resources": { "out": { "texture": "rgba8", "size": [16, 8] } }, "passes": [ { "name": "p", "shader": "a.frag.glsl", "type": "fullscreen", "write": { "result": "out" }, )J" +
+          pass + R"J( } ], "present": "out")J" + head + "}",
+      settings);
 }
 Expanded tryTexture(const std::string& keys, const Settings& settings = {}) {
-  return expandText(R"J({ "resources": { "t": { "texture": "rgba8", )J" + keys + R"J( } }, "passes": [ { "name": "p", "type": "compute", "shader": "a.comp.glsl", "threads": 1, "side_effect": true, "write": { "t": "t" } } ] })J", settings);
+  return expandText(
+      R"J({ "resources": { "t": { "texture": "rgba8", )J" + keys +
+          R"J( } }, "passes": [ { "name": "p", "type": "compute", "shader": "a.comp.glsl", "threads": 1, "side_effect": true, "write": { "t": "t" } } ] })J",
+      settings);
 }
 
 }  // namespace
 
 TEST_CASE("defines: booleans, numbers, choices with all their names") {
-  const Expanded e = tryPass(R"J("defines": { "NEAR": "1 == 1", "N": "2 + 3", "X": 0.5, "CURVE": "$curve" }, "parameters": { "grain": { "default": true, "define": true }, "mode": { "default": "b-2", "choices": ["a", "b-2"], "define": true }, "lut": "$lut" })J",
-                             R"J(, "parameters": { "curve": { "default": "filmic", "choices": ["linear", "filmic"] }, "lut": { "default": false, "define": true } })J");
+  const Expanded e = tryPass(
+      R"J("defines": { "NEAR": "1 == 1", "N": "2 + 3", "X": 0.5, "CURVE": "$curve" }, "parameters": { "grain": { "default": true, "define": true }, "mode": { "default": "b-2", "choices": ["a", "b-2"], "define": true }, "lut": "$lut" })J",
+      R"J(, "parameters": { "curve": { "default": "filmic", "choices": ["linear", "filmic"] }, "lut": { "default": false, "define": true } })J");
   // "b-2" is no name for a choice, so the reader refuses it
   CHECK_FALSE(e.graph);
-  const Expanded good = tryPass(R"J("defines": { "NEAR": "1 == 1", "N": "2 + 3", "X": 0.5, "CURVE": "$curve" }, "parameters": { "grain": { "default": true, "define": true }, "mode": { "default": "b", "choices": ["a", "b"], "define": true }, "lut": "$lut" })J",
-                                R"J(, "parameters": { "curve": { "default": "filmic", "choices": ["linear", "filmic"] }, "lut": { "default": false, "define": true } })J");
+  const Expanded good = tryPass(
+      R"J("defines": { "NEAR": "1 == 1", "N": "2 + 3", "X": 0.5, "CURVE": "$curve" }, "parameters": { "grain": { "default": true, "define": true }, "mode": { "default": "b", "choices": ["a", "b"], "define": true }, "lut": "$lut" })J",
+      R"J(, "parameters": { "curve": { "default": "filmic", "choices": ["linear", "filmic"] }, "lut": { "default": false, "define": true } })J");
   CHECK(good.text() == "");
   CHECK(good.define("p", "NEAR") == "1");
   CHECK(good.define("p", "N") == "5");
@@ -39,8 +47,9 @@ TEST_CASE("defines: booleans, numbers, choices with all their names") {
 }
 
 TEST_CASE("uniforms carry values and the parameter behind them; what influences more is structural") {
-  const Expanded e = tryPass(R"J("repeat": { "i": [0, 1] }, "read": { "s": "out if $gate ?" }, "parameters": { "a": "$plain", "b": "i / 4.0", "c": "$twice * 2", "d": { "default": [1, 2, 3] } })J",
-                             R"J(, "parameters": { "plain": { "default": 1.5 }, "base": { "default": 3.0 }, "gate": { "default": false } }, "let": { "twice": "$base * 2" })J");
+  const Expanded e = tryPass(
+      R"J("repeat": { "i": [0, 1] }, "read": { "s": "out if $gate ?" }, "parameters": { "a": "$plain", "b": "i / 4.0", "c": "$twice * 2", "d": { "default": [1, 2, 3] } })J",
+      R"J(, "parameters": { "plain": { "default": 1.5 }, "base": { "default": 3.0 }, "gate": { "default": false } }, "let": { "twice": "$base * 2" })J");
   CHECK(e.uniform("p[1]", "a").value == Value::number(1.5));
   CHECK(e.uniform("p[1]", "a").path == "plain");
   CHECK(e.uniform("p[1]", "b").value == Value::number(0.25));
@@ -51,7 +60,9 @@ TEST_CASE("uniforms carry values and the parameter behind them; what influences 
     INFO(parameter.path);
     CHECK(parameter.structural == (parameter.path == "gate"));
   }
-  const Expanded through = tryPass(R"J("parameters": { "a": 1 }, "enabled": "$both")J", R"J(, "parameters": { "m": { "default": true }, "n": { "default": true } }, "let": { "both": "$m && $n" })J");
+  const Expanded through = tryPass(
+      R"J("parameters": { "a": 1 }, "enabled": "$both")J",
+      R"J(, "parameters": { "m": { "default": true }, "n": { "default": true } }, "let": { "both": "$m && $n" })J");
   REQUIRE_MESSAGE(through.graph, through.text());
   for (const ParameterSpec& parameter : through.graph->parameters) CHECK(parameter.structural);
 }
@@ -64,20 +75,28 @@ TEST_CASE("age() is folded to the last version, also through a let") {
                 { "name": "three", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "s": "a" }, "write": { "r": "out" } } ], "present": "out" })J");
   CHECK(e.text() == "");
   std::uint32_t asked = kNone;
-  const auto age = [&](std::uint32_t key) { asked = key; return 0.1; };
+  const auto age = [&](std::uint32_t key) {
+    asked = key;
+    return 0.1;
+  };
   CHECK(e.uniform("one", "f").dynamic.evaluateFolded(age).v[0] == doctest::Approx(0.2));
   CHECK(e.graph->resourceNames[asked] == "a#2");
   CHECK(e.uniform("one", "g").dynamic.evaluateFolded(age).v[0] == doctest::Approx(0.1));
-  const Expanded size = expandText(R"J({ "let": { "fade": "age(a)" }, "resources": { "a": { "texture": "rgba8", "size": "$fade" } }, "passes": [] })J");
+  const Expanded size = expandText(
+      R"J({ "let": { "fade": "age(a)" }, "resources": { "a": { "texture": "rgba8", "size": "$fade" } }, "passes": [] })J");
   CHECK(size.has(Code::W78));
   const Expanded slow = tryPass(R"J("update": "on_change", "parameters": { "t": "age(out)" })J", "");
   CHECK(slow.of(Code::W78).pass == "p");
 }
 
 TEST_CASE("--set: suffixes, types, ranges, choices") {
-  const std::string head = R"J(, "parameters": { "n": { "default": 3, "min": 0, "max": 6 }, "f": { "default": 0.5 }, "b": { "default": true }, "v": { "default": [1, 2] }, "c": { "default": "no", "choices": ["no", "yes"] } })J";
-  const std::string pass = R"J("parameters": { "n": "$n", "f": "$f", "b": "$b", "v": "$v", "own": { "default": 1.0 } }, "defines": { "C": "$c" })J";
-  const Expanded e = tryPass(pass, head, with({{"n", "4"}, {"f", "-1.5e1"}, {"b", "false"}, {"v", "[3, 4.5]"}, {"c", "yes"}, {"own", "2"}}));
+  const std::string head =
+      R"J(, "parameters": { "n": { "default": 3, "min": 0, "max": 6 }, "f": { "default": 0.5 }, "b": { "default": true }, "v": { "default": [1, 2] }, "c": { "default": "no", "choices": ["no", "yes"] } })J";
+  const std::string pass =
+      R"J("parameters": { "n": "$n", "f": "$f", "b": "$b", "v": "$v", "own": { "default": 1.0 } }, "defines": { "C": "$c" })J";
+  const Expanded e = tryPass(
+      pass, head,
+      with({{"n", "4"}, {"f", "-1.5e1"}, {"b", "false"}, {"v", "[3, 4.5]"}, {"c", "yes"}, {"own", "2"}}));
   CHECK(e.text() == "");
   CHECK(e.uniform("p", "n").value == Value::number(4));
   CHECK(e.uniform("p", "f").value == Value::number(-15));
@@ -109,20 +128,23 @@ TEST_CASE("--set and --disable of names that several things end in") {
 }
 
 TEST_CASE("state words, flags and per-slot blending") {
-  const Expanded e = expandText(R"J({ "parameters": { "wire": { "default": true } }, "resources": { "out": { "texture": "rgba8", "size": 8, "clear": 0 }, "v": { "texture": "rg16f", "size": 8, "clear": 0 }, "d": { "texture": "depth32f", "size": 8, "clear": 0 } },
+  const Expanded e = expandText(
+      R"J({ "parameters": { "wire": { "default": true } }, "resources": { "out": { "texture": "rgba8", "size": 8, "clear": 0 }, "v": { "texture": "rg16f", "size": 8, "clear": 0 }, "d": { "texture": "depth32f", "size": 8, "clear": 0 } },
     "passes": [ { "name": "p", "type": "draw", "shader": "a", "list": "spheres", "geometry": "icosphere(2 + 1)", "modify": { "radiance": "out", "velocity": "v", "depth": "d" },
       "state": { "blend": { "radiance": "premultiplied" }, "depth_test": "greater_equal", "depth_write": false, "cull": "back", "polygon": "$wire ? line : fill", "scissor": true, "offset": [2, 4] } } ], "present": "out" })J");
   CHECK(e.text() == "");
   const StateSpec& s = e.spec("p").state;
   REQUIRE(s.blend.size() == 1);
   CHECK(s.blend[0] == std::pair<std::string, Blend>("radiance", Blend::premultiplied));
-  CHECK((s.depthTest && s.depthCompare == Compare::greater_equal && !s.depthWrite && s.cull == Cull::back && s.lines && s.scissor));
+  CHECK((s.depthTest && s.depthCompare == Compare::greater_equal && !s.depthWrite && s.cull == Cull::back &&
+         s.lines && s.scissor));
   CHECK(s.offsetFactor == 2);
   CHECK(s.offsetUnits == 4);
   CHECK(e.spec("p").geometry == "icosphere");
   CHECK(e.spec("p").geometryArguments == std::vector<double>{3});
   CHECK(tryPass(R"J("state": { "blend": "ad" })J", "").of(Code::W79).hint == "did you mean 'add'?");
-  CHECK(tryPass(R"J("state": { "blend": { "reslt": "add" } })J", "").of(Code::W79).hint == "did you mean 'result'?");
+  CHECK(tryPass(R"J("state": { "blend": { "reslt": "add" } })J", "").of(Code::W79).hint ==
+        "did you mean 'result'?");
   CHECK(tryPass(R"J("state": { "depth_test": "less" })J", "").has(Code::W79));
 }
 
@@ -153,14 +175,28 @@ TEST_CASE("sizes: floored, at least 1, within their limits; levels clamped") {
   CHECK(tryTexture(R"J("size": 8, "view": "3d")J").has(Code::W82));
   CHECK(tryTexture(R"J("size": 8, "samples": 4, "mips": 2)J").has(Code::W82));
   CHECK(expandText(R"J({ "resources": { "b": { "buffer": 3e9 } } })J").has(Code::W48));
-  CHECK(expandText(R"J({ "resources": { "b": { "texture": "rgba8f", "size": 1 } } })J").of(Code::W42).hint == "did you mean 'rgba8'?");
+  CHECK(expandText(R"J({ "resources": { "b": { "texture": "rgba8f", "size": 1 } } })J").of(Code::W42).hint ==
+        "did you mean 'rgba8'?");
 }
 
 TEST_CASE("definitions that depend on themselves say how") {
-  CHECK(expandText(R"J({ "let": { "a": "$b + 1", "b": "$a" }, "resources": { "t": { "texture": "rgba8", "size": "$a" } } })J").of(Code::W50).message == "'$a' depends on itself: $a -> $b -> $a");
-  CHECK(expandText(R"J({ "resources": { "t": { "texture": "rgba8", "size": "size(u)" }, "u": { "texture": "rgba8", "size": "size(t)/2" } } })J").of(Code::W50).message == "the size of 't' depends on itself: 't' -> 'u' -> 't'");
-  CHECK(expandText(R"J({ "resources": { "t": ["u"], "u": ["v"], "v": ["t"] } })J").of(Code::W50).message == "the alternatives of 't' lead back to it: 't' -> 'u' -> 'v' -> 't'");
-  CHECK(expandText(R"J({ "let": { "a": "size(t).x" }, "resources": { "t": { "texture": "rgba8", "size": "$a" } } })J").of(Code::W50).message.find("'t' -> $a -> 't'") != std::string::npos);
+  CHECK(
+      expandText(
+          R"J({ "let": { "a": "$b + 1", "b": "$a" }, "resources": { "t": { "texture": "rgba8", "size": "$a" } } })J")
+          .of(Code::W50)
+          .message == "'$a' depends on itself: $a -> $b -> $a");
+  CHECK(
+      expandText(
+          R"J({ "resources": { "t": { "texture": "rgba8", "size": "size(u)" }, "u": { "texture": "rgba8", "size": "size(t)/2" } } })J")
+          .of(Code::W50)
+          .message == "the size of 't' depends on itself: 't' -> 'u' -> 't'");
+  CHECK(expandText(R"J({ "resources": { "t": ["u"], "u": ["v"], "v": ["t"] } })J").of(Code::W50).message ==
+        "the alternatives of 't' lead back to it: 't' -> 'u' -> 'v' -> 't'");
+  CHECK(
+      expandText(
+          R"J({ "let": { "a": "size(t).x" }, "resources": { "t": { "texture": "rgba8", "size": "$a" } } })J")
+          .of(Code::W50)
+          .message.find("'t' -> $a -> 't'") != std::string::npos);
 }
 
 TEST_CASE("repeats: order, names, empty ranges, later bounds from earlier indices") {

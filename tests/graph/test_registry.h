@@ -1,5 +1,5 @@
-// The pass types and imports that graph tests expand against: what engine/passes and engine/runtime reflect, without
-// either. The world behind the imports is a few settable facts.
+// The pass types and imports that graph tests expand against: what engine/passes and engine/runtime reflect,
+// without either. The world behind the imports is a few settable facts.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,35 @@ struct World {
 
 inline std::vector<PassType> testPassTypes() {
   return {
-      {.name = "fullscreen", .doc = "one triangle", .shader = ShaderShape::fragment, .keys = {"state", "view", "feedback"}, .fixedSlots = {}},
-      {.name = "compute", .doc = "a compute shader", .shader = ShaderShape::compute, .defaultWriteTexture = Kind::image, .keys = {"threads", "view"}, .fixedSlots = {}},
-      {.name = "draw", .doc = "a draw list", .shader = ShaderShape::draw, .keys = {"list", "geometry", "instances", "view", "state", "feedback"}, .fixedSlots = {}},
-      {.name = "blit", .doc = "copies", .shader = ShaderShape::none, .defaultReadTexture = Kind::copy, .defaultWriteTexture = Kind::copy, .keys = {},
+      {.name = "fullscreen",
+       .doc = "one triangle",
+       .shader = ShaderShape::fragment,
+       .keys = {"state", "view", "feedback"},
+       .fixedSlots = {}},
+      {.name = "compute",
+       .doc = "a compute shader",
+       .shader = ShaderShape::compute,
+       .defaultWriteTexture = Kind::image,
+       .keys = {"threads", "view"},
+       .fixedSlots = {}},
+      {.name = "draw",
+       .doc = "a draw list",
+       .shader = ShaderShape::draw,
+       .keys = {"list", "geometry", "instances", "view", "state", "feedback"},
+       .fixedSlots = {}},
+      {.name = "blit",
+       .doc = "copies",
+       .shader = ShaderShape::none,
+       .defaultReadTexture = Kind::copy,
+       .defaultWriteTexture = Kind::copy,
+       .keys = {},
        .fixedSlots = {{"source", Access::read, ""}, {"destination", Access::write, ""}}},
-      {.name = "mipmap", .doc = "fills levels", .shader = ShaderShape::none, .defaultReadTexture = Kind::copy, .defaultWriteTexture = Kind::copy, .keys = {},
+      {.name = "mipmap",
+       .doc = "fills levels",
+       .shader = ShaderShape::none,
+       .defaultReadTexture = Kind::copy,
+       .defaultWriteTexture = Kind::copy,
+       .keys = {},
        .fixedSlots = {{"source", Access::read, ""}, {"result", Access::write, ""}}},
   };
 }
@@ -42,13 +65,17 @@ inline std::vector<ImportType> testImports() {
       {"sun", ImportKind::view, "", {}},
       {"point_lights", ImportKind::list, "", {}},
       {"shadowed_lights", ImportKind::view, "", {}},
-      {"draw_order", ImportKind::buffer, "",
+      {"draw_order",
+       ImportKind::buffer,
+       "",
        {argument("list", Value::text("spheres")), argument("by", Value::text("depth"), {"depth"}),
         argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"})}},
       {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
-      {"probes", ImportKind::buffer, "",
-       {argument("list", Value::text("spheres")), argument("grid", grid), argument("near", Value::number(1)), argument("far", Value::number(3)),
-        argument("lobe", Value::text("cap"), {"cap", "point"})}},
+      {"probes",
+       ImportKind::buffer,
+       "",
+       {argument("list", Value::text("spheres")), argument("grid", grid), argument("near", Value::number(1)),
+        argument("far", Value::number(3)), argument("lobe", Value::text("cap"), {"cap", "point"})}},
       {"screen_view", ImportKind::view, "", {}},
   };
 }
