@@ -211,7 +211,9 @@ class PassWalk {
       FlatUse use = work.use;
       use.feedback = desc_->feedback && use.access == Access::modify;
       // A depth attachment serves the pass's own test, also when nobody reads it afterwards.
-      const bool tested = use.kind == Kind::depth && std::ranges::any_of(desc_->state, [](const NamedExpr& s) { return s.name == "depth_test"; });
+      const bool tested =
+          use.kind == Kind::depth &&
+          std::ranges::any_of(desc_->state, [](const NamedExpr& s) { return s.name == "depth_test"; });
       use.keep = (desc_->sideEffect || tested) && use.access != Access::read;
       model_.flow.firstDep.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()));
       if (use.history > 0) {
@@ -299,7 +301,8 @@ class PassWalk {
     // A depth test reads what it writes, so the attachment stays even when no other pass reads it.
     const bool tests = spec.state.depthTest && spec.state.depthCompare != Compare::always;
     for (std::uint32_t use = flat.firstUse; use < flat.firstUse + flat.useCount; ++use)
-      if (tests && graph_.uses[use].kind == Kind::depth && graph_.uses[use].access != Access::read) graph_.uses[use].keep = true;
+      if (tests && graph_.uses[use].kind == Kind::depth && graph_.uses[use].access != Access::read)
+        graph_.uses[use].keep = true;
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
       if (slot.useCount == 0 || slot.access == Access::read) continue;

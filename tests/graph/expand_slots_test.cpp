@@ -253,3 +253,28 @@ TEST_CASE("mipmap and blit hold their two slots against each other") {
           .of(Code::W66)
           .hint == "did you mean 'source'?");
 }
+
+TEST_CASE("an import with a stand-in satisfies a plain read, not an optional one") {
+  Registry registry = testRegistry({.environment = false});
+  const auto factsOf = registry.factsOf;
+  registry.factsOf = [factsOf](const ImportRequest& request) {
+    ImportFacts facts = factsOf(request);
+    facts.fallback = true;
+    return facts;
+  };
+  const Expanded e = expandText(
+      R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 }, "env": ["@environment", "@environment"] }, "passes": [
+    { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "plain": "@environment", "maybe": "@environment?", "list": "env" }, "write": { "result": "out" } } ], "present": "out" })J",
+      {}, registry);
+  CHECK(e.text() == "");
+  CHECK(e.useText("p", "plain") == "@environment");
+  CHECK(e.useText("p", "maybe") == "-");
+  CHECK(e.useText("p", "list") == "@environment");
+}
+
+TEST_CASE("a tested depth attachment stays attached") {
+  const Expanded e = tryPass(
+      R"J({ "name": "p", "type": "draw", "shader": "a", "list": "spheres", "geometry": "quad", "modify": { "radiance": "out", "depth": "dep" }, "state": { "depth_test": "greater" } })J");
+  CHECK(e.use("p", "depth").keep);
+  CHECK_FALSE(e.use("p", "radiance").keep);
+}
