@@ -35,7 +35,7 @@ struct InstanceLayout {
   std::int32_t center = -1, radius = -1, previousCenter = -1, roughness = -1, albedo = -1, metallic = -1;
   friend bool operator==(const InstanceLayout&, const InstanceLayout&) = default;
 };
-// Reports W186 when the block is no array of a struct with these fields.
+// False, with the problem, when the block is no array of a struct with these fields.
 bool instanceLayoutOf(const gl::Block& block, InstanceLayout& layout, std::string& problem);
 void writeInstances(const InstanceLayout& layout, std::span<const scene::Instance> instances, std::vector<std::byte>& out);
 

@@ -1,5 +1,6 @@
 // A step of a plan to a PreparedPass: program, bindings, attachments, clears.
 #include <algorithm>
+#include <cassert>
 
 #include "engine/base/hash.h"
 #include "engine/runtime/formats.h"
@@ -95,7 +96,7 @@ class Preparer {
     if (instances && !spec_.list.empty() && !hasSlot("instances")) {
       BufferBinding binding{.index = instances->binding};
       binding.list = static_cast<int>(*scene::findDrawList(spec_.list));
-      good &= layoutOf(*instances, binding);
+      takeLayout(*instances, binding);
       out_.buffers.push_back(binding);
     }
     return good;
@@ -107,14 +108,11 @@ class Preparer {
     return false;
   }
 
-  bool layoutOf(const gl::Block& block, BufferBinding& binding) {
+  // checkProgram has seen that the block is a table.
+  static void takeLayout(const gl::Block& block, BufferBinding& binding) {
     std::string problem;
-    if (instanceLayoutOf(block, binding.layout, problem)) return true;
-    base::Diagnostic& d = c_.diagnostics.error(base::Code::W186, spec_.shaderPlace,
-                                               "the block '" + block.name + "' is no instance table: " + problem);
-    d.pass = spec_.name;
-    d.hint = "include scene/instances.glsl, or declare its struct";
-    return false;
+    [[maybe_unused]] const bool good = instanceLayoutOf(block, binding.layout, problem);
+    assert(good);
   }
 
   bool bindUse(const SlotSpec& slot, const FlatUse& use, std::uint32_t element) {
@@ -154,10 +152,9 @@ class Preparer {
                               .resource = use.resource,
                               .history = use.history,
                               .import = resource.import};
-        const bool table = resource.import != graph::kNone && graph_.imports[resource.import].request.type == "spheres";
-        const bool good = !table || layoutOf(*block, binding);
+        if (isInstanceTable(graph_, use)) takeLayout(*block, binding);
         out_.buffers.push_back(binding);
-        return good;
+        return true;
       }
       case Kind::color: {
         const gl::Interface* output = reflection.findOutput(slot.name);

@@ -115,6 +115,9 @@ PreparedPass preparePass(PrepareContext& context, std::size_t step);
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan, std::uint32_t pass,
                                     const graph::PassType& type);
 
+// Whether a buffer use reads the rows of a draw list, whose layout is the shader's.
+bool isInstanceTable(const graph::FlatGraph& graph, const graph::FlatUse& use);
+
 // Holds the slots and parameters of a pass against its program (W181 to W187).
 bool checkProgram(const graph::Plan& plan, std::uint32_t pass, const gl::Variant& variant, base::Diagnostics& diagnostics);
 

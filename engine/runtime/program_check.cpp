@@ -71,6 +71,7 @@ class Checker {
   }
 
   void missing(const SlotSpec& slot, const char* what, const std::string& other) {
+    slotMissing_ = true;
     base::Diagnostic& d = fail(Code::W181, slot.place,
                                fmt::format("slot '{}' is not in the shader '{}'", slot.name, spec_.shader));
     d.expected = fmt::format("{} named '{}'", what, slot.name);
@@ -99,7 +100,10 @@ class Checker {
       case Kind::sampled: return checkSampler(slot, use);
       case Kind::image: return checkImage(slot, use);
       case Kind::uniform: return checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block");
-      case Kind::storage: return checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block");
+      case Kind::storage:
+        checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block");
+        if (isInstanceTable(graph_, use)) checkTable(reflection_.findStorageBlock(slot.name), slot.place);
+        return;
       case Kind::color:
         if (!reflection_.findOutput(slot.name) && (!mentioned(slot) || !otherUse(slot.name).empty()))
           missing(slot, "an output", otherUse(slot.name));
@@ -112,6 +116,14 @@ class Checker {
 
   void checkBlock(const SlotSpec& slot, const gl::Block* block, const char* what) {
     if (!block && (!mentioned(slot) || !otherUse(slot.name).empty())) missing(slot, what, otherUse(slot.name));
+  }
+
+  void checkTable(const gl::Block* block, const base::Place& place) {
+    InstanceLayout layout;
+    std::string problem;
+    if (!block || instanceLayoutOf(*block, layout, problem)) return;
+    fail(Code::W186, place, fmt::format("the block '{}' of '{}' is no instance table: {}", block->name, spec_.shader, problem))
+        .hint = "include scene/instances.glsl, or declare its struct";
   }
 
   void checkSampler(const SlotSpec& slot, const FlatUse& use) {
@@ -185,7 +197,9 @@ class Checker {
     return false;
   }
 
+  // Silent when a slot was not found: one misspelling is one mistake.
   void unfed(const char* what, const std::string& name) {
+    if (slotMissing_) return;
     std::vector<std::string> names;
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) names.push_back(graph_.slots[spec_.firstSlot + i].name);
     fail(Code::W187, spec_.shaderPlace,
@@ -198,8 +212,11 @@ class Checker {
       if (!isSlot(sampler.name)) unfed("a sampler", sampler.name);
     for (const auto& image : reflection_.images)
       if (!isSlot(image.name)) unfed("an image", image.name);
-    for (const auto& block : reflection_.storageBlocks)
-      if (!isSlot(block.name) && !(block.name == "instances" && !spec_.list.empty())) unfed("a storage block", block.name);
+    for (const auto& block : reflection_.storageBlocks) {
+      if (isSlot(block.name)) continue;
+      if (block.name == "instances" && !spec_.list.empty()) checkTable(&block, spec_.shaderPlace);
+      else unfed("a storage block", block.name);
+    }
     for (const auto& block : reflection_.uniformBlocks) {
       if (block.name == "View") {
         for (const gl::BlockMember& member : block.members)
@@ -223,10 +240,15 @@ class Checker {
   const gl::Variant& variant_;
   const gl::Reflection& reflection_;
   base::Diagnostics& diagnostics_;
-  bool good_ = true;
+  bool good_ = true, slotMissing_ = false;
 };
 
 }  // namespace
+
+bool isInstanceTable(const FlatGraph& graph, const FlatUse& use) {
+  const std::uint32_t import = graph.resources[use.resource].import;
+  return import != graph::kNone && graph.imports[import].request.type == "spheres";
+}
 
 gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,
                                     const graph::PassType& type) {
