@@ -1,9 +1,35 @@
 #!/usr/bin/env python3
 """Holds the package list of ./run and the table of docs/dependencies.md against each other: equal names, equal order,
-each with a reason."""
+each with a reason. And what the CMake files and the tests look for comes from a package of the list."""
 import pathlib
 import re
 import sys
+
+# What find_package, find_program, find_library and the tests' programs ask for, and the package that has it.
+# None: does without.
+PROVIDED = {
+    "fmt": "libfmt-dev", "nlohmann_json": "nlohmann-json3-dev", "doctest": "doctest-dev", "CLI11": "libcli11-dev",
+    "glfw3": "libglfw3-dev", "glm": "libglm-dev", "tinyexr": "libtinyexr-dev", "glad": "python3-glad",
+    "OSMesa": "libosmesa6-dev", "EGL": "libegl-dev", "xvfb-run": "xvfb", "dot": "graphviz",
+    "glslangValidator": "glslang-tools", "ccache": None, "weft": None,
+}
+# Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.
+IMPLIED = {"g++", "cmake", "ninja-build", "python3", "xauth", "libegl-mesa0", "libgl1-mesa-dri", "libstb-dev", "graphviz"}
+
+
+def sought(top: pathlib.Path) -> dict:
+    """What is looked for, and where."""
+    found = {}
+    for path in [*top.glob("CMakeLists.txt"), *(p for f in ("engine", "app", "tests", "cmake") for p in (top / f).rglob("*"))]:
+        if path.name != "CMakeLists.txt" and path.suffix not in {".cmake", ".py", ".sh", ".md"}:
+            continue
+        text = re.sub(r"^\s*#.*", "", path.read_text(), flags=re.M)
+        names = re.findall(r"find_package\((\w+)", text) + re.findall(r"find_(?:program|library)\(\w+ ([\w-]+)", text)
+        for modules in re.findall(r"pkg_(?:check|search)_module[s]?\(\w+([^)]*)\)", text):
+            names += ["pkg-config", *(m for m in modules.split() if m.islower())]
+        names += re.findall(r'which\("([\w-]+)"\)', text)
+        found.update({name: path.relative_to(top) for name in names})
+    return found
 
 
 def main() -> int:
@@ -18,6 +44,14 @@ def main() -> int:
     problems += [f"docs/dependencies.md names '{name}' twice" for name in set(named) if named.count(name) > 1]
     if not problems and named != packages:
         problems.append("docs/dependencies.md has another order than run")
+    looked_for = sought(top)
+    for name, path in sorted(looked_for.items()):
+        if name not in PROVIDED:
+            problems.append(f"{path} looks for '{name}', and PROVIDED in tests/dependencies.py does not say which package has it")
+        elif PROVIDED[name] and PROVIDED[name] not in packages:
+            problems.append(f"{path} looks for '{name}', run does not install {PROVIDED[name]}")
+    used = {PROVIDED.get(name) for name in looked_for} | IMPLIED
+    problems += [f"run installs '{p}', which nothing looks for" for p in packages if p not in used]
     print("\n".join(problems) or f"dependencies: {len(packages)} packages, each with its reason")
     return 1 if problems or not packages else 0
 
