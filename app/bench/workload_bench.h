@@ -1,6 +1,7 @@
-// Times the graph core on neutral workloads (engine/graph/neutral.h), single-threaded, on the wall clock: read, validate
-// and compile apart, and nlohmann's parse of the same bytes for scale. Compile times are the median of repetitions on a
-// warm CompileScratch. Does not: touch GL, or judge the numbers.
+// Times the graph core on neutral workloads (engine/graph/neutral.h): read, validate and compile apart, and nlohmann's
+// parse of the same bytes for scale. Everything runs on the calling thread; times are CPU time of that thread (equal to
+// wall time on an idle machine, and comparable on a busy one), the median of repetitions. compile() keeps its
+// CompileScratch between them, as a recompile does. Does not: touch GL, or judge the numbers.
 #pragma once
 
 #include <cstddef>

@@ -42,6 +42,12 @@ class Reader {
 
   std::optional<FlatGraph> read() {
     const std::size_t before = diagnostics_.errorCount();
+    // More than the text can hold; what is not used costs address space only.
+    graph_.resources.reserve(text_.size() / 52 + 1);
+    graph_.resourceNames.reserve(text_.size() / 52 + 1);
+    graph_.passes.reserve(text_.size() / 40 + 1);
+    graph_.passNames.reserve(text_.size() / 40 + 1);
+    graph_.uses.reserve(text_.size() / 16 + 1);
     std::size_t passesAt = 0;
     bool texturesRead = false;
     json_.object([&](std::string_view key, std::size_t position) {
