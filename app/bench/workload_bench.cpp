@@ -6,7 +6,6 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
-
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
@@ -41,8 +40,8 @@ double medianTime(int repetitions, F&& f) {
 }
 
 // One form of one workload. nullopt after errors.
-std::optional<ordered_json> measure(const std::string& text, const std::string& name, bool compute, int repetitions,
-                                    base::Diagnostics& diagnostics) {
+std::optional<ordered_json> measure(const std::string& text, const std::string& name, bool compute,
+                                    int repetitions, base::Diagnostics& diagnostics) {
   const graph::NeutralOptions neutral{.everySecondCompute = compute};
   std::optional<graph::FlatGraph> read = graph::readNeutral(text, name, neutral, diagnostics);
   if (!read || !graph::validateFlat(*read, diagnostics)) return std::nullopt;
@@ -62,9 +61,12 @@ std::optional<ordered_json> measure(const std::string& text, const std::string& 
   graph::Plan plan;
   // Short workloads repeat within one timing, so that the clock's own cost does not show.
   const int inner = static_cast<int>(std::max(1.0, 20000 / passes));
-  const double compileTime = medianTime(repetitions, [&] {
-                               for (int i = 0; i < inner; ++i) plan = graph::compile(flat, {}, scratch);
-                             }) / inner;
+  const double compileTime = medianTime(repetitions,
+                                        [&] {
+                                          for (int i = 0; i < inner; ++i)
+                                            plan = graph::compile(flat, {}, scratch);
+                                        }) /
+                             inner;
 
   std::size_t barriers = 0, bits = 0;
   const auto count = [&](unsigned mask) {
@@ -110,7 +112,8 @@ std::optional<ordered_json> measureText(const std::string& text, const std::stri
 
 }  // namespace
 
-std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options, base::Diagnostics& diagnostics) {
+std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options,
+                                          base::Diagnostics& diagnostics) {
   ordered_json workloads = ordered_json::array();
   for (const std::string& file : options.files) {
     const auto text = base::readFile(file, diagnostics);
@@ -123,7 +126,8 @@ std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options, b
   std::vector<std::pair<double, double>> growth, growthCompute;  // passes, nanoseconds
   for (const std::size_t passes : options.generated) {
     const std::string text = graph::neutralText(graph::NeutralShape::layered, passes);
-    auto result = measureText(text, "layered_generated_" + std::to_string(passes), options.repetitions, diagnostics);
+    auto result =
+        measureText(text, "layered_generated_" + std::to_string(passes), options.repetitions, diagnostics);
     if (!result) return std::nullopt;
     const auto n = static_cast<double>(passes);
     growth.emplace_back(n, n * (*result)["compile_ns_per_pass"].get<double>());
@@ -134,7 +138,8 @@ std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options, b
   ordered_json all{{"workloads", workloads}};
   const auto exponent = [](std::vector<std::pair<double, double>> points) {
     const auto [low, high] = std::minmax_element(points.begin(), points.end());
-    return std::round(std::log(high->second / low->second) / std::log(high->first / low->first) * 1000) / 1000;
+    return std::round(std::log(high->second / low->second) / std::log(high->first / low->first) * 1000) /
+           1000;
   };
   if (growth.size() > 1) {
     all["growth"] = exponent(growth);

@@ -1,9 +1,8 @@
-#include "engine/graph/plan.h"
-
 #include <utility>
 
 #include "engine/graph/compile_scratch.h"
 #include "engine/graph/compile_steps.h"
+#include "engine/graph/plan.h"
 
 namespace weft::graph {
 
@@ -28,16 +27,26 @@ Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& optio
 
 const char* barrierName(BarrierBit bit) {
   switch (bit) {
-    case kBarrierVertex: return "vertex";
-    case kBarrierIndex: return "index";
-    case kBarrierUniform: return "uniform";
-    case kBarrierTexture: return "texture_fetch";
-    case kBarrierImage: return "image_access";
-    case kBarrierCommand: return "command";
-    case kBarrierTextureUpdate: return "texture_update";
-    case kBarrierBufferUpdate: return "buffer_update";
-    case kBarrierFramebuffer: return "framebuffer";
-    case kBarrierStorage: return "shader_storage";
+    case kBarrierVertex:
+      return "vertex";
+    case kBarrierIndex:
+      return "index";
+    case kBarrierUniform:
+      return "uniform";
+    case kBarrierTexture:
+      return "texture_fetch";
+    case kBarrierImage:
+      return "image_access";
+    case kBarrierCommand:
+      return "command";
+    case kBarrierTextureUpdate:
+      return "texture_update";
+    case kBarrierBufferUpdate:
+      return "buffer_update";
+    case kBarrierFramebuffer:
+      return "framebuffer";
+    case kBarrierStorage:
+      return "shader_storage";
   }
   return "";
 }

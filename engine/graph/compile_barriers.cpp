@@ -9,12 +9,13 @@ namespace weft::graph {
 
 namespace {
 
-// Leaves out positions that have become superfluous. Starts at `anchor`, which is needed; one walk round the circle
-// suffices, because leaving one out never makes another superfluous.
+// Leaves out positions that have become superfluous. Starts at `anchor`, which is needed; one walk round the
+// circle suffices, because leaving one out never makes another superfluous.
 void thinOut(const std::vector<HazardInterval>& hazards, std::int32_t circle, std::int32_t anchor,
              std::vector<std::int32_t>& points) {
   constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
-  // Unrolled from anchor + 1 to anchor + circle: the nearest end of the intervals that begin at each position.
+  // Unrolled from anchor + 1 to anchor + circle: the nearest end of the intervals that begin at each
+  // position.
   std::vector<std::int32_t> nearest(static_cast<std::size_t>(circle), kFar);
   for (const HazardInterval& h : hazards) {
     const std::int32_t offset = ((h.lo - anchor - 1) % circle + circle) % circle;
@@ -48,7 +49,8 @@ std::vector<std::int32_t> stab(const std::vector<HazardInterval>& hazards, std::
   // Across frames: all of them hold position 0, so the earliest end stabs every one that is left.
   std::int32_t anchor = std::numeric_limits<std::int32_t>::max();
   for (const HazardInterval& h : hazards) {
-    if (h.lo >= 0 || (!points.empty() && (points.front() <= h.hi || points.back() >= h.lo + circle))) continue;
+    if (h.lo >= 0 || (!points.empty() && (points.front() <= h.hi || points.back() >= h.lo + circle)))
+      continue;
     anchor = std::min(anchor, h.hi);
   }
   if (anchor == std::numeric_limits<std::int32_t>::max()) return points;

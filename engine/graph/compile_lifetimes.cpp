@@ -1,5 +1,5 @@
-// Lifetimes in steps, clears of version zero, persistence and the bytes each step binds: one scan of the live uses in
-// execution order.
+// Lifetimes in steps, clears of version zero, persistence and the bytes each step binds: one scan of the live
+// uses in execution order.
 #include <algorithm>
 
 #include "engine/graph/barrier_rules.h"
@@ -84,7 +84,8 @@ bool isLiveOutput(const FlatGraph& graph, const FlatUse& use, const Plan& plan, 
   bool live = true;
   scratch.forEachCell(use, graph.resources[use.resource], [&](std::uint32_t cell) {
     const std::uint32_t writer = scratch.lastWriter[cell];
-    const bool versionZero = (flags & Scratch::kImported) != 0 || ((flags & Scratch::kClear) != 0 && scratch.cleared[cell] != 0);
+    const bool versionZero =
+        (flags & Scratch::kImported) != 0 || ((flags & Scratch::kClear) != 0 && scratch.cleared[cell] != 0);
     live = live && (writer != kNone ? plan.attached[writer] != 0 : versionZero);
   });
   return live;
@@ -114,7 +115,8 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
   for (std::uint32_t t = 0; t < plan.steps.size(); ++t) {
     Step& step = plan.steps[t];
     const FlatPass& pass = graph.passes[step.pass];
-    const std::uint8_t byCadence = pass.cadence == Cadence::always ? Scratch::kWrittenAlways : Scratch::kPersistent;
+    const std::uint8_t byCadence =
+        pass.cadence == Cadence::always ? Scratch::kWrittenAlways : Scratch::kPersistent;
     step.firstClear = static_cast<std::uint32_t>(plan.clears.size());
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
       if (plan.attached[u] == 0) continue;
@@ -122,7 +124,8 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
       touch(use.resource, t);
       const FlatResource& r = graph.resources[use.resource];
       const unsigned store = isStore(use) ? unsigned{Scratch::kStored} : 0u;
-      const unsigned flags = scratch.flags[use.resource] | (use.access != Access::read ? unsigned{byCadence} : 0u) | store;
+      const unsigned flags =
+          scratch.flags[use.resource] | (use.access != Access::read ? unsigned{byCadence} : 0u) | store;
       scratch.flags[use.resource] = static_cast<std::uint8_t>(flags);
       stored |= store;
       bound += (flags & Scratch::kGranular) == 0 ? r.bytes : bytesOf(use, r);

@@ -1,6 +1,7 @@
-// Versions and liveness. One forward scan links every use to the uses that made what it sees; a backward sweep then
-// follows those links, with a worklist for what a history asks of passes behind the sweep. Each link is followed at most
-// once, so the cost is linear in uses, also for chains of histories, where a plain sweep would be repeated per link.
+// Versions and liveness. One forward scan links every use to the uses that made what it sees; a backward
+// sweep then follows those links, with a worklist for what a history asks of passes behind the sweep. Each
+// link is followed at most once, so the cost is linear in uses, also for chains of histories, where a plain
+// sweep would be repeated per link.
 #include <cassert>
 
 #include "engine/graph/compile_steps.h"
@@ -11,8 +12,12 @@ namespace {
 
 using Scratch = CompileScratch;
 
-bool writes(const FlatUse& use) { return use.access != Access::read; }
-bool seesVersion(const FlatUse& use) { return use.access != Access::write && use.history == 0; }
+bool writes(const FlatUse& use) {
+  return use.access != Access::read;
+}
+bool seesVersion(const FlatUse& use) {
+  return use.access != Access::write && use.history == 0;
+}
 
 // Resources with several sub-resources get several cells only when some use touches them in part.
 void markGranular(const FlatGraph& graph, Scratch& scratch) {
@@ -109,7 +114,8 @@ void linkVersions(const FlatGraph& graph, Scratch& scratch) {
 
 namespace {
 
-// Without histories every link leads back: one backward sweep over the uses, without a branch on what they are.
+// Without histories every link leads back: one backward sweep over the uses, without a branch on what they
+// are.
 void sweepLive(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
   const std::size_t uses = graph.uses.size();
   std::uint8_t* const attached = plan.attached.data();

@@ -1,5 +1,5 @@
-// Order. Declared order of the live passes is legal as it stands. A random legal order is drawn from the dependency
-// edges: any pass whose predecessors have run may come next.
+// Order. Declared order of the live passes is legal as it stands. A random legal order is drawn from the
+// dependency edges: any pass whose predecessors have run may come next.
 #include <algorithm>
 
 #include "engine/base/hash.h"
@@ -14,8 +14,8 @@ std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* atta
   std::vector<std::uint32_t> base(graph.resources.size() + 1, 0);
   for (std::size_t i = 0; i < graph.resources.size(); ++i)
     base[i + 1] = base[i] + subresourceCount(graph.resources[i]);
-  std::vector<std::uint32_t> writer(base.back(), kNone);          // per sub-resource: pass
-  std::vector<std::vector<std::uint32_t>> readers(base.back());   // passes since that writer
+  std::vector<std::uint32_t> writer(base.back(), kNone);         // per sub-resource: pass
+  std::vector<std::vector<std::uint32_t>> readers(base.back());  // passes since that writer
   std::vector<Dependency> edges;
   const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint32_t resource, Dependency::Type type) {
     if (from != kNone && from != to) edges.push_back({from, to, resource, type});
@@ -57,7 +57,9 @@ std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* atta
 std::vector<Dependency> dependencies(const FlatGraph& graph, const std::vector<std::uint8_t>& attached) {
   return edgesOf(graph, attached.data());
 }
-std::vector<Dependency> dependencies(const FlatGraph& graph) { return edgesOf(graph, nullptr); }
+std::vector<Dependency> dependencies(const FlatGraph& graph) {
+  return edgesOf(graph, nullptr);
+}
 
 namespace steps {
 

@@ -1,6 +1,7 @@
-// Physical textures by class, transient buffers by offset. Births come in order of first step; a resource that dies in
-// step t frees its storage for step t + 1. Within a class a freed texture is taken before a new one is made, so their
-// number is the greatest number alive at once (interval graphs are perfect; greedy colouring by start is optimal).
+// Physical textures by class, transient buffers by offset. Births come in order of first step; a resource
+// that dies in step t frees its storage for step t + 1. Within a class a freed texture is taken before a new
+// one is made, so their number is the greatest number alive at once (interval graphs are perfect; greedy
+// colouring by start is optimal).
 #include <algorithm>
 #include <map>
 #include <set>
@@ -15,8 +16,8 @@ namespace {
 using Scratch = CompileScratch;
 constexpr std::uint64_t kAlignment = 256;
 
-// Two textures share a class when each can be a view of the other: ARB_texture_view compatible formats, equal sizes,
-// and targets of one family (2D, arrays and cubes are; 3D and multisample stand alone).
+// Two textures share a class when each can be a view of the other: ARB_texture_view compatible formats, equal
+// sizes, and targets of one family (2D, arrays and cubes are; 3D and multisample stand alone).
 struct ClassKey {
   std::uint64_t size = 0;   // width, height
   std::uint64_t shape = 0;  // depth, layers, mips
@@ -29,7 +30,8 @@ std::uint64_t familyOf(Target target) {
 }
 
 ClassKey keyOf(const FlatResource& r) {
-  return {std::uint64_t{r.width} << 32 | r.height, std::uint64_t{r.depth} << 32 | std::uint64_t{r.layers} << 16 | r.mips,
+  return {std::uint64_t{r.width} << 32 | r.height,
+          std::uint64_t{r.depth} << 32 | std::uint64_t{r.layers} << 16 | r.mips,
           std::uint64_t{r.samples} << 32 | familyOf(r.target) << 16 | infoOf(r.format).viewClass};
 }
 
@@ -59,7 +61,8 @@ class ClassTable {
   void grow() {
     slots_.assign(slots_.size() * 2, kNone);
     for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-      std::uint64_t at = base::hashCombine(keys_[i].size ^ keys_[i].kind * 0x9e3779b97f4a7c15ull, keys_[i].shape);
+      std::uint64_t at =
+          base::hashCombine(keys_[i].size ^ keys_[i].kind * 0x9e3779b97f4a7c15ull, keys_[i].shape);
       while (slots_[at & (slots_.size() - 1)] != kNone) ++at;
       slots_[at & (slots_.size() - 1)] = i;
     }
@@ -250,7 +253,7 @@ class Placer {
   ClassTable table_;
   Arena arena_;
   std::vector<ClassState> classes_;
-  std::vector<std::uint32_t> nextFree_, classOf_;   // per storage
+  std::vector<std::uint32_t> nextFree_, classOf_;  // per storage
   std::uint64_t bufferAlive_ = 0, bufferPeak_ = 0;
 };
 

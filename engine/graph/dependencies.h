@@ -1,6 +1,6 @@
 // The edges between passes, computed on demand (random orders, DOT, explain); the declared order needs none.
-// One edge per pair and resource, per kind: read after write, write after read, write after write, per sub-resource of
-// one FlatResource. History orders nothing; resources that only share storage order nothing.
+// One edge per pair and resource, per kind: read after write, write after read, write after write, per
+// sub-resource of one FlatResource. History orders nothing; resources that only share storage order nothing.
 #pragma once
 
 #include <compare>
@@ -13,7 +13,7 @@ namespace weft::graph {
 
 struct Dependency {
   enum class Type : std::uint8_t { read_after_write, write_after_read, write_after_write };
-  std::uint32_t from = 0, to = 0;   // passes; `from` runs first
+  std::uint32_t from = 0, to = 0;  // passes; `from` runs first
   std::uint32_t resource = 0;
   Type type = Type::read_after_write;
   friend auto operator<=>(const Dependency&, const Dependency&) = default;

@@ -1,8 +1,7 @@
 #include "engine/graph/dump_json.h"
 
-#include <optional>
-
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "engine/graph/dump_shared.h"
 #include "engine/graph/explain.h"
@@ -58,8 +57,11 @@ std::string dumpJson(const Plan& plan, bool explain) {
 
   ordered_json json;
   json["name"] = graph.name;
-  json["bytes"] = {{"declared", plan.bytesDeclared}, {"allocated", plan.bytesAllocated}, {"lower_bound", plan.bytesLowerBound},
-                   {"arena", plan.arenaBytes},       {"bound", plan.bytesBound}};
+  json["bytes"] = {{"declared", plan.bytesDeclared},
+                   {"allocated", plan.bytesAllocated},
+                   {"lower_bound", plan.bytesLowerBound},
+                   {"arena", plan.arenaBytes},
+                   {"bound", plan.bytesBound}};
   json["steps"] = ordered_json::array();
   for (std::uint32_t t = 0; t < plan.steps.size(); ++t) {
     const Step& step = plan.steps[t];
@@ -73,10 +75,13 @@ std::string dumpJson(const Plan& plan, bool explain) {
       s["clears"].push_back(textOf(graph, plan.clears[c].use));
     if (step.barriersAfterClears != 0) s["barriers_after_clears"] = bitsJson(step.barriersAfterClears);
     s["uses"] = ordered_json::array();
-    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) s["uses"].push_back(useJson(plan, u, slots[u]));
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+      s["uses"].push_back(useJson(plan, u, slots[u]));
     const FramebufferText framebuffer = framebufferOf(plan, step.pass);
     if (!framebuffer.empty())
-      s["framebuffer"] = {{"size", {framebuffer.width, framebuffer.height}}, {"color", framebuffer.color}, {"depth", framebuffer.depth}};
+      s["framebuffer"] = {{"size", {framebuffer.width, framebuffer.height}},
+                          {"color", framebuffer.color},
+                          {"depth", framebuffer.depth}};
     if (explain) {
       s["why"] = explainer->whyPass(step.pass);
       s["why_here"] = explainer->whyHere(step.pass);
@@ -89,9 +94,10 @@ std::string dumpJson(const Plan& plan, bool explain) {
   if (graph.present.resource != kNone) json["present"] = textOf(graph, graph.present);
   json["outputs"] = ordered_json::array();
   for (std::size_t i = 0; i < graph.outputs.size(); ++i)
-    json["outputs"].push_back({{"name", i < graph.outputNames.size() ? graph.outputNames[i] : std::to_string(i)},
-                               {"resource", textOf(graph, graph.outputs[i])},
-                               {"live", plan.outputLive[i] != 0}});
+    json["outputs"].push_back(
+        {{"name", i < graph.outputNames.size() ? graph.outputNames[i] : std::to_string(i)},
+         {"resource", textOf(graph, graph.outputs[i])},
+         {"live", plan.outputLive[i] != 0}});
   json["culled"] = ordered_json::array();
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
     if (plan.stepOf[p] != kNone) continue;
@@ -103,14 +109,23 @@ std::string dumpJson(const Plan& plan, bool explain) {
   for (const DisabledPass& d : graph.disabled) json["disabled"].push_back({{"pass", d.name}, {"why", d.why}});
   json["storages"] = ordered_json::array();
   for (const Storage& s : plan.storages)
-    json["storages"].push_back({{"target", nameOf(s.target)},   {"format", infoOf(s.format).name}, {"width", s.width},
-                                {"height", s.height},           {"depth", s.depth},                {"layers", s.layers},
-                                {"mips", s.mips},               {"samples", s.samples},            {"copies", s.copies},
-                                {"shared", s.shared},           {"persistent", s.persistent},      {"bytes", s.bytes}});
+    json["storages"].push_back({{"target", nameOf(s.target)},
+                                {"format", infoOf(s.format).name},
+                                {"width", s.width},
+                                {"height", s.height},
+                                {"depth", s.depth},
+                                {"layers", s.layers},
+                                {"mips", s.mips},
+                                {"samples", s.samples},
+                                {"copies", s.copies},
+                                {"shared", s.shared},
+                                {"persistent", s.persistent},
+                                {"bytes", s.bytes}});
   json["resources"] = ordered_json::array();
   for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
     const FlatResource& resource = graph.resources[r];
-    ordered_json j{{"name", graph.resourceNames[r]}, {"bytes", resource.bytes}, {"imported", isImported(resource)}};
+    ordered_json j{
+        {"name", graph.resourceNames[r]}, {"bytes", resource.bytes}, {"imported", isImported(resource)}};
     if (!isBuffer(resource)) {
       j["format"] = infoOf(resource.format).name;
       j["size"] = {resource.width, resource.height};

@@ -1,5 +1,6 @@
-// A plan as JSON for tools: {"name", "bytes", "steps", "culled", "storages", "buffers", "resources", "final_barriers"}.
-// Equal plans give equal text. With `explain`, passes, barriers and resources carry a "why".
+// A plan as JSON for tools: {"name", "bytes", "steps", "culled", "storages", "buffers", "resources",
+// "final_barriers"}. Equal plans give equal text. With `explain`, passes, barriers and resources carry a
+// "why".
 #pragma once
 
 #include <string>

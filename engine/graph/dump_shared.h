@@ -1,4 +1,5 @@
-// What the dumps have in common: slot names of uses, framebuffers derived from attachments. Internal to engine/graph.
+// What the dumps have in common: slot names of uses, framebuffers derived from attachments. Internal to
+// engine/graph.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@ std::vector<std::string> slotNames(const FlatGraph& graph);
 
 struct FramebufferText {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::string> color;   // as textOf(use), in slot order
-  std::string depth;                // or ""
+  std::vector<std::string> color;  // as textOf(use), in slot order
+  std::string depth;               // or ""
   bool empty() const { return color.empty() && depth.empty(); }
 };
 

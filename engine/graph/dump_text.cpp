@@ -38,12 +38,18 @@ FramebufferText framebufferOf(const Plan& plan, std::uint32_t pass) {
 
 const char* nameOf(Target target) {
   switch (target) {
-    case Target::texture_2d: return "2d";
-    case Target::texture_2d_array: return "2d_array";
-    case Target::texture_cube: return "cube";
-    case Target::texture_cube_array: return "cube_array";
-    case Target::texture_3d: return "3d";
-    case Target::texture_2d_multisample: return "2d_multisample";
+    case Target::texture_2d:
+      return "2d";
+    case Target::texture_2d_array:
+      return "2d_array";
+    case Target::texture_cube:
+      return "cube";
+    case Target::texture_cube_array:
+      return "cube_array";
+    case Target::texture_3d:
+      return "3d";
+    case Target::texture_2d_multisample:
+      return "2d_multisample";
   }
   return "";
 }
@@ -65,8 +71,9 @@ class Writer {
   std::string write() {
     line(0, "plan " + (graph_.name.empty() ? "-" : graph_.name));
     line(0, "passes " + std::to_string(graph_.passes.size()) + " run " + std::to_string(plan_.steps.size()));
-    line(0, "bytes declared " + std::to_string(plan_.bytesDeclared) + " allocated " + std::to_string(plan_.bytesAllocated) +
-                " lower_bound " + std::to_string(plan_.bytesLowerBound) + " arena " + std::to_string(plan_.arenaBytes) +
+    line(0, "bytes declared " + std::to_string(plan_.bytesDeclared) + " allocated " +
+                std::to_string(plan_.bytesAllocated) + " lower_bound " +
+                std::to_string(plan_.bytesLowerBound) + " arena " + std::to_string(plan_.arenaBytes) +
                 " bound " + std::to_string(plan_.bytesBound));
     line(0, "");
     line(0, "order");
@@ -96,7 +103,8 @@ class Writer {
     const FlatPass& pass = graph_.passes[step.pass];
     std::string head = std::to_string(t) + " " + graph_.passNames[step.pass];
     if (pass.cadence != Cadence::always) head += std::string(" update ") + nameOf(pass.cadence);
-    if (pass.group != kNone && pass.group < graph_.groupNames.size()) head += " group " + graph_.groupNames[pass.group];
+    if (pass.group != kNone && pass.group < graph_.groupNames.size())
+      head += " group " + graph_.groupNames[pass.group];
     if (pass.slices != 1) head += " slices " + std::to_string(pass.slices);
     if (pass.sideEffect) head += " side_effect";
     line(1, head);
@@ -112,7 +120,8 @@ class Writer {
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) writeUse(u);
     const FramebufferText framebuffer = framebufferOf(plan_, step.pass);
     if (framebuffer.empty()) return;
-    std::string text = "framebuffer " + std::to_string(framebuffer.width) + "x" + std::to_string(framebuffer.height);
+    std::string text =
+        "framebuffer " + std::to_string(framebuffer.width) + "x" + std::to_string(framebuffer.height);
     for (const std::string& color : framebuffer.color) text += " color " + color;
     if (!framebuffer.depth.empty()) text += " depth " + framebuffer.depth;
     line(2, text);
@@ -134,7 +143,8 @@ class Writer {
     if (graph_.present.resource != kNone) line(2, "present " + textOf(graph_, graph_.present));
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
       line(2, "output " + (i < graph_.outputNames.size() ? graph_.outputNames[i] : std::to_string(i)) + " " +
-                  textOf(graph_, graph_.outputs[i]) + (plan_.outputLive[i] != 0 ? "" : " (nothing makes it)"));
+                  textOf(graph_, graph_.outputs[i]) +
+                  (plan_.outputLive[i] != 0 ? "" : " (nothing makes it)"));
   }
 
   std::string lifetime(std::uint32_t r) const {
@@ -150,7 +160,8 @@ class Writer {
       if (plan_.storageOf[r] != kNone) users[plan_.storageOf[r]].push_back(r);
     for (std::size_t i = 0; i < users.size(); ++i) {
       const Storage& s = plan_.storages[i];
-      std::string head = std::to_string(i) + " " + nameOf(s.target) + " " + std::to_string(s.width) + "x" + std::to_string(s.height);
+      std::string head = std::to_string(i) + " " + nameOf(s.target) + " " + std::to_string(s.width) + "x" +
+                         std::to_string(s.height);
       if (s.target == Target::texture_3d) head += "x" + std::to_string(s.depth);
       head += std::string(" ") + infoOf(s.format).name;
       if (s.mips > 1) head += " mips " + std::to_string(s.mips);
@@ -164,7 +175,8 @@ class Writer {
       });
       for (const std::uint32_t r : users[i]) {
         std::string text = lifetime(r) + " " + graph_.resourceNames[r];
-        if (graph_.resources[r].format != s.format) text += std::string(" as ") + infoOf(graph_.resources[r].format).name;
+        if (graph_.resources[r].format != s.format)
+          text += std::string(" as ") + infoOf(graph_.resources[r].format).name;
         line(2, text);
         if (explainer_) line(3, "why " + explainer_->whyStorage(r));
       }
@@ -181,7 +193,9 @@ class Writer {
       if (plan_.bufferOffsetOf[r] != Plan::kNoOffset)
         text += " offset " + std::to_string(plan_.bufferOffsetOf[r]);
       else
-        text += " persistent" + (graph_.resources[r].history > 0 ? " copies " + std::to_string(graph_.resources[r].history + 1) : std::string());
+        text += " persistent" + (graph_.resources[r].history > 0
+                                     ? " copies " + std::to_string(graph_.resources[r].history + 1)
+                                     : std::string());
       line(1, text + " bytes " + std::to_string(graph_.resources[r].bytes));
       if (explainer_) line(2, "why " + explainer_->whyStorage(r));
     }
@@ -212,6 +226,8 @@ class Writer {
 
 }  // namespace
 
-std::string dumpText(const Plan& plan, bool explain) { return Writer(plan, explain).write(); }
+std::string dumpText(const Plan& plan, bool explain) {
+  return Writer(plan, explain).write();
+}
 
 }  // namespace weft::graph

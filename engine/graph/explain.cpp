@@ -8,7 +8,9 @@ namespace weft::graph {
 
 namespace {
 
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
+std::string quoted(const std::string& name) {
+  return "'" + name + "'";
+}
 
 std::string span(const char* what, std::uint32_t first, std::uint32_t count) {
   std::string text = std::string(".") + what + "[" + std::to_string(first);
@@ -38,8 +40,8 @@ std::string textOf(const FlatGraph& graph, const FlatUse& use) {
 }
 
 const char* nameOf(Kind kind) {
-  constexpr const char* names[] = {"sampled", "image", "uniform",  "storage", "vertex",
-                                   "index",   "indirect", "color", "depth",   "copy"};
+  constexpr const char* names[] = {"sampled", "image",    "uniform", "storage", "vertex",
+                                   "index",   "indirect", "color",   "depth",   "copy"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -50,12 +52,16 @@ const char* nameOf(Access access) {
 std::string barrierText(std::uint16_t mask) {
   std::string text;
   for (int i = 0; i < kBarrierBitCount; ++i)
-    if ((mask >> i & 1) != 0) text += (text.empty() ? "" : " ") + std::string(barrierName(static_cast<BarrierBit>(1 << i)));
+    if ((mask >> i & 1) != 0)
+      text += (text.empty() ? "" : " ") + std::string(barrierName(static_cast<BarrierBit>(1 << i)));
   return text;
 }
 
 Explainer::Explainer(const Plan& plan)
-    : plan_(plan), graph_(*plan.graph), edges_(dependencies(*plan.graph)), from_(graph_.passes.size()),
+    : plan_(plan),
+      graph_(*plan.graph),
+      edges_(dependencies(*plan.graph)),
+      from_(graph_.passes.size()),
       to_(graph_.passes.size()) {
   for (std::uint32_t i = 0; i < edges_.size(); ++i) {
     from_[edges_[i].from].push_back(i);
@@ -76,7 +82,8 @@ std::string Explainer::whyPass(std::uint32_t pass) const {
   };
   const auto reader = [&](bool liveReader) -> const Dependency* {
     for (const std::uint32_t i : from_[pass])
-      if (edges_[i].type == Dependency::Type::read_after_write && (plan_.stepOf[edges_[i].to] != kNone) == liveReader &&
+      if (edges_[i].type == Dependency::Type::read_after_write &&
+          (plan_.stepOf[edges_[i].to] != kNone) == liveReader &&
           (!liveReader || writes(edges_[i].resource, true)))
         return &edges_[i];
     return nullptr;
@@ -95,13 +102,15 @@ std::string Explainer::whyPass(std::uint32_t pass) const {
     return "runs";
   }
   if (const Dependency* edge = reader(false))
-    return "culled: " + name(edge->resource) + " is read only by culled passes, " + quoted(graph_.passNames[edge->to]) + " first";
+    return "culled: " + name(edge->resource) + " is read only by culled passes, " +
+           quoted(graph_.passNames[edge->to]) + " first";
   for (const std::uint32_t i : from_[pass])
     if (edges_[i].type == Dependency::Type::write_after_write)
       return "culled: " + quoted(graph_.passNames[edges_[i].to]) + " overwrites " + name(edges_[i].resource) +
              " before anything reads it";
   for (std::uint32_t u = p.firstUse; u < p.firstUse + p.useCount; ++u)
-    if (graph_.uses[u].access != Access::read) return "culled: nothing reads " + name(graph_.uses[u].resource);
+    if (graph_.uses[u].access != Access::read)
+      return "culled: nothing reads " + name(graph_.uses[u].resource);
   return "culled: it writes nothing and has no side effect";
 }
 
@@ -110,7 +119,7 @@ std::string Explainer::whyHere(std::uint32_t pass) const {
   for (const std::uint32_t i : to_[pass]) {
     const Dependency& edge = edges_[i];
     if (plan_.stepOf[edge.from] == kNone) continue;
-    const char* why = edge.type == Dependency::Type::read_after_write    ? "reads its "
+    const char* why = edge.type == Dependency::Type::read_after_write   ? "reads its "
                       : edge.type == Dependency::Type::write_after_read ? "overwrites what it reads, "
                                                                         : "overwrites its ";
     text += (text.empty() ? "after " : ", ") + quoted(graph_.passNames[edge.from]) + " (" + why +
@@ -124,12 +133,14 @@ std::string Explainer::whyStorage(std::uint32_t resource) const {
   if (isImported(r)) return "imported";
   if (plan_.firstStep[resource] == kNone) return "none: no live pass touches it";
   if (plan_.persistent[resource] != 0) {
-    if (r.history > 0) return "its own: history of " + std::to_string(r.history) + " needs " + std::to_string(r.history + 1) + " copies";
+    if (r.history > 0)
+      return "its own: history of " + std::to_string(r.history) + " needs " + std::to_string(r.history + 1) +
+             " copies";
     for (const Step& step : plan_.steps) {
       const FlatPass& pass = graph_.passes[step.pass];
       for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
-        if (graph_.uses[u].resource == resource && graph_.uses[u].access != Access::read && plan_.attached[u] != 0 &&
-            pass.cadence != Cadence::always)
+        if (graph_.uses[u].resource == resource && graph_.uses[u].access != Access::read &&
+            plan_.attached[u] != 0 && pass.cadence != Cadence::always)
           return "its own: " + quoted(graph_.passNames[step.pass]) + " does not write it in every frame";
     }
   }
@@ -140,14 +151,16 @@ std::string Explainer::whyStorage(std::uint32_t resource) const {
     if (plan_.bufferOffsetOf[resource] != Plan::kNoOffset && plan_.bufferOffsetOf[q] != Plan::kNoOffset)
       shares = plan_.bufferOffsetOf[q] < plan_.bufferOffsetOf[resource] + r.bytes &&
                plan_.bufferOffsetOf[resource] < plan_.bufferOffsetOf[q] + graph_.resources[q].bytes;
-    if (shares) others += (others.empty() ? "" : ", ") + quoted(graph_.resourceNames[q]) + " (" + steps(plan_, q) + ")";
+    if (shares)
+      others += (others.empty() ? "" : ", ") + quoted(graph_.resourceNames[q]) + " (" + steps(plan_, q) + ")";
   }
   const std::string alive = "alive in " + steps(plan_, resource);
   if (others.empty()) return "its own: " + alive + ", and nothing else of its class fits before or after";
   return "shared with " + others + ", none of which lives while it does (" + alive + ")";
 }
 
-bool Explainer::touchesSameMemory(const Touch& a, std::int64_t frameA, const Touch& b, std::int64_t frameB) const {
+bool Explainer::touchesSameMemory(const Touch& a, std::int64_t frameA, const Touch& b,
+                                  std::int64_t frameB) const {
   const std::uint32_t ra = a.use.resource, rb = b.use.resource;
   const FlatResource &x = graph_.resources[ra], &y = graph_.resources[rb];
   if (plan_.bufferOffsetOf[ra] != Plan::kNoOffset && plan_.bufferOffsetOf[rb] != Plan::kNoOffset)
@@ -164,25 +177,31 @@ bool Explainer::touchesSameMemory(const Touch& a, std::int64_t frameA, const Tou
          a.use.layer < b.use.layer + b.use.layers && b.use.layer < a.use.layer + a.use.layers;
 }
 
-// Calls f(touch, bits needed after a store, is a store) for the clears, then the uses of a step (or of the frame's end)
-// until f returns true.
+// Calls f(touch, bits needed after a store, is a store) for the clears, then the uses of a step (or of the
+// frame's end) until f returns true.
 template <class F>
 bool Explainer::eachAccess(std::uint32_t step, F&& f) const {
   const auto buffer = [&](const FlatUse& use) { return isBuffer(graph_.resources[use.resource]); };
   if (step == plan_.steps.size()) {
-    const auto end = [&](const FlatUse& use) { return f(Touch{kNone, use, false, 0}, readBackBit(buffer(use)), false); };
-    if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone && end(graph_.present)) return true;
+    const auto end = [&](const FlatUse& use) {
+      return f(Touch{kNone, use, false, 0}, readBackBit(buffer(use)), false);
+    };
+    if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone &&
+        end(graph_.present))
+      return true;
     for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
       if (plan_.outputLive[i] != 0 && end(graph_.outputs[i])) return true;
     return false;
   }
   const Step& s = plan_.steps[step];
   for (std::uint32_t c = s.firstClear; c < s.firstClear + s.clearCount; ++c)
-    if (f(Touch{s.pass, plan_.clears[c].use, true, 0}, clearBit(buffer(plan_.clears[c].use)), false)) return true;
+    if (f(Touch{s.pass, plan_.clears[c].use, true, 0}, clearBit(buffer(plan_.clears[c].use)), false))
+      return true;
   const FlatPass& pass = graph_.passes[s.pass];
   for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
     const FlatUse& use = graph_.uses[u];
-    if (plan_.attached[u] != 0 && f(Touch{s.pass, use, false, 0}, useBits(use, buffer(use)), isStore(use))) return true;
+    if (plan_.attached[u] != 0 && f(Touch{s.pass, use, false, 0}, useBits(use, buffer(use)), isStore(use)))
+      return true;
   }
   return false;
 }
@@ -197,17 +216,24 @@ std::vector<BarrierReason> Explainer::whyBarriers() const {
   for (const FlatResource& r : graph_.resources) deepest = std::max<std::int64_t>(deepest, r.history);
   const std::int64_t circle = 2 * (std::int64_t{end} + 1);
 
-  // Forward from the barrier for what comes behind it, backward for what it waits for, both up to the next barrier with
-  // the same bit: what it alone keeps apart. Positions as in hazards.h, on an unrolled line.
+  // Forward from the barrier for what comes behind it, backward for what it waits for, both up to the next
+  // barrier with the same bit: what it alone keeps apart. Positions as in hazards.h, on an unrolled line.
   const auto find = [&](BarrierReason& reason, std::int64_t at) {
     const auto bit = static_cast<std::uint16_t>(reason.bit);
-    const auto stepAt = [&](std::int64_t position) { return static_cast<std::uint32_t>((position % circle + circle) % circle / 2); };
-    const auto frameAt = [&](std::int64_t position) { return position >= 0 ? position / circle : -((-position + circle - 1) / circle); };
-    const auto isOther = [&](std::int64_t position) {  // another barrier with the bit, not this one in another frame
-      return (position - at) % circle != 0 && (maskAt(stepAt(position), (position % 2 + 2) % 2 == 1) & bit) != 0;
+    const auto stepAt = [&](std::int64_t position) {
+      return static_cast<std::uint32_t>((position % circle + circle) % circle / 2);
     };
+    const auto frameAt = [&](std::int64_t position) {
+      return position >= 0 ? position / circle : -((-position + circle - 1) / circle);
+    };
+    const auto isOther =
+        [&](std::int64_t position) {  // another barrier with the bit, not this one in another frame
+          return (position - at) % circle != 0 &&
+                 (maskAt(stepAt(position), (position % 2 + 2) % 2 == 1) & bit) != 0;
+        };
     const std::int64_t reach = circle * (deepest + 2);
-    // Accesses of position p: odd ones are passes (behind barriersAfterClears), even ones clears (behind barriers).
+    // Accesses of position p: odd ones are passes (behind barriersAfterClears), even ones clears (behind
+    // barriers).
     for (std::int64_t after = at; after < at + reach && !isOther(after); ++after) {
       const bool found = eachAccess(stepAt(after), [&](const Touch& target, std::uint16_t bits, bool store) {
         if (target.clear != (after % 2 == 0)) return false;
@@ -252,16 +278,19 @@ std::string Explainer::textOf(const Touch& touch) const {
   const std::string what = graph::textOf(graph_, touch.use);
   if (touch.pass == kNone) return "the end of the frame reads '" + what + "'";
   if (touch.clear) return "the clear before '" + graph_.passNames[touch.pass] + "' writes '" + what + "'";
-  const std::string verb = touch.use.access == Access::read ? " reads '" : touch.use.access == Access::write ? " writes '" : " modifies '";
+  const std::string verb = touch.use.access == Access::read    ? " reads '"
+                           : touch.use.access == Access::write ? " writes '"
+                                                               : " modifies '";
   return "'" + graph_.passNames[touch.pass] + "'" + verb + what + "' as " + nameOf(touch.use.kind);
 }
 
 std::string Explainer::textOf(const BarrierReason& reason) const {
   const std::string name = barrierName(reason.bit);
   if (!reason.found) return name + ": a frame in which other passes are skipped needs it";
-  const std::string ago = reason.before.framesAgo == 0   ? ""
-                          : reason.before.framesAgo == 1 ? " in the frame before"
-                                                         : " " + std::to_string(reason.before.framesAgo) + " frames before";
+  const std::string ago = reason.before.framesAgo == 0 ? ""
+                          : reason.before.framesAgo == 1
+                              ? " in the frame before"
+                              : " " + std::to_string(reason.before.framesAgo) + " frames before";
   return name + ": " + textOf(reason.before) + ago + ", then " + textOf(reason.after);
 }
 

@@ -1,5 +1,6 @@
-// Why a plan is as it is: why a pass runs or was culled, why a barrier has its bits, why two textures share. Computed
-// when asked, from the plan alone; compile() keeps none of it. Sentences are for people and stable for equal plans.
+// Why a plan is as it is: why a pass runs or was culled, why a barrier has its bits, why two textures share.
+// Computed when asked, from the plan alone; compile() keeps none of it. Sentences are for people and stable
+// for equal plans.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +14,18 @@ namespace weft::graph {
 
 // One access of the two that make a barrier bit necessary.
 struct Touch {
-  std::uint32_t pass = kNone;     // kNone: present or read-back at the end of the frame
+  std::uint32_t pass = kNone;  // kNone: present or read-back at the end of the frame
   FlatUse use;
-  bool clear = false;             // the clear before the pass
-  std::uint32_t framesAgo = 0;    // 0: in the frame of the barrier
+  bool clear = false;           // the clear before the pass
+  std::uint32_t framesAgo = 0;  // 0: in the frame of the barrier
 };
 
 struct BarrierReason {
-  std::uint32_t step = 0;         // steps.size(): at the end of the frame
+  std::uint32_t step = 0;  // steps.size(): at the end of the frame
   bool afterClears = false;
   BarrierBit bit{};
-  bool found = false;             // false: only a frame in which some pass is skipped needs it (barrier_rules.h)
-  Touch before, after;            // `before` may not pass the barrier until it is done; `after` comes behind it
+  bool found = false;   // false: only a frame in which some pass is skipped needs it (barrier_rules.h)
+  Touch before, after;  // `before` may not pass the barrier until it is done; `after` comes behind it
 };
 
 class Explainer {
@@ -50,9 +51,9 @@ class Explainer {
 
   const Plan& plan_;
   const FlatGraph& graph_;
-  std::vector<Dependency> edges_;                  // over all passes, read after write and the others
-  std::vector<std::vector<std::uint32_t>> from_;   // per pass: edges that leave it
-  std::vector<std::vector<std::uint32_t>> to_;     // per pass: edges that reach it
+  std::vector<Dependency> edges_;                 // over all passes, read after write and the others
+  std::vector<std::vector<std::uint32_t>> from_;  // per pass: edges that leave it
+  std::vector<std::vector<std::uint32_t>> to_;    // per pass: edges that reach it
 };
 
 // "hdr.mip[2]", "maps.layer[0..3]", "depth.stencil", "taa@-1": a use as a person would write it.

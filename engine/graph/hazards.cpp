@@ -19,7 +19,9 @@ struct Cell {
   std::int32_t store = kNever, access = kNever;
 };
 
-std::int32_t back(std::int32_t position, std::int32_t by) { return position == kNever ? kNever : position - by; }
+std::int32_t back(std::int32_t position, std::int32_t by) {
+  return position == kNever ? kNever : position - by;
+}
 
 // A value per byte of the arena, as ranges of equal values.
 class RangeMap {
@@ -51,11 +53,11 @@ class RangeMap {
 
 // How a resource's accesses are followed.
 enum class Mode : std::uint8_t {
-  ignored,   // nothing ever stores to its storage: no hazard can touch it
-  single,    // one cell
-  multi,     // one cell per sub-resource
-  history,   // two rows of cells: the current copy, and the oldest one
-  arena,     // one cell, which takes over what earlier owners of its bytes left
+  ignored,  // nothing ever stores to its storage: no hazard can touch it
+  single,   // one cell
+  multi,    // one cell per sub-resource
+  history,  // two rows of cells: the current copy, and the oldest one
+  arena,    // one cell, which takes over what earlier owners of its bytes left
 };
 
 struct Track {
@@ -66,15 +68,19 @@ struct Track {
 class Collector {
  public:
   Collector(const FlatGraph& graph, const Plan& plan, const Scratch& scratch, HazardIntervals& hazards)
-      : graph_(graph), plan_(plan), scratch_(scratch), hazards_(hazards),
-        end_(static_cast<std::int32_t>(plan.steps.size())), circle_(2 * (end_ + 1)) {
+      : graph_(graph),
+        plan_(plan),
+        scratch_(scratch),
+        hazards_(hazards),
+        end_(static_cast<std::int32_t>(plan.steps.size())),
+        circle_(2 * (end_ + 1)) {
     assignTracks();
   }
 
   void run() {
     walk<false>();  // where each cell stands at the end of a frame
     turn();
-    walk<true>();   // a frame after such a frame
+    walk<true>();  // a frame after such a frame
   }
 
  private:
@@ -86,7 +92,8 @@ class Collector {
     bool arenaStored = false;
     for (const std::uint32_t r : scratch_.births) {
       if (plan_.storageOf[r] != kNone) storageFlags[plan_.storageOf[r]] |= scratch_.flags[r];
-      if (plan_.bufferOffsetOf[r] != Plan::kNoOffset && (scratch_.flags[r] & Scratch::kStored) != 0) arenaStored = true;
+      if (plan_.bufferOffsetOf[r] != Plan::kNoOffset && (scratch_.flags[r] & Scratch::kStored) != 0)
+        arenaStored = true;
     }
     std::uint32_t next = 0;
     for (const std::uint32_t r : scratch_.births) {
@@ -95,7 +102,8 @@ class Collector {
       const std::uint8_t flags = storage == kNone ? scratch_.flags[r] : storageFlags[storage];
       const bool arena = plan_.bufferOffsetOf[r] != Plan::kNoOffset;
       if (arena ? !arenaStored : (flags & Scratch::kStored) == 0) continue;
-      const std::uint32_t cells = (flags & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
+      const std::uint32_t cells =
+          (flags & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
       track.mode = arena                               ? Mode::arena
                    : (flags & Scratch::kHistory) != 0  ? Mode::history
                    : (flags & Scratch::kGranular) != 0 ? Mode::multi
@@ -117,8 +125,8 @@ class Collector {
     return (scratch_.flags[r] & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
   }
 
-  // From the end of one frame to the start of the next. A history resource has rotated by then: what is now the current
-  // copy was the oldest, and was last stored to a whole rotation ago.
+  // From the end of one frame to the start of the next. A history resource has rotated by then: what is now
+  // the current copy was the oldest, and was last stored to a whole rotation ago.
   void turn() {
     std::vector<Cell> ended;
     if (!histories_.empty()) ended = cells_;
@@ -167,7 +175,8 @@ class Collector {
     }
     if (anyArena_) inherit(end_);
     const auto atEnd = [&](auto&& f) {
-      if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone) f(graph_.present);
+      if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone)
+        f(graph_.present);
       for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
         if (plan_.outputLive[i] != 0) f(graph_.outputs[i]);
     };
@@ -188,13 +197,19 @@ class Collector {
     const Track track = tracks_[use.resource];
     const auto from = [&](const Cell& cell) { demand(bits, store ? cell.access : cell.store); };
     switch (track.mode) {
-      case Mode::ignored: return;
-      case Mode::single:
-      case Mode::arena: from(cells_[track.base]); return;
-      case Mode::multi:
-        forEachSubresource(use, graph_.resources[use.resource], [&](std::uint32_t s) { from(cells_[track.base + s]); });
+      case Mode::ignored:
         return;
-      case Mode::history: needHistory(use, bits, store); return;
+      case Mode::single:
+      case Mode::arena:
+        from(cells_[track.base]);
+        return;
+      case Mode::multi:
+        forEachSubresource(use, graph_.resources[use.resource],
+                           [&](std::uint32_t s) { from(cells_[track.base + s]); });
+        return;
+      case Mode::history:
+        needHistory(use, bits, store);
+        return;
     }
   }
 
@@ -231,7 +246,8 @@ class Collector {
     due_ |= bits;
   }
 
-  // The demands of step t become intervals. Only a store after the step's own clear must wait for barriersAfterClears.
+  // The demands of step t become intervals. Only a store after the step's own clear must wait for
+  // barriersAfterClears.
   void settle(std::int32_t t) {
     for (unsigned rest = due_; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
@@ -248,11 +264,15 @@ class Collector {
       if (store) cell.store = position;
     };
     switch (track.mode) {
-      case Mode::ignored: return;
+      case Mode::ignored:
+        return;
       case Mode::single:
-      case Mode::arena: set(cells_[track.base]); return;
+      case Mode::arena:
+        set(cells_[track.base]);
+        return;
       case Mode::multi:
-        forEachSubresource(use, graph_.resources[use.resource], [&](std::uint32_t s) { set(cells_[track.base + s]); });
+        forEachSubresource(use, graph_.resources[use.resource],
+                           [&](std::uint32_t s) { set(cells_[track.base + s]); });
         return;
       case Mode::history: {
         const FlatResource& r = graph_.resources[use.resource];
@@ -278,17 +298,21 @@ class Collector {
       const std::uint32_t r = scratch_.births[birth_];
       if (plan_.firstStep[r] > static_cast<std::uint32_t>(t)) return;
       if (tracks_[r].mode != Mode::arena) continue;
-      const std::uint64_t from = plan_.bufferOffsetOf[r], to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
+      const std::uint64_t from = plan_.bufferOffsetOf[r],
+                          to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
       cells_[tracks_[r].base] = {storeMap_.latest(from, to), accessMap_.latest(from, to)};
     }
   }
   void bequeath(std::int32_t t) {
-    for (std::uint32_t r = scratch_.deathHead[static_cast<std::size_t>(t)]; r != kNone; r = scratch_.deathNext[r]) {
+    for (std::uint32_t r = scratch_.deathHead[static_cast<std::size_t>(t)]; r != kNone;
+         r = scratch_.deathNext[r]) {
       if (tracks_[r].mode != Mode::arena) continue;
-      const std::uint64_t from = plan_.bufferOffsetOf[r], to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
+      const std::uint64_t from = plan_.bufferOffsetOf[r],
+                          to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
       const Cell& cell = cells_[tracks_[r].base];
       accessMap_.paint(from, to, cell.access);
-      if (cell.store > 2 * static_cast<std::int32_t>(plan_.firstStep[r])) storeMap_.paint(from, to, cell.store);
+      if (cell.store > 2 * static_cast<std::int32_t>(plan_.firstStep[r]))
+        storeMap_.paint(from, to, cell.store);
     }
   }
 
@@ -309,7 +333,8 @@ class Collector {
 
 }  // namespace
 
-void collectHazards(const FlatGraph& graph, const Plan& plan, const CompileScratch& scratch, HazardIntervals& hazards) {
+void collectHazards(const FlatGraph& graph, const Plan& plan, const CompileScratch& scratch,
+                    HazardIntervals& hazards) {
   Collector(graph, plan, scratch, hazards).run();
 }
 

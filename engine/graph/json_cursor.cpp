@@ -103,7 +103,7 @@ double JsonCursor::number() {
   const char* last = text_.data() + text_.size();
   // from_chars alone would take "inf" and ".5"
   const bool starts = first != last && (*first == '-' ? last - first > 1 && first[1] >= '0' && first[1] <= '9'
-                                                       : *first >= '0' && *first <= '9');
+                                                      : *first >= '0' && *first <= '9');
   const auto result = std::from_chars(first, last, value);
   if (!starts || result.ec != std::errc{}) {
     fail("expected a number");
@@ -133,16 +133,25 @@ void JsonCursor::skipValue(int depth) {
   if (depth > kDeepest) return fail("nested too deeply");
   std::size_t position = 0;
   switch (peek()) {
-    case '{': object([&](std::string_view, std::size_t) { skipValue(depth + 1); }); return;
-    case '[': array([&] { skipValue(depth + 1); }); return;
-    case '"': string(position); return;
+    case '{':
+      object([&](std::string_view, std::size_t) { skipValue(depth + 1); });
+      return;
+    case '[':
+      array([&] { skipValue(depth + 1); });
+      return;
+    case '"':
+      string(position);
+      return;
     case 't':
-    case 'f': boolean(); return;
+    case 'f':
+      boolean();
+      return;
     case 'n':
       if (text_.substr(at_, 4) != "null") return fail("expected a value");
       at_ += 4;
       return;
-    default: number();
+    default:
+      number();
   }
 }
 

@@ -1,5 +1,6 @@
-// A forward-only reader of JSON text for forms that are known in advance: no document, no allocation per value.
-// The first syntax error stops it: failed() stays true, and every later call returns at once. Does not know comments.
+// A forward-only reader of JSON text for forms that are known in advance: no document, no allocation per
+// value. The first syntax error stops it: failed() stays true, and every later call returns at once. Does not
+// know comments.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ class JsonCursor {
   double number();
   bool boolean();
   void skipValue(int depth = 0);
-  void finish();   // fails unless only spaces are left
+  void finish();  // fails unless only spaces are left
   void fail(const std::string& why);
 
   // For each member of an object, f(key, position of the key); f must read the value.
@@ -68,7 +69,8 @@ class JsonCursor {
 
  private:
   void skipSpaces() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t'))
+    while (at_ < text_.size() &&
+           (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t'))
       ++at_;
   }
   std::string_view unescape(std::size_t begin);

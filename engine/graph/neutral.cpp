@@ -36,9 +36,14 @@ class Formats {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& path, const NeutralOptions& options, base::Diagnostics& diagnostics)
-      : text_(text), file_(std::make_shared<const std::string>(path)), options_(options), diagnostics_(diagnostics),
-        json_(text), textureNames_(graph_.resourceNames) {}
+  Reader(std::string_view text, const std::string& path, const NeutralOptions& options,
+         base::Diagnostics& diagnostics)
+      : text_(text),
+        file_(std::make_shared<const std::string>(path)),
+        options_(options),
+        diagnostics_(diagnostics),
+        json_(text),
+        textureNames_(graph_.resourceNames) {}
 
   std::optional<FlatGraph> read() {
     const std::size_t before = diagnostics_.errorCount();
@@ -61,7 +66,8 @@ class Reader {
         passesAt = json_.position();
         json_.skipValue();
       } else {
-        complain(Code::W93, position, "unknown key '" + std::string(key) + "' in a workload").hint = "known: textures, passes";
+        complain(Code::W93, position, "unknown key '" + std::string(key) + "' in a workload").hint =
+            "known: textures, passes";
         json_.skipValue();
       }
     });
@@ -82,7 +88,8 @@ class Reader {
     if (position < counted_) counted_ = 0, line_ = 1, lineStart_ = 0;
     for (; counted_ < std::min(position, text_.size()); ++counted_)
       if (text_[counted_] == '\n') ++line_, lineStart_ = counted_ + 1;
-    return diagnostics_.error(code, {file_, line_, static_cast<std::uint32_t>(position - lineStart_ + 1)}, std::move(message));
+    return diagnostics_.error(code, {file_, line_, static_cast<std::uint32_t>(position - lineStart_ + 1)},
+                              std::move(message));
   }
 
   std::uint32_t size(std::string_view key) {
@@ -90,7 +97,8 @@ class Reader {
     const std::size_t position = json_.position();
     const double value = json_.number();
     if (json_.failed()) return 1;
-    if (value >= 1 && value <= kLargest && value == static_cast<std::uint32_t>(value)) return static_cast<std::uint32_t>(value);
+    if (value >= 1 && value <= kLargest && value == static_cast<std::uint32_t>(value))
+      return static_cast<std::uint32_t>(value);
     auto& diagnostic = complain(Code::W93, position, "a texture's " + std::string(key) + " is out of range");
     diagnostic.expected = "a whole number from 1 to 65536";
     return 1;
@@ -124,8 +132,9 @@ class Reader {
     if (json_.failed()) return;
     if (!named || !sized) complain(Code::W93, nameAt, "a texture without name or width");
     if (r.format == Format::none)
-      complain(Code::W95, formatAt == 0 ? nameAt : formatAt, "texture '" + name + "' has unknown format '" + format + "'").hint =
-          base::nearestHint(format, formatNames());
+      complain(Code::W95, formatAt == 0 ? nameAt : formatAt,
+               "texture '" + name + "' has unknown format '" + format + "'")
+          .hint = base::nearestHint(format, formatNames());
     r.bytes = std::uint64_t{r.width} * r.height * infoOf(r.format).bytes;
     graph_.resources.push_back(r);
     if (!textureNames_.add(static_cast<std::uint32_t>(graph_.resources.size() - 1)))
@@ -141,7 +150,8 @@ class Reader {
       if (r == kNone) {
         auto& diagnostic = complain(Code::W94, position, "unknown texture '" + std::string(name) + "'");
         diagnostic.pass = graph_.passNames.back();
-        if (graph_.resourceNames.size() <= 2000) diagnostic.hint = base::nearestHint(name, graph_.resourceNames);
+        if (graph_.resourceNames.size() <= 2000)
+          diagnostic.hint = base::nearestHint(name, graph_.resourceNames);
         return;
       }
       const FormatInfo& format = infoOf(graph_.resources[r].format);
@@ -151,10 +161,10 @@ class Reader {
       use.keep = access == Access::write;
       use.planes = format.kind == TexelKind::depth_stencil ? 3 : 1;
       const bool depth = format.kind == TexelKind::depth || format.kind == TexelKind::depth_stencil;
-      use.kind = compute && format.imageStorable    ? Kind::image
-                 : access == Access::read           ? Kind::sampled
-                 : depth                            ? Kind::depth
-                                                    : Kind::color;
+      use.kind = compute && format.imageStorable ? Kind::image
+                 : access == Access::read        ? Kind::sampled
+                 : depth                         ? Kind::depth
+                                                 : Kind::color;
       graph_.uses.push_back(use);
     });
   }
@@ -180,7 +190,8 @@ class Reader {
         json_.skipValue();
       }
     });
-    if (!json_.failed() && graph_.passNames.back().empty()) complain(Code::W93, nameAt, "a pass without a name");
+    if (!json_.failed() && graph_.passNames.back().empty())
+      complain(Code::W93, nameAt, "a pass without a name");
     pass.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - pass.firstUse;
     graph_.passes.push_back(pass);
   }
@@ -199,8 +210,8 @@ class Reader {
 
 }  // namespace
 
-std::optional<FlatGraph> readNeutral(std::string_view text, const std::string& path, const NeutralOptions& options,
-                                     base::Diagnostics& diagnostics) {
+std::optional<FlatGraph> readNeutral(std::string_view text, const std::string& path,
+                                     const NeutralOptions& options, base::Diagnostics& diagnostics) {
   return Reader(text, path, options, diagnostics).read();
 }
 

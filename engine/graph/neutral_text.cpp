@@ -30,7 +30,8 @@ class Writer {
     constexpr const char* sizes[] = {"\"width\":1920,\"height\":1080", "\"width\":960,\"height\":540",
                                      "\"width\":480,\"height\":270", "\"width\":64,\"height\":64"};
     constexpr const char* formats[] = {"RGBA8", "RGBA16F", "RG16F", "R32F"};
-    return "{\"name\":\"T" + std::to_string(t) + "\"," + sizes[draw(4)] + ",\"format\":\"" + formats[draw(4)] + "\"}";
+    return "{\"name\":\"T" + std::to_string(t) + "\"," + sizes[draw(4)] + ",\"format\":\"" +
+           formats[draw(4)] + "\"}";
   }
 
   std::vector<std::size_t> chain(std::size_t p) {
@@ -71,7 +72,8 @@ class Writer {
 
   void addPass(std::size_t p, const std::vector<std::size_t>& reads, std::size_t writes) {
     body_ += (p > 0 ? ",{\"name\":\"P" : "{\"name\":\"P") + std::to_string(p) + "\",\"reads\":[";
-    for (std::size_t i = 0; i < reads.size(); ++i) body_ += (i > 0 ? ",\"T" : "\"T") + std::to_string(reads[i]) + "\"";
+    for (std::size_t i = 0; i < reads.size(); ++i)
+      body_ += (i > 0 ? ",\"T" : "\"T") + std::to_string(reads[i]) + "\"";
     body_ += "],\"writes\":[";
     firstOf_.push_back(isRead_.size());
     for (std::size_t i = 0; i < writes; ++i) {
@@ -84,8 +86,8 @@ class Writer {
   const std::size_t passes_;
   const std::uint64_t seed_;
   std::uint64_t drawn_ = 0;
-  std::vector<std::size_t> firstOf_;   // per pass: its first texture
-  std::vector<bool> isRead_;           // per texture
+  std::vector<std::size_t> firstOf_;  // per pass: its first texture
+  std::vector<bool> isRead_;          // per texture
   std::size_t oldestUnread_ = 0;
   std::string body_;
 };

@@ -1,5 +1,5 @@
-// Sub-resources of a FlatResource as numbers: (layer * mips + mip) * planes + plane. Buffers and 3D depth are one.
-// Does not: know plans or storage.
+// Sub-resources of a FlatResource as numbers: (layer * mips + mip) * planes + plane. Buffers and 3D depth are
+// one. Does not: know plans or storage.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,8 @@ void forEachSubresource(const FlatUse& use, const FlatResource& r, F&& f) {
         if (planes == 1 || (use.planes >> plane & 1) != 0) f((layer * r.mips + mip) * planes + plane);
 }
 
-// Bytes of the part of `r` that `use` covers (one copy). Planes of a depth-stencil texel count half the texel each.
+// Bytes of the part of `r` that `use` covers (one copy). Planes of a depth-stencil texel count half the texel
+// each.
 std::uint64_t bytesOf(const FlatUse& use, const FlatResource& r);
 
 // A use of all of `r`.

@@ -13,7 +13,8 @@ using base::Code;
 
 class Validator {
  public:
-  Validator(const FlatGraph& graph, base::Diagnostics& diagnostics) : graph_(graph), diagnostics_(diagnostics) {}
+  Validator(const FlatGraph& graph, base::Diagnostics& diagnostics)
+      : graph_(graph), diagnostics_(diagnostics) {}
 
   bool run() {
     const std::size_t before = diagnostics_.errorCount();
@@ -30,7 +31,8 @@ class Validator {
     NameTable table(names);
     table.reserve(names.size());
     for (std::uint32_t i = 0; i < names.size(); ++i)
-      if (!table.add(i)) diagnostics_.error(Code::W96, {}, std::string("two ") + what + " are named '" + names[i] + "'");
+      if (!table.add(i))
+        diagnostics_.error(Code::W96, {}, std::string("two ") + what + " are named '" + names[i] + "'");
   }
 
   void indexCells() {
@@ -48,18 +50,20 @@ class Validator {
     const FlatResource& r = graph_.resources[use.resource];
     if (isBuffer(r)) return use.history <= r.history;
     const std::uint32_t planes = planesOf(r) == 2 ? 3 : 1;
-    return use.mips > 0 && use.layers > 0 && use.mip + use.mips <= r.mips && use.layer + use.layers <= r.layers &&
-           use.planes != 0 && (use.planes & ~planes) == 0 && use.history <= r.history &&
-           (use.history == 0 || use.access == Access::read);
+    return use.mips > 0 && use.layers > 0 && use.mip + use.mips <= r.mips &&
+           use.layer + use.layers <= r.layers && use.planes != 0 && (use.planes & ~planes) == 0 &&
+           use.history <= r.history && (use.history == 0 || use.access == Access::read);
   }
 
   std::string nameOf(std::uint32_t resource) const {
-    return resource < graph_.resourceNames.size() ? graph_.resourceNames[resource] : "#" + std::to_string(resource);
+    return resource < graph_.resourceNames.size() ? graph_.resourceNames[resource]
+                                                  : "#" + std::to_string(resource);
   }
 
   void complain(Code code, std::uint32_t pass, const FlatUse& use, const char* what) {
     const std::string& name = graph_.passNames[pass];
-    auto& diagnostic = diagnostics_.error(code, {}, "pass '" + name + "' " + what + " '" + nameOf(use.resource) + "'");
+    auto& diagnostic =
+        diagnostics_.error(code, {}, "pass '" + name + "' " + what + " '" + nameOf(use.resource) + "'");
     diagnostic.pass = name;
     diagnostic.resource = nameOf(use.resource);
   }
@@ -79,7 +83,8 @@ class Validator {
       forEachSubresource(use, r, [&](std::uint32_t s) {
         Cell& cell = cells_[base_[use.resource] + s];
         const bool there = cell.writtenBy != 0 && cell.writtenBy != stamp;
-        missing = missing || (use.access != Access::write && !there && cell.older == 0 && !r.hasClear && !isImported(r));
+        missing = missing ||
+                  (use.access != Access::write && !there && cell.older == 0 && !r.hasClear && !isImported(r));
         twice = twice || cell.writtenBy == stamp || (use.access != Access::read && cell.readBy == stamp);
         if (use.access == Access::read) {
           cell.readBy = stamp;
@@ -88,7 +93,9 @@ class Validator {
           cell.writtenBy = stamp;
         }
       });
-      if (missing) complain(Code::W97, p, use, use.access == Access::read ? "reads before any write" : "modifies before any write");
+      if (missing)
+        complain(Code::W97, p, use,
+                 use.access == Access::read ? "reads before any write" : "modifies before any write");
       if (twice) complain(Code::W98, p, use, "touches one sub-resource twice of");
     }
   }
@@ -101,7 +108,8 @@ class Validator {
                               isImported(graph_.resources[graph_.present.resource]));
       });
     if (!written)
-      diagnostics_.error(Code::W63, {}, "nothing writes '" + nameOf(graph_.present.resource) + "', which is presented");
+      diagnostics_.error(Code::W63, {},
+                         "nothing writes '" + nameOf(graph_.present.resource) + "', which is presented");
   }
 
   struct Cell {
@@ -117,6 +125,8 @@ class Validator {
 
 }  // namespace
 
-bool validateFlat(const FlatGraph& graph, base::Diagnostics& diagnostics) { return Validator(graph, diagnostics).run(); }
+bool validateFlat(const FlatGraph& graph, base::Diagnostics& diagnostics) {
+  return Validator(graph, diagnostics).run();
+}
 
 }  // namespace weft::graph

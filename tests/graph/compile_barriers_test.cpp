@@ -1,4 +1,5 @@
-// Barriers, rule by rule, in steady state (frames repeat: a conflict also runs from the end of a frame into the next).
+// Barriers, rule by rule, in steady state (frames repeat: a conflict also runs from the end of a frame into
+// the next).
 #include <doctest/doctest.h>
 
 #include "engine/graph/hazards.h"
@@ -10,7 +11,8 @@ using namespace weft::graph;
 namespace {
 
 // A store to `r` by the first pass, then one use of it; what the second pass must wait for.
-std::uint16_t bitsBefore(Kind storeKind, Kind useKind, bool buffer, Access access = Access::read, bool feedback = false) {
+std::uint16_t bitsBefore(Kind storeKind, Kind useKind, bool buffer, Access access = Access::read,
+                         bool feedback = false) {
   FlatBuilder b = emptyGraph();
   const auto r = buffer ? b.buffer("r", 64) : b.texture("r"), shown = b.texture("shown");
   b.pass("store").write(r, storeKind);
@@ -30,7 +32,8 @@ TEST_CASE("a use after a store waits for its own bit") {
   CHECK(bitsBefore(Kind::image, Kind::image, false) == kBarrierImage);
   CHECK(bitsBefore(Kind::image, Kind::copy, false) == kBarrierFramebuffer);
   CHECK(bitsBefore(Kind::image, Kind::color, false, Access::modify) == kBarrierFramebuffer);
-  CHECK(bitsBefore(Kind::image, Kind::color, false, Access::modify, true) == (kBarrierFramebuffer | kBarrierTexture));
+  CHECK(bitsBefore(Kind::image, Kind::color, false, Access::modify, true) ==
+        (kBarrierFramebuffer | kBarrierTexture));
   CHECK(bitsBefore(Kind::storage, Kind::storage, true) == kBarrierStorage);
   CHECK(bitsBefore(Kind::storage, Kind::uniform, true) == kBarrierUniform);
   CHECK(bitsBefore(Kind::storage, Kind::vertex, true) == kBarrierVertex);
@@ -113,7 +116,8 @@ TEST_CASE("sub-resources do not wait for each other") {
 
 TEST_CASE("a store waits for the last user of the storage it takes over") {
   FlatBuilder b = emptyGraph();
-  const auto a = b.texture("a"), m = b.texture("m", Format::rgba16f), c = b.texture("c"), shown = b.texture("shown");
+  const auto a = b.texture("a"), m = b.texture("m", Format::rgba16f), c = b.texture("c"),
+             shown = b.texture("shown");
   b.pass("a").write(a);
   b.pass("m").read(a).write(m);
   b.pass("c").read(m).write(c, Kind::image);
@@ -130,7 +134,8 @@ TEST_CASE("a store waits for the last user of the storage it takes over") {
 
 TEST_CASE("buffers that overlap in the arena wait for each other, others do not") {
   FlatBuilder b = emptyGraph();
-  const auto a = b.buffer("a", 512), c = b.buffer("c", 256), d = b.buffer("d", 256), shown = b.texture("shown");
+  const auto a = b.buffer("a", 512), c = b.buffer("c", 256), d = b.buffer("d", 256),
+             shown = b.texture("shown");
   b.pass("a").write(a, Kind::copy);
   b.pass("c").read(a, Kind::uniform).write(c, Kind::copy);
   b.pass("d").read(c, Kind::uniform).write(d, Kind::storage);
@@ -163,7 +168,8 @@ TEST_CASE("a history is waited for where it was published") {
   b.pass("publish").read(shown).write(h, Kind::image).present(shown);
   const Plan plan = b.compiled();
   CHECK(plan.steps[0].barriers == kBarrierTexture);
-  // The copy stored to was sampled in the frame before; the barrier may come no earlier than that frame's end.
+  // The copy stored to was sampled in the frame before; the barrier may come no earlier than that frame's
+  // end.
   CHECK((plan.steps[0].barriers | plan.steps[1].barriers) == (kBarrierTexture | kBarrierImage));
   CHECK(oracle::judgeBarriers(plan, 1).complaint == "");
 }
@@ -185,7 +191,8 @@ TEST_CASE("stabbing a circle leaves nothing out and nothing over") {
   CHECK(stab({}, 10).empty());
   CHECK(stab({{2, 4}, {3, 5}, {6, 8}}, 10) == std::vector<std::int32_t>{4, 8});
   CHECK(stab({{-3, 1}, {2, 4}}, 10) == std::vector<std::int32_t>{1, 4});
-  CHECK(stab({{-3, 1}, {2, 8}}, 10) == std::vector<std::int32_t>{8});   // 8 is 7 of the frame before, and later
+  CHECK(stab({{-3, 1}, {2, 8}}, 10) ==
+        std::vector<std::int32_t>{8});  // 8 is 7 of the frame before, and later
   CHECK(stab({{-9, 0}}, 10) == std::vector<std::int32_t>{0});
   // The crossing interval brings 3, which makes 4 superfluous.
   CHECK(stab({{-2, 3}, {2, 4}}, 10) == std::vector<std::int32_t>{3});

@@ -104,7 +104,8 @@ TEST_CASE("a history lives when a live pass reads an earlier publication, and ne
 }
 
 TEST_CASE("a long chain of histories is followed to its end") {
-  // Each link reads the past of the next one, declared after it: a single backward sweep would find one link only.
+  // Each link reads the past of the next one, declared after it: a single backward sweep would find one link
+  // only.
   constexpr int kLinks = 2000;
   FlatBuilder b = emptyGraph();
   const auto shown = b.texture("shown");
@@ -124,7 +125,8 @@ TEST_CASE("a long chain of histories is followed to its end") {
 
 TEST_CASE("read-back keeps nothing alive, but what lives stays until the end for it") {
   FlatBuilder b = emptyGraph();
-  const auto dead = b.texture("dead"), live = b.texture("live"), later = b.texture("later"), shown = b.texture("shown");
+  const auto dead = b.texture("dead"), live = b.texture("live"), later = b.texture("later"),
+             shown = b.texture("shown");
   b.pass("a").write(dead);
   b.pass("b").write(live);
   b.pass("c").read(live).write(later);

@@ -41,10 +41,13 @@ TEST_CASE("two storages that are alive at once and made one are caught") {
     const FlatGraph& graph = *plan.graph;
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r)
       for (std::uint32_t q = 0; q < r; ++q) {
-        if (plan.storageOf[r] == kNone || plan.storageOf[q] == kNone || plan.persistent[r] + plan.persistent[q] != 0) continue;
+        if (plan.storageOf[r] == kNone || plan.storageOf[q] == kNone ||
+            plan.persistent[r] + plan.persistent[q] != 0)
+          continue;
         const Storage &a = plan.storages[plan.storageOf[r]], &c = plan.storages[plan.storageOf[q]];
-        if (plan.storageOf[r] == plan.storageOf[q] || a.width != c.width || a.mips != c.mips || a.layers != c.layers ||
-            a.viewClass != c.viewClass || plan.firstStep[r] > plan.lastStep[q] || plan.firstStep[q] > plan.lastStep[r])
+        if (plan.storageOf[r] == plan.storageOf[q] || a.width != c.width || a.mips != c.mips ||
+            a.layers != c.layers || a.viewClass != c.viewClass || plan.firstStep[r] > plan.lastStep[q] ||
+            plan.firstStep[q] > plan.lastStep[r])
           continue;
         Plan mutant = plan;
         mutant.storageOf[r] = plan.storageOf[q];

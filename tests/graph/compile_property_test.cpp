@@ -31,7 +31,8 @@ bool hasHistoryWithoutAlwaysWriter(const Plan& plan) {
 
 // How often the graphs reach the interesting cases.
 struct Coverage {
-  std::size_t shared = 0, overlapping = 0, histories = 0, persistent = 0, splitClears = 0, feedback = 0, parts = 0;
+  std::size_t shared = 0, overlapping = 0, histories = 0, persistent = 0, splitClears = 0, feedback = 0,
+              parts = 0;
 
   void add(const Plan& plan) {
     const FlatGraph& graph = *plan.graph;
@@ -61,7 +62,8 @@ TEST_CASE("the random graphs reach every kind of case") {
   MESSAGE("shared " << c.shared << ", overlapping arenas " << c.overlapping << ", histories " << c.histories
                     << ", persistent " << c.persistent << ", split clears " << c.splitClears << ", feedback "
                     << c.feedback << ", parts " << c.parts);
-  for (const std::size_t n : {c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
+  for (const std::size_t n :
+       {c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
     CHECK(n > kGraphs / 25);
 }
 
@@ -83,7 +85,8 @@ TEST_CASE("no hazard is left under any cadence, and no bit is to spare") {
     if (seed % 4 == 0) judge(b.compiled({.share = false}), seed, 6, " unshared");
   }
   CHECK(failures == 0);
-  MESSAGE(kGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly << " by cadence only");
+  MESSAGE(kGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly
+                  << " by cadence only");
   CHECK(bits > kGraphs * 8);  // the graphs do need barriers
   CHECK(byCadenceOnly * 1000 < bits);
 }
@@ -109,8 +112,9 @@ TEST_CASE("any legal order, shared or not, shows what the graph means") {
   std::size_t failures = 0;
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
     const FlatBuilder b = randomGraph(seed);
-    for (const CompileOptions options : {CompileOptions{true, 0}, CompileOptions{true, seed}, CompileOptions{true, ~seed},
-                                         CompileOptions{false, 0}, CompileOptions{false, seed}}) {
+    for (const CompileOptions options :
+         {CompileOptions{true, 0}, CompileOptions{true, seed}, CompileOptions{true, ~seed},
+          CompileOptions{false, 0}, CompileOptions{false, seed}}) {
       const Plan plan = b.compiled(options);
       if (replay::showPlanned(plan, 4) != replay::showDeclared(plan, 4) && ++failures < 10)
         FAIL_CHECK("graph " << seed << ", share " << options.share << ", order " << options.orderSeed);

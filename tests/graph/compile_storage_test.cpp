@@ -7,7 +7,8 @@ using namespace weft::graph;
 
 TEST_CASE("storage is shared after the last of several users, not after the last in the list") {
   FlatBuilder b = emptyGraph();
-  const auto a = b.texture("a"), x = b.texture("x"), y = b.texture("y"), z = b.texture("z"), shown = b.texture("shown");
+  const auto a = b.texture("a"), x = b.texture("x"), y = b.texture("y"), z = b.texture("z"),
+             shown = b.texture("shown");
   b.pass("make").write(a);
   b.pass("x").read(a).write(x);
   b.pass("y").read(a).read(x).write(y);
@@ -52,7 +53,8 @@ TEST_CASE("classes: view-compatible formats share, others do not") {
   CHECK_FALSE(shares([](FlatResource& a, FlatResource&) { a.mips = 2; }));
   CHECK_FALSE(shares([](FlatResource& a, FlatResource&) { a.layers = 2; }));
   CHECK_FALSE(shares([](FlatResource& a, FlatResource&) { a.target = Target::texture_3d; }));
-  CHECK_FALSE(shares([](FlatResource& a, FlatResource&) { a.samples = 4, a.target = Target::texture_2d_multisample; }));
+  CHECK_FALSE(shares(
+      [](FlatResource& a, FlatResource&) { a.samples = 4, a.target = Target::texture_2d_multisample; }));
   CHECK_FALSE(shares([](FlatResource& a, FlatResource&) { a.history = 1; }));
   CHECK(shares([](FlatResource& a, FlatResource& c) { a.format = c.format = Format::depth32f_stencil8; }));
   CHECK_FALSE(shares([](FlatResource& a, FlatResource& c) {
@@ -90,7 +92,8 @@ TEST_CASE("a resource that is never live takes no storage, sharing off gives eac
 
 TEST_CASE("version zero is cleared where it is touched first, per sub-resource, and only there") {
   FlatBuilder b = emptyGraph();
-  const auto maps = b.texture("maps", Format::depth32f, 64, 1, 4), hdr = b.texture("hdr"), shown = b.texture("shown");
+  const auto maps = b.texture("maps", Format::depth32f, 64, 1, 4), hdr = b.texture("hdr"),
+             shown = b.texture("shown");
   b.resource(maps).hasClear = b.resource(hdr).hasClear = true;
   b.pass("l1").layer(maps, 1, Kind::depth, Access::modify);
   b.pass("l1again").layer(maps, 1, Kind::depth, Access::modify);
@@ -129,7 +132,8 @@ TEST_CASE("planes of a depth-stencil texture are cleared one by one") {
 
 TEST_CASE("transient buffers are packed by offset and never overlap while alive") {
   FlatBuilder b = emptyGraph();
-  const auto a = b.buffer("a", 1000), c = b.buffer("c", 300), d = b.buffer("d", 600), shown = b.texture("shown");
+  const auto a = b.buffer("a", 1000), c = b.buffer("c", 300), d = b.buffer("d", 600),
+             shown = b.texture("shown");
   b.pass("a").write(a, Kind::storage);
   b.pass("c").read(a, Kind::storage).write(c, Kind::storage);
   b.pass("d").read(c, Kind::storage).write(d, Kind::storage);

@@ -1,4 +1,5 @@
-// Dumps and explanations: the canonical text as a golden, the same bytes every time, and a reason for everything.
+// Dumps and explanations: the canonical text as a golden, the same bytes every time, and a reason for
+// everything.
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -17,15 +18,20 @@ namespace {
 FlatBuilder exampleGraph() {
   FlatBuilder b = emptyGraph();
   b.graph.name = "example";
-  const auto lut = b.texture("lut", Format::rg16f, 32), hdr = b.texture("hdr", Format::rgba16f), glow = b.texture("glow", Format::rgba16f, 32, 2);
+  const auto lut = b.texture("lut", Format::rg16f, 32), hdr = b.texture("hdr", Format::rgba16f),
+             glow = b.texture("glow", Format::rgba16f, 32, 2);
   const auto histogram = b.buffer("histogram", 1024), exposure = b.buffer("exposure", 16);
-  const auto ldr = b.texture("ldr"), velocity = b.texture("velocity", Format::rg16f), smooth = b.texture("smooth", Format::r32f);
+  const auto ldr = b.texture("ldr"), velocity = b.texture("velocity", Format::rg16f),
+             smooth = b.texture("smooth", Format::r32f);
   b.resource(hdr).hasClear = b.resource(histogram).hasClear = true;
   b.resource(exposure).history = 1;
   b.pass("bake", Cadence::once).write(lut, Kind::image);
   b.pass("draw").read(lut).modify(hdr).write(velocity);
   b.pass("count").read(hdr).modify(histogram, Kind::storage);
-  b.pass("adapt").read(histogram, Kind::storage).read(exposure, Kind::storage, 1).write(exposure, Kind::storage);
+  b.pass("adapt")
+      .read(histogram, Kind::storage)
+      .read(exposure, Kind::storage, 1)
+      .write(exposure, Kind::storage);
   b.pass("down").read(hdr).mip(glow, 1, Kind::image, Access::write);
   b.pass("blur").read(velocity).write(velocity);
   b.pass("tone").read(hdr).read(exposure, Kind::uniform).mip(glow, 1, Kind::sampled, Access::read).write(ldr);
@@ -126,7 +132,8 @@ TEST_CASE("every barrier bit has its two accesses, and they wait for each other"
       unexplained += reason.found ? 0 : 1;
       if (!reason.found) continue;
       const auto stores = [](const Touch& t) {
-        return !t.clear && t.pass != kNone && t.use.access != Access::read && (t.use.kind == Kind::image || t.use.kind == Kind::storage);
+        return !t.clear && t.pass != kNone && t.use.access != Access::read &&
+               (t.use.kind == Kind::image || t.use.kind == Kind::storage);
       };
       CHECK((stores(reason.before) || stores(reason.after)));
     }
@@ -178,7 +185,8 @@ TEST_CASE("the DOT form names every pass once, quotes what needs it, greys what 
   const std::string dot = dumpDot(b.compiled());
   CHECK(dot.find("digraph \"example\" {") == 0);
   CHECK(dot.find("draw \\\"it\\\"") != std::string::npos);
-  CHECK(dot.find("p5 [shape=box, label=\"blur\", style=\"filled\", fillcolor=\"gray93\"") != std::string::npos);
+  CHECK(dot.find("p5 [shape=box, label=\"blur\", style=\"filled\", fillcolor=\"gray93\"") !=
+        std::string::npos);
   CHECK(dot.find("style=dashed") != std::string::npos);
   CHECK(dot.find("-> present") != std::string::npos);
   CHECK(dot.substr(dot.size() - 2) == "}\n");

@@ -28,7 +28,8 @@ struct FlatBuilder {
     r.layers = layers;
     if (layers > 1) r.target = Target::texture_2d_array;
     for (std::uint32_t mip = 0; mip < mips; ++mip)
-      r.bytes += std::uint64_t{std::max(1u, size >> mip)} * std::max(1u, size >> mip) * layers * infoOf(format).bytes;
+      r.bytes += std::uint64_t{std::max(1u, size >> mip)} * std::max(1u, size >> mip) * layers *
+                 infoOf(format).bytes;
     return add(r, name);
   }
   std::uint32_t buffer(const std::string& name, std::uint64_t bytes) {
@@ -56,14 +57,18 @@ struct FlatBuilder {
     ++graph.passes.back().useCount;
     return *this;
   }
-  FlatUse whole(std::uint32_t r, Kind kind, Access access) const { return wholeUse(r, graph.resources[r], kind, access); }
+  FlatUse whole(std::uint32_t r, Kind kind, Access access) const {
+    return wholeUse(r, graph.resources[r], kind, access);
+  }
   FlatBuilder& read(std::uint32_t r, Kind kind = Kind::sampled, std::uint8_t history = 0) {
     FlatUse u = whole(r, kind, Access::read);
     u.history = history;
     return use(u);
   }
   FlatBuilder& write(std::uint32_t r, Kind kind = Kind::color) { return use(whole(r, kind, Access::write)); }
-  FlatBuilder& modify(std::uint32_t r, Kind kind = Kind::color) { return use(whole(r, kind, Access::modify)); }
+  FlatBuilder& modify(std::uint32_t r, Kind kind = Kind::color) {
+    return use(whole(r, kind, Access::modify));
+  }
   FlatBuilder& mip(std::uint32_t r, std::uint16_t level, Kind kind, Access access) {
     FlatUse u = whole(r, kind, access);
     u.mip = level;

@@ -26,12 +26,16 @@ enum Gl : std::uint32_t {
 };
 
 std::uint32_t toGl(std::uint16_t mask) {
-  const std::pair<BarrierBit, std::uint32_t> names[] = {
-      {kBarrierVertex, kVertexAttribArray}, {kBarrierIndex, kElementArray},
-      {kBarrierUniform, kUniform},          {kBarrierTexture, kTextureFetch},
-      {kBarrierImage, kShaderImageAccess},  {kBarrierCommand, kCommand},
-      {kBarrierTextureUpdate, kTextureUpdate}, {kBarrierBufferUpdate, kBufferUpdate},
-      {kBarrierFramebuffer, kFramebuffer},  {kBarrierStorage, kShaderStorage}};
+  const std::pair<BarrierBit, std::uint32_t> names[] = {{kBarrierVertex, kVertexAttribArray},
+                                                        {kBarrierIndex, kElementArray},
+                                                        {kBarrierUniform, kUniform},
+                                                        {kBarrierTexture, kTextureFetch},
+                                                        {kBarrierImage, kShaderImageAccess},
+                                                        {kBarrierCommand, kCommand},
+                                                        {kBarrierTextureUpdate, kTextureUpdate},
+                                                        {kBarrierBufferUpdate, kBufferUpdate},
+                                                        {kBarrierFramebuffer, kFramebuffer},
+                                                        {kBarrierStorage, kShaderStorage}};
   std::uint32_t gl = 0;
   for (const auto& [bit, value] : names)
     if ((mask & bit) != 0) gl |= value;
@@ -39,44 +43,77 @@ std::uint32_t toGl(std::uint16_t mask) {
 }
 
 // What the GL does, in the terms of 7.12.2.
-enum class Op { texture_fetch, image, uniform, storage, vertex, index, command, attachment, blit, clear, buffer_copy };
+enum class Op {
+  texture_fetch,
+  image,
+  uniform,
+  storage,
+  vertex,
+  index,
+  command,
+  attachment,
+  blit,
+  clear,
+  buffer_copy
+};
 
 Op opOf(const FlatUse& use, bool buffer) {
   switch (use.kind) {
-    case Kind::sampled: return Op::texture_fetch;
-    case Kind::image: return Op::image;
-    case Kind::uniform: return Op::uniform;
-    case Kind::storage: return Op::storage;
-    case Kind::vertex: return Op::vertex;
-    case Kind::index: return Op::index;
-    case Kind::indirect: return Op::command;
+    case Kind::sampled:
+      return Op::texture_fetch;
+    case Kind::image:
+      return Op::image;
+    case Kind::uniform:
+      return Op::uniform;
+    case Kind::storage:
+      return Op::storage;
+    case Kind::vertex:
+      return Op::vertex;
+    case Kind::index:
+      return Op::index;
+    case Kind::indirect:
+      return Op::command;
     case Kind::color:
-    case Kind::depth: return Op::attachment;
-    case Kind::copy: return buffer ? Op::buffer_copy : Op::blit;
+    case Kind::depth:
+      return Op::attachment;
+    case Kind::copy:
+      return buffer ? Op::buffer_copy : Op::blit;
   }
   return Op::blit;
 }
 
-// "… after the barrier will reflect data written by shaders prior to the barrier": one line per bit of the section.
+// "… after the barrier will reflect data written by shaders prior to the barrier": one line per bit of the
+// section.
 std::uint32_t bitToSeeShaderWrites(Op op, bool buffer) {
   switch (op) {
-    case Op::vertex: return kVertexAttribArray;      // vertex data sourced from buffer objects
-    case Op::index: return kElementArray;            // vertex array indices sourced from buffer objects
-    case Op::uniform: return kUniform;               // shader uniforms sourced from buffer objects
-    case Op::texture_fetch: return kTextureFetch;    // texture fetches from shaders, buffer textures included
-    case Op::image: return kShaderImageAccess;       // image load, store and atomic functions
-    case Op::command: return kCommand;               // command data sourced by *Indirect commands
-    case Op::clear: return buffer ? kBufferUpdate    // Clear*Data "reads or writes via … Buffer*SubData, or copy"
-                                  : kTextureUpdate;  // writes via Tex(Sub)Image*, ClearTex*Image
-    case Op::buffer_copy: return kBufferUpdate;      // Copy*SubData, Get*SubData
+    case Op::vertex:
+      return kVertexAttribArray;  // vertex data sourced from buffer objects
+    case Op::index:
+      return kElementArray;  // vertex array indices sourced from buffer objects
+    case Op::uniform:
+      return kUniform;  // shader uniforms sourced from buffer objects
+    case Op::texture_fetch:
+      return kTextureFetch;  // texture fetches from shaders, buffer textures included
+    case Op::image:
+      return kShaderImageAccess;  // image load, store and atomic functions
+    case Op::command:
+      return kCommand;  // command data sourced by *Indirect commands
+    case Op::clear:
+      return buffer ? kBufferUpdate    // Clear*Data "reads or writes via … Buffer*SubData, or copy"
+                    : kTextureUpdate;  // writes via Tex(Sub)Image*, ClearTex*Image
+    case Op::buffer_copy:
+      return kBufferUpdate;  // Copy*SubData, Get*SubData
     case Op::attachment:
-    case Op::blit: return kFramebuffer;              // reads and writes via framebuffer object attachments
-    case Op::storage: return kShaderStorage;         // accesses through shader buffer variables
+    case Op::blit:
+      return kFramebuffer;  // reads and writes via framebuffer object attachments
+    case Op::storage:
+      return kShaderStorage;  // accesses through shader buffer variables
   }
   return 0;
 }
 
-// A unit of physical memory: (space, which, copy, sub-resource). Spaces: 0 storage, 1 a resource's own, 2 arena.
+// A unit of physical memory: (space, which, copy, sub-resource). Spaces: 0 storage, 1 a resource's own, 2
+// arena.
 using Unit = std::tuple<int, std::uint32_t, std::uint32_t, std::uint64_t>;
 
 struct Past {
@@ -86,7 +123,8 @@ struct Past {
 
 class Replay {
  public:
-  explicit Replay(const Plan& plan) : plan_(plan), graph_(*plan.graph), published_(graph_.resources.size(), 0) {}
+  explicit Replay(const Plan& plan)
+      : plan_(plan), graph_(*plan.graph), published_(graph_.resources.size(), 0) {}
 
   std::string run(const Schedule& schedule) {
     for (std::size_t frame = 0; frame < schedule.size(); ++frame) {
@@ -137,7 +175,8 @@ class Replay {
       if (!runs[step.pass]) continue;
       const FlatPass& pass = graph_.passes[step.pass];
       for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
-        if (plan_.attached[u] != 0 && graph_.uses[u].access != Access::read) rotates[graph_.uses[u].resource] = true;
+        if (plan_.attached[u] != 0 && graph_.uses[u].access != Access::read)
+          rotates[graph_.uses[u].resource] = true;
     }
     for (std::size_t r = 0; r < rotates.size(); ++r)
       if (rotates[r]) ++published_[r];
@@ -164,10 +203,11 @@ class Replay {
       const Past& past = memory_[unit];
       const std::uint32_t see = bitToSeeShaderWrites(op, isBuffer(r));
       if (past.store >= 0 && issued_[see] < past.store) complain(use, past.storeBy, "stored to it", see);
-      // "image stores and atomics / assignments to buffer variables after the barrier will not execute until all memory
-      // accesses initiated prior to the barrier complete"
+      // "image stores and atomics / assignments to buffer variables after the barrier will not execute until
+      // all memory accesses initiated prior to the barrier complete"
       const std::uint32_t wait = op == Op::storage ? kShaderStorage : kShaderImageAccess;
-      if (store && past.access >= 0 && issued_[wait] < past.access) complain(use, past.accessBy, "accessed it", wait);
+      if (store && past.access >= 0 && issued_[wait] < past.access)
+        complain(use, past.accessBy, "accessed it", wait);
       pending_.emplace_back(unit, store);
     };
     if (plan_.bufferOffsetOf[use.resource] != Plan::kNoOffset) {
@@ -214,7 +254,9 @@ class Replay {
 
 }  // namespace
 
-std::string findHazard(const Plan& plan, const Schedule& schedule) { return Replay(plan).run(schedule); }
+std::string findHazard(const Plan& plan, const Schedule& schedule) {
+  return Replay(plan).run(schedule);
+}
 
 Schedule everythingRuns(const Plan& plan) {
   std::size_t deepest = 0;
@@ -275,7 +317,8 @@ Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples)
     return std::string();
   };
   if (std::string found = findHazard(plan, full); !found.empty()) verdict.complaint = "hazard: " + found;
-  if (std::string found = hazardUnderCadence(plan); !found.empty()) verdict.complaint = "hazard by cadence: " + found;
+  if (std::string found = hazardUnderCadence(plan); !found.empty())
+    verdict.complaint = "hazard by cadence: " + found;
   for (const Plan& mutant : withoutOneBit(plan)) {
     ++verdict.bits;
     if (!findHazard(mutant, full).empty()) continue;
@@ -288,8 +331,8 @@ Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples)
       const int spare = (plan.steps[t].barriers ^ mutant.steps[t].barriers) |
                         (plan.steps[t].barriersAfterClears ^ mutant.steps[t].barriersAfterClears);
       if (spare != 0)
-        verdict.complaint = "spare bit " + std::string(barrierName(static_cast<BarrierBit>(spare))) + " before " +
-                            plan.graph->passNames[plan.steps[t].pass];
+        verdict.complaint = "spare bit " + std::string(barrierName(static_cast<BarrierBit>(spare))) +
+                            " before " + plan.graph->passNames[plan.steps[t].pass];
     }
   }
   return verdict;

@@ -1,7 +1,7 @@
-// An independent judge of a plan's barriers. It replays frames access by access on physical memory and applies the
-// ordering rules of the OpenGL 4.5 core specification, section 7.12.2; its table is written from that text and shares
-// nothing with the compiler but the plan's data. Textures are judged per copy and sub-resource, buffers per 256 bytes.
-// Does not: judge contents (replay.h) or storage (plan_checks.h).
+// An independent judge of a plan's barriers. It replays frames access by access on physical memory and
+// applies the ordering rules of the OpenGL 4.5 core specification, section 7.12.2; its table is written from
+// that text and shares nothing with the compiler but the plan's data. Textures are judged per copy and
+// sub-resource, buffers per 256 bytes. Does not: judge contents (replay.h) or storage (plan_checks.h).
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,15 @@ std::string findHazard(const Plan& plan, const Schedule& schedule);
 // Every pass in every frame; enough frames for each copy of each history to come round twice.
 Schedule everythingRuns(const Plan& plan);
 
-// Three frames in which the passes that are not `always` run in every possible pattern, when there are few of them;
-// else `samples` random patterns.
+// Three frames in which the passes that are not `always` run in every possible pattern, when there are few of
+// them; else `samples` random patterns.
 std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std::size_t samples);
 
 struct Verdict {
-  std::string complaint;          // "" when there is no hazard under any schedule and no bit is to spare
-  std::size_t bits = 0;           // of the plan
-  std::size_t byCadenceOnly = 0;  // bits that can be dropped while everything runs, but not under some cadence
+  std::string complaint;  // "" when there is no hazard under any schedule and no bit is to spare
+  std::size_t bits = 0;   // of the plan
+  std::size_t byCadenceOnly =
+      0;  // bits that can be dropped while everything runs, but not under some cadence
 };
 
 // A bit is to spare when dropping it leaves no hazard under any of the schedules.

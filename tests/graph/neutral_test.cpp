@@ -1,10 +1,11 @@
 // Workloads: reading the neutral form, its mistakes, the generator, and the checks on flat graphs.
+#include "engine/graph/neutral.h"
+
 #include <doctest/doctest.h>
 
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "engine/graph/neutral.h"
 #include "engine/graph/validate_flat.h"
 #include "tests/graph/flat_builder.h"
 
@@ -53,7 +54,9 @@ TEST_CASE("every second pass as compute works by image where the format can") {
 
 TEST_CASE("passes may stand before textures") {
   base::Diagnostics d;
-  const auto graph = read(R"({"passes":[{"name":"p","writes":["A"]}],"textures":[{"name":"A","width":1,"height":1,"format":"R8"}]})", d);
+  const auto graph = read(
+      R"({"passes":[{"name":"p","writes":["A"]}],"textures":[{"name":"A","width":1,"height":1,"format":"R8"}]})",
+      d);
   REQUIRE(graph.has_value());
   CHECK(graph->uses.size() == 1);
 }
@@ -63,7 +66,8 @@ TEST_CASE("mistakes in a workload are found all at once, with their places") {
   CHECK_FALSE(read(R"({"textures":[
  {"name":"A","width":0,"height":1,"format":"R8"},
  {"name":"A","width":1,"height":1,"format":"RGBA61F"}],
- "passes":[{"name":"p","reads":["AB"],"writes":["A"],"write":1}]})", d));
+ "passes":[{"name":"p","reads":["AB"],"writes":["A"],"write":1}]})",
+                   d));
   CHECK(d.contains(Code::W93));
   CHECK(d.contains(Code::W94));
   CHECK(d.contains(Code::W95));
@@ -74,8 +78,9 @@ TEST_CASE("mistakes in a workload are found all at once, with their places") {
 }
 
 TEST_CASE("text that is no workload is refused with one message and its place") {
-  for (const char* text : {"", "[", "{\"textures\":[", "{} x", "{\"textures\":[{\"name\":\"A\\q\"}]}", "{\"textures\":3}",
-                           "{\"passes\":[{\"name\":\"p\",\"side_effect\":maybe}]}", "{\"passes\":[{\"name\":\"p\",\"reads\":[\"A"}) {
+  for (const char* text : {"", "[", "{\"textures\":[", "{} x", "{\"textures\":[{\"name\":\"A\\q\"}]}",
+                           "{\"textures\":3}", "{\"passes\":[{\"name\":\"p\",\"side_effect\":maybe}]}",
+                           "{\"passes\":[{\"name\":\"p\",\"reads\":[\"A"}) {
     base::Diagnostics d;
     CHECK_FALSE(read(text, d));
     CHECK(d.contains(Code::W93));
@@ -86,7 +91,9 @@ TEST_CASE("text that is no workload is refused with one message and its place") 
 
 TEST_CASE("escapes are read") {
   base::Diagnostics d;
-  const auto graph = read(R"({"textures":[{"name":"\u0041\u00e9\ud83d\ude00\n","width":1,"height":1,"format":"R8"}],"passes":[]})", d);
+  const auto graph = read(
+      R"({"textures":[{"name":"\u0041\u00e9\ud83d\ude00\n","width":1,"height":1,"format":"R8"}],"passes":[]})",
+      d);
   REQUIRE(graph.has_value());
   CHECK(graph->resourceNames[0] == "A\xc3\xa9\xf0\x9f\x98\x80\n");
 }
@@ -164,8 +171,11 @@ TEST_CASE("the workload files reach the storage bound") {
     std::size_t kept;
     std::uint64_t bytes;
   };
-  const Expected expected[] = {{"layered_100", 76, 132470528},     {"layered_1000", 910, 208740864},
-                               {"layered_10000", 9330, 304857856}, {"chain_1000", 1000, 0}, {"fanin_1000", 1000, 0}};
+  const Expected expected[] = {{"layered_100", 76, 132470528},
+                               {"layered_1000", 910, 208740864},
+                               {"layered_10000", 9330, 304857856},
+                               {"chain_1000", 1000, 0},
+                               {"fanin_1000", 1000, 0}};
   for (const auto& [name, kept, bytes] : expected) {
     base::Diagnostics d;
     const auto text = base::readFile(folder + name + ".json", d);

@@ -24,9 +24,11 @@ bool overlap(const FlatGraph& graph, const FlatUse& a, const FlatUse& b, std::ui
 }
 
 // The last write of `sub` by passes before `pass`, kNone for version zero.
-std::uint32_t writerBefore(const FlatGraph& graph, const FlatUse& use, std::uint32_t sub, std::uint32_t pass) {
+std::uint32_t writerBefore(const FlatGraph& graph, const FlatUse& use, std::uint32_t sub,
+                           std::uint32_t pass) {
   for (std::uint32_t p = pass; p-- > 0;)
-    for (std::uint32_t u = graph.passes[p].firstUse + graph.passes[p].useCount; u-- > graph.passes[p].firstUse;)
+    for (std::uint32_t u = graph.passes[p].firstUse + graph.passes[p].useCount;
+         u-- > graph.passes[p].firstUse;)
       if (graph.uses[u].access != Access::read && overlap(graph, graph.uses[u], use, sub)) return u;
   return kNone;
 }
@@ -65,7 +67,8 @@ std::string checkLiveness(const Plan& plan) {
     }
   }
   for (std::uint32_t p = 0; p < passes; ++p)
-    if ((livePass[p] != 0) != (plan.stepOf[p] != kNone)) return "pass " + graph.passNames[p] + " live or culled wrongly";
+    if ((livePass[p] != 0) != (plan.stepOf[p] != kNone))
+      return "pass " + graph.passNames[p] + " live or culled wrongly";
   for (std::size_t u = 0; u < graph.uses.size(); ++u)
     if ((liveUse[u] != 0) != (plan.attached[u] != 0)) return "use " + std::to_string(u) + " attached wrongly";
   return "";
@@ -88,16 +91,20 @@ std::string checkStorage(const Plan& plan) {
       touch(use.resource, t);
       if (use.access != Access::read && pass.cadence != Cadence::always) own[use.resource] = 1;
     }
-    for (std::uint32_t c = plan.steps[t].firstClear; c < plan.steps[t].firstClear + plan.steps[t].clearCount; ++c)
+    for (std::uint32_t c = plan.steps[t].firstClear; c < plan.steps[t].firstClear + plan.steps[t].clearCount;
+         ++c)
       touch(plan.clears[c].use.resource, t);
   }
-  if (graph.present.resource != kNone && life[graph.present.resource].first <= steps) touch(graph.present.resource, steps);
+  if (graph.present.resource != kNone && life[graph.present.resource].first <= steps)
+    touch(graph.present.resource, steps);
   for (std::size_t i = 0; i < graph.outputs.size(); ++i)
     if (plan.outputLive[i] != 0) touch(graph.outputs[i].resource, steps);
 
   using Class = std::tuple<int, std::uint32_t, std::uint32_t, std::uint32_t, int, int, int, int>;
   const auto classOf = [&](const FlatResource& r) {
-    const int family = r.target == Target::texture_3d ? 1 : r.target == Target::texture_2d_multisample ? 2 : 0;
+    const int family = r.target == Target::texture_3d               ? 1
+                       : r.target == Target::texture_2d_multisample ? 2
+                                                                    : 0;
     return Class{family, r.width, r.height, r.depth, r.layers, r.mips, r.samples, infoOf(r.format).viewClass};
   };
   std::map<Class, std::uint64_t> bytes, peak;
@@ -107,22 +114,27 @@ std::string checkStorage(const Plan& plan) {
     const bool alive = life[r].first <= steps, mine = own[r] != 0 || resource.history > 0;
     const std::string& name = graph.resourceNames[r];
     if (!alive || isImported(resource)) {
-      if (plan.storageOf[r] != kNone || plan.bufferOffsetOf[r] != Plan::kNoOffset) return name + " has storage";
+      if (plan.storageOf[r] != kNone || plan.bufferOffsetOf[r] != Plan::kNoOffset)
+        return name + " has storage";
       continue;
     }
-    if (plan.firstStep[r] != life[r].first || plan.lastStep[r] != life[r].second) return name + " has a wrong lifetime";
+    if (plan.firstStep[r] != life[r].first || plan.lastStep[r] != life[r].second)
+      return name + " has a wrong lifetime";
     if ((plan.persistent[r] != 0) != mine) return name + " is persistent or not, wrongly";
     declared += resource.bytes * (resource.history + 1u);
     if (mine) fixed += resource.bytes * (resource.history + 1u);
     if (isBuffer(resource)) {
-      if ((plan.bufferOffsetOf[r] != Plan::kNoOffset) == mine) return name + " is in the arena or not, wrongly";
-      if (!mine && (plan.bufferOffsetOf[r] % 256 != 0 || plan.bufferOffsetOf[r] + resource.bytes > plan.arenaBytes))
+      if ((plan.bufferOffsetOf[r] != Plan::kNoOffset) == mine)
+        return name + " is in the arena or not, wrongly";
+      if (!mine &&
+          (plan.bufferOffsetOf[r] % 256 != 0 || plan.bufferOffsetOf[r] + resource.bytes > plan.arenaBytes))
         return name + " does not lie in the arena";
     } else {
       const Storage& storage = plan.storages[plan.storageOf[r]];
-      if (storage.width != resource.width || storage.height != resource.height || storage.layers != resource.layers ||
-          storage.mips != resource.mips || storage.viewClass != infoOf(resource.format).viewClass ||
-          storage.copies != resource.history + 1 || storage.persistent != mine)
+      if (storage.width != resource.width || storage.height != resource.height ||
+          storage.layers != resource.layers || storage.mips != resource.mips ||
+          storage.viewClass != infoOf(resource.format).viewClass || storage.copies != resource.history + 1 ||
+          storage.persistent != mine)
         return name + " has a storage of another class";
       if (!mine) bytes[classOf(resource)] = resource.bytes;
     }
@@ -131,7 +143,8 @@ std::string checkStorage(const Plan& plan) {
       const bool both = together || mine || own[q] != 0 || graph.resources[q].history > 0;
       if (both && plan.storageOf[r] != kNone && plan.storageOf[q] == plan.storageOf[r])
         return name + " and " + graph.resourceNames[q] + " share while alive";
-      if (together && plan.bufferOffsetOf[r] != Plan::kNoOffset && plan.bufferOffsetOf[q] != Plan::kNoOffset &&
+      if (together && plan.bufferOffsetOf[r] != Plan::kNoOffset &&
+          plan.bufferOffsetOf[q] != Plan::kNoOffset &&
           plan.bufferOffsetOf[r] < plan.bufferOffsetOf[q] + graph.resources[q].bytes &&
           plan.bufferOffsetOf[q] < plan.bufferOffsetOf[r] + resource.bytes)
         return name + " and " + graph.resourceNames[q] + " overlap while alive";
@@ -174,7 +187,8 @@ std::string checkOrder(const Plan& plan) {
     }
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
       if (plan.attached[u] != 0 && graph.uses[u].access != Access::read)
-        for (const std::uint32_t sub : subsOf(graph, graph.uses[u])) writer[{graph.uses[u].resource, sub}] = u;
+        for (const std::uint32_t sub : subsOf(graph, graph.uses[u]))
+          writer[{graph.uses[u].resource, sub}] = u;
   }
   for (std::uint32_t p = 0; p < ran.size(); ++p)
     if ((ran[p] != 0) != (plan.stepOf[p] != kNone)) return "steps and stepOf disagree";

@@ -32,8 +32,8 @@ class Generator {
   // In a streaming graph reads look a little way back and writes go ahead, so that lifetimes are short.
   std::uint32_t toRead() {
     const std::size_t count = b_.graph.resources.size();
-    return static_cast<std::uint32_t>(streaming() && front_ > 0 ? front_ - 1 - pick(std::min<std::size_t>(front_, 3))
-                                                                : pick(count));
+    return static_cast<std::uint32_t>(
+        streaming() && front_ > 0 ? front_ - 1 - pick(std::min<std::size_t>(front_, 3)) : pick(count));
   }
   std::uint32_t toWrite() {
     const std::size_t count = b_.graph.resources.size();
@@ -47,8 +47,9 @@ class Generator {
       constexpr std::uint64_t sizes[] = {16, 256, 300, 700, 1024};
       r = b_.buffer(name, sizes[pick(5)]);
     } else {
-      constexpr Format formats[] = {Format::rgba8,   Format::r32f,    Format::rgba8,           Format::rgba16f,
-                                    Format::rgb9_e5, Format::depth32f, Format::depth24_stencil8};
+      constexpr Format formats[] = {Format::rgba8,           Format::r32f,    Format::rgba8,
+                                    Format::rgba16f,         Format::rgb9_e5, Format::depth32f,
+                                    Format::depth24_stencil8};
       const Format format = formats[pick(streaming_ ? 4 : 7)];
       const auto mips = static_cast<std::uint16_t>(chance(streaming_ ? 12 : 30) ? 1 + pick(3) : 1);
       const auto layers = static_cast<std::uint16_t>(chance(streaming_ ? 8 : 25) ? 1 + pick(3) : 1);
@@ -91,8 +92,9 @@ class Generator {
     return everyCell(use, [&](std::uint32_t s) { return (locked_[use.resource][s] & of) == 0; });
   }
   void lock(const FlatUse& use, std::uint8_t as) {
-    forEachSubresource(use, b_.resource(use.resource),
-                       [&](std::uint32_t s) { locked_[use.resource][s] = static_cast<char>(locked_[use.resource][s] | as); });
+    forEachSubresource(use, b_.resource(use.resource), [&](std::uint32_t s) {
+      locked_[use.resource][s] = static_cast<char>(locked_[use.resource][s] | as);
+    });
   }
 
   Kind readKind(const FlatResource& r, bool compute) {
@@ -176,14 +178,16 @@ class Generator {
 
   std::mt19937_64 random_;
   FlatBuilder b_;
-  std::size_t front_ = 0;   // resources below it have had their turn to be written
+  std::size_t front_ = 0;  // resources below it have had their turn to be written
   bool streaming_ = false, histories_ = false, cadences_ = false, clears_ = false;
-  std::vector<std::vector<char>> versions_, locked_;   // per resource and sub-resource
+  std::vector<std::vector<char>> versions_, locked_;  // per resource and sub-resource
   // versions: 0 none, 1 version zero, 2 written; locked by the pass being made: 1 read, 2 written
 };
 
 }  // namespace
 
-FlatBuilder randomGraph(std::uint64_t seed) { return Generator(seed).make(); }
+FlatBuilder randomGraph(std::uint64_t seed) {
+  return Generator(seed).make();
+}
 
 }  // namespace weft::graph

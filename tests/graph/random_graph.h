@@ -1,5 +1,6 @@
-// Random valid FlatGraphs of mixed kinds for property tests: mips, layers, planes, buffers, histories, cadences,
-// clears, imports, feedback, several writers, dead ends; few storage classes, so that sharing is common.
+// Random valid FlatGraphs of mixed kinds for property tests: mips, layers, planes, buffers, histories,
+// cadences, clears, imports, feedback, several writers, dead ends; few storage classes, so that sharing is
+// common.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,8 @@ class Machine {
     for (frame_ = 0; frame_ < frames; ++frame_) {
       if (planned_)
         for (const Step& step : plan_.steps) {
-          for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c) clear(plan_.clears[c].use);
+          for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c)
+            clear(plan_.clears[c].use);
           runPass(step.pass);
         }
       else
@@ -65,7 +66,8 @@ class Machine {
     });
   }
 
-  // Untouched memory: of a persistent or imported resource something of its own, of a transient nothing in particular.
+  // Untouched memory: of a persistent or imported resource something of its own, of a transient nothing in
+  // particular.
   std::uint64_t load(const Unit& unit, const FlatUse& use, std::uint32_t sub) {
     const auto it = memory_.find(unit);
     if (it != memory_.end()) return it->second;
@@ -87,7 +89,9 @@ class Machine {
   }
 
   void clear(const FlatUse& use) {
-    eachUnit(use, [&](const Unit& unit, std::uint32_t sub) { memory_[unit] = hashCombine(use.resource * 131u + 7, sub); });
+    eachUnit(use, [&](const Unit& unit, std::uint32_t sub) {
+      memory_[unit] = hashCombine(use.resource * 131u + 7, sub);
+    });
   }
 
   void runPass(std::uint32_t p) {
@@ -96,7 +100,8 @@ class Machine {
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
       const FlatUse& use = graph_.uses[u];
       // What stays attached for its own sake (a depth test) is seen by the whole pass.
-      if (use.access == Access::read || (use.access == Access::modify && use.keep)) inputs = hashCombine(inputs, see(use));
+      if (use.access == Access::read || (use.access == Access::modify && use.keep))
+        inputs = hashCombine(inputs, see(use));
     }
     std::vector<std::pair<Unit, std::uint64_t>> writes;
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
@@ -124,13 +129,17 @@ class Machine {
   const bool planned_;
   std::size_t frame_ = 0;
   std::map<Unit, std::uint64_t> memory_;
-  std::map<std::uint32_t, std::uint64_t> seen_;   // per pass with a side effect, over all frames
+  std::map<std::uint32_t, std::uint64_t> seen_;  // per pass with a side effect, over all frames
   Shown shown_;
 };
 
 }  // namespace
 
-Shown showDeclared(const Plan& plan, std::size_t frames) { return Machine(plan, false).run(frames); }
-Shown showPlanned(const Plan& plan, std::size_t frames) { return Machine(plan, true).run(frames); }
+Shown showDeclared(const Plan& plan, std::size_t frames) {
+  return Machine(plan, false).run(frames);
+}
+Shown showPlanned(const Plan& plan, std::size_t frames) {
+  return Machine(plan, true).run(frames);
+}
 
 }  // namespace weft::graph::replay
