@@ -183,6 +183,14 @@ def check_overview():
     return [f"does not name {name}" for name in sorted(names) if name not in text]
 
 
+def compare_problems(problems, expected):
+    """For a page that lists, in a comment, the problems it has."""
+    missed = [e for e in expected if not any(e in p for p in problems)]
+    wrong = [p for p in problems if not any(e in p for e in expected)]
+    print("\n".join([f"not found: {e}" for e in missed] + [f"not expected: {p}" for p in wrong]) or f"docs: {len(problems)} problems, as expected")
+    return 1 if missed or wrong else 0
+
+
 def main():
     pages = [TOP / p for p in sys.argv[3:]] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *sorted((TOP / "docs").glob("*.md"))]
     problems, skipped, counts = [], [], {}
@@ -212,6 +220,8 @@ def main():
         problems += [f"docs/overview.md: {p}" for p in check_overview()]
     for line in skipped:
         print(f"skipped {line}")
+    if expected := re.search(r"<!-- problems:\n(.*?)-->", "".join(p.read_text() for p in pages), re.S):
+        return compare_problems(problems, expected.group(1).split("\n")[:-1])
     print("\n".join(problems) or f"docs: {len(pages)} pages, " + ", ".join(f"{n} {l}" for l, n in sorted(counts.items())))
     return 1 if problems or not counts else 0
 
