@@ -108,13 +108,14 @@ std::size_t FrameCadence::countRunning() const {
   return static_cast<std::size_t>(std::count(run_.begin(), run_.end(), std::uint8_t{1}));
 }
 
-void FrameCadence::remember(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& generations) {
+void FrameCadence::remember(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& before,
+                            const std::vector<std::uint64_t>& after) {
   PassMemory& memory = memories_[step];
   std::size_t input = 0;
   forEachUse(plan_, step, [&](const FlatUse& use, std::size_t) {
     if (use.access != Access::read) return;
     if (input == memory.inputs.size()) memory.inputs.push_back(0);
-    memory.inputs[input++] = generations[use.resource];
+    memory.inputs[input++] = (use.history ? before : after)[use.resource];
   });
   memory.ran = true;
   memory.own = own;

@@ -16,7 +16,7 @@ namespace weft::runtime {
 struct PassMemory {
   bool ran = false;
   std::uint64_t own = 0;                     // hash of program, parameters, storage written, imports
-  std::vector<std::uint64_t> inputs;         // generation of each read use, in use order
+  std::vector<std::uint64_t> inputs;         // generation of each read use, in use order, after that frame
 };
 
 class FrameCadence {
@@ -28,8 +28,10 @@ class FrameCadence {
   bool runs(std::size_t step) const { return run_[step] != 0; }
   std::size_t countRunning() const;
 
-  // To be called for a step that ran, with the generations its inputs had.
-  void remember(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& generations);
+  // To be called after the frame for each step that ran, with the generations as decide() got them and as the frame left
+  // them: a pass may read a resource of which it, or a later pass, writes another part; history is what it was before.
+  void remember(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& before,
+                const std::vector<std::uint64_t>& after);
 
   std::vector<PassMemory>& memories() { return memories_; }
 

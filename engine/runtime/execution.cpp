@@ -24,6 +24,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   resetHistories(diagnostics);
   refreshUniforms();
   refreshOwnHashes();
+  generationsBefore_ = generations_;
   cadence_->decide(own_, generations_);
   if (uniformsDirty_ && !uniformBytes_.empty()) {
     gl::uploadBuffer(uniforms_.id(), 0, uniformBytes_);
@@ -49,6 +50,8 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
     runStep(step, diagnostics);
     ++report.passesRun;
   }
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    if (cadence_->runs(step) && passes_[step].usable) cadence_->remember(step, own_[step], generationsBefore_, generations_);
   device_.timers.endFrame();
   if (plan_->finalBarriers) {
     glMemoryBarrier(glBarriersOf(plan_->finalBarriers));
@@ -107,7 +110,9 @@ void Execution::refreshUniforms() {
     for (const DynamicUniform& uniform : pass.dynamics) {
       const graph::Value value = uniform.expr.evaluateFolded([this](std::uint32_t key) {
         const GpuResource& resource = (*pool_)[key];
-        if (resource.publications == 0) return 0.0;
+        // Not published yet: about to be. A headless run publishes everything before its frame 0.
+        if (resource.publications == 0)
+          return input_.headless && framesRun_ == 0 ? std::numeric_limits<double>::infinity() : 0.0;
         return std::max(0.0, input_.time - resource.publishedAt);
       });
       std::byte* at = uniformBytes_.data() + pass.parametersOffset;
@@ -163,9 +168,7 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
   PreparedPass& pass = passes_[step];
   const gl::DebugGroup group(device_.context.debugLog(), pass.context.spec->name);
   device_.timers.begin(static_cast<std::uint32_t>(step));
-  // In this order: a pass that reads one level of what it writes (mipmap) does not wake itself.
   rotateWritten(pass);
-  cadence_->remember(step, own_[step], generations_);
   const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
   if (!pass.clears.empty()) {
     openMasks();
@@ -278,8 +281,7 @@ void Execution::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
     const gl::Attachment attachment{.point = point, .texture = view};
     bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);
   }
-  if (pass.context.spec->list.empty() || pass.type->reflect().shader != graph::ShaderShape::draw) return;
-  pass.context.instances = device_.imports.countOf(*scene::findDrawList(pass.context.spec->list));
+  if (pass.list >= 0) pass.context.instances = device_.imports.countOf(static_cast<scene::DrawList>(pass.list));
 }
 
 std::uint32_t Execution::lastVersionOf(std::string_view name) const {
@@ -295,7 +297,10 @@ std::uint32_t Execution::lastVersionOf(std::string_view name) const {
 
 gl::TextureRef Execution::texture(std::string_view name) {
   const std::uint32_t r = lastVersionOf(name);
-  if (r == kNone) return {};
+  return r == kNone ? gl::TextureRef{} : texture(r);
+}
+
+gl::TextureRef Execution::texture(std::uint32_t r) {
   base::Diagnostics ignored;
   const graph::FlatResource& desc = plan_->graph->resources[r];
   const FlatUse all{.resource = r, .mips = desc.mips, .layers = desc.layers};

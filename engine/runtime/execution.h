@@ -64,6 +64,7 @@ class Execution {
   // The current texture or buffer of a resource by its name in the graph ("hdr", "ibl.brdf"), for tests and inspectors:
   // the last version of that name, or nothing when it is not alive.
   gl::TextureRef texture(std::string_view resource);
+  gl::TextureRef texture(std::uint32_t resource);   // an own texture by its index in the graph; alive, not imported
   BufferRef buffer(std::string_view resource, std::uint64_t& offset);
   bool ran(std::string_view pass) const;   // in the last frame
 
@@ -93,6 +94,7 @@ class Execution {
   std::vector<std::byte> uniformBytes_;
   bool uniformsDirty_ = true;
   std::vector<std::uint64_t> generations_;       // per resource
+  std::vector<std::uint64_t> generationsBefore_; // as they were when the frame was decided
   std::uint64_t nextGeneration_ = 1;
   std::vector<std::uint64_t> own_;               // per step
   std::vector<std::uint8_t> rotated_;            // per resource, this frame

@@ -230,6 +230,7 @@ class Preparer {
   void prepareGeometry(const graph::PassType& type) {
     if (type.shader == graph::ShaderShape::fragment) out_.context.geometry = c_.geometries.empty();
     if (type.shader != graph::ShaderShape::draw) return;
+    if (!spec_.list.empty()) out_.list = static_cast<int>(*scene::findDrawList(spec_.list));
     out_.context.instances = spec_.instances;
     out_.context.geometry = c_.geometries.get(spec_.geometry, spec_.geometryArguments,
                                               out_.variant->program.reflection(), c_.diagnostics);

@@ -41,15 +41,17 @@ struct Builder {
 std::vector<int> runFrame(FrameCadence& cadence, const Plan& plan, std::vector<std::uint64_t>& own,
                           std::vector<std::uint64_t>& generations) {
   cadence.decide(own, generations);
+  const std::vector<std::uint64_t> before = generations;
   std::vector<int> ran;
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
     ran.push_back(cadence.runs(s));
     if (!cadence.runs(s)) continue;
-    cadence.remember(s, own[s], generations);
     const FlatPass& pass = plan.graph->passes[plan.steps[s].pass];
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
       if (plan.graph->uses[u].access != Access::read) ++generations[plan.graph->uses[u].resource];
   }
+  for (std::size_t s = 0; s < plan.steps.size(); ++s)
+    if (cadence.runs(s)) cadence.remember(s, own[s], before, generations);
   return ran;
 }
 
@@ -104,4 +106,40 @@ TEST_CASE("writers that build one resource by modify run all or none") {
   own[1] = 5;  // only the second writer changed: the first must lay the ground again
   CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1});
   CHECK(cadence.countRunning() == 3);
+}
+
+TEST_CASE("a pass that reads one level of what it writes the others of does not wake itself") {
+  Builder b;
+  const auto sky = b.resource(), map = b.resource(), picture = b.resource();
+  b.graph->resources[sky].mips = 3;
+  b.pass(kOnChange, {{sky, Access::write}});
+  b.pass(kOnChange, {{sky, Access::read}, {sky, Access::write}});
+  b.pass(kOnChange, {{sky, Access::read}, {map, Access::write}});
+  b.pass(kAlways, {{map, Access::read}, {picture, Access::write}});
+  b.graph->uses[2].mip = 1;   // the second pass writes levels 1 and 2
+  b.graph->uses[2].mips = 2;
+  b.graph->uses[3].mips = 3;
+  const Plan plan = b.compile(picture);
+  FrameCadence cadence(plan);
+  std::vector<std::uint64_t> own(4, 1), generations(3, 1);
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1, 1});
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 0, 0, 1});
+  own[0] = 2;
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1, 1});
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 0, 0, 1});
+}
+
+TEST_CASE("an on_change pass that reads history runs after each publication, and once more for the last") {
+  Builder b;
+  const auto sum = b.resource(1), copy = b.resource(), picture = b.resource();
+  b.pass(kOnChange, {{sum, Access::write}});
+  b.pass(kOnChange, {{sum, Access::read}, {copy, Access::write}});
+  b.pass(kAlways, {{sum, Access::read}, {copy, Access::read}, {picture, Access::write}});
+  b.graph->uses[1].history = 1;
+  const Plan plan = b.compile(picture);
+  FrameCadence cadence(plan);
+  std::vector<std::uint64_t> own(3, 1), generations(3, 1);
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{1, 1, 1});
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 1, 1});
+  CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 0, 1});
 }

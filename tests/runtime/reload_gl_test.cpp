@@ -1,0 +1,166 @@
+// A running graph and its file: reordering, changed parameters, resizing, broken files.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/runtime/stage.h"
+
+using namespace weft;
+using namespace weft::runtime::test;
+
+namespace {
+
+// A graph file beside tests/runtime/graphs' shaders, in a folder of its own that goes with it.
+class TemporaryGraph {
+ public:
+  TemporaryGraph() : folder_(std::filesystem::temp_directory_path() / ("weft_reload_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+    std::filesystem::copy(sourcePath("tests/runtime/shaders"), folder_ / "shaders", std::filesystem::copy_options::recursive);
+  }
+  ~TemporaryGraph() { std::filesystem::remove_all(folder_); }
+  TemporaryGraph(const TemporaryGraph&) = delete;
+  TemporaryGraph& operator=(const TemporaryGraph&) = delete;
+  std::string path() const { return (folder_ / "graph.json").string(); }
+  void write(const std::string& text) const { std::ofstream(path()) << text; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+const std::string kHead =
+    R"({ "name": "chain", "resources": { "sum": { "texture": "r32f", "size": 4 } }, "passes": [
+  { "name": "start", "type": "fullscreen", "shader": "math/constant.frag.glsl", "write": { "result": "sum" },
+    "parameters": { "amount": 3 } })";
+const std::string kAdd =
+    R"(,
+  { "name": "add", "type": "fullscreen", "shader": "math/add.frag.glsl", "read": { "source": "sum" }, "write": { "result": "sum" },
+    "parameters": { "amount": 2 } })";
+const std::string kScale =
+    R"(,
+  { "name": "scale", "type": "fullscreen", "shader": "math/scale.frag.glsl", "read": { "source": "sum" }, "write": { "result": "sum" },
+    "parameters": { "amount": 10 } })";
+const std::string kTail = R"( ], "present": "sum" })";
+
+}  // namespace
+
+TEST_CASE("reload: two effects swapped in the file give the other result, without an edit of a slot") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  file.write(kHead + kAdd + kScale + kTail);
+  Stage stage(file.path());
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  CHECK(stage.value() == 50);
+  file.write(kHead + kScale + kAdd + kTail);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(1);
+  CHECK(stage.value() == 32);
+  stage.settings.disables = {"scale"};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(2);
+  CHECK(stage.value() == 5);
+}
+
+TEST_CASE("reload: a broken file or shader leaves the running execution as it is") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  file.write(kHead + kAdd + kTail);
+  Stage stage(file.path());
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  const auto before = stage.pixels();
+  const runtime::Execution* running = &stage.execution();
+  std::string shaderless = kAdd, uncompilable = kAdd, unknown = kAdd;
+  shaderless.replace(shaderless.find("math/add"), 8, "math/nil");
+  uncompilable.replace(uncompilable.find("math/add"), 8, "math/bad");
+  unknown.replace(unknown.find("\"source\": \"sum\""), 15, "\"source\": \"som\"");
+  const std::pair<std::string, base::Code> broken[] = {
+      {kHead, base::Code::W2},
+      {"", base::Code::W2},
+      {kHead + unknown + kTail, base::Code::W40},
+      {kHead + shaderless + kTail, base::Code::W100},
+      {kHead + uncompilable + kTail, base::Code::W104},
+  };
+  std::uint32_t frame = 1;
+  for (const auto& [text, code] : broken) {
+    INFO(base::nameOf(code));
+    file.write(text);
+    CHECK_FALSE(stage.load());
+    CHECK_MESSAGE(stage.diagnostics.contains(code), stage.diagnostics.text());
+    CHECK(&stage.execution() == running);
+    stage.run(frame++);
+    CHECK(stage.value() == 5);
+    CHECK(stage.pixels() == before);
+  }
+  std::filesystem::remove(file.path());
+  CHECK_FALSE(stage.load());
+  CHECK(stage.diagnostics.contains(base::Code::W1));
+  file.write(kHead + kScale + kTail);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(frame);
+  CHECK(stage.value() == 30);
+}
+
+TEST_CASE("reload: changed parameters rerun what they reach and keep the rest") {
+  const CleanScope clean;
+  Stage stage("graphs/studio.json");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  const auto first = stage.pixels();
+  CHECK(stage.ran("ibl.brdf_table"));
+
+  stage.settings.sets = {{"exposure", "1.5"}};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(1);
+  CHECK(stage.pixels() != first);
+  for (const char* kept : {"ibl.brdf_table", "ibl.daylight.daylight_sky", "ibl.irradiance_map", "ibl.specular_prefilter[1]"})
+    CHECK_MESSAGE(!stage.ran(kept), kept);
+
+  stage.settings.sets = {{"exposure", "1.5"}, {"sun_elevation", "10"}};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(2);
+  CHECK_FALSE(stage.ran("ibl.brdf_table"));
+  for (const char* again : {"ibl.daylight.daylight_sky", "ibl.daylight.daylight_mips", "ibl.irradiance_map", "ibl.specular_prefilter[1]"})
+    CHECK_MESSAGE(stage.ran(again), again);
+
+  stage.settings.sets = {};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(3);
+  CHECK(stage.pixels() == first);
+}
+
+TEST_CASE("reload: a resize reruns what depends on the size, and only that") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/sizes.json", 16, 8, "scenes/empty.json");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  CHECK(stage.value() == 16 + 100);
+  CHECK(stage.ran("screen_once"));
+  CHECK(stage.ran("screen_on_change"));
+  CHECK(stage.ran("fixed_once"));
+  stage.run(1);
+  CHECK_FALSE(stage.ran("screen_once"));
+  CHECK_FALSE(stage.ran("screen_on_change"));
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());  // nothing changed
+  stage.run(2);
+  CHECK_FALSE(stage.ran("screen_once"));
+  CHECK_FALSE(stage.ran("fixed_once"));
+  CHECK(stage.value() == 16 + 100);
+  stage.settings.screenWidth = 32;
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(3);
+  CHECK(stage.ran("screen_once"));
+  CHECK(stage.ran("screen_on_change"));
+  CHECK_FALSE(stage.ran("fixed_once"));
+  CHECK(stage.value() == 32 + 100);
+  stage.settings.disables = {"fixed_once"};  // its storage goes; on its return it must run again
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(4);
+  CHECK(stage.value() == 32);
+  stage.settings.disables = {};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(5);
+  CHECK(stage.ran("fixed_once"));
+  CHECK(stage.value() == 32 + 100);
+}

@@ -1,0 +1,92 @@
+#include "tests/runtime/stage.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "engine/scene/scene_file.h"
+
+namespace weft::runtime::test {
+
+gl::Context& context() {
+  static const std::unique_ptr<gl::Context> opened = [] {
+    base::Diagnostics diagnostics;
+    auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
+    if (!made) {
+      std::printf("skipped: no OSMesa context\n%s", diagnostics.text().c_str());
+      std::exit(77);
+    }
+    return made;
+  }();
+  return *opened;
+}
+
+std::string sourcePath(const std::string& relative) {
+  return relative.starts_with('/') ? relative : std::string(WEFT_SOURCE_DIR) + "/" + relative;
+}
+
+std::shared_ptr<const assets::ImageF> realEnvironment() {
+  const std::string path = sourcePath("../shared/data/hdr/spiaggia_di_mondello_1k.hdr");
+  if (!std::filesystem::exists(path)) {
+    MESSAGE("skipped: " << path << " is not on this machine");
+    return nullptr;
+  }
+  base::Diagnostics diagnostics;
+  auto image = assets::loadEnvironment(path, diagnostics);
+  REQUIRE_MESSAGE(image.has_value(), diagnostics.text());
+  return std::make_shared<const assets::ImageF>(std::move(*image));
+}
+
+World worldOf(const std::string& scene) {
+  base::Diagnostics diagnostics;
+  auto loaded = scene::loadScene(sourcePath(scene), diagnostics);
+  REQUIRE_MESSAGE(loaded.has_value(), diagnostics.text());
+  return World(std::move(*loaded));
+}
+
+CleanScope::~CleanScope() {
+  CHECK(gl::takeErrors() == "");
+  base::Diagnostics diagnostics;
+  context().debugLog().drain(diagnostics);
+  CHECK_MESSAGE(!context().debugLog().hasAboveNotification(), diagnostics.text());
+  CHECK_MESSAGE(gl::liveObjects() == before_, "alive: " << gl::toText(gl::liveObjects()));
+  context().debugLog().clear();
+}
+
+Stage::Stage(const std::string& graph, std::uint32_t width, std::uint32_t height, const std::string& scene)
+    : world(worldOf(scene)) {
+  settings.screenWidth = width;
+  settings.screenHeight = height;
+  settings.software = true;
+  renderer_ = std::make_unique<Renderer>(context(), sourcePath(graph),
+                                         Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = ""});
+}
+
+bool Stage::load() {
+  diagnostics.clear();
+  return renderer_->load(settings, world, diagnostics);
+}
+
+void Stage::run(std::uint32_t frame) { run(headlessFrame(world, frame, 60)); }
+
+void Stage::run(const FrameInput& input) {
+  diagnostics.clear();
+  REQUIRE(renderer_->execution());
+  renderer_->frame(world, input, diagnostics);
+  context().debugLog().drain(diagnostics);
+  REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
+}
+
+std::vector<float> Stage::read(const std::string& resource, std::uint32_t mip) {
+  const gl::TextureRef texture = execution().texture(resource);
+  REQUIRE_MESSAGE(texture.id != 0, resource);
+  return gl::readFloats(texture, mip);
+}
+
+std::vector<std::uint8_t> Stage::pixels() {
+  const auto image = renderer_->readPresented8();
+  REQUIRE(image.has_value());
+  return image->texels;
+}
+
+}  // namespace weft::runtime::test

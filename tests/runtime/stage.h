@@ -1,0 +1,63 @@
+// A graph file running on software GL for tests of the whole runtime: one OSMesa context per process, a world from a
+// scene file and an environment, a Renderer. Skips the process with exit code 77 when there is no context.
+// Does not: judge pictures.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/gl/context.h"
+#include "engine/runtime/renderer.h"
+#include "engine/runtime/world.h"
+
+namespace weft::runtime::test {
+
+gl::Context& context();
+
+std::string sourcePath(const std::string& relative);
+// The project's real environment map, or null with a message when it is not on this machine.
+std::shared_ptr<const assets::ImageF> realEnvironment();
+World worldOf(const std::string& scene = "scenes/spheres.json");
+
+// Put first in a test case: at its end GL has no error, no message above notification, and no object is left.
+class CleanScope {
+ public:
+  CleanScope() : before_(gl::liveObjects()) { context().debugLog().clear(); }
+  ~CleanScope();
+
+ private:
+  gl::LiveObjects before_;
+};
+
+class Stage {
+ public:
+  // `graph` relative to the source folder, or absolute.
+  explicit Stage(const std::string& graph, std::uint32_t width = 160, std::uint32_t height = 90,
+                 const std::string& scene = "scenes/spheres.json");
+
+  graph::Settings settings;
+  World world;
+  base::Diagnostics diagnostics;               // of the last load() or frame()
+
+  bool load();                                 // reads the file again
+  void run(std::uint32_t frame = 0);           // headless; requires that nothing is reported
+  void run(const FrameInput& input);
+  bool ran(std::string_view pass) { return execution().ran(pass); }
+  Execution& execution() { return *renderer_->execution(); }
+  Renderer& renderer() { return *renderer_; }
+  // Floats of a whole level of a resource, four per texel (depth: one).
+  std::vector<float> read(const std::string& resource, std::uint32_t mip = 0);
+  std::vector<std::uint8_t> pixels();          // presented, RGBA, top row first
+  float value() { return renderer_->readPresentedFloat()->texels.at(0); }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace weft::runtime::test
