@@ -1,0 +1,53 @@
+"""Running the weft binary from tests: arguments in, exit code, output and diagnostics out. Skipping is exit code 77."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+SHARED = TOP.parent / "shared"
+REAL_HDR = SHARED / "data/hdr/spiaggia_di_mondello_1k.hdr"
+DIAGNOSTIC = re.compile(r"^(?:(?P<place>.*?)(?::(?P<line>\d+):(?P<column>\d+))?: )?(?P<severity>error|warning|note)\[(?P<code>W\d{3})\]: (?P<text>.*)$")
+
+
+class Run:
+    def __init__(self, process):
+        self.code, self.out, self.err = process.returncode, process.stdout, process.stderr
+        self.diagnostics = [m.groupdict() for m in map(DIAGNOSTIC.match, self.err.splitlines()) if m]
+
+    def codes(self, severity="error"):
+        return sorted({d["code"] for d in self.diagnostics if d["severity"] == severity})
+
+
+def run(weft, *arguments, before=(), timeout=300, **options):
+    command = [*map(str, before), str(weft), *map(str, arguments)]
+    return Run(subprocess.run(command, cwd=TOP, capture_output=True, text=True, errors="replace", timeout=timeout, **options))
+
+
+class Report:
+    """Collects what does not hold; end() prints it and exits."""
+
+    def __init__(self):
+        self.problems, self.checks, self.skips = [], 0, []
+
+    def check(self, holds, text):
+        self.checks += 1
+        if not holds:
+            self.problems.append(text)
+        return bool(holds)
+
+    def skip(self, text):
+        self.skips.append(text)
+
+    def end(self):
+        for text in self.skips:
+            print(f"skipped: {text}")
+        for text in self.problems:
+            print(f"FAILED: {text}")
+        print(f"{self.checks} checks, {len(self.problems)} failed")
+        sys.exit(1 if self.problems else 77 if not self.checks else 0)
+
+
+def temporary_folder():
+    return tempfile.TemporaryDirectory(prefix="weft_test_")
