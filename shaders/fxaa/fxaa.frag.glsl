@@ -1,36 +1,28 @@
-// Fast approximate anti-aliasing of display-referred, encoded values, after the tone curve (Lottes, FXAA 3.11).
+// Fast approximate anti-aliasing of display-referred, encoded values, after the tone curve (Lottes, FXAA 3.11): the
+// pixels that fxaa/edges found, moved along their edge towards the other side.
 // read    source   encoded picture, `as linear`
-// write   result   encoded picture
-// params  edge_threshold       contrast, relative to the brightest neighbour, below which a pixel is left alone
-//         edge_threshold_min   the same, absolute: nothing is done in the dark
-//         subpixel             how much single pixels are softened, 0..1
+// modify  result   the same picture, another texture
+//         edges    depth: 0 at edges; "depth_test": "equal" keeps every other pixel from being shaded at all
+// params  subpixel   how much single pixels are softened, 0..1
+#include "luma.glsl"
+
 uniform sampler2D source;
-layout(std140) uniform Parameters {
-  float edge_threshold;
-  float edge_threshold_min;
-  float subpixel;
-};
+layout(std140) uniform Parameters { float subpixel; };
 in vec2 uv;
 out vec4 result;
 
 const int kSteps = 8;
 const float kStride[8] = float[8](1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 4.0, 8.0);
 
-float luma(vec3 c) { return dot(c, vec3(0.299, 0.587, 0.114)); }
-
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
-  vec3 center = texelFetch(source, at, 0).rgb;
-  result = vec4(center, 1.0);
-  float m = luma(center);
+  float m = luma(texelFetch(source, at, 0).rgb);
   float n = luma(texelFetch(source, ivec2(at.x, min(at.y + 1, last.y)), 0).rgb);
   float s = luma(texelFetch(source, ivec2(at.x, max(at.y - 1, 0)), 0).rgb);
   float e = luma(texelFetch(source, ivec2(min(at.x + 1, last.x), at.y), 0).rgb);
   float w = luma(texelFetch(source, ivec2(max(at.x - 1, 0), at.y), 0).rgb);
   float high = max(max(max(n, s), max(e, w)), m), low = min(min(min(n, s), min(e, w)), m);
-  float range = high - low;
-  if (range < max(edge_threshold_min, high * edge_threshold)) return;
-
+  float range = max(high - low, 1e-4);
   float ne = luma(texelFetch(source, min(at + 1, last), 0).rgb);
   float sw = luma(texelFetch(source, max(at - 1, ivec2(0)), 0).rgb);
   float nw = luma(texelFetch(source, ivec2(max(at.x - 1, 0), min(at.y + 1, last.y)), 0).rgb);

@@ -1,5 +1,5 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment.
-// read    brdf, irradiance, specular   see spheres/shading.glsl
+// read    brdf, irradiance?, specular?   see spheres/shading.glsl; without one its light is missing
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)

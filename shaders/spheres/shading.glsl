@@ -1,6 +1,6 @@
 // Image-based lighting of one surface point: GGX split sum (Karis 2013) with the energy that single scattering loses put
 // back (Fdez-Aguera, JCGT 2019: exact for metals in a white furnace whatever the roughness) and a diffuse layer that
-// gets what the specular one leaves. Needs samplers brdf, irradiance (`as linear wrap`), specular (`as linear wrap`).
+// gets what the specular one leaves. Samplers: brdf (`as linear`), irradiance? and specular? (`as linear wrap`).
 // COMPENSATION 0 leaves the lost energy out.
 #ifndef SPHERES_SHADING_GLSL
 #define SPHERES_SHADING_GLSL
@@ -13,8 +13,12 @@
 #endif
 
 uniform sampler2D brdf;
+#ifdef HAS_IRRADIANCE
 uniform sampler2D irradiance;
+#endif
+#ifdef HAS_SPECULAR
 uniform sampler2D specular;
+#endif
 
 struct Surface {
   vec3 albedo;
@@ -24,10 +28,14 @@ struct Surface {
 
 // `normal` and `mirror` are world directions, `nv` their cosine to the eye, 0..1.
 vec3 shade(Surface surface, vec3 normal, vec3 mirror, float nv) {
-  int levels = textureQueryLevels(specular);
-  vec3 around = sampleEquirect(irradiance, normal, 0.0, float(textureSize(irradiance, 0).y)).rgb;
-  vec3 reflected = sampleEquirect(specular, mirror, levelOfRoughness(surface.roughness, levels),
-                                  float(textureSize(specular, 0).y)).rgb;
+  vec3 around = vec3(0.0), reflected = vec3(0.0);
+#ifdef HAS_IRRADIANCE
+  around = sampleEquirect(irradiance, normal, 0.0, float(textureSize(irradiance, 0).y)).rgb;
+#endif
+#ifdef HAS_SPECULAR
+  float level = levelOfRoughness(surface.roughness, textureQueryLevels(specular));
+  reflected = sampleEquirect(specular, mirror, level, float(textureSize(specular, 0).y)).rgb;
+#endif
   vec2 split = textureLod(brdf, vec2(nv, surface.roughness), 0.0).rg;
   vec3 f0 = mix(vec3(0.04), surface.albedo, surface.metallic);
   vec3 single = f0 * split.x + split.y;
