@@ -67,4 +67,6 @@ TEST_CASE("sort: equal keys and infinities keep their order") {
 
 TEST_CASE("sort: 100,000 random instances") { compare(randomBalls(100000, 42, true)); }
 
+TEST_CASE("sort: more than a million") { compare(randomBalls(1000001, 7, true)); }
+
 TEST_CASE("sort: all equal") { compare(std::vector<Ball>(3000)); }
