@@ -1,0 +1,43 @@
+// Says which of a set of files were written, replaced or made since it was asked last, by inotify on their folders: editors
+// replace files by renaming, so a watch on the file itself would look at the old one. Files, and folders on the way to
+// them, need not exist yet. Asking costs one read() when nothing happened; no file is looked at.
+// Does not: report deletions (what was loaded stays good), read files, start threads, or wait for a save to be complete.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace weft::base {
+
+class FileWatcher {
+ public:
+  FileWatcher();
+  ~FileWatcher();
+  FileWatcher(const FileWatcher&) = delete;
+  FileWatcher& operator=(const FileWatcher&) = delete;
+
+  // False when the system gives no inotify instance: nothing will ever be reported.
+  bool works() const { return descriptor_ >= 0; }
+
+  // Replaces the set. Names that were watched before keep what has happened to them and was not asked for yet.
+  void watch(const std::vector<std::string>& files);
+
+  // The names, as given to watch(), of the files that changed; each once, sorted. Never blocks.
+  std::vector<std::string> poll();
+
+ private:
+  void arm();
+  void armFile(const std::string& absolute, const std::string& given);
+  void note(const std::string& path, bool created);
+
+  int descriptor_ = -1;
+  std::vector<std::string> files_;                        // as given
+  std::map<int, std::set<std::string>> folders_;          // by watch descriptor; more than one name through links
+  std::map<std::string, std::set<std::string>> watched_;  // absolute path to the names given
+  std::set<std::string> awaited_;                         // folders on the way that are not there yet
+  std::set<std::string> changed_;
+};
+
+}  // namespace weft::base
