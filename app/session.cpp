@@ -25,9 +25,12 @@ graph::Settings settingsOf(const Options& options, bool software) {
           .disables = options.disables};
 }
 
+std::string scenePathOf(const Options& options) {
+  return options.scene.empty() ? dataFolder() + "/scenes/spheres.json" : options.scene;
+}
+
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics) {
-  const std::string path = options.scene.empty() ? dataFolder() + "/scenes/spheres.json" : options.scene;
-  auto scene = scene::loadScene(path, diagnostics);
+  auto scene = scene::loadScene(scenePathOf(options), diagnostics);
   std::shared_ptr<const assets::ImageF> environment;
   if (!options.environment.empty())
     if (auto image = assets::loadEnvironment(options.environment, diagnostics))

@@ -20,6 +20,9 @@ std::string dataFolder();
 
 graph::Settings settingsOf(const Options& options, bool software);
 
+// Path of the scene file: the one the options name, or the bundled one.
+std::string scenePathOf(const Options& options);
+
 // The scene and the environment that the options name.
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);
 

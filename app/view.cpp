@@ -1,47 +1,20 @@
-// weft view: a graph in a window, with an orbiting camera.
+// weft view: a graph in a window, with an orbiting camera; files that change on disk take effect at once.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-
-#include <glm/glm.hpp>
 
 #include "app/commands.h"
 #include "app/device_session.h"
+#include "app/live_graph.h"
+#include "app/orbit_camera.h"
 #include "app/session.h"
 
 namespace weft::app {
 
 namespace {
-
-// Orbit around the target: left drag turns, wheel moves nearer and farther.
-class OrbitCamera {
- public:
-  explicit OrbitCamera(const scene::CameraPose& pose) : pose_(pose) {
-    const glm::dvec3 offset = pose.position - pose.target;
-    distance_ = glm::length(offset);
-    yaw_ = std::atan2(offset.x, offset.z);
-    pitch_ = std::asin(std::clamp(offset.y / distance_, -1.0, 1.0));
-  }
-  void turn(double dx, double dy) {
-    yaw_ -= dx * 0.005;
-    pitch_ = std::clamp(pitch_ + dy * 0.005, -1.55, 1.55);
-  }
-  void zoom(double steps) { distance_ = std::clamp(distance_ * std::pow(0.9, steps), pose_.nearPlane * 2, 1e5); }
-  scene::CameraPose pose() const {
-    scene::CameraPose pose = pose_;
-    const glm::dvec3 direction(std::cos(pitch_) * std::sin(yaw_), std::sin(pitch_), std::cos(pitch_) * std::cos(yaw_));
-    pose.position = pose.target + direction * distance_;
-    return pose;
-  }
-
- private:
-  scene::CameraPose pose_;
-  double yaw_ = 0, pitch_ = 0, distance_ = 1;
-};
 
 struct Input {
   OrbitCamera camera;
@@ -97,9 +70,10 @@ int runView(const Options& options) {
   settings.screenWidth = std::max(1u, size.width);
   settings.screenHeight = std::max(1u, size.height);
   runtime::Renderer& renderer = session->renderer;
-  if (!renderer.load(settings, *world, diagnostics)) return report(diagnostics);
+  LiveGraph live(options, renderer, std::move(*world), std::move(settings));
+  if (!live.load(diagnostics)) return report(diagnostics);
 
-  Input input{OrbitCamera(runtime::headlessFrame(*world, 0, 60).pose)};
+  Input input{OrbitCamera(runtime::headlessFrame(live.world(), 0, 60).pose)};
   install(window, input);
   scene::CameraPose previous = input.camera.pose();
   const double start = glfwGetTime();
@@ -112,10 +86,11 @@ int runView(const Options& options) {
       glfwWaitEventsTimeout(0.1);
       continue;
     }
-    if (size.width != settings.screenWidth || size.height != settings.screenHeight) {
-      settings.screenWidth = size.width;
-      settings.screenHeight = size.height;
-      if (!renderer.load(settings, *world, diagnostics)) broken = true;
+    live.resize(size.width, size.height, diagnostics);
+    live.poll(glfwGetTime(), diagnostics);
+    if (!diagnostics.empty()) {  // of files: told, not counted against the program
+      report(diagnostics);
+      diagnostics.clear();
     }
     const double time = glfwGetTime() - start;
     runtime::FrameInput in;
@@ -125,7 +100,7 @@ int runView(const Options& options) {
     in.pose = input.camera.pose();
     in.previousPose = previous;
     in.headless = false;
-    renderer.frame(*world, in, diagnostics);
+    renderer.frame(live.world(), in, diagnostics);
     renderer.present(size.width, size.height);
     session->context->debugLog().drain(diagnostics);
     if (!diagnostics.empty()) {
@@ -143,7 +118,7 @@ int runView(const Options& options) {
     previous = in.pose;
     lastTime = time;
   }
-  return report(diagnostics) || broken ? 1 : 0;
+  return report(diagnostics) || broken || !live.good() ? 1 : 0;
 }
 
 }  // namespace weft::app

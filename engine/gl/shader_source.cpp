@@ -78,6 +78,8 @@ class IncludeExpander {
   }
 
   const std::vector<std::string>& paths() const { return paths_; }
+  // Where includes that were not found would have been.
+  const std::vector<std::string>& missing() const { return missing_; }
 
  private:
   std::size_t addFile(const std::string& path) {
@@ -130,6 +132,8 @@ class IncludeExpander {
     const std::string name(rest.substr(1, rest.size() - 2));
     const std::optional<std::string> path = resolve(name, folder);
     if (!path) {
+      for (const fs::path& candidate : candidatesOf(name, folder))
+        missing_.push_back(candidate.lexically_normal().string());
       std::vector<std::string> folders = roots_;
       if (!folder.empty()) folders.push_back(folder);
       base::Diagnostic& error =
@@ -173,11 +177,15 @@ class IncludeExpander {
         .hint = "move what both need into a third file";
   }
 
-  std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
+  std::vector<fs::path> candidatesOf(const std::string& name, const std::string& folder) const {
     std::vector<fs::path> candidates;
     if (!folder.empty()) candidates.push_back(fs::path(folder) / name);
     for (const std::string& root : roots_) candidates.push_back(fs::path(root) / name);
-    for (const fs::path& candidate : candidates) {
+    return candidates;
+  }
+
+  std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
+    for (const fs::path& candidate : candidatesOf(name, folder)) {
       std::error_code ec;
       if (fs::is_regular_file(candidate, ec)) return candidate.lexically_normal().string();
     }
@@ -188,17 +196,24 @@ class IncludeExpander {
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
   std::vector<std::string> paths_;   // by file number
+  std::vector<std::string> missing_;
   std::vector<bool> unconditional_;  // by file number: stands in the text outside every #if
   std::vector<std::size_t> stack_;   // file numbers, from the stage's own to the current one
   std::uint32_t textLine_ = 0;
 };
 
-std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) const {
+void SourceLoader::touch(std::span<const std::string> read, std::span<const std::string> missing) {
+  touched_.insert(read.begin(), read.end());
+  touched_.insert(missing.begin(), missing.end());
+}
+
+std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) {
   const auto found = cache_.find(key);
   if (found == cache_.end()) return nullptr;
   const auto same = [](const Stamp& s) { return timeOf(s.path) == s.time && bytesOf(s.path) == s.bytes; };
-  return std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same) ? found->second.source
-                                                                                     : nullptr;
+  if (!std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same)) return nullptr;
+  for (const Stamp& stamp : found->second.stamps) touched_.insert(stamp.path);
+  return found->second.source;
 }
 
 std::optional<std::string> SourceLoader::locate(const std::string& path) const {
@@ -215,6 +230,9 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
                                                        const Place& place) {
   const std::optional<std::string> where = locate(path);
   if (!where) {
+    if (fs::path(path).is_absolute() || roots_.empty()) touched_.insert(path);
+    else
+      for (const std::string& root : roots_) touched_.insert((fs::path(root) / path).lexically_normal().string());
     base::Diagnostic& error =
         diagnostics.error(Code::W100, place, fmt::format("shader '{}' not found", path));
     error.expected =
@@ -231,6 +249,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   Diagnostics found;
   IncludeExpander expander(roots_, found);
   expander.expandRoot(*where, folderOf(*where), *text);
+  touch(expander.paths(), expander.missing());
   diagnostics.append(found);
   if (found.hasErrors()) return nullptr;
   Entry entry{expander.finish(), {own}};
@@ -247,6 +266,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text
   Diagnostics found;
   IncludeExpander expander(roots_, found);
   expander.expandRoot(name, "", text);
+  touch(std::span(expander.paths()).subspan(1), expander.missing());
   diagnostics.append(found);
   if (found.hasErrors()) return nullptr;
   Entry entry{expander.finish(), {}};

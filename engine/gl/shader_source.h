@@ -66,6 +66,9 @@ class SourceLoader {
   // Forgets everything (files will be read again).
   void clear() { cache_.clear(); }
   const std::vector<std::string>& roots() const { return roots_; }
+  // Every path that an answer since forgetTouched() came from or would come from, existing or not: what to watch.
+  const std::set<std::string>& touched() const { return touched_; }
+  void forgetTouched() { touched_.clear(); }
   // Files expanded so far, not answered from the cache.
   std::uint64_t expansions() const { return expansions_; }
 
@@ -79,9 +82,11 @@ class SourceLoader {
     std::shared_ptr<const ShaderSource> source;
     std::vector<Stamp> stamps;
   };
-  std::shared_ptr<const ShaderSource> answer(const std::string& key) const;
+  std::shared_ptr<const ShaderSource> answer(const std::string& key);
+  void touch(std::span<const std::string> read, std::span<const std::string> missing);
   std::vector<std::string> roots_;
   std::unordered_map<std::string, Entry> cache_;
+  std::set<std::string> touched_;
   std::uint64_t expansions_ = 0;
 };
 

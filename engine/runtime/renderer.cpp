@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "engine/graph/read.h"
 #include "engine/runtime/formats.h"
@@ -29,19 +30,51 @@ Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options o
       device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder) {}
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
-  const auto desc = graph::readGraph(graphPath_, diagnostics);
-  if (!desc || diagnostics.hasErrors()) return false;
+  base::Diagnostics said;
+  const auto desc = graph::readGraph(graphPath_, said);
+  diagnostics.append(said);
+  triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
+  return desc && !said.hasErrors() && switchTo(desc, settings, world, diagnostics);
+}
+
+bool Renderer::apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
+  if (!desc_) return load(settings, world, diagnostics);
+  triedFiles_ = desc_->files;
+  return switchTo(desc_, settings, world, diagnostics);
+}
+
+std::vector<std::string> Renderer::files() const {
+  std::vector<std::string> files = runningFiles_;
+  files.insert(files.end(), triedFiles_.begin(), triedFiles_.end());
+  return files;
+}
+
+bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, const graph::Settings& settings, const World& world,
+                        base::Diagnostics& all) {
+  base::Diagnostics diagnostics;  // of this attempt alone
+  device_.sources.forgetTouched();
+  auto made = makeExecution(*desc, settings, world, diagnostics);
+  all.append(diagnostics);
+  const std::set<std::string>& shaders = device_.sources.touched();
+  triedFiles_.insert(triedFiles_.end(), shaders.begin(), shaders.end());
+  if (!made) return false;
+  execution_ = std::move(made);
+  desc_ = std::move(desc);
+  runningFiles_ = triedFiles_;
+  presentTexture_ = 0;  // its name may be another texture's now
+  return true;
+}
+
+std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, const graph::Settings& settings,
+                                                   const World& world, base::Diagnostics& diagnostics) {
   const graph::Registry registry = makeRegistry(device_.passTypes, world.facts());
-  const auto flat = graph::expandGraph(*desc, registry, settings, diagnostics);
-  if (!flat || diagnostics.hasErrors()) return false;
+  const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
+  if (!flat || diagnostics.hasErrors()) return nullptr;
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
   const bool wantsEnvironment = std::ranges::any_of(
       flat->imports, [](const graph::ImportSpec& import) { return import.request.type == "environment"; });
-  if (wantsEnvironment && !world.environment() && !prepareFallback(world, diagnostics)) return false;
-  auto made = Execution::create(device_, std::move(plan), execution_.get(), diagnostics);
-  if (!made) return false;
-  execution_ = std::move(made);
-  return true;
+  if (wantsEnvironment && !world.environment() && !prepareFallback(world, diagnostics)) return nullptr;
+  return Execution::create(device_, std::move(plan), execution_.get(), diagnostics);
 }
 
 bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostics) {

@@ -27,6 +27,11 @@ class Renderer {
 
   // Reads the graph file again and switches to it. False after errors.
   bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  // The same without reading the graph files: the last description that ran, under other settings. Shaders that changed
+  // on disk are taken up.
+  bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes).
+  std::vector<std::string> files() const;
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
   Execution* execution() { return execution_.get(); }
@@ -40,6 +45,10 @@ class Renderer {
   void present(std::uint32_t width, std::uint32_t height);
 
  private:
+  bool switchTo(std::shared_ptr<const graph::GraphDesc> desc, const graph::Settings& settings, const World& world,
+                base::Diagnostics& diagnostics);
+  std::unique_ptr<Execution> makeExecution(const graph::GraphDesc& desc, const graph::Settings& settings, const World& world,
+                                           base::Diagnostics& diagnostics);
   // The embedded default environment: graphs/daylight.json, run once when a graph needs @environment and none is loaded.
   bool prepareFallback(const World& world, base::Diagnostics& diagnostics);
 
@@ -47,6 +56,8 @@ class Renderer {
   Options options_;
   Device device_;
   std::unique_ptr<Execution> execution_;
+  std::shared_ptr<const graph::GraphDesc> desc_;        // what runs
+  std::vector<std::string> runningFiles_, triedFiles_;
   std::unique_ptr<Device> fallbackDevice_;
   std::unique_ptr<Execution> fallback_;
   gl::Framebuffer presentSource_;

@@ -67,6 +67,13 @@ class Reader {
     return std::move(scene_);
   }
 
+  // Paths of the material libraries, readable or not.
+  std::vector<std::string> libraries() const {
+    std::vector<std::string> paths;
+    for (const auto& [path, ids] : libraries_) paths.push_back(path);
+    return paths;
+  }
+
  private:
   base::Diagnostic& fail(Code code, const JsonValue& value, std::string message) {
     base::Diagnostic& d = diagnostics_.error(code, value.place, std::move(message));
@@ -311,10 +318,15 @@ std::optional<Scene> readScene(std::string_view text, const std::string& name, D
   return Reader(name, diagnostics).read(text);
 }
 
-std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics) {
+std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics, std::vector<std::string>* files) {
+  if (files) *files = {path};
   const std::optional<std::string> text = base::readFile(path, diagnostics);
   if (!text) return {};
-  return readScene(*text, path, diagnostics);
+  Reader reader(path, diagnostics);
+  std::optional<Scene> scene = reader.read(*text);
+  if (files)
+    for (const std::string& library : reader.libraries()) files->push_back(library);
+  return scene;
 }
 
 }  // namespace weft::scene

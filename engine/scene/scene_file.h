@@ -6,14 +6,17 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/diagnostic.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {
 
-// Paths in the file are relative to it. Empty after any error.
-std::optional<Scene> loadScene(const std::string& path, base::Diagnostics& diagnostics);
+// Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that took part
+// or should have, also after errors: what to watch.
+std::optional<Scene> loadScene(const std::string& path, base::Diagnostics& diagnostics,
+                               std::vector<std::string>* files = nullptr);
 // The same for text in memory; paths are relative to the folder of `name`.
 std::optional<Scene> readScene(std::string_view text, const std::string& name,
                                base::Diagnostics& diagnostics);

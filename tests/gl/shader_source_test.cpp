@@ -156,6 +156,30 @@ TEST_CASE("an unchanged file is expanded once, a changed include again") {
   CHECK(diagnostics.empty());
 }
 
+TEST_CASE("what was read, and what was looked for in vain, is what to watch") {
+  TempFolder folder;
+  folder.write("x/a.glsl", "#include \"b.glsl\"\n");
+  folder.write("x/b.glsl", "float b;\n");
+  folder.write("x/wants.glsl", "#include \"b.glsl\"\n#include \"late.glsl\"\n");
+  const std::string root = folder.path(), other = folder.path("other");
+  SourceLoader loader({root, other});
+  Diagnostics diagnostics;
+  using Paths = std::set<std::string>;
+  const Paths both{root + "/x/a.glsl", root + "/x/b.glsl"};
+  for (int i = 0; i < 2; ++i) {  // the second time from the cache
+    loader.forgetTouched();
+    REQUIRE(loader.load("x/a.glsl", diagnostics));
+    CHECK(loader.touched() == both);
+  }
+  loader.forgetTouched();
+  CHECK_FALSE(loader.load("x/wants.glsl", diagnostics));
+  CHECK(loader.touched() == Paths{root + "/x/wants.glsl", root + "/x/b.glsl", root + "/x/late.glsl", root + "/late.glsl",
+                                  other + "/late.glsl"});
+  loader.forgetTouched();
+  CHECK_FALSE(loader.load("y/none.glsl", diagnostics));
+  CHECK(loader.touched() == Paths{root + "/y/none.glsl", other + "/y/none.glsl"});
+}
+
 TEST_CASE("text in memory includes from the roots only, and the prefix holds version and defines in order") {
   TempFolder folder;
   folder.write("a.glsl", "float a;\n");

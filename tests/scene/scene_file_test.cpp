@@ -229,11 +229,14 @@ TEST_CASE("a name in both the library and the scene, a broken library, a missing
                 diagnostics));
   CHECK(diagnostics.contains(base::Code::W156));
   diagnostics.clear();
-  CHECK_FALSE(loadScene(folder.write("b.json", R"({"library": "broken.json"})"), diagnostics));
+  std::vector<std::string> files;
+  CHECK_FALSE(loadScene(folder.write("b.json", R"({"library": "broken.json"})"), diagnostics, &files));
+  CHECK(files == std::vector{folder.at("b.json"), folder.at("broken.json")});
   REQUIRE(diagnostics.size() == 1);
   CHECK(*diagnostics.items()[0].place.file == folder.at("broken.json"));
   diagnostics.clear();
-  CHECK_FALSE(loadScene(folder.at("missing.json"), diagnostics));
+  CHECK_FALSE(loadScene(folder.at("missing.json"), diagnostics, &files));
+  CHECK(files == std::vector{folder.at("missing.json")});
   CHECK_FALSE(loadScene(folder.at(""), diagnostics));
   CHECK(diagnostics.errorCount() == 2);
 }

@@ -1,0 +1,107 @@
+#include "app/live_graph.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "app/session.h"
+#include "engine/scene/scene_file.h"
+
+namespace weft::app {
+
+namespace {
+
+// Editors and version control write several files, or one in several steps: wait until nothing was written for so long.
+constexpr double kQuietSeconds = 0.03;
+
+}  // namespace
+
+LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world, graph::Settings settings)
+    : renderer_(renderer),
+      world_(std::move(world)),
+      settings_(std::move(settings)),
+      scenePath_(scenePathOf(options)),
+      environmentPath_(options.environment),
+      sceneFiles_(world_.scene().files) {}
+
+bool LiveGraph::load(base::Diagnostics& diagnostics) {
+  runtime::World world = world_;
+  good_ = tryScene(world, diagnostics) && renderer_.load(settings_, world, diagnostics);
+  if (good_) {
+    world_ = std::move(world);
+    sceneStale_ = environmentStale_ = false;
+    ++switches_;
+  }
+  watch();
+  return good_;
+}
+
+bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) {
+  if (sceneStale_) {
+    auto scene = scene::loadScene(scenePath_, diagnostics, &sceneFiles_);
+    if (!scene) return false;
+    world.setScene(std::move(*scene));
+  }
+  if (environmentStale_) {
+    auto image = assets::loadEnvironment(environmentPath_, diagnostics);
+    if (!image) return false;
+    world.setEnvironment(std::make_shared<const assets::ImageF>(std::move(*image)));
+  }
+  return true;
+}
+
+void LiveGraph::watch() {
+  std::vector<std::string> files = renderer_.files();
+  files.insert(files.end(), sceneFiles_.begin(), sceneFiles_.end());
+  files.insert(files.end(), world_.scene().files.begin(), world_.scene().files.end());
+  if (!environmentPath_.empty()) files.push_back(environmentPath_);
+  watcher_.watch(files);
+}
+
+bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
+  const std::vector<std::string> changed = watcher_.poll();
+  if (!changed.empty()) {
+    pending_ = true;
+    changedAt_ = now;
+  }
+  for (const std::string& file : changed) {
+    sceneStale_ |= std::ranges::find(sceneFiles_, file) != sceneFiles_.end() || file == scenePath_;
+    environmentStale_ |= file == environmentPath_;
+  }
+  if (!pending_ || now - changedAt_ < kQuietSeconds) return false;
+  pending_ = false;
+  load(diagnostics);
+  return true;
+}
+
+void LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics) {
+  if (width == settings_.screenWidth && height == settings_.screenHeight) return;
+  settings_.screenWidth = width;
+  settings_.screenHeight = height;
+  if (renderer_.apply(settings_, world_, diagnostics)) ++switches_;
+  watch();
+}
+
+bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnostics) {
+  if (!renderer_.apply(settings, world_, diagnostics)) return false;
+  settings_ = std::move(settings);
+  ++switches_;
+  watch();
+  return true;
+}
+
+bool LiveGraph::setParameter(const std::string& name, const std::string& value, base::Diagnostics& diagnostics) {
+  graph::Settings settings = settings_;
+  std::erase_if(settings.sets, [&](const auto& set) { return set.first == name; });
+  settings.sets.emplace_back(name, value);
+  return trySettings(std::move(settings), diagnostics);
+}
+
+bool LiveGraph::setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics) {
+  graph::Settings settings = settings_;
+  std::erase(settings.disables, pass);
+  if (!enabled) settings.disables.push_back(pass);
+  return trySettings(std::move(settings), diagnostics);
+}
+
+}  // namespace weft::app

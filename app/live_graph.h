@@ -1,0 +1,55 @@
+// A graph that follows its files: what the viewer shows, the settings it shows it with, and the watch on everything that
+// was read for it. A change is validated whole; after an error the last good frame goes on, and the settings that led to
+// it are taken back when a person made them here. Does not: draw, own the window, or know the camera.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "engine/base/file_watcher.h"
+#include "engine/graph/expand.h"
+#include "engine/runtime/renderer.h"
+
+namespace weft::app {
+
+class LiveGraph {
+ public:
+  // `renderer` must outlive this.
+  LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world, graph::Settings settings);
+
+  // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
+  bool load(base::Diagnostics& diagnostics);
+  // Loads when watched files changed and have been quiet for a moment. `now` in seconds. True when it looked at the disk.
+  bool poll(double now, base::Diagnostics& diagnostics);
+  // The sizes of the screen; does nothing when they are what they were.
+  void resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
+  // As --set and --disable: by the full name of a parameter, of a pass. False after errors, and nothing has changed.
+  bool setParameter(const std::string& name, const std::string& value, base::Diagnostics& diagnostics);
+  bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
+
+  const runtime::World& world() const { return world_; }
+  const graph::Settings& settings() const { return settings_; }
+  // Whether the files as they are on disk are what is shown.
+  bool good() const { return good_; }
+  // Counts switches to another plan.
+  std::uint64_t switches() const { return switches_; }
+
+ private:
+  bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
+  bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
+  void watch();
+
+  runtime::Renderer& renderer_;
+  runtime::World world_;
+  graph::Settings settings_;
+  std::string scenePath_, environmentPath_;
+  std::vector<std::string> sceneFiles_;
+  base::FileWatcher watcher_;
+  bool sceneStale_ = false, environmentStale_ = false, pending_ = false, good_ = true;
+  double changedAt_ = 0;
+  std::uint64_t switches_ = 0;
+};
+
+}  // namespace weft::app

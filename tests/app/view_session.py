@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""A session with `weft view` in a window of a virtual display: a broken save keeps the picture and says what is wrong, the
+fix is taken up, so are a changed shader, an include that was missing, and a changed scene; the window is resized and
+dragged in; Escape closes it. Then: exit code 0, no message of the driver. Waits have generous limits, nothing is timed."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+from program import TOP, Report, run, temporary_folder
+
+LIMIT = 120  # seconds for anything to happen
+
+
+class Session:
+    def __init__(self, weft, folder, *arguments):
+        self.folder, self.log, self.shots = folder, folder / "stderr.txt", 0
+        environment = {**os.environ, "WEFT_DATA": str(folder)}
+        command = [weft, "view", "graphs/studio.json", "--size", "320x180", "--program-cache", "none", *arguments]
+        with open(self.log, "w") as log:
+            self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=subprocess.DEVNULL)
+        self.window = None
+
+    def said(self):
+        return self.log.read_text(errors="replace")
+
+    def alive(self):
+        return self.process.poll() is None
+
+    def until(self, holds):
+        """The first thing true of `holds`; None when time is up or the program has ended."""
+        end = time.monotonic() + LIMIT
+        while time.monotonic() < end:
+            found = holds()
+            if found:
+                return found
+            if not self.alive():
+                return None
+            time.sleep(0.05)
+        return None
+
+    def tool(self, *arguments):
+        return subprocess.run(["xdotool", *map(str, arguments)], capture_output=True, text=True).stdout.split()
+
+    def open(self):
+        found = self.until(lambda: self.tool("search", "--name", "^weft: "))
+        self.window = found[-1] if found else None
+        self.tool("mousemove", "--window", self.window, 160, 90)
+        return self.window
+
+    def key(self, name):
+        self.tool("key", name)
+
+    def shot(self):
+        """The picture of a later frame, as a path."""
+        before = set(self.folder.glob("weft_*.png"))
+        self.key("F12")
+        found = self.until(lambda: set(self.folder.glob("weft_*.png")) - before)
+        return max(found) if found else None
+
+
+def edit(path, pattern, text):
+    """As editors save: a file beside it, then a rename."""
+    before = path.read_text()
+    after = re.sub(pattern, lambda _: text, before, count=1)
+    assert after != before, f"nothing to edit in {path}"
+    save(path, after)
+    return before
+
+
+def save(path, text):
+    beside = path.with_name(path.name + "~")
+    beside.write_text(text)
+    beside.rename(path)
+
+
+def session(weft, compare, folder, report):
+    def describe(shot):
+        words = run(compare, "--describe", shot).out.split()
+        return (int(words[0]), int(words[1]), float(words[2]), float(words[3])) if len(words) >= 4 else (0, 0, 0.0, 0.0)
+
+    def changes(what, old):
+        """Takes pictures until one differs from `old`."""
+        seen = live.until(lambda: (s := live.shot()) and s.read_bytes() != old.read_bytes() and s)
+        report.check(seen, f"{what}: the picture stays as it was\n{live.said()}")
+        return seen or old
+
+    post, composite = folder / "graphs/post.json", folder / "shaders/composite/composite.frag.glsl"
+    live = Session(weft, folder)
+    try:
+        if not report.check(live.open(), f"no window\n{live.said()}"):
+            return
+        first = live.shot()
+        if not report.check(first, f"no first picture\n{live.said()}"):
+            return
+        size = describe(first)
+        report.check(size[:2] == (320, 180) and size[2] > 20 and size[3] > 10, f"first picture: {size}")
+
+        whole = edit(post, r'"passes"', '"passes')
+        report.check(live.until(lambda: "post.json:" in live.said()), "a broken save is not reported")
+        same = live.shot()
+        report.check(live.alive() and same and same.read_bytes() == first.read_bytes(), "a broken save changes the picture")
+        save(post, re.sub(r'("exposure":.*?"default": )[-\d.]+', r"\g<1>2.5", whole, flags=re.S))
+        brighter = changes("the fix with more exposure", first)
+        report.check(describe(brighter)[2] > size[2] + 5, f"exposure 2.5: mean {describe(brighter)[2]} after {size[2]}")
+
+        text = composite.read_text()
+        save(composite, text.replace("void main() {", "void main() {\n  nothing = 1;", 1))
+        report.check(live.until(lambda: "error[W104]" in live.said()), "a shader that does not compile is not reported")
+        save(composite, '#include "late.glsl"\n' + text)
+        report.check(live.until(lambda: "error[W101]" in live.said()), "a missing include is not reported")
+        save(composite, text.replace("void main() {", '#include "late.glsl"\nvoid main() {', 1)
+             .replace("result = ", "result = late() * "))
+        (folder / "shaders/composite/late.glsl").write_text("vec4 late() { return vec4(0.2, 1.0, 0.2, 1.0); }\n")
+        green = changes("a shader with an include that comes late", brighter)
+        save(folder / "shaders/composite/late.glsl", "vec4 late() { return vec4(1.0); }\n")
+        white = changes("a changed include", green)
+
+        edit(folder / "scenes/spheres.json", r'"spacing": [\d.]+', '"spacing": 3.5')
+        apart = changes("a changed scene", white)
+
+        live.tool("mousemove", "--window", live.window, 100, 90, "mousedown", 1)
+        for x in range(110, 200, 10):
+            live.tool("mousemove", "--window", live.window, x, 90)
+        live.tool("mouseup", 1)
+        turned = changes("a drag", apart)
+        for width, height in ((400, 300), (1, 1), (333, 77), (640, 200), (500, 260)) * 3:
+            live.tool("windowsize", live.window, width, height)
+        resized = live.until(lambda: (s := live.shot()) and describe(s)[:2] == (500, 260) and s)
+        report.check(resized and resized != turned, f"a picture of 500x260 never comes\n{live.said()}")
+        live.tool("mousemove", "--window", live.window, 160, 90)
+        live.key("Escape")
+        live.until(lambda: not live.alive())
+        report.check(live.process.poll() == 0, f"Escape: exit code {live.process.poll()}")
+        report.check("W120" not in live.said(), live.said())
+    finally:
+        if live.alive():
+            live.process.kill()
+            live.process.wait()
+
+
+def main():
+    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
+    if "--inside" not in sys.argv:
+        if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
+            report.skip("xvfb-run or xdotool is not installed")
+            report.end()
+        xvfb = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
+        sys.exit(subprocess.run([*xvfb, sys.executable, __file__, weft, compare, "--inside"]).returncode)
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        for part in ("graphs", "shaders", "scenes", "materials"):
+            shutil.copytree(TOP / part, folder / part)
+        session(weft, compare, folder, report)
+    report.end()
+
+
+main()
