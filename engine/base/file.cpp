@@ -18,6 +18,9 @@ struct FileCloser {
 };
 using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
 
+// A pipe may be read, an endless one must not fill the memory.
+constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
+
 }  // namespace
 
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code, const Place& place) {
@@ -31,12 +34,17 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
   const auto status = std::filesystem::status(path, ec);
   if (status.type() == std::filesystem::file_type::not_found) return fail("no such file", "check the path");
   if (status.type() == std::filesystem::file_type::directory) return fail("it is a directory", "name a file inside it");
+  if (status.type() == std::filesystem::file_type::character || status.type() == std::filesystem::file_type::block)
+    return fail("it is a device", "name a file");
   const FilePtr file(std::fopen(path.c_str(), "rb"));
   if (!file) return fail(std::strerror(errno), "");
   std::string bytes;
   char chunk[65536];
   std::size_t got = 0;
-  while ((got = std::fread(chunk, 1, sizeof chunk, file.get())) > 0) bytes.append(chunk, got);
+  while ((got = std::fread(chunk, 1, sizeof chunk, file.get())) > 0) {
+    bytes.append(chunk, got);
+    if (bytes.size() > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
+  }
   if (std::ferror(file.get())) return fail(std::strerror(errno), "");
   return bytes;
 }

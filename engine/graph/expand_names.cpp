@@ -109,7 +109,8 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   std::uint32_t index = findEntity(model_, scope_, resource, false);
   if (index == kNone) index = findEntity(model_, scope_, resource, true);
   if (index == kNone) {
-    if (isUnread(scope_, resource)) return Value{};
+    // Its declaration, or the input that has nothing behind it, was reported where it stands.
+    if (isUnread(scope_, resource) || scope_.resources.contains(resource)) return Value{};
     return std::nullopt;
   }
   const std::string asked = model_.entities[index].name;

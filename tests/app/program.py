@@ -20,9 +20,9 @@ class Run:
         return sorted({d["code"] for d in self.diagnostics if d["severity"] == severity})
 
 
-def run(weft, *arguments, before=(), timeout=300, **options):
+def run(weft, *arguments, before=(), folder=TOP, timeout=300, **options):
     command = [*map(str, before), str(weft), *map(str, arguments)]
-    return Run(subprocess.run(command, cwd=TOP, capture_output=True, text=True, errors="replace", timeout=timeout, **options))
+    return Run(subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=timeout, **options))
 
 
 class Report:

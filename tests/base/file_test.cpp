@@ -18,6 +18,13 @@ TEST_CASE("a missing file, a directory and an unwritable place are told apart") 
   CHECK(all.items()[2].code == Code::W180);
 }
 
+TEST_CASE("a device is not read: /dev/zero has no end") {
+  Diagnostics all;
+  CHECK_FALSE(readFile("/dev/zero", all));
+  REQUIRE(all.size() == 1);
+  CHECK(all.items()[0].message.find("device") != std::string::npos);
+}
+
 TEST_CASE("what is written is read back") {
   const std::string path = (std::filesystem::temp_directory_path() / "weft_file_test.bin").string();
   Diagnostics all;

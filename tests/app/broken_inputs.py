@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Broken files of every kind, and wrong arguments: each run exits as expected with exactly the expected diagnostics, at a
+place, writes nothing, and neither crashes nor prints anything else. With --sanitized the binary was built with
+AddressSanitizer and UBSan, whose reports are failures too.
+
+    broken_inputs.py WEFT [--sanitized]
+"""
+import pathlib
+import re
+import struct
+import sys
+
+from program import TOP, Report, run, temporary_folder
+
+GLOW = str(TOP / "graphs/glow.json")
+CRASH = re.compile(r"AddressSanitizer|LeakSanitizer|runtime error:|terminate called|Assertion|Segmentation|Aborted|what\(\):|^\s*#\d+ 0x", re.M)
+
+
+def graph(size='"screen"', extra="", shader="sky/sky.frag.glsl", write="ldr", more="", resources=""):
+    return f"""{{ "name": "broken",
+  "resources": {{
+    "ldr": {{ "texture": "rgba8", "size": {size}{extra} }}{resources} }},
+  "passes": [
+    {{ "name": "sky", "type": "fullscreen", "shader": "{shader}",
+      "read": {{ "environment": "@environment" }}, "write": {{ "radiance": "{write}" }}{more} }} ],
+  "present": "ldr" }}
+"""
+
+
+SPHERE = '{ "spheres": [\n  { "center": [0, 0, 0], %s } ] }\n'
+HDR_HEAD = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n"
+
+# file -> contents
+FILES = {
+    "truncated.json": graph()[:150],
+    "empty.json": "",
+    "binary.json": b"\x89PNG\r\n\x1a\n\x00\xff\xfe",
+    "deep.json": "[" * 100_000,
+    "not_utf8.json": graph().replace("broken", "\udcff").encode("utf-8", "surrogateescape"),
+    "number_for_string.json": graph().replace('"broken"', "42"),
+    "list_for_object.json": graph().replace('"read": { "environment": "@environment" }', '"read": ["@environment"]'),
+    "object_for_size.json": graph(size='{ "width": 4 }'),
+    "mips.json": graph(extra=', "mips": 1000000000', write="ldr.mip[0]"),
+    "size.json": graph(size="1e9"),
+    "layers.json": graph(extra=', "layers": 1e9'),
+    "history.json": graph(extra=', "history": 1000000000'),
+    "repeat.json": graph(more=', "repeat": { "i": [0, 1000000000] }'),
+    "memory.json": graph(size="[16384, 16384]", extra=', "layers": 2000'),
+    "missing_shader.json": graph(shader="sky/no_such.frag.glsl"),
+    "bad_shader.json": graph(shader="bad.frag.glsl"),
+    "bad_include.json": graph(shader="include.frag.glsl"),
+    "shaders/bad.frag.glsl": "uniform sampler2D environment;\nout vec4 radiance;\nvoid main() { radiance = nothing; }\n",
+    "shaders/include.frag.glsl": '#include "no_such.glsl"\nuniform sampler2D environment;\nout vec4 radiance;\nvoid main() { radiance = vec4(1); }\n',
+    "missing_include.json": graph(more=' }, { "include": "no_such.json"'),
+    "own_include.json": graph(more=' }, { "include": "own_include.json"'),
+    "unknown_key.json": graph(extra=', "formt": 1'),
+    "unknown_resource.json": graph(write="ldrr"),
+    "unknown_format.json": graph().replace("rgba8", "rgba9"),
+    "nothing_presented.json": graph().replace(',\n  "present": "ldr"', ""),
+    "zero_division.json": graph(size='"screen / 0"'),
+    "truncated_scene.json": '{ "spheres": [',
+    "unknown_material.json": SPHERE % '"material": "Unobtainium"',
+    "negative_radius.json": SPHERE % '"radius": -1, "material": { "albedo": [1, 1, 1] }',
+    "huge_grid.json": '{ "grid": { "count": [65536, 65536, 65536], "materials": ["m"] }, "materials": { "m": { "albedo": [1, 1, 1] } } }',
+    "empty.hdr": b"",
+    "garbage.hdr": bytes(range(256)) * 16,
+    "truncated.hdr": HDR_HEAD + b"\x02\x02\x00\x80\x85\x11",
+    "huge.hdr": HDR_HEAD.replace(b"64", b"1000000").replace(b"128", b"1000000"),
+    "garbage.exr": b"\x76\x2f\x31\x01\x02\x00\x00\x00" + bytes(200),
+    "huge.exr": b"\x76\x2f\x31\x01\x02\x00\x00\x00" + b"dataWindow\x00box2i\x00" + struct.pack("<i4i", 16, 0, 0, 2**31 - 1, 2**31 - 1) + b"\x00",
+    "picture.gif": b"GIF89a",
+    "truncated_workload.json": '{ "textures": [',
+    "a_file": "not a folder",
+}
+
+RENDER = ["--size", "64x36", "--program-cache", "none"]
+
+
+def rendered(graph_file, *more):
+    return ["render", graph_file, *RENDER, *(more if "-o" in more else ("-o", "out.png", *more))]
+
+
+# (arguments, exit code, code, place): `place` is a regular expression for what stands before the severity. Code None: wrong
+# usage, told by the parser of the command line, where the place is the name of the option.
+CASES = [
+    (rendered("truncated.json"), 1, "W002", r"truncated\.json:5:41"),
+    (rendered("empty.json"), 1, "W002", r"empty\.json:1:1"),
+    (rendered("binary.json"), 1, "W002", r"binary\.json:\d:1"),
+    (rendered("deep.json"), 1, "W007", r"deep\.json:1:6\d"),
+    (rendered("not_utf8.json"), 1, "W002", r"not_utf8\.json:1:1\d"),
+    (rendered("no_such.json"), 1, "W001", r"no_such\.json"),
+    (rendered("shaders"), 1, "W001", "shaders"),
+    (["check", "shaders"], 1, "W001", "shaders"),
+    (["check", "/dev/zero"], 1, "W001", "/dev/zero"),
+    (["plan", "truncated.json"], 1, "W002", r"truncated\.json:5:41"),
+    (["dot", "truncated.json"], 1, "W002", r"truncated\.json:5:41"),
+    (rendered("number_for_string.json"), 1, "W003", r"number_for_string\.json:1:11"),
+    (rendered("list_for_object.json"), 1, "W003", r"list_for_object\.json:6:15"),
+    (rendered("object_for_size.json"), 1, "W003", r"object_for_size\.json:3:42"),
+    (rendered("mips.json"), 1, "W048", r"mips\.json:3:60"),
+    (rendered("size.json"), 1, "W048", r"size\.json:3:42"),
+    (rendered("layers.json"), 1, "W048", r"layers\.json:3:62"),
+    (rendered("history.json"), 1, "W048", r"history\.json:3:63"),
+    (["check", "repeat.json", "--no-shaders"], 1, "W081", r"repeat\.json:\d+:\d+"),
+    (rendered("memory.json"), 1, "W116", ""),
+    (rendered("missing_shader.json"), 1, "W100", r"missing_shader\.json:5:54"),
+    (rendered("bad_shader.json"), 1, "W104", r"shaders/bad\.frag\.glsl:3:\d+"),
+    (["check", "bad_shader.json"], 1, "W104", r"shaders/bad\.frag\.glsl:3:\d+"),
+    (rendered("bad_include.json"), 1, "W101", r"shaders/include\.frag\.glsl:1:\d+"),
+    (rendered("missing_include.json"), 1, "W001", r"missing_include\.json:6:\d+"),
+    (rendered("own_include.json"), 1, "W008", r"own_include\.json:6:\d+"),
+    (rendered("unknown_key.json"), 1, "W004", r"unknown_key\.json:3:52"),
+    (rendered("unknown_format.json"), 1, "W042", r"unknown_format\.json:3:25"),
+    (rendered("zero_division.json"), 1, "W024", r"zero_division\.json:3:\d+"),
+    (rendered("nothing_presented.json"), 1, "W188", r"nothing_presented\.json:1:1"),
+    (rendered(str(TOP / "graphs/bloom.json")), 1, "W074", r".*/bloom\.json:\d+:\d+"),
+    (rendered(GLOW, "--environment", "no_such.hdr"), 1, "W150", r"no_such\.hdr"),
+    (rendered(GLOW, "--environment", "shaders"), 1, "W150", "shaders"),
+    (rendered(GLOW, "--environment", "empty.hdr"), 1, "W150", r"empty\.hdr"),
+    (rendered(GLOW, "--environment", "garbage.hdr"), 1, "W150", r"garbage\.hdr"),
+    (rendered(GLOW, "--environment", "truncated.hdr"), 1, "W150", r"truncated\.hdr"),
+    (rendered(GLOW, "--environment", "huge.hdr"), 1, "W152", r"huge\.hdr"),
+    (rendered(GLOW, "--environment", "garbage.exr"), 1, "W150", r"garbage\.exr"),
+    (rendered(GLOW, "--environment", "huge.exr"), 1, "W150", r"huge\.exr"),
+    (rendered(GLOW, "--environment", "picture.gif"), 1, "W151", r"picture\.gif"),
+    (rendered(GLOW, "--scene", "no_such.json"), 1, "W001", r"no_such\.json"),
+    (rendered(GLOW, "--scene", "shaders"), 1, "W001", "shaders"),
+    (rendered(GLOW, "--scene", "truncated_scene.json"), 1, "W002", r"truncated_scene\.json:1:\d+"),
+    (rendered(GLOW, "--scene", "unknown_material.json"), 1, "W161", r"unknown_material\.json:2:\d+"),
+    (rendered(GLOW, "--scene", "negative_radius.json"), 1, "W160", r"negative_radius\.json:2:\d+"),
+    (rendered(GLOW, "--scene", "huge_grid.json"), 1, "W160", r"huge_grid\.json:1:\d+"),
+    (rendered(GLOW, "-o", "a_file/out.png"), 1, "W180", r"a_file/out\.png"),
+    (rendered(GLOW, "-o", "/proc/out.png"), 1, "W180", r"/proc/out\.png"),
+    (rendered(GLOW, "-o", "/proc/no/out.png"), 1, "W180", r"/proc/no/out\.png"),
+    (rendered(GLOW, "-o", "shaders"), 1, "W180", "shaders"),
+    (rendered(GLOW, "-o", "folder.png"), 1, "W180", r"folder\.png"),
+    (rendered(GLOW, "-o", "out.jpg"), 1, "W180", r"out\.jpg"),
+    (rendered(GLOW, "-o", "out.png", "--frames", "0:3"), 1, "W180", r"out\.png"),
+    (rendered(GLOW, "-o", "out_%s.png", "--frames", "0:3"), 1, "W180", r"out_%s\.png"),
+    (rendered(GLOW, "-o", "out_%d_%d.png", "--frames", "0:3"), 1, "W180", r"out_%d_%d\.png"),
+    (rendered(GLOW, "--set", "blom=false"), 1, "W044", ""),
+    (rendered(GLOW, "--set", "bloom=maybe"), 1, "W047", ""),
+    (rendered(GLOW, "--set", "threshold=99"), 1, "W048", ""),
+    (rendered(GLOW, "--disable", "compost"), 1, "W045", ""),
+    (rendered(GLOW, "--disable", "composite"), 1, "W060", r".*/glow\.json:\d+:\d+"),
+    (["bench", "--workload", "no_such.json"], 1, "W001", r"no_such\.json"),
+    (["bench", "--workload", "truncated_workload.json"], 1, "W093", r"truncated_workload\.json:1:\d+"),
+    (rendered(GLOW, "--backend", "vulkan"), 2, None, "--backend"),
+    (rendered(GLOW, "--size", "0x36"), 2, None, "--size"),
+    (rendered(GLOW, "--size", "99999x99999"), 2, None, "--size"),
+    (rendered(GLOW, "--size", "large"), 2, None, "--size"),
+    (rendered(GLOW, "--frames", "3:2"), 2, None, "--frames"),
+    (rendered(GLOW, "--frames", "-1"), 2, None, "--frames"),
+    (rendered(GLOW, "--set", "bloom"), 2, None, "--set"),
+    (["render", GLOW], 2, None, "--output"),
+    (["render"], 2, None, "graph is required"),
+    (["paint", GLOW], 2, None, "paint|subcommand"),
+    ([], 2, None, "subcommand"),
+]
+
+
+def contents(folder):
+    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+def check_case(report, weft, folder, arguments, code, expected, place):
+    name = "weft " + " ".join(a.replace(str(TOP) + "/", "") for a in arguments)
+    result = run(weft, *arguments, folder=folder)
+    whole = f"{name}\n{result.out}{result.err}"
+    report.check(result.code == code, f"exit code {result.code}, not {code}: {whole}")
+    report.check(not CRASH.search(result.err + result.out), f"crash: {whole}")
+    if expected is None:
+        report.check(re.search(place, result.err + result.out) and not result.diagnostics, f"does not name {place}: {whole}")
+        return
+    errors = [d for d in result.diagnostics if d["severity"] == "error"]
+    found = [(d["code"], ":".join(d[k] for k in ("place", "line", "column") if d[k])) for d in errors]
+    fits = len(found) == 1 and found[0][0] == expected and re.fullmatch(place, found[0][1])
+    report.check(fits, f"expected one {expected} at '{place}', found {found}: {whole}")
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        (folder / "folder.png").mkdir()
+        (folder / "shaders").mkdir()
+        for file, text in FILES.items():
+            (folder / file).write_bytes(text if isinstance(text, bytes) else text.encode())
+        before = contents(folder)
+        for case in CASES:
+            check_case(report, weft, folder, *case)
+            report.check(contents(folder) == before, f"{' '.join(case[0])}: wrote {sorted(set(contents(folder)) - set(before))}")
+        # The same folder and options do make a picture, so that what failed above failed for its own reason.
+        (folder / "good.json").write_text(graph())
+        good = run(weft, *rendered("good.json"), folder=folder)
+        report.check(good.code == 0 and (folder / "out.png").exists() and not good.err, f"good.json: {good.code}\n{good.err}")
+    report.end()
+
+
+main()
