@@ -3,10 +3,11 @@
 
 Usage: shaders_compile.py SOURCE_DIR [GRAPH...]; default: every .json with passes in graphs/, tests/golden and tests/theory.
 Per pass: everything connected, then each optional input, each output and each parameter left out alone, all optional
-ones left out together, and each value of each define. Needs glslangValidator; exits 77 (skipped) without it.
+ones left out together, and each value of each define (all combinations where they are few). Needs glslangValidator; exits 77 (skipped) without it.
 """
 import itertools
 import json
+import math
 import pathlib
 import re
 import shutil
@@ -91,10 +92,24 @@ def variants(stanza, desc):
         base.append({k: v for k, v in everything.items() if k != f"HAS_{define_name(left_out)}"})
     dropped = {f"HAS_{define_name(n)}" for n in optional + parameters}
     base.append({k: v for k, v in everything.items() if k not in dropped})
-    for combination in itertools.product(*choices.values()):
+    for combination in combinations(list(choices.values())):
         extra = {k: v for part in combination for k, v in part.items()}
         for has in base:
             yield {**has, **extra}
+
+
+def combinations(choices):
+    """All of them up to 64; beyond, every value of each with the others first, all at their last, and every pair of them."""
+    if math.prod(len(values) for values in choices) <= 64:
+        return list(itertools.product(*choices))
+    first, last = [values[0] for values in choices], [values[-1] for values in choices]
+    found = [first, last]
+    for i, values in enumerate(choices):
+        for value in values[1:]:
+            found += [base[:i] + [value] + base[i + 1:] for base in (first, last)]
+    for i, j in itertools.combinations(range(len(choices)), 2):
+        found.append([last[k] if k in (i, j) else first[k] for k in range(len(choices))])
+    return found
 
 
 def source_of(path, defines, roots):

@@ -1,6 +1,7 @@
-// Scene-referred to display-referred: bloom, exposure, tone curve, sRGB encoding, dither. The last pass that sees
-// radiance; what follows works on encoded values.
-// read    color   scene-referred radiance; any sampler (texels are fetched)
+// Scene-referred to display-referred. The last pass that sees radiance; what follows works on encoded values. In this order:
+// aberration, bloom, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift, gamma, gain),
+// sRGB encoding, grain, dither. Each is a variant of its own: what is off is not compiled. docs/effects.md has the details.
+// read    color   scene-referred radiance; `as linear` for ABERRATION, else any sampler (texels are fetched)
 //         bloom?  scene-referred, any size; `as linear` unless its size is the target's
 // write   result  display-referred, sRGB encoded
 // params  all three, or none for the values in brackets:
@@ -8,6 +9,11 @@
 //         bloom_strength  share of bloom in the mix, 0..1: the picture is mixed, not brightened [0.05]
 //         white           radiance, after exposure, that becomes white [8]
 //         curve           CURVE, see tone_curve.glsl
+//         aberration      define: aberration_px, how far red and blue part from green at the corners, in pixels
+//         white_balance   define: temperature, tint; see white_balance.glsl
+//         vignette        define: vignette_stops lost in the corners, growing with the square of the distance
+//         grading         define: saturation, contrast, lift, gamma, gain; see grading.glsl
+//         grain           define: grain_strength; see grain.glsl
 //         dither          define, default 1: half a step of noise either way before rounding to 8 bits
 //                         (interleaved gradient noise, Jimenez, SIGGRAPH 2014; uniform, so means are kept)
 #include "common/srgb.glsl"
@@ -16,18 +22,67 @@
 #ifndef DITHER
 #define DITHER 1
 #endif
+#ifndef ABERRATION
+#define ABERRATION 0
+#endif
+#ifndef WHITE_BALANCE
+#define WHITE_BALANCE 0
+#endif
+#ifndef VIGNETTE
+#define VIGNETTE 0
+#endif
+#ifndef GRADING
+#define GRADING 0
+#endif
+#ifndef GRAIN
+#define GRAIN 0
+#endif
+
+#if WHITE_BALANCE
+#include "white_balance.glsl"
+#endif
+#if GRADING
+#include "grading.glsl"
+#endif
+#if GRAIN
+#include "common/view.glsl"
+#include "grain.glsl"
+#endif
 
 uniform sampler2D color;
 #ifdef HAS_BLOOM
 uniform sampler2D bloom;
 #endif
-#ifdef HAS_EV
+#if defined(HAS_EV) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
 layout(std140) uniform Parameters {
+#ifdef HAS_EV
   float ev;
   float bloom_strength;
   float white;
+#endif
+#if ABERRATION
+  float aberration_px;
+#endif
+#if WHITE_BALANCE
+  float temperature;
+  float tint;
+#endif
+#if VIGNETTE
+  float vignette_stops;
+#endif
+#if GRADING
+  float saturation;
+  float contrast;
+  vec3 lift;
+  vec3 gamma;
+  vec3 gain;
+#endif
+#if GRAIN
+  float grain_strength;
+#endif
 };
-#else
+#endif
+#ifndef HAS_EV
 const float ev = 0.0, bloom_strength = 0.05, white = 8.0;
 #endif
 in vec2 uv;
@@ -35,11 +90,37 @@ out vec4 result;
 
 void main() {
   vec3 c = texelFetch(color, ivec2(gl_FragCoord.xy), 0).rgb;
+#if ABERRATION || VIGNETTE
+  vec2 size = vec2(textureSize(color, 0));
+  vec2 from_centre = (gl_FragCoord.xy - 0.5 * size) / (0.5 * length(size));  // length 1 at the corners
+#endif
+#if ABERRATION
+  vec2 apart = from_centre * aberration_px / size;
+  c.r = textureLod(color, uv - apart, 0.0).r;
+  c.b = textureLod(color, uv + apart, 0.0).b;
+#endif
 #ifdef HAS_BLOOM
   c = mix(c, textureLod(bloom, uv, 0.0).rgb, bloom_strength);
 #endif
-  c = toneCurve(max(c * exp2(ev), vec3(0.0)), white);
-  c = encodeSrgb(clamp(c, 0.0, 1.0));
+  c *= exp2(ev);
+#if WHITE_BALANCE
+  c = whiteBalance(c, temperature, tint);
+#endif
+#if VIGNETTE
+  c *= exp2(-vignette_stops * dot(from_centre, from_centre));
+#endif
+  c = max(c, vec3(0.0));
+#if GRADING
+  c = gradeScene(c, saturation, contrast);
+#endif
+  c = clamp(toneCurve(c, white), 0.0, 1.0);
+#if GRADING
+  c = clamp(gradeDisplay(c, lift, gamma, gain), 0.0, 1.0);
+#endif
+  c = encodeSrgb(c);
+#if GRAIN
+  c = addGrain(c, ivec2(gl_FragCoord.xy), frame, grain_strength);
+#endif
 #if DITHER
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   c += (noise - 0.5) / 255.0;
