@@ -39,6 +39,9 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
       GLbitfield bits = glBarriersOf(planned.barriers);
       // The plan counts a clear as a texture update; a clear of an attachment goes through the framebuffer instead.
       if (planned.barriers & graph::kBarrierTextureUpdate) bits |= GL_FRAMEBUFFER_BARRIER_BIT;
+      // The specification names no bit for glGenerateTextureMipmap; drivers fetch, render or copy: order all three.
+      if (passes_[step].context.spec->type == "mipmap")
+        bits |= GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
       glMemoryBarrier(bits);
       ++report.barriers;
     }
