@@ -25,11 +25,11 @@ gl::Context& sharedContext() {
 
 scene::Scene sceneOf(const Setup& setup) {
   scene::Scene scene;
-  scene.cameras.add({.name = "camera", .pose = setup.camera, .orbitDegreesPerSecond = 0, .path = {}});
+  scene.cameras.add({.name = "camera", .pose = setup.camera, .orbitDegreesPerSecond = setup.orbitDegreesPerSecond, .path = {}});
   for (const Ball& ball : setup.balls) {
     const auto material = scene.materials.add(
         {.name = "", .albedo = ball.albedo, .metallic = ball.metallic, .roughness = ball.roughness});
-    scene.spheres.add({.center = ball.center, .radius = ball.radius, .velocity = glm::vec3(0), .material = material});
+    scene.spheres.add({.center = ball.center, .radius = ball.radius, .velocity = ball.velocity, .material = material});
   }
   return scene;
 }
@@ -93,6 +93,12 @@ std::string Lab::complaints() {
 
 scene::ViewData Lab::view() const {
   return scene::makeView({.pose = setup_.camera, .previousPose = setup_.camera, .viewport = {setup_.width, setup_.height}});
+}
+
+scene::ViewData Lab::viewAt(std::uint32_t number) const {
+  const runtime::FrameInput input = runtime::headlessFrame(world_, number, 60);
+  return scene::makeView(
+      {.pose = input.pose, .previousPose = input.previousPose, .viewport = {setup_.width, setup_.height}});
 }
 
 }  // namespace weft::theory

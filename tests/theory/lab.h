@@ -19,6 +19,7 @@ struct Ball {
   float radius = 1;
   glm::vec3 albedo{1};
   float metallic = 1, roughness = 0.5f;
+  glm::vec3 velocity{0};                                       // units per second
 };
 
 struct Setup {
@@ -28,6 +29,7 @@ struct Setup {
   std::vector<std::string> disables;
   std::vector<Ball> balls;
   scene::CameraPose camera{.position = {0, 0, 20}, .target = {0, 0, 0}, .fovDegrees = 60, .nearPlane = 0.1};
+  double orbitDegreesPerSecond = 0;                            // of the camera about its target
   std::shared_ptr<const assets::ImageF> environment;           // null: a white one
 };
 
@@ -49,6 +51,8 @@ class Lab {
   std::string complaints();
   const runtime::World& world() const { return world_; }
   scene::ViewData view() const;
+  // The view of a frame at 60 frames per second, with the one before it.
+  scene::ViewData viewAt(std::uint32_t number) const;
 
  private:
   Setup setup_;
