@@ -3,6 +3,7 @@
 // sRGB encoding, grain, dither. Each is a variant of its own: what is off is not compiled. docs/effects.md has the details.
 // read    color   scene-referred radiance; `as linear` for ABERRATION, else any sampler (texels are fetched)
 //         bloom?  scene-referred, any size; `as linear` unless its size is the target's
+//         exposure?  buffer of exposure/adapt.comp.glsl: a factor beside `ev`; without it, or below 0, there is none
 // write   result  display-referred, sRGB encoded
 // params  all three, or none for the values in brackets:
 //         ev              exposure in stops; +1 doubles [0]
@@ -52,6 +53,9 @@
 uniform sampler2D color;
 #ifdef HAS_BLOOM
 uniform sampler2D bloom;
+#endif
+#ifdef HAS_EXPOSURE
+layout(std430) readonly buffer exposure { vec4 adapted; };
 #endif
 #if defined(HAS_EV) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
 layout(std140) uniform Parameters {
@@ -103,6 +107,9 @@ void main() {
   c = mix(c, textureLod(bloom, uv, 0.0).rgb, bloom_strength);
 #endif
   c *= exp2(ev);
+#ifdef HAS_EXPOSURE
+  if (adapted.x > 0.0) c *= adapted.x;
+#endif
 #if WHITE_BALANCE
   c = whiteBalance(c, temperature, tint);
 #endif

@@ -1,0 +1,65 @@
+// Exposure from the histogram, followed in time. One group of 256 threads.
+// read    histogram   of histogram.comp.glsl
+//         previous    the last frame's `exposure`; x below 0: there is none, so the target is taken at once
+// write   exposure    vec4: the factor for radiance, its target, the mean luminance, 0
+// params  key         the luminance that the mean is brought to
+//         low, high   share of the texels below which, and above which, they do not count, 0..1
+//         speed_up, speed_down  1 / s, when the scene has become brighter or darker than what is adapted to: stops left to
+//                     go fall by the factor e in 1 / speed, so the target is never passed, whatever the frame rate
+//         min_ev, max_ev  bounds of the exposure in stops
+#include "common/view.glsl"
+#include "histogram.glsl"
+
+layout(local_size_x = 256) in;
+layout(std430) readonly buffer histogram { uint counts[kBins]; };
+layout(std430) readonly buffer previous { vec4 before; };
+layout(std430) writeonly buffer exposure { vec4 adapted; };
+layout(std140) uniform Parameters {
+  float key;
+  float low;
+  float high;
+  float speed_up;
+  float speed_down;
+  float min_ev;
+  float max_ev;
+};
+shared uint sums[kBins];
+shared vec2 parts[kBins];
+
+void main() {
+  uint i = gl_LocalInvocationIndex;
+  uint count = i == 0u ? 0u : counts[i];
+  sums[i] = count;
+  barrier();
+  for (uint hop = 1u; hop < kBins; hop *= 2u) {
+    uint left = i >= hop ? sums[i - hop] : 0u;
+    barrier();
+    sums[i] += left;
+    barrier();
+  }
+  // What of this bin lies between the two percentiles.
+  float total = float(sums[kBins - 1u]);
+  float from = float(sums[i] - count), to = float(sums[i]);
+  float weight = max(min(to, high * total) - max(from, low * total), 0.0);
+  parts[i] = vec2(weight, weight * logLuminanceOf(float(i)));
+  barrier();
+  for (uint hop = kBins / 2u; hop > 0u; hop /= 2u) {
+    if (i < hop) parts[i] += parts[i + hop];
+    barrier();
+  }
+  if (i != 0u) return;
+
+  float old = before.x;
+  if (parts[0].x <= 0.0) {  // a black picture says nothing
+    adapted = old > 0.0 ? before : vec4(-1.0, -1.0, 0.0, 0.0);
+    return;
+  }
+  float mean = parts[0].y / parts[0].x;
+  float target = clamp(log2(key) - mean, min_ev, max_ev);
+  float ev = target;
+  if (old > 0.0) {
+    float speed = target < log2(old) ? speed_up : speed_down;
+    ev = mix(target, log2(old), exp(-speed * delta_time));
+  }
+  adapted = vec4(exp2(ev), exp2(target), exp2(mean), 0.0);
+}

@@ -1,0 +1,28 @@
+// How bright the picture is: a histogram of log2 luminance, from the means of 2 x 2 texels. Scene-referred.
+// read    source      `as linear`; one thread for each 2 x 2 texels of it
+// modify  histogram   256 counts, see histogram.glsl; cleared to 0 before
+#include "histogram.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+uniform sampler2D source;
+layout(std430) buffer histogram { uint counts[kBins]; };
+shared uint group_counts[kBins];
+
+void main() {
+  group_counts[gl_LocalInvocationIndex] = 0u;
+  barrier();
+  ivec2 size = textureSize(source, 0);
+  if (all(lessThan(gl_GlobalInvocationID.xy, uvec2(max(size / 2, 1))))) {
+    vec3 color = textureLod(source, (2.0 * vec2(gl_GlobalInvocationID.xy) + 1.0) / vec2(size), 0.0).rgb;
+    // Comparisons that a NaN fails.
+    float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
+    float bin = luminance > exp2(kDarkest) ? binOf(min(luminance, 65504.0)) : 0.0;
+    // Shared between the two nearest bins, so that the mean moves steadily with the picture.
+    uint upper = uint(fract(bin) * float(kUnit) + 0.5);
+    atomicAdd(group_counts[uint(bin)], kUnit - upper);
+    if (upper > 0u) atomicAdd(group_counts[min(uint(bin) + 1u, kBins - 1u)], upper);
+  }
+  barrier();
+  uint found = group_counts[gl_LocalInvocationIndex];
+  if (found > 0u) atomicAdd(counts[gl_LocalInvocationIndex], found);
+}
