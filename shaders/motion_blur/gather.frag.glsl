@@ -5,7 +5,7 @@
 //         tiles      from neighbour_max: where it holds less than half a pixel of motion, the source is copied bit for bit
 // write   result     radiance; alpha is the source's
 // params  shutter    degrees: 360 is open all the time between two frames
-//         samples    per line
+//         samples    per line at most; short streaks take one per pixel
 //         tile       pixels along a tile's side; also limits the blur
 //
 // Tiles after McGuire et al. (I3D 2012); weights after Jimenez ("Next generation post processing in Call of Duty", SIGGRAPH
@@ -52,8 +52,9 @@ void main() {
   float span = far_reach + 0.5;
   vec3 front = vec3(0.0), under = own.rgb * kOwn;
   float front_weight = 0.0, under_weight = kOwn;
-  for (int i = 0; i < samples; ++i) {
-    float t = ((float(i) + noise) / float(samples) * 2.0 - 1.0) * span;
+  int n = min(samples, int(ceil(2.0 * span)));
+  for (int i = 0; i < n; ++i) {
+    float t = ((float(i) + noise) / float(n) * 2.0 - 1.0) * span;
     ivec2 at = clamp(ivec2(floor(gl_FragCoord.xy + along * t)), ivec2(0), size - 1);
     float in_front = nearer(texelFetch(depth, at, 0).r, own_depth);
     vec3 c = texelFetch(source, at, 0).rgb;
@@ -69,8 +70,8 @@ void main() {
   }
   if (two_lines) {
     along = streak / own_reach;
-    for (int i = 0; i < samples; ++i) {
-      float t = ((float(i) + noise) / float(samples) * 2.0 - 1.0) * own_reach;
+    for (int i = 0; i < n; ++i) {
+      float t = ((float(i) + noise) / float(n) * 2.0 - 1.0) * own_reach;
       ivec2 at = clamp(ivec2(floor(gl_FragCoord.xy + along * t)), ivec2(0), size - 1);
       float w = 1.0 - nearer(texelFetch(depth, at, 0).r, own_depth);
       under += w * texelFetch(source, at, 0).rgb;
@@ -78,6 +79,6 @@ void main() {
     }
   }
   under /= under_weight;
-  float cover = min(front_weight / float(samples), 1.0);
+  float cover = min(front_weight / float(n), 1.0);
   result = vec4(front_weight > 0.0 ? mix(under, front / front_weight, cover) : under, own.a);
 }

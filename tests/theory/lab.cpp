@@ -67,12 +67,12 @@ void Lab::frame(std::uint32_t number) {
   REQUIRE_FALSE(diagnostics_.hasErrors());
 }
 
-Picture Lab::read(const std::string& resource, std::uint32_t mip) {
+Picture Lab::read(const std::string& resource, std::uint32_t mip, std::uint32_t layer) {
   const gl::TextureRef texture = renderer_->execution()->texture(resource);
   INFO(resource);
   REQUIRE(texture.id != 0);
   const gl::Extent extent = gl::extentOf(texture.desc, mip);
-  return {extent.width, extent.height, gl::floatChannelsOf(texture.desc.format), gl::readFloats(texture, mip)};
+  return {extent.width, extent.height, gl::floatChannelsOf(texture.desc.format), gl::readFloats(texture, mip, layer)};
 }
 
 std::vector<std::uint32_t> Lab::readBuffer(const std::string& resource, std::size_t words) {

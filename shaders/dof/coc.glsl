@@ -1,0 +1,16 @@
+// The circle of confusion of a thin lens. With focal length f, f-number N and focus distance s, a point at distance d is a disc
+// of diameter f^2 / (N (s - f)) |1 - s / d| on the sensor; s / d is linear in reversed-Z depth, near / d, and 0 for the sky.
+#ifndef DOF_COC_GLSL
+#define DOF_COC_GLSL
+
+#include "common/view.glsl"
+
+// Radius in pixels of the full picture: positive behind the focus, negative before it. `infinity` is that of the sky.
+float cocRadius(float depth, float infinity, float focus, float largest) {
+  return clamp(infinity * (1.0 - focus * depth / near_plane), -largest, largest);
+}
+
+// How much a radius in pixels of the full picture counts as blur: what is below half a pixel is left sharp.
+float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
+
+#endif

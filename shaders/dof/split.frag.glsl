@@ -1,0 +1,44 @@
+// The picture at half size in two layers, so that what is before the focus and what is not never mix. Scene-referred.
+// read    color   radiance; both by any sampler (texels are fetched)
+//         depth   reversed-Z; the sky, 0, is infinitely far
+// write   near    radiance of what is before the focus, and the radius of its disc in pixels of the half size; 0: nothing there
+//         far     the rest likewise; a negative radius says that something nearer hides all of it, and how blurred that is
+// params  infinity  radius in pixels of the full picture of a point infinitely far away
+//         focus     distance in focus, world units along the view axis
+//         largest   limit of the radius, pixels of the full picture
+#include "coc.glsl"
+
+uniform sampler2D color, depth;
+layout(std140) uniform Parameters {
+  float infinity;
+  float focus;
+  int largest;
+};
+out vec4 near;
+out vec4 far;
+
+void main() {
+  ivec2 last = textureSize(color, 0) - 1, first = ivec2(gl_FragCoord.xy) * 2;
+  vec4 before = vec4(0.0), behind = vec4(0.0);
+  float before_weight = 0.0, behind_weight = 0.0;
+  int before_count = 0;
+  bool first_before = false;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 at = min(first + ivec2(i & 1, i >> 1), last);
+    float radius = cocRadius(texelFetch(depth, at, 0).r, infinity, focus, float(largest) - 1.0), blur = blurOf(radius);
+    vec4 c = vec4(texelFetch(color, at, 0).rgb, abs(radius) * 0.5);
+    if (radius < -0.5) {
+      before += c * blur;
+      before_weight += blur;
+      ++before_count;
+      first_before = first_before || i == 0;
+    } else {
+      float w = max(radius > 0.0 ? blur : 0.0, 1e-3);
+      behind += c * w;
+      behind_weight += w;
+    }
+  }
+  // By majority, half of the ties: the silhouette encloses as much as before.
+  near = before_count >= (first_before ? 2 : 3) && before_weight > 0.0 ? before / before_weight : vec4(0.0);
+  far = behind_weight > 0.0 ? behind / behind_weight : before / max(before_weight, 1e-6) * vec4(1.0, 1.0, 1.0, -1.0);
+}
