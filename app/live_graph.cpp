@@ -74,15 +74,17 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
   return true;
 }
 
-void LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics) {
-  if (width == settings_.screenWidth && height == settings_.screenHeight) return;
+bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics) {
+  if (width == settings_.screenWidth && height == settings_.screenHeight) return false;
   settings_.screenWidth = width;
   settings_.screenHeight = height;
   if (renderer_.apply(settings_, world_, diagnostics)) ++switches_;
   watch();
+  return true;
 }
 
 bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnostics) {
+  ++changes_;
   if (!renderer_.apply(settings, world_, diagnostics)) return false;
   settings_ = std::move(settings);
   ++switches_;

@@ -23,8 +23,8 @@ class LiveGraph {
   bool load(base::Diagnostics& diagnostics);
   // Loads when watched files changed and have been quiet for a moment. `now` in seconds. True when it looked at the disk.
   bool poll(double now, base::Diagnostics& diagnostics);
-  // The sizes of the screen; does nothing when they are what they were.
-  void resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
+  // The size of the screen. False when it is what it was.
+  bool resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
   // As --set and --disable: by the full name of a parameter, of a pass. False after errors, and nothing has changed.
   bool setParameter(const std::string& name, const std::string& value, base::Diagnostics& diagnostics);
   bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
@@ -33,8 +33,9 @@ class LiveGraph {
   const graph::Settings& settings() const { return settings_; }
   // Whether the files as they are on disk are what is shown.
   bool good() const { return good_; }
-  // Counts switches to another plan.
+  // Count switches to another plan, and calls of setParameter and setEnabled.
   std::uint64_t switches() const { return switches_; }
+  std::uint64_t changes() const { return changes_; }
 
  private:
   bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
@@ -49,7 +50,7 @@ class LiveGraph {
   base::FileWatcher watcher_;
   bool sceneStale_ = false, environmentStale_ = false, pending_ = false, good_ = true;
   double changedAt_ = 0;
-  std::uint64_t switches_ = 0;
+  std::uint64_t switches_ = 0, changes_ = 0;
 };
 
 }  // namespace weft::app

@@ -81,6 +81,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   addGraphOptions(*view, options, raw);
   addDeviceOptions(*view, options);
   view->add_option("--max-frames", options.maxFrames, "close after this many frames (0: when the window is closed)");
+  view->add_flag("!--no-ui", options.ui, "no panels over the picture");
   view->add_option("--screenshot", options.screenshot, "PNG to write of the last frame before closing");
 
   CLI::App* check = app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");

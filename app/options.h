@@ -29,6 +29,7 @@ struct Options {
   std::string frameGraph;                    // bench --frame
   std::uint32_t maxFrames = 0;               // view: stop after this many frames; 0: until closed
   std::string screenshot;                    // view: written at the end
+  bool ui = true;                            // view: panels over the picture
 };
 
 // Empty and `exitCode` set when the program should stop (help, a wrong argument; the text is already printed).

@@ -34,6 +34,15 @@ void openMasks() {
   glDisable(GL_SCISSOR_TEST);
 }
 
+void releaseBindings() {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glUseProgram(0);
+  glBindVertexArray(0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTextureUnit(0, 0);
+  glBindSampler(0, 0);
+}
+
 void applyState(const PreparedPass& pass) {
   const graph::StateSpec& state = pass.context.spec->state;
   bool depthAttached = false, depthWritable = false;

@@ -9,4 +9,8 @@ void applyState(const PreparedPass& pass);
 // What clears and blits rely on: every mask open, scissor off.
 void openMasks();
 
+// Framebuffer 0 bound for drawing and reading, and no program, vertex array, texture or sampler in unit 0: where a library
+// that draws over the picture starts, so that what it puts back afterwards is nothing that a reload may have deleted.
+void releaseBindings();
+
 }  // namespace weft::runtime

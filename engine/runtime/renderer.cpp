@@ -143,6 +143,7 @@ std::optional<assets::Image8> Renderer::readPresented8() {
 void Renderer::present(std::uint32_t width, std::uint32_t height) {
   const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
   openMasks();
+  releaseBindings();
   if (texture.id == 0) {
     const float black[4] = {0, 0, 0, 1};
     glClearNamedFramebufferfv(0, GL_COLOR, 0, black);

@@ -41,7 +41,8 @@ class Renderer {
   // The presented picture with its top row first. Empty when the graph presents nothing.
   std::optional<assets::Image8> readPresented8();
   std::optional<assets::ImageF> readPresentedFloat();
-  // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree.
+  // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree; leaves it bound and
+  // releaseBindings() of gl_state.h done.
   void present(std::uint32_t width, std::uint32_t height);
 
  private:

@@ -1,0 +1,52 @@
+#include "app/ui/overlay.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+namespace weft::app::ui {
+
+std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.FontGlobalScale = scale;
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().ScaleAllSizes(scale);
+  ImGui::GetStyle().WindowRounding = 3;
+  ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.88f;
+  if (!ImGui_ImplGlfw_InitForOpenGL(window, true)) {
+    ImGui::DestroyContext();
+    return nullptr;
+  }
+  if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    return nullptr;
+  }
+  return std::unique_ptr<Overlay>(new Overlay);
+}
+
+Overlay::~Overlay() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Overlay::begin() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Overlay::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool Overlay::wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Overlay::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
+
+}  // namespace weft::app::ui

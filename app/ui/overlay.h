@@ -1,0 +1,31 @@
+// Dear ImGui over framebuffer 0 of a GLFW window. Installs its callbacks behind those that the window has, which go on being
+// called; they ask wantsMouse() and wantsKeys() whether an event is theirs. Draws with state of its own and puts back
+// what it found. Does not: know graphs (the panels do), write settings files, or touch the presented texture.
+#pragma once
+
+#include <memory>
+
+struct GLFWwindow;
+
+namespace weft::app::ui {
+
+class Overlay {
+ public:
+  // `window` must be current, have its callbacks, and outlive this. Null when there is no OpenGL loader for it.
+  static std::unique_ptr<Overlay> create(GLFWwindow* window, float scale);
+  ~Overlay();
+  Overlay(const Overlay&) = delete;
+  Overlay& operator=(const Overlay&) = delete;
+
+  // Panels are made between the two; end() draws them. Framebuffer 0 must be bound.
+  void begin();
+  void end();
+
+  bool wantsMouse() const;
+  bool wantsKeys() const;  // a text field has the keyboard
+
+ private:
+  Overlay() = default;
+};
+
+}  // namespace weft::app::ui

@@ -1,0 +1,92 @@
+#include "app/ui/panels.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/key_bindings.h"
+
+namespace weft::app::ui {
+
+void Log::addPast(const base::Diagnostics& diagnostics) {
+  for (const base::Diagnostic& each : diagnostics.items()) {
+    const auto same = [&](const base::Diagnostic& old) { return old.code == each.code && old.message == each.message; };
+    if (std::ranges::none_of(past, same)) past.push_back(each);
+  }
+  if (past.size() > 100) past.erase(past.begin(), past.end() - 100);
+}
+
+void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnostics) {
+  if (explained_ != live_.switches() || !explainer_) {
+    explainer_ = std::make_unique<graph::Explainer>(renderer_.execution()->plan());
+    explained_ = live_.switches();
+  }
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  if (visible) {
+    const float scale = ImGui::GetIO().FontGlobalScale;
+    const ImVec2 size(std::min(380.0f * scale, screen.x * 0.45f), std::max(64.0f, screen.y * 0.75f));
+    ImGui::SetNextWindowPos({8, 8}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Parameters")) {
+      drawSummary(report);
+      drawParameters(diagnostics);
+    }
+    ImGui::End();
+    ImGui::SetNextWindowPos({screen.x - size.x - 8, 8}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Passes")) drawPasses(diagnostics);
+    ImGui::End();
+  }
+  if (!log_.files.empty() || !log_.change.empty() || (visible && !log_.past.empty())) drawLog();
+  if (help) drawHelp();
+}
+
+void Panels::drawSummary(const runtime::FrameReport& report) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const graph::Settings& settings = live_.settings();
+  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth, settings.screenHeight,
+              1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)), report.passesRun, report.passesSkipped);
+  ImGui::TextDisabled("%s", renderer_.graphPath().c_str());
+  ImGui::TextDisabled("F1: help");
+}
+
+void Panels::drawLog() const {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float height = std::max(64.0f, screen.y * 0.2f);
+  ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
+  ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
+  ImGui::Begin("Log", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+  if (!live_.good()) ImGui::TextColored({1, 0.7f, 0.3f, 1}, "This is the last good picture; the files on disk have errors:");
+  for (const auto* list : {&log_.files, &log_.change, &log_.past})
+    for (const base::Diagnostic& each : *list) {
+      const ImVec4 color = each.severity == base::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
+                           : each.severity == base::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
+                                                                      : ImVec4(0.7f, 0.7f, 0.7f, 1);
+      ImGui::PushStyleColor(ImGuiCol_Text, color);
+      ImGui::PushTextWrapPos(0);
+      ImGui::TextUnformatted(base::format(each).c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::PopStyleColor();
+    }
+  ImGui::End();
+}
+
+void Panels::drawHelp() const {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x - 16, screen.y - 16});
+  ImGui::Begin("Help", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const KeyBinding& binding : kKeyBindings) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", binding.name);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(binding.does);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace weft::app::ui

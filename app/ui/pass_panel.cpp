@@ -1,0 +1,89 @@
+// Passes in the order they run; below, those that do not, and why.
+#include <imgui.h>
+
+#include <cstring>
+#include <string>
+
+#include "app/ui/panels.h"
+
+namespace weft::app::ui {
+
+namespace {
+
+// --disable NAME of a reason, or nothing when something else turned the pass off.
+std::string disabledBy(const graph::DisabledPass& pass) {
+  constexpr const char* kOption = "--disable ";
+  return pass.why.starts_with(kOption) ? pass.why.substr(std::strlen(kOption)) : std::string();
+}
+
+void explain(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+}  // namespace
+
+void Panels::drawPasses(base::Diagnostics& diagnostics) {
+  if (explained_ != live_.switches()) return;  // a parameter has just replaced the plan: in the next frame
+  runtime::Execution& execution = *renderer_.execution();
+  const graph::Plan& plan = execution.plan();
+  const graph::FlatGraph& graph = *plan.graph;
+  gl::PassTimers& timers = renderer_.device().timers;
+  bool profile = timers.enabled();
+  if (ImGui::Checkbox("measure each pass", &profile)) timers.setEnabled(profile);
+  std::string pass;  // to turn on or off when all is drawn
+  bool enable = false;
+
+  const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+  if (ImGui::BeginTable("passes", 3, flags)) {
+    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(plan.steps.size()));
+    while (clipper.Step())
+      for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+        const auto step = static_cast<std::size_t>(row);
+        const std::uint32_t index = plan.steps[step].pass;
+        const std::string& name = graph.passNames[index];
+        const bool ran = execution.ran(name);
+        ImGui::PushID(row);
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        bool on = true;
+        if (ImGui::Checkbox(name.c_str(), &on)) pass = graph.specs[index].declared;
+        explain(explainer_->whyPass(index) + "\n" + explainer_->whyHere(index));
+        ImGui::TableNextColumn();
+        ran ? ImGui::TextUnformatted("ran") : ImGui::TextDisabled("kept");
+        explain(ran ? "" : "nothing it depends on has changed since it ran");
+        ImGui::TableNextColumn();
+        if (profile && step < timers.results().size() && timers.results()[step].ran)
+          ImGui::Text("%6.2f ms", timers.results()[step].gpu);
+        ImGui::PopID();
+      }
+    ImGui::EndTable();
+  }
+
+  const auto listIdle = [&](const std::string& name, const std::string& why, const std::string& option) {
+    bool off = false;
+    ImGui::PushID(name.c_str());
+    ImGui::BeginDisabled(option.empty());
+    if (ImGui::Checkbox(name.c_str(), &off)) {
+      pass = option;
+      enable = true;
+    }
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", why.c_str());
+    explain(why);
+    ImGui::PopID();
+  };
+  for (std::uint32_t i = 0; i < graph.passes.size(); ++i)
+    if (plan.stepOf[i] == graph::kNone) listIdle(graph.passNames[i], explainer_->whyPass(i), {});
+  for (const graph::DisabledPass& each : graph.disabled) listIdle(each.name, each.why, disabledBy(each));
+  if (!pass.empty()) live_.setEnabled(pass, enable, diagnostics);
+}
+
+}  // namespace weft::app::ui
