@@ -3,7 +3,7 @@
 //
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
 // W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs.
-// Numbers are never reused. Does not hold the message texts: those stand where the mistake is found.
+// Numbers are never reused; W010 (overlays are not supported yet) is retired. Does not hold the message texts: those stand where the mistake is found.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,15 @@ namespace weft::base {
   X(7,   "nested too deeply")                                             \
   X(8,   "file includes itself")                                          \
   X(9,   "duplicate name")                                                \
-  X(10,  "overlays are not supported yet")                                \
   X(11,  "unknown word")                                                  \
   X(12,  "not a name")                                                    \
   X(13,  "value out of its range")                                        \
   X(14,  "keys that exclude each other")                                  \
+  X(15,  "file extends itself")                                           \
+  X(16,  "pass without a place")                                          \
+  X(17,  "nothing there to change")                                       \
+  X(18,  "kinds that do not merge")                                       \
+  X(19,  "overlay out of place")                                          \
   /* expressions and references */                                        \
   X(20,  "expression cannot be parsed")                                   \
   X(21,  "reference cannot be parsed")                                    \

@@ -168,6 +168,14 @@ struct OutputDesc {
   RefDesc ref;
 };
 
+// A value that the file, or an overlay on it, gives to a parameter of its own or of a file it includes.
+struct SetDesc {
+  std::string name;            // any unique suffix
+  Place place;
+  std::string pointer;
+  Value value;
+};
+
 struct GraphDesc {
   std::string path;            // as opened; "" for text without a file
   std::string name;
@@ -178,9 +186,11 @@ struct GraphDesc {
   std::vector<PassDesc> passes;
   std::optional<RefDesc> present;
   std::vector<OutputDesc> outputs;
+  std::vector<SetDesc> sets;               // in order: the last wins
   std::vector<std::string> unread;         // names declared in this file that were reported as wrong and left out:
                                            // a use of one is no second error
-  std::vector<std::string> files;          // this file and every file included below it, for watching
+  std::vector<std::string> files;          // this file, what it extends, its presets, and all of every file
+                                           // included below it, for watching
 };
 
 }  // namespace weft::graph

@@ -6,7 +6,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand_resources.h"
-#include "engine/graph/expand_settings.h"
+#include "engine/graph/suffix.h"
 
 namespace weft::graph::expansion {
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/suffix.h"
 
 namespace weft::graph::expansion {
 
@@ -62,53 +63,62 @@ std::string rangeText(const ParameterDesc& desc) {
   return desc.min ? fmt::format("a number from {}", *desc.min) : fmt::format("a number up to {}", *desc.max);
 }
 
-// Indices of `names` that `wanted` means: the equal one, else all that end in it.
-std::vector<std::size_t> matches(const std::vector<std::string>& names, std::string_view wanted) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == wanted) return {i};
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (hasSuffix(names[i], wanted)) found.push_back(i);
-  return found;
-}
-
-// The nearest of the names and of their last parts.
-std::string hintAmong(std::string_view wanted, const std::vector<std::string>& names) {
-  if (const std::string near = base::nearestName(wanted, names); !near.empty())
-    return fmt::format("did you mean '{}'?", near);
-  std::vector<std::string> leaves;
-  for (const std::string& name : names) leaves.push_back(name.substr(name.rfind('.') + 1));
-  return base::nearestHint(wanted, leaves);
-}
-
 bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
                      const std::vector<std::size_t>& found, const std::string& source,
-                     std::string_view wanted, std::string_view noun) {
+                     std::string_view wanted, std::string_view noun, const Place& place = {}) {
   if (found.size() == 1) return false;
   std::string all;
   for (const std::size_t i : found) all += (all.empty() ? "" : ", ") + names[i];
-  auto& d = model.diagnostics.error(Code::W46, {},
+  auto& d = model.diagnostics.error(Code::W46, place,
                                     fmt::format("{}: '{}' may mean several {}", source, wanted, noun));
   d.found = all;
   d.hint = fmt::format("write more of the name, such as '{}'", names[found[0]]);
   return true;
 }
 
-void applySet(Model& model, const std::string& wanted, const std::string& text) {
-  const std::string source = fmt::format("--set {}={}", wanted, text);
+// Where a value comes from, and which parameters it may mean: those of `prefix`, by the rest of their names.
+struct Origin {
+  std::string source;  // as the person wrote it
+  std::string_view prefix = "";
+  Place place = {};
+  std::string pointer = {};
+};
+
+// `valueFor(type)` makes the value.
+template <class ValueFor>
+void applySet(Model& model, const std::string& wanted, const Origin& origin, const ValueFor& valueFor) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : model.parameters) names.push_back(parameter.path);
-  const std::vector<std::size_t> found = matches(names, wanted);
+  std::vector<std::size_t> parameters;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    if (model.parameters[i].path.starts_with(origin.prefix)) {
+      names.push_back(model.parameters[i].path.substr(origin.prefix.size()));
+      parameters.push_back(i);
+    }
+  const std::vector<std::size_t> found = suffixMatches(names, wanted);
   if (found.empty()) {
-    auto& d = model.diagnostics.error(Code::W44, {},
-                                      fmt::format("{}: no parameter is called '{}'", source, wanted));
-    d.hint = hintAmong(wanted, names);
+    auto& d = model.diagnostics.error(
+        Code::W44, origin.place, fmt::format("{}: no parameter is called '{}'", origin.source, wanted));
+    d.pointer = origin.pointer;
+    d.hint = suffixHint(wanted, names);
     return;
   }
-  if (reportUnlessOne(model, names, found, source, wanted, "parameters")) return;
-  Parameter& parameter = model.parameters[found[0]];
-  Value value = parseValue(text, parameter.desc->type);
-  if (checkParameterValue(model, parameter, value, {}, source)) parameter.value = std::move(value);
+  if (reportUnlessOne(model, names, found, origin.source, wanted, "parameters", origin.place)) return;
+  Parameter& parameter = model.parameters[parameters[found[0]]];
+  Value value = valueFor(parameter.desc->type);
+  if (checkParameterValue(model, parameter, value, origin.place, origin.source))
+    parameter.value = std::move(value);
+}
+
+// What files say first, the innermost first, so that an including file has the last word; then the command line.
+void applySets(Model& model) {
+  for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
+    for (const SetDesc& set : scope->desc->sets)
+      applySet(model, set.name,
+               {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), scope->prefix, set.place, set.pointer},
+               [&](Type) { return set.value; });
+  for (const auto& [name, text] : model.settings.sets)
+    applySet(model, name, {fmt::format("--set {}={}", name, text)},
+             [&](Type type) { return parseValue(text, type); });
 }
 
 void applyDisable(Model& model, const std::string& wanted) {
@@ -131,7 +141,7 @@ void applyDisable(Model& model, const std::string& wanted) {
         candidates.push_back({nullptr, names.back()});
       }
   }
-  const std::vector<std::size_t> found = matches(names, declared);
+  const std::vector<std::size_t> found = suffixMatches(names, declared);
   if (!found.empty()) {
     if (reportUnlessOne(model, names, found, source, wanted, "passes")) return;
     const Candidate& match = candidates[found[0]];
@@ -145,7 +155,7 @@ void applyDisable(Model& model, const std::string& wanted) {
   }
   std::vector<std::string> parameters;
   for (const Parameter& parameter : model.parameters) parameters.push_back(parameter.path);
-  if (const auto named = matches(parameters, wanted); !named.empty()) {
+  if (const auto named = suffixMatches(parameters, wanted); !named.empty()) {
     auto& d = model.diagnostics.error(
         Code::W84, {}, fmt::format("{}: '{}' is a parameter, not a pass", source, parameters[named[0]]));
     const Parameter& parameter = model.parameters[named[0]];
@@ -154,15 +164,10 @@ void applyDisable(Model& model, const std::string& wanted) {
     return;
   }
   auto& d = model.diagnostics.error(Code::W45, {}, fmt::format("{}: no pass is called '{}'", source, wanted));
-  d.hint = hintAmong(declared, names);
+  d.hint = suffixHint(declared, names);
 }
 
 }  // namespace
-
-bool hasSuffix(std::string_view name, std::string_view suffix) {
-  if (!name.ends_with(suffix)) return false;
-  return name.size() == suffix.size() || name[name.size() - suffix.size() - 1] == '.';
-}
 
 bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
                          const std::string& source) {
@@ -226,7 +231,7 @@ void applySettings(Model& model) {
     d.expected = "1 to 16384 pixels a side";
     d.found = fmt::format("{}x{}", model.settings.screenWidth, model.settings.screenHeight);
   }
-  for (const auto& [name, text] : model.settings.sets) applySet(model, name, text);
+  applySets(model);
   for (const std::string& name : model.settings.disables) applyDisable(model, name);
 }
 

@@ -1,4 +1,4 @@
-// --set and --disable: finds the parameter or pass a name means (the full dotted name, else the only one that
+// --set, "set" of files and --disable: finds the parameter or pass a name means (the full dotted name, else the only one that
 // ends in it) and parses and checks values. The defaults of parameters were checked by the reader.
 #pragma once
 
@@ -13,8 +13,5 @@ void applySettings(Model& model);
 // person wrote it ("--set exposure=12", "default").
 bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
                          const std::string& source);
-
-// True when the dotted `name` is `suffix` or ends in ".suffix".
-bool hasSuffix(std::string_view name, std::string_view suffix);
 
 }  // namespace weft::graph::expansion

@@ -7,13 +7,20 @@ namespace {
 constexpr KeySpec kGraph[] = {
     {"$schema", R"({"type":"string"})", "where editors find this schema; ignored"},
     {"name", R"({"type":"string"})", "name of the graph; the file's name when absent"},
-    {"parameters", R"({"type":"object","additionalProperties":{"$ref":"#/$defs/parameter"}})",
+    {"extends", R"({"type":"string"})", "path of the graph this file changes, from this file's folder"},
+    {"set",
+     R"({"type":"object","additionalProperties":{"anyOf":[{"type":["number","boolean","string"]},{"type":"array","items":{"type":"number"},"minItems":2,"maxItems":4}]}})",
+     "values of parameters, by any unique suffix of a name"},
+    {"parameters",
+     R"({"type":"object","additionalProperties":{"anyOf":[{"$ref":"#/$defs/parameter"},{"$ref":"#/$defs/change"}]}})",
      "what a person may change: $name in expressions"},
-    {"let", R"({"type":"object","additionalProperties":{"$ref":"#/$defs/value"}})",
+    {"let", R"({"type":"object","additionalProperties":{"anyOf":[{"$ref":"#/$defs/value"},{"type":"null"}]}})",
      "named expressions: $name in others"},
-    {"resources", R"({"type":"object","additionalProperties":{"$ref":"#/$defs/resource"}})",
+    {"resources",
+     R"({"type":"object","additionalProperties":{"anyOf":[{"$ref":"#/$defs/resource"},{"$ref":"#/$defs/change"}]}})",
      "textures, buffers, imports, inputs and alternatives, by name"},
-    {"passes", R"({"type":"array","items":{"anyOf":[{"$ref":"#/$defs/pass"},{"$ref":"#/$defs/include"}]}})",
+    {"passes",
+     R"({"type":"array","items":{"anyOf":[{"$ref":"#/$defs/pass"},{"$ref":"#/$defs/include"},{"$ref":"#/$defs/passChange"}]}})",
      "passes and includes, in declared order", true},
     {"present", "@reference", "the picture"},
     {"outputs", R"({"type":"object","additionalProperties":{"$ref":"#/$defs/reference"}})",
@@ -114,6 +121,12 @@ constexpr KeySpec kState[] = {
     {"offset", "@value", "[factor, units] of the depth offset"},
 };
 
+constexpr KeySpec kPlace[] = {
+    {"before", R"({"type":"string"})", "the pass, or the prefix of the include, that comes next"},
+    {"after", R"({"type":"string"})", "the pass, or the prefix of the include, that comes first"},
+    {"remove", R"({"type":"boolean"})", "takes the pass or include of this name out"},
+};
+
 }  // namespace
 
 const std::span<const KeySpec> kGraphKeys = kGraph;
@@ -125,5 +138,6 @@ const std::span<const KeySpec> kInputKeys = kInput;
 const std::span<const KeySpec> kPassKeys = kPass;
 const std::span<const KeySpec> kIncludeKeys = kInclude;
 const std::span<const KeySpec> kStateKeys = kState;
+const std::span<const KeySpec> kPlaceKeys = kPlace;
 
 }  // namespace weft::graph

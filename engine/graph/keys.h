@@ -25,10 +25,7 @@ extern const std::span<const KeySpec> kInputKeys;
 extern const std::span<const KeySpec> kPassKeys;
 extern const std::span<const KeySpec> kIncludeKeys;
 extern const std::span<const KeySpec> kStateKeys;
-
-// Keys of overlays, which are known but not supported yet.
-constexpr std::array<std::string_view, 2> kOverlayGraphKeys = {"extends", "set"};
-constexpr std::array<std::string_view, 3> kOverlayPassKeys = {"before", "after", "remove"};
+extern const std::span<const KeySpec> kPlaceKeys;  // of a stanza in an overlay, beside those of passes and includes
 
 constexpr std::array<std::string_view, 8> kParameterTypes = {"bool", "int",  "float",  "vec2",
                                                              "vec3", "vec4", "choice", "file"};

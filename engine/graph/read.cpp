@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "engine/base/file.h"
+#include "engine/graph/overlay.h"
 #include "engine/graph/read_context.h"
 
 namespace weft::graph {
@@ -19,52 +19,54 @@ using Type = JsonValue::Type;
 
 // One file of a chain of includes, innermost last.
 struct OpenFile {
-  std::string identity;  // canonical path, so that two spellings of one file are recognised
+  std::string identity;
   std::string path;
 };
 
 class GraphReader {
  public:
-  explicit GraphReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit GraphReader(Diagnostics& diagnostics) : diagnostics_(diagnostics), loader_(diagnostics) {}
 
   std::shared_ptr<const GraphDesc> readFile(const std::string& path, const Place& from) {
     const std::string identity = identityOf(path);
     if (const auto known = finished_.find(identity); known != finished_.end()) return known->second;
-    const std::optional<std::string> text = base::readFile(path, diagnostics_, Code::W1, from);
-    std::shared_ptr<const GraphDesc> graph = text ? readText(*text, path) : nullptr;
-    finished_[identity] = graph;
-    return graph;
+    const std::shared_ptr<const Source> source = loader_.file(path, from);
+    return finished_[identity] = source ? readSource(*source) : nullptr;
   }
 
   std::shared_ptr<const GraphDesc> readText(std::string_view text, const std::string& path) {
-    const auto file = std::make_shared<const std::string>(path);
-    const std::optional<JsonValue> root = parseJson(text, file, diagnostics_);
-    if (!root) return nullptr;
-    open_.push_back({identityOf(path), path});
-    std::shared_ptr<const GraphDesc> graph = readRoot(*root, path);
+    const std::shared_ptr<const Source> source = loader_.text(text, path);
+    return source ? readSource(*source) : nullptr;
+  }
+
+  std::shared_ptr<const GraphDesc> readWith(const std::string& path, std::span<const std::string> presets) {
+    std::shared_ptr<const Source> source = loader_.file(path, {});
+    for (const std::string& preset : presets)
+      if (source)
+        if (auto made = loader_.withPreset(*source, preset)) source = std::move(made);
+    return source ? readSource(*source) : nullptr;
+  }
+
+ private:
+  std::shared_ptr<const GraphDesc> readSource(const Source& source) {
+    open_.push_back({source.identity, source.path});
+    std::shared_ptr<const GraphDesc> graph = readRoot(source);
     open_.pop_back();
     return graph;
   }
 
- private:
-  static std::string identityOf(const std::string& path) {
-    std::error_code ec;
-    const auto canonical = std::filesystem::weakly_canonical(path, ec);
-    return ec ? path : canonical.string();
-  }
-
-  std::shared_ptr<const GraphDesc> readRoot(const JsonValue& root, const std::string& path) {
+  std::shared_ptr<const GraphDesc> readRoot(const Source& source) {
+    const JsonValue& root = source.root;
     ReadContext context(diagnostics_);
     if (!context.expect(root, Type::object, "a graph")) return nullptr;
-    if (reportOverlay(context, root)) return nullptr;
     auto graph = std::make_shared<GraphDesc>();
-    graph->path = path;
+    graph->path = source.path;
     graph->place = root.place;
-    graph->files.push_back(path);
+    graph->files = source.files;
     context.checkKeys(root, kGraphKeys, "a graph");
     context.text(root.find("$schema"), "\"$schema\"");
     graph->name = context.text(root.find("name"), "\"name\"");
-    if (graph->name.empty()) graph->name = std::filesystem::path(path).stem().string();
+    if (graph->name.empty()) graph->name = std::filesystem::path(source.path).stem().string();
     readVariables(context, root, *graph);
     for (const JsonMember& member : membersOf(context, root, "resources")) {
       if (std::optional<ResourceDesc> resource = readResource(context, member))
@@ -72,7 +74,8 @@ class GraphReader {
       else
         graph->unread.push_back(member.key);
     }
-    readPasses(context, root, *graph);
+    readSets(context, source, *graph);
+    readPasses(context, source, *graph);
     graph->present = context.ref(root.find("present"), "\"present\"");
     for (const JsonMember& member : membersOf(context, root, "outputs")) {
       const bool named = context.checkName(member.key, member.place, member.value.pointer, "an output");
@@ -80,21 +83,6 @@ class GraphReader {
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
     return graph;
-  }
-
-  static bool reportOverlay(ReadContext& context, const JsonValue& root) {
-    bool overlay = false;
-    for (const JsonMember& member : root.members)
-      if (std::find(kOverlayGraphKeys.begin(), kOverlayGraphKeys.end(), member.key) !=
-          kOverlayGraphKeys.end()) {
-        overlay = true;
-        context
-            .errorAt(
-                Code::W10, member.place, member.value.pointer,
-                fmt::format("\"{}\" makes this file an overlay; overlays are not supported yet", member.key))
-            .hint = "write the whole graph, and \"include\" the parts it shares";
-      }
-    return overlay;
   }
 
   static const std::vector<JsonMember>& membersOf(ReadContext& context, const JsonValue& root,
@@ -125,8 +113,15 @@ class GraphReader {
     }
   }
 
-  void readPasses(ReadContext& context, const JsonValue& root, GraphDesc& graph) {
-    const JsonValue* passes = root.find("passes");
+  static void readSets(ReadContext& context, const Source& source, GraphDesc& graph) {
+    if (const JsonValue* set = source.root.find("set")) context.expect(*set, Type::object, "\"set\"");
+    for (const JsonMember& member : source.sets)
+      if (std::optional<Value> value = readValue(context, member))
+        graph.sets.push_back({member.key, member.place, member.value.pointer, *std::move(value)});
+  }
+
+  void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {
+    const JsonValue* passes = source.root.find("passes");
     if (!passes || !context.expect(*passes, Type::array, "\"passes\"")) return;
     ReadContext::Seen seen;
     graph.passes.reserve(passes->items.size());
@@ -141,14 +136,13 @@ class GraphReader {
       context.checkFresh(seen, pass->name, pass->namePlace,
                          pass->pointer + (pass->include ? "/include" : "/name"), "pass");
       context.pass.clear();
-      if (pass->include) follow(*item.find("include"), *pass->include, graph);
+      if (pass->include) follow(*item.find("include"), *pass->include, source, graph);
       graph.passes.push_back(*std::move(pass));
     }
   }
 
-  void follow(const JsonValue& stanza, IncludeDesc& include, GraphDesc& graph) {
-    const std::string path =
-        (std::filesystem::path(graph.path).parent_path() / include.file).lexically_normal().string();
+  void follow(const JsonValue& stanza, IncludeDesc& include, const Source& source, GraphDesc& graph) {
+    const std::string path = pathBeside(stanza);
     const std::string identity = identityOf(path);
     const auto again = std::find_if(open_.begin(), open_.end(),
                                     [&](const OpenFile& file) { return file.identity == identity; });
@@ -160,7 +154,9 @@ class GraphReader {
       d.hint = "remove one of these includes";
       return;
     }
-    include.graph = readFile(path, stanza.place);
+    const auto changed = source.changed.find(include.as);
+    include.graph =
+        changed != source.changed.end() ? readSource(*changed->second) : readFile(path, stanza.place);
     std::vector<std::string> below = include.graph ? include.graph->files : std::vector<std::string>{path};
     for (std::string& file : below)
       if (std::find(graph.files.begin(), graph.files.end(), file) == graph.files.end())
@@ -168,6 +164,7 @@ class GraphReader {
   }
 
   Diagnostics& diagnostics_;
+  SourceLoader loader_;
   std::vector<OpenFile> open_;
   std::map<std::string, std::shared_ptr<const GraphDesc>>
       finished_;  // by identity; null for files that failed
@@ -187,6 +184,11 @@ std::shared_ptr<const GraphDesc> readSorted(Diagnostics& diagnostics, Read read)
 
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, Diagnostics& diagnostics) {
   return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readFile(path, {}); });
+}
+
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
+                                           Diagnostics& diagnostics) {
+  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readWith(path, presets); });
 }
 
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,

@@ -65,6 +65,8 @@ class ReadContext {
 
 // The parts, by what stands in the file; each takes a value of any type and reports what does not fit.
 std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member);
+// A value of "set": a number, a boolean, a word or path, a list of two to four numbers.
+std::optional<Value> readValue(ReadContext& context, const JsonMember& member);
 std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member);
 // Include stanzas come back with include->graph still null.
 std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value);

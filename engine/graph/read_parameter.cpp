@@ -254,4 +254,30 @@ std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMembe
   return named ? parameter : std::nullopt;
 }
 
+std::optional<Value> readValue(ReadContext& context, const JsonMember& member) {
+  const JsonValue& value = member.value;
+  switch (value.type) {
+    case JsonValue::Type::number:
+      return Value::number(value.number);
+    case JsonValue::Type::boolean:
+      return Value::boolean(value.flag);
+    case JsonValue::Type::string:
+      return Value::text(value.text);
+    case JsonValue::Type::array: {
+      Value list;
+      list.type = Value::Type::list;
+      for (const JsonValue& item : value.items)
+        if (item.is(JsonValue::Type::number) && list.count < list.v.size()) list.v[list.count++] = item.number;
+      if (value.items.size() >= 2 && list.count == value.items.size()) return list;
+      break;
+    }
+    default:
+      break;
+  }
+  auto& d = context.error(Code::W3, value, fmt::format("the value of '{}' has the wrong type", member.key));
+  d.expected = "a number, true or false, a word, a path, or a list of two to four numbers";
+  d.found = describe(value);
+  return std::nullopt;
+}
+
 }  // namespace weft::graph

@@ -29,25 +29,10 @@ class PassReader {
     if (!context_.expect(value_, Type::object, "a pass")) return std::nullopt;
     if (const JsonValue* name = value_.find("name"); name && name->is(Type::string))
       context_.pass = name->text;
-    if (reportOverlay()) return std::nullopt;
     return isInclude() ? readInclude() : readPass();
   }
 
  private:
-  bool reportOverlay() {
-    bool overlay = false;
-    for (const JsonMember& member : value_.members)
-      for (const std::string_view key : kOverlayPassKeys)
-        if (member.key == key) {
-          overlay = true;
-          context_
-              .errorAt(Code::W10, member.place, member.value.pointer,
-                       fmt::format("\"{}\" belongs to overlays, which are not supported yet", key))
-              .hint = "write the pass at its place in the list";
-        }
-    return overlay;
-  }
-
   // Also when "include" is misspelt: "incldue" is nearer to it than to any key of a pass.
   bool isInclude() const {
     if (value_.find("include")) return true;

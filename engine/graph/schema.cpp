@@ -51,6 +51,8 @@ Json namedBy(std::string_view shape, const char* description) {
           {"additionalProperties", reference(shape)}};
 }
 
+Json passChange();
+
 Json definitions() {
   Json defs;
   defs["name"] = {{"description", "letters, digits and '_'; not mip, layer, face, stencil, x, y, z, w"},
@@ -97,7 +99,37 @@ Json definitions() {
   defs["state"] = objectOf(kStateKeys, "fixed-function state");
   defs["pass"] = objectOf(kPassKeys, "a pass");
   defs["include"] = objectOf(kIncludeKeys, "the passes of another file, under a prefix");
+  defs["change"] = {{"description", "in an overlay: the keys that change, null to take away"},
+                    {"type", {"object", "null"}}};
+  defs["passChange"] = passChange();
   return defs;
+}
+
+// Stanzas of overlays: any key of passes and includes, null to take one away.
+Json passChange() {
+  Json properties = Json::object();
+  for (const auto keys : {kPassKeys, kIncludeKeys})
+    for (const KeySpec& spec : keys)
+      properties[std::string(spec.key)] = {{"description", std::string(spec.doc)}};
+  for (const KeySpec& spec : kPlaceKeys) properties[std::string(spec.key)] = shapeOf(spec);
+  return {{"description", "in an overlay: changes, removes, moves or adds a pass or an include"},
+          {"type", "object"},
+          {"properties", properties},
+          {"additionalProperties", false}};
+}
+
+// What holds for a file that is no overlay and no preset.
+Json plainGraph() {
+  const auto map = [](const char* shape) {
+    return Json{{"type", "object"}, {"additionalProperties", reference(shape)}};
+  };
+  const Json stanza = {{"anyOf", {reference("pass"), reference("include")}}};
+  return {{"required", {"passes"}},
+          {"properties",
+           {{"parameters", map("parameter")},
+            {"let", map("value")},
+            {"resources", map("resource")},
+            {"passes", {{"type", "array"}, {"items", stanza}}}}}};
 }
 
 }  // namespace
@@ -106,6 +138,9 @@ std::string graphSchema() {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Weft graph"}};
   schema.update(objectOf(
       kGraphKeys, "A frame: resources, passes, and which pass reads and writes what. Comments are allowed."));
+  schema.erase("required");
+  schema["if"] = {{"not", {{"anyOf", {Json{{"required", {"extends"}}}, Json{{"required", {"set"}}}}}}}};
+  schema["then"] = plainGraph();
   schema["$defs"] = definitions();
   return schema.dump(2) + "\n";
 }

@@ -1,0 +1,359 @@
+#include "engine/graph/overlay_apply.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/graph/suffix.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::Code;
+using base::Diagnostic;
+using base::JsonMember;
+using base::JsonValue;
+using Type = JsonValue::Type;
+
+JsonMember* memberOf(JsonValue& object, std::string_view key) {
+  for (JsonMember& member : object.members)
+    if (member.key == key) return &member;
+  return nullptr;
+}
+
+// "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a kind.
+std::string_view kindOf(const JsonValue& resource) {
+  if (!resource.is(Type::object)) return "alternatives";
+  for (const std::string_view kind : {"texture", "buffer", "import", "input"})
+    if (const JsonValue* value = resource.find(kind); value && !value->is(Type::null)) return kind;
+  return "";
+}
+
+// "resources" to "resource".
+std::string nounOf(const std::string& section) {
+  return section == "passes" ? "pass" : section == "let" ? "let" : section.substr(0, section.size() - 1);
+}
+
+std::string namesOf(const std::vector<Found>& all, const std::vector<std::size_t>& some) {
+  std::string text;
+  for (const std::size_t i : some) text += (text.empty() ? "" : ", ") + all[i].name;
+  return text;
+}
+
+class Applier {
+ public:
+  Applier(SourceLoader& loader, Source& target, base::Diagnostics& diagnostics)
+      : loader_(loader), target_(target), diagnostics_(diagnostics) {}
+
+  void run(const JsonValue& overlay, bool preset) {
+    for (const JsonMember& member : overlay.members) {
+      const JsonValue& value = member.value;
+      const bool section =
+          member.key == "parameters" || member.key == "let" || member.key == "resources";
+      if (member.key == "extends" || (preset && member.key == "name")) continue;
+      if (member.key == "set") {
+        if (expect(value, Type::object, "\"set\"", "an object of values by parameter"))
+          target_.sets.insert(target_.sets.end(), value.members.begin(), value.members.end());
+      } else if (member.key == "passes") {
+        if (expect(value, Type::array, "\"passes\"", "an array"))
+          for (const JsonValue& stanza : value.items) applyStanza(stanza);
+      } else if (section && value.is(Type::object)) {
+        for (const JsonMember& entry : value.members) applyEntry(member, entry);
+      } else {
+        mergeMember(target_.root, member);
+      }
+    }
+  }
+
+ private:
+  Diagnostic& error(Code code, const base::Place& place, const JsonValue& value, std::string message) {
+    Diagnostic& d = diagnostics_.error(code, place, std::move(message));
+    d.pointer = value.pointer;
+    d.pass = pass_;
+    d.resource = resource_;
+    return d;
+  }
+
+  bool expect(const JsonValue& value, Type type, const char* what, const char* expected) {
+    if (value.is(type)) return true;
+    Diagnostic& d = error(Code::W3, value.place, value, fmt::format("{} has the wrong type", what));
+    d.expected = expected;
+    d.found = describe(value);
+    return false;
+  }
+
+  // ---- values ----
+
+  void mergeMember(JsonValue& into, const JsonMember& over) {
+    JsonMember* there = memberOf(into, over.key);
+    if (over.value.is(Type::null)) {
+      if (there) {
+        into.members.erase(into.members.begin() + (there - into.members.data()));
+        return;
+      }
+      std::vector<std::string> keys;
+      for (const JsonMember& member : into.members) keys.push_back(member.key);
+      error(Code::W17, over.place, over.value,
+            fmt::format("null takes \"{}\" away, which is not there", over.key))
+          .hint = suffixHint(over.key, keys);
+    } else if (!over.value.is(Type::object)) {
+      if (there)
+        *there = over;
+      else
+        into.members.push_back(over);
+    } else {
+      if (!there || !there->value.is(Type::object)) {
+        JsonMember empty{over.key, over.place, over.value};
+        empty.value.members.clear();
+        if (there)
+          *there = std::move(empty);
+        else
+          there = &into.members.emplace_back(std::move(empty));
+      }
+      for (const JsonMember& member : over.value.members) mergeMember(there->value, member);
+    }
+  }
+
+  // ---- what is below ----
+
+  // Calls `change` with the source at the end of the prefixes: a copy, kept beside its include.
+  template <class Change>
+  void edit(Source& source, std::span<const std::string> below, const Change& change) {
+    if (below.empty()) return change(source);
+    std::shared_ptr<const Source> child;
+    if (const auto known = source.changed.find(below[0]); known != source.changed.end()) {
+      child = known->second;
+    } else {
+      for (const JsonValue& stanza : source.root.find("passes")->items)
+        if (const JsonValue* include = stanza.find("include"); include && includePrefix(stanza) == below[0])
+          child = loader_.file(pathBeside(*include), include->place);
+    }
+    auto copy = std::make_shared<Source>(*child);
+    edit(*copy, below.subspan(1), change);
+    source.changed[below[0]] = std::move(copy);
+  }
+
+  // The one thing `wanted` means; null when there is none, or several, which is reported.
+  const Found* resolve(const std::vector<Found>& all, std::string_view wanted, const std::string& noun,
+                       const base::Place& place, const JsonValue& value, bool& ambiguous) {
+    std::vector<std::string> names;
+    for (const Found& found : all) names.push_back(found.name);
+    const std::vector<std::size_t> matches = suffixMatches(names, wanted);
+    ambiguous = matches.size() > 1;
+    if (ambiguous) {
+      Diagnostic& d =
+          error(Code::W46, place, value, fmt::format("{} '{}' may mean several", noun, wanted));
+      d.found = namesOf(all, matches);
+      d.hint = fmt::format("write more of the name, such as '{}'", all[matches[0]].name);
+    }
+    return matches.size() == 1 ? &all[matches[0]] : nullptr;
+  }
+
+  std::string hintOf(const std::vector<Found>& all, std::string_view wanted) {
+    std::vector<std::string> names;
+    for (const Found& found : all) names.push_back(found.name);
+    return suffixHint(wanted, names);
+  }
+
+  // ---- parameters, lets, resources ----
+
+  void applyEntry(const JsonMember& section, const JsonMember& entry) {
+    const std::string noun = nounOf(section.key);
+    resource_ = section.key == "resources" ? entry.key : "";
+    const std::vector<Found> all = findAll(loader_, target_, section.key);
+    bool ambiguous = false;
+    const Found* found = resolve(all, entry.key, noun, entry.place, entry.value, ambiguous);
+    if (found) {
+      edit(target_, found->below, [&](Source& source) {
+        mergeEntry(section.key, *memberOf(source.root, section.key), found->index, entry);
+      });
+    } else if (!ambiguous && isWhole(section.key, entry)) {
+      JsonMember* own = memberOf(target_.root, section.key);
+      if (!own) {
+        own = &target_.root.members.emplace_back(section);
+        own->value.members.clear();
+      }
+      if (own->value.is(Type::object)) own->value.members.push_back(entry);
+    } else if (!ambiguous) {
+      const std::string hint = hintOf(all, entry.key);
+      error(Code::W17, entry.place, entry.value,
+            fmt::format("{} '{}' is not there to be {}", noun, entry.key,
+                        entry.value.is(Type::null) ? "taken away" : "changed"))
+          .hint = hint.empty() ? "write all of it to declare a new one" : hint;
+    }
+    resource_.clear();
+  }
+
+  // Whether an entry that is not there yet declares something, instead of changing it.
+  static bool isWhole(const std::string& section, const JsonMember& entry) {
+    if (entry.value.is(Type::null) || entry.key.find('.') != std::string::npos) return false;
+    if (section == "resources") return !kindOf(entry.value).empty();
+    return section == "let" || !entry.value.is(Type::object) || entry.value.find("default");
+  }
+
+  void mergeEntry(const std::string& section, JsonMember& into, std::size_t index, const JsonMember& entry) {
+    JsonMember& there = into.value.members[index];
+    if (section == "resources" && !entry.value.is(Type::null)) {
+      const std::string_view before = kindOf(there.value), over = kindOf(entry.value);
+      const JsonValue* dropped = entry.value.find(before);
+      const bool changes = there.value.is(Type::object) && entry.value.is(Type::object)
+                               ? !over.empty() && over != before && !(dropped && dropped->is(Type::null))
+                               : over.empty();
+      if (changes) {
+        Diagnostic& d = error(Code::W18, entry.place, entry.value,
+                              fmt::format("resource '{}' cannot be merged with what is there", entry.key));
+        d.expected = before == "alternatives" ? "a reference or a list of references"
+                                              : fmt::format("keys of {} {}", before.starts_with("i") ? "an" : "a", before);
+        d.found = over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over);
+        d.hint = before == "alternatives"
+                     ? "write the whole resource, with its kind"
+                     : fmt::format("take the old kind away first: \"{}\": null", before);
+        return;
+      }
+    }
+    JsonMember over = entry;
+    over.key = there.key;  // "bloom.glow" is "glow" in its own file
+    mergeMember(into.value, over);
+  }
+
+  // ---- passes ----
+
+  void applyStanza(const JsonValue& stanza) {
+    if (!expect(stanza, Type::object, "a pass", "an object")) return;
+    JsonValue* passes = passesOf(target_);
+    if (!passes) return;  // the reader says what is wrong with the base
+    pass_ = stanzaName(stanza);
+    const JsonValue* before = stanza.find("before");
+    const JsonValue* after = stanza.find("after");
+    const JsonValue* remove = stanza.find("remove");
+    if (before && after)
+      error(Code::W14, stanza.place, stanza, "a pass both \"before\" and \"after\"").hint =
+          "keep one of them";
+    else if (remove && !remove->is(Type::boolean))
+      expect(*remove, Type::boolean, "\"remove\"", "true or false");
+    else if (const JsonValue* anchor = before ? before : after)
+      putAt(stanza, *anchor, after != nullptr);
+    else
+      change(stanza, remove && remove->flag);
+    pass_.clear();
+  }
+
+  static JsonValue* passesOf(Source& source) {
+    JsonMember* passes = memberOf(source.root, "passes");
+    return passes && passes->value.is(Type::array) ? &passes->value : nullptr;
+  }
+
+  static JsonValue withoutPlace(const JsonValue& stanza, bool named) {
+    JsonValue out = stanza;
+    std::erase_if(out.members, [&](const JsonMember& member) {
+      return member.key == "before" || member.key == "after" || member.key == "remove" ||
+             (!named && (member.key == "name" || member.key == "as"));
+    });
+    return out;
+  }
+
+  // A new pass, or one that moves.
+  void putAt(const JsonValue& stanza, const JsonValue& anchor, bool after) {
+    if (!expect(anchor, Type::string, after ? "\"after\"" : "\"before\"", "the name of a pass or include"))
+      return;
+    const std::vector<Found> all = findAll(loader_, target_, "passes");
+    bool ambiguous = false;
+    const Found* found = resolve(all, anchor.text, "anchor", anchor.place, anchor, ambiguous);
+    if (!found) {
+      if (!ambiguous) {
+        Diagnostic& d = error(Code::W16, anchor.place, anchor,
+                              fmt::format("pass '{}' stands {} '{}', which is not there", pass_,
+                                          after ? "after" : "before", anchor.text));
+        d.expected = "the name of a pass, or the prefix of an include";
+        d.hint = hintOf(all, anchor.text);
+      }
+      // At the end, so that what stands beside it is no second mistake.
+      passesOf(target_)->items.push_back(withoutPlace(stanza, true));
+      return;
+    }
+    edit(target_, found->below, [&](Source& source) {
+      std::vector<JsonValue>& items = passesOf(source)->items;
+      std::size_t at = found->index;
+      JsonValue placed = withoutPlace(stanza, true);
+      const auto there = std::find_if(items.begin(), items.end(), [&](const JsonValue& item) {
+        return !pass_.empty() && stanzaName(item) == pass_;
+      });
+      if (there != items.end()) {
+        const auto old = static_cast<std::size_t>(there - items.begin());
+        if (old == at) {
+          error(Code::W16, anchor.place, anchor, fmt::format("pass '{}' stands beside itself", pass_)).hint =
+              "name another pass";
+          return;
+        }
+        if (!mergeStanza(source, *there, stanza)) return;
+        placed = std::move(*there);
+        items.erase(there);
+        if (old < at) --at;
+      }
+      items.insert(items.begin() + static_cast<std::ptrdiff_t>(at + (after ? 1 : 0)), std::move(placed));
+    });
+  }
+
+  void change(const JsonValue& stanza, bool remove) {
+    const JsonValue* named = stanza.find("name");
+    if (!named) named = stanza.find("as") ? stanza.find("as") : stanza.find("include");
+    const base::Place place = named ? named->place : stanza.place;
+    const std::vector<Found> all = findAll(loader_, target_, "passes");
+    bool ambiguous = false;
+    const Found* found = resolve(all, pass_, "pass", place, stanza, ambiguous);
+    if (ambiguous) return;
+    if (!found && remove) {
+      error(Code::W17, place, stanza, fmt::format("pass '{}' is not there to be removed", pass_)).hint =
+          hintOf(all, pass_);
+    } else if (!found) {
+      Diagnostic& d = error(Code::W16, place, stanza,
+                            fmt::format("pass '{}' is not there to be changed, and a new one needs a place", pass_));
+      d.expected = "the name of a pass, or \"before\" or \"after\" one";
+      d.hint = hintOf(all, pass_);
+      passesOf(target_)->items.push_back(withoutPlace(stanza, true));
+    } else {
+      edit(target_, found->below, [&](Source& source) {
+        std::vector<JsonValue>& items = passesOf(source)->items;
+        if (!remove) {
+          mergeStanza(source, items[found->index], stanza);
+          return;
+        }
+        source.changed.erase(stanzaName(items[found->index]));
+        items.erase(items.begin() + static_cast<std::ptrdiff_t>(found->index));
+      });
+    }
+  }
+
+  // False after a report.
+  bool mergeStanza(Source& source, JsonValue& there, const JsonValue& stanza) {
+    const bool include = there.find("include") != nullptr;
+    if (include ? stanza.find("type") != nullptr : stanza.find("include") != nullptr) {
+      const JsonValue& culprit = *stanza.find(include ? "type" : "include");
+      Diagnostic& d = error(Code::W18, culprit.place, culprit,
+                            fmt::format("'{}' cannot be merged with what is there", pass_));
+      d.expected = include ? "keys of an include" : "keys of a pass";
+      d.found = include ? "a pass" : "an include";
+      d.hint = "remove the one, and give the other a name of its own";
+      return false;
+    }
+    if (include && stanza.find("include")) source.changed.erase(includePrefix(there));
+    const JsonValue over = withoutPlace(stanza, false);
+    for (const JsonMember& member : over.members) mergeMember(there, member);
+    return true;
+  }
+
+  SourceLoader& loader_;
+  Source& target_;
+  base::Diagnostics& diagnostics_;
+  std::string pass_, resource_;  // what is being applied
+};
+
+}  // namespace
+
+void applyOverlay(SourceLoader& loader, const JsonValue& overlay, bool preset, Source& target,
+                  base::Diagnostics& diagnostics) {
+  Applier(loader, target, diagnostics).run(overlay, preset);
+}
+
+}  // namespace weft::graph

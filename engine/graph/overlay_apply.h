@@ -1,0 +1,30 @@
+// Laying an overlay over a source. Private to engine/graph/overlay*.cpp.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/graph/overlay.h"
+
+namespace weft::graph {
+
+// Where a name stands in a source: in it, or in an include `below` it.
+struct Found {
+  std::string name;                // dotted, as seen from the source
+  std::vector<std::string> below;  // prefixes from the source down
+  std::size_t index = 0;           // among the members of the section, or the stanzas of "passes"
+};
+
+// Everything in `section` ("resources", "passes"…) of the source and of all it includes, its own first. Inputs are
+// left out: they stand for a resource of another file.
+std::vector<Found> findAll(SourceLoader& loader, const Source& source, const std::string& section);
+
+// Name of a pass stanza, or the prefix of an include. "" when it has none.
+std::string stanzaName(const base::JsonValue& stanza);
+
+// Changes `target` as `overlay` says, and reports what does not fit. A preset keeps the name of the graph.
+void applyOverlay(SourceLoader& loader, const base::JsonValue& overlay, bool preset, Source& target,
+                  base::Diagnostics& diagnostics);
+
+}  // namespace weft::graph

@@ -1,0 +1,70 @@
+#include <algorithm>
+
+#include "engine/graph/overlay_apply.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::JsonMember;
+using base::JsonValue;
+using Type = JsonValue::Type;
+
+class Finder {
+ public:
+  Finder(SourceLoader& loader, const std::string& section) : loader_(loader), section_(section) {}
+
+  void look(const Source& source, const std::string& prefix) {
+    const JsonValue* section = source.root.find(section_);
+    if (section && section->is(Type::object))
+      for (std::size_t i = 0; i < section->members.size(); ++i)
+        if (!section->members[i].value.find("input"))
+          found.push_back({prefix + section->members[i].key, below_, i});
+    const JsonValue* passes = source.root.find("passes");
+    if (!passes || !passes->is(Type::array)) return;
+    if (section_ == "passes")
+      for (std::size_t i = 0; i < passes->items.size(); ++i)
+        if (const std::string name = stanzaName(passes->items[i]); !name.empty())
+          found.push_back({prefix + name, below_, i});
+    open_.push_back(source.identity);
+    for (const JsonValue& stanza : passes->items) {
+      const JsonValue* include = stanza.find("include");
+      if (!include || !include->is(Type::string)) continue;
+      const std::string name = includePrefix(stanza), path = pathBeside(*include);
+      // A circle of includes is the reader's to report.
+      const std::string identity = identityOf(path);
+      if (loader_.isOpen(identity) || std::find(open_.begin(), open_.end(), identity) != open_.end()) continue;
+      const auto changed = source.changed.find(name);
+      const std::shared_ptr<const Source> child =
+          changed != source.changed.end() ? changed->second : loader_.file(path, include->place);
+      if (!child) continue;
+      below_.push_back(name);
+      look(*child, prefix + name + ".");
+      below_.pop_back();
+    }
+    open_.pop_back();
+  }
+
+  std::vector<Found> found;
+
+ private:
+  SourceLoader& loader_;
+  const std::string& section_;
+  std::vector<std::string> below_, open_;
+};
+
+}  // namespace
+
+std::vector<Found> findAll(SourceLoader& loader, const Source& source, const std::string& section) {
+  Finder finder(loader, section);
+  finder.look(source, "");
+  return std::move(finder.found);
+}
+
+std::string stanzaName(const JsonValue& stanza) {
+  if (stanza.find("include")) return includePrefix(stanza);
+  const JsonValue* name = stanza.find("name");
+  return name ? name->text : std::string();
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,22 @@
+// Dotted names and the suffixes that stand for them: `--set`, `--disable`, presets and overlays take any unique
+// suffix of a name. Does not know what is named.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::graph {
+
+// True when the dotted `name` is `suffix` or ends in ".suffix".
+bool hasSuffix(std::string_view name, std::string_view suffix);
+
+// Indices of `names` that `wanted` means: the equal one, else all that end in it.
+std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::string_view wanted);
+
+// The nearest of the names and of their last parts, as a hint; "" when nothing is near and the list is long.
+std::string suffixHint(std::string_view wanted, std::span<const std::string> names);
+
+}  // namespace weft::graph
