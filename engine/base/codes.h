@@ -3,7 +3,8 @@
 //
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
 // W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs.
-// Numbers are never reused; W010 (overlays are not supported yet) is retired. Does not hold the message texts: those stand where the mistake is found.
+// Numbers are never reused; W010 (overlays are not supported yet) is retired. Does not hold the message texts: those
+// stand where the mistake is found.
 #pragma once
 
 #include <cstdint>

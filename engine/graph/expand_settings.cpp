@@ -96,8 +96,8 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
     }
   const std::vector<std::size_t> found = suffixMatches(names, wanted);
   if (found.empty()) {
-    auto& d = model.diagnostics.error(
-        Code::W44, origin.place, fmt::format("{}: no parameter is called '{}'", origin.source, wanted));
+    auto& d = model.diagnostics.error(Code::W44, origin.place,
+                                      fmt::format("{}: no parameter is called '{}'", origin.source, wanted));
     d.pointer = origin.pointer;
     d.hint = suffixHint(wanted, names);
     return;
@@ -109,12 +109,14 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
     parameter.value = std::move(value);
 }
 
-// What files say first, the innermost first, so that an including file has the last word; then the command line.
+// What files say first, the innermost first, so that an including file has the last word; then the command
+// line.
 void applySets(Model& model) {
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
     for (const SetDesc& set : scope->desc->sets)
       applySet(model, set.name,
-               {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), scope->prefix, set.place, set.pointer},
+               {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), scope->prefix, set.place,
+                set.pointer},
                [&](Type) { return set.value; });
   for (const auto& [name, text] : model.settings.sets)
     applySet(model, name, {fmt::format("--set {}={}", name, text)},

@@ -1,5 +1,5 @@
-// --set, "set" of files and --disable: finds the parameter or pass a name means (the full dotted name, else the only one that
-// ends in it) and parses and checks values. The defaults of parameters were checked by the reader.
+// --set, "set" of files and --disable: finds the parameter or pass a name means (the full dotted name, else
+// the only one that ends in it) and parses and checks values. The defaults of parameters were checked by the reader.
 #pragma once
 
 #include "engine/graph/expand_model.h"

@@ -24,9 +24,8 @@ void reportOverlayStanzas(const JsonValue& root, base::Diagnostics& diagnostics)
   for (const JsonValue& stanza : passes->items)
     for (const JsonMember& member : stanza.members)
       if (member.key == "before" || member.key == "after" || member.key == "remove") {
-        auto& d = diagnostics.error(
-            Code::W19, member.place,
-            fmt::format("\"{}\" in a file that extends no other", member.key));
+        auto& d = diagnostics.error(Code::W19, member.place,
+                                    fmt::format("\"{}\" in a file that extends no other", member.key));
         d.pointer = member.value.pointer;
         d.pass = stanzaName(stanza);
         d.hint = "write the pass at its place in the list, or say what this file \"extends\"";

@@ -1,7 +1,7 @@
-// Graph files made whole before they are read as graphs: a file that `extends` another is laid over it, presets
-// over that, on the level of JSON. Every value keeps the file, line and column it was written at. An overlay may
-// reach into included files by a suffix of a name; the copy of such a file it has changed is kept beside the
-// include. Does not: know what values mean, or read what nothing refers to.
+// Graph files made whole before they are read as graphs: a file that `extends` another is laid over it,
+// presets over that, on the level of JSON. Every value keeps the file, line and column it was written at. An
+// overlay may reach into included files by a suffix of a name; the copy of such a file it has changed is kept
+// beside the include. Does not: know what values mean, or read what nothing refers to.
 #pragma once
 
 #include <map>
@@ -51,7 +51,7 @@ class SourceLoader {
 
   base::Diagnostics& diagnostics_;
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
-  std::vector<std::pair<std::string, std::string>> open_;  // identity and path of such overlays
+  std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
 };
 
 }  // namespace weft::graph

@@ -22,7 +22,8 @@ JsonMember* memberOf(JsonValue& object, std::string_view key) {
   return nullptr;
 }
 
-// "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a kind.
+// "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a
+// kind.
 std::string_view kindOf(const JsonValue& resource) {
   if (!resource.is(Type::object)) return "alternatives";
   for (const std::string_view kind : {"texture", "buffer", "import", "input"})
@@ -46,18 +47,18 @@ class Applier {
   Applier(SourceLoader& loader, Source& target, base::Diagnostics& diagnostics)
       : loader_(loader), target_(target), diagnostics_(diagnostics) {}
 
+  // Passes first: other sections may reach into what the overlay includes.
   void run(const JsonValue& overlay, bool preset) {
+    if (const JsonValue* passes = overlay.find("passes");
+        passes && expect(*passes, Type::array, "\"passes\"", "an array"))
+      for (const JsonValue& stanza : passes->items) applyStanza(stanza);
     for (const JsonMember& member : overlay.members) {
       const JsonValue& value = member.value;
-      const bool section =
-          member.key == "parameters" || member.key == "let" || member.key == "resources";
-      if (member.key == "extends" || (preset && member.key == "name")) continue;
+      const bool section = member.key == "parameters" || member.key == "let" || member.key == "resources";
+      if (member.key == "extends" || member.key == "passes" || (preset && member.key == "name")) continue;
       if (member.key == "set") {
         if (expect(value, Type::object, "\"set\"", "an object of values by parameter"))
           target_.sets.insert(target_.sets.end(), value.members.begin(), value.members.end());
-      } else if (member.key == "passes") {
-        if (expect(value, Type::array, "\"passes\"", "an array"))
-          for (const JsonValue& stanza : value.items) applyStanza(stanza);
       } else if (section && value.is(Type::object)) {
         for (const JsonMember& entry : value.members) applyEntry(member, entry);
       } else {
@@ -94,9 +95,10 @@ class Applier {
       }
       std::vector<std::string> keys;
       for (const JsonMember& member : into.members) keys.push_back(member.key);
+      const std::string hint = suffixHint(over.key, keys);
       error(Code::W17, over.place, over.value,
             fmt::format("null takes \"{}\" away, which is not there", over.key))
-          .hint = suffixHint(over.key, keys);
+          .hint = hint.empty() ? "leave it out" : hint;
     } else if (!over.value.is(Type::object)) {
       if (there)
         *there = over;
@@ -142,8 +144,7 @@ class Applier {
     const std::vector<std::size_t> matches = suffixMatches(names, wanted);
     ambiguous = matches.size() > 1;
     if (ambiguous) {
-      Diagnostic& d =
-          error(Code::W46, place, value, fmt::format("{} '{}' may mean several", noun, wanted));
+      Diagnostic& d = error(Code::W46, place, value, fmt::format("{} '{}' may mean several", noun, wanted));
       d.found = namesOf(all, matches);
       d.hint = fmt::format("write more of the name, such as '{}'", all[matches[0]].name);
     }
@@ -203,12 +204,12 @@ class Applier {
       if (changes) {
         Diagnostic& d = error(Code::W18, entry.place, entry.value,
                               fmt::format("resource '{}' cannot be merged with what is there", entry.key));
-        d.expected = before == "alternatives" ? "a reference or a list of references"
-                                              : fmt::format("keys of {} {}", before.starts_with("i") ? "an" : "a", before);
+        d.expected = before == "alternatives"
+                         ? "a reference or a list of references"
+                         : fmt::format("keys of {} {}", before.starts_with("i") ? "an" : "a", before);
         d.found = over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over);
-        d.hint = before == "alternatives"
-                     ? "write the whole resource, with its kind"
-                     : fmt::format("take the old kind away first: \"{}\": null", before);
+        d.hint = before == "alternatives" ? "write the whole resource, with its kind"
+                                          : fmt::format("take the old kind away first: \"{}\": null", before);
         return;
       }
     }
@@ -228,8 +229,8 @@ class Applier {
     const JsonValue* after = stanza.find("after");
     const JsonValue* remove = stanza.find("remove");
     if (before && after)
-      error(Code::W14, stanza.place, stanza, "a pass both \"before\" and \"after\"").hint =
-          "keep one of them";
+      error(Code::W14, stanza.place, stanza, "a pass cannot stand both \"before\" and \"after\" others")
+          .hint = "keep one of them";
     else if (remove && !remove->is(Type::boolean))
       expect(*remove, Type::boolean, "\"remove\"", "true or false");
     else if (const JsonValue* anchor = before ? before : after)
@@ -307,11 +308,13 @@ class Applier {
       error(Code::W17, place, stanza, fmt::format("pass '{}' is not there to be removed", pass_)).hint =
           hintOf(all, pass_);
     } else if (!found) {
-      Diagnostic& d = error(Code::W16, place, stanza,
-                            fmt::format("pass '{}' is not there to be changed, and a new one needs a place", pass_));
+      Diagnostic& d =
+          error(Code::W16, place, stanza,
+                fmt::format("pass '{}' is not there to be changed, and a new one needs a place", pass_));
       d.expected = "the name of a pass, or \"before\" or \"after\" one";
       d.hint = hintOf(all, pass_);
-      passesOf(target_)->items.push_back(withoutPlace(stanza, true));
+      if (stanza.find("type") || stanza.find("include"))
+        passesOf(target_)->items.push_back(withoutPlace(stanza, true));
     } else {
       edit(target_, found->below, [&](Source& source) {
         std::vector<JsonValue>& items = passesOf(source)->items;
@@ -337,7 +340,15 @@ class Applier {
       d.hint = "remove the one, and give the other a name of its own";
       return false;
     }
-    if (include && stanza.find("include")) source.changed.erase(includePrefix(there));
+    if (include && stanza.find("include")) {
+      // Another file under the same prefix.
+      source.changed.erase(includePrefix(there));
+      if (!there.find("as")) {
+        JsonMember as{"as", there.place, *there.find("include")};
+        as.value.text = includePrefix(there);
+        there.members.push_back(std::move(as));
+      }
+    }
     const JsonValue over = withoutPlace(stanza, false);
     for (const JsonMember& member : over.members) mergeMember(there, member);
     return true;

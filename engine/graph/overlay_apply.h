@@ -16,11 +16,12 @@ struct Found {
   std::size_t index = 0;           // among the members of the section, or the stanzas of "passes"
 };
 
-// Everything in `section` ("resources", "passes"…) of the source and of all it includes, its own first. Inputs are
-// left out: they stand for a resource of another file.
+// Everything in `section` ("resources", "passes"…) of the source and of all it includes, its own first.
+// Inputs are left out: they stand for a resource of another file.
 std::vector<Found> findAll(SourceLoader& loader, const Source& source, const std::string& section);
 
-// Name of a pass stanza, or the prefix of an include. "" when it has none.
+// Name of a pass stanza, else the prefix of an include (which an overlay may also call by "name"). "" when it
+// has none.
 std::string stanzaName(const base::JsonValue& stanza);
 
 // Changes `target` as `overlay` says, and reports what does not fit. A preset keeps the name of the graph.

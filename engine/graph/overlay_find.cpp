@@ -33,7 +33,8 @@ class Finder {
       const std::string name = includePrefix(stanza), path = pathBeside(*include);
       // A circle of includes is the reader's to report.
       const std::string identity = identityOf(path);
-      if (loader_.isOpen(identity) || std::find(open_.begin(), open_.end(), identity) != open_.end()) continue;
+      if (loader_.isOpen(identity) || std::find(open_.begin(), open_.end(), identity) != open_.end())
+        continue;
       const auto changed = source.changed.find(name);
       const std::shared_ptr<const Source> child =
           changed != source.changed.end() ? changed->second : loader_.file(path, include->place);
@@ -62,9 +63,8 @@ std::vector<Found> findAll(SourceLoader& loader, const Source& source, const std
 }
 
 std::string stanzaName(const JsonValue& stanza) {
-  if (stanza.find("include")) return includePrefix(stanza);
   const JsonValue* name = stanza.find("name");
-  return name ? name->text : std::string();
+  return name ? name->text : includePrefix(stanza);
 }
 
 }  // namespace weft::graph

@@ -188,7 +188,8 @@ std::shared_ptr<const GraphDesc> readGraph(const std::string& path, Diagnostics&
 
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            Diagnostics& diagnostics) {
-  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readWith(path, presets); });
+  return readSorted(diagnostics,
+                    [&](Diagnostics& said) { return GraphReader(said).readWith(path, presets); });
 }
 
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
