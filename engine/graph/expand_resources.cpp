@@ -295,6 +295,11 @@ bool evaluateImport(Model& model, Entity& entity) {
   }
   if (!good) return false;
   const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
+  for (const base::Diagnostic& problem : facts.problems) {
+    model.diagnostics.add(problem).resource = entity.name;
+    good = good && problem.severity != base::Severity::error;
+  }
+  if (!good) return false;
   entity.exists = facts.exists;
   entity.fallback = facts.fallback;
   entity.count = facts.count;

@@ -4,12 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/names.h"
 #include "engine/graph/ref_parse.h"
 
 namespace weft::graph {
+
+std::string besideFile(const Place& place, const std::string& path) {
+  if (path.empty() || !place.file) return path;
+  return (std::filesystem::path(*place.file).parent_path() / path).lexically_normal().string();
+}
 
 using base::Code;
 

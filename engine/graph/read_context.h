@@ -18,6 +18,9 @@ namespace weft::graph {
 using base::JsonMember;
 using base::JsonValue;
 
+// A path written in a file, from that file's folder; absolute ones and "" as they are.
+std::string besideFile(const Place& place, const std::string& path);
+
 class ReadContext {
  public:
   explicit ReadContext(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}

@@ -157,7 +157,7 @@ class ParameterReader {
         return true;
       case Type::file:
         if (!initial.is(JsonValue::Type::string)) return wrongDefault(initial, "a path in a string, or \"\"");
-        out_.initial = Value::text(initial.text);
+        out_.initial = Value::text(besideFile(initial.textPlace(), initial.text));
         return true;
       case Type::choice: {
         if (!initial.is(JsonValue::Type::string)) return wrongDefault(initial, "one of the \"choices\"");

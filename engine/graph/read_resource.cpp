@@ -96,7 +96,7 @@ class ResourceReader {
       const JsonValue& value = member.value;
       const bool path =
           isPathArgument(member.key) && value.is(JsonValue::Type::string) && value.text.substr(0, 1) != "$";
-      Expr expr = path ? Expr::constant(Value::text(value.text), value.textPlace())
+      Expr expr = path ? Expr::constant(Value::text(besideFile(value.textPlace(), value.text)), value.textPlace())
                        : context_.expr(&value, fmt::format("\"{}\"", member.key));
       if (named && expr.present())
         out_.import.arguments.push_back({member.key, member.place, value.pointer, std::move(expr)});

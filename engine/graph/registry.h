@@ -62,6 +62,7 @@ struct ImportFacts {
   std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
   std::uint64_t bytes = 0;      // buffers; 0 when not yet known
   double count = 0;             // count(x): rows of a list or buffer
+  std::vector<base::Diagnostic> problems{};  // reported with the import; an error makes it unusable
 };
 
 struct Registry {

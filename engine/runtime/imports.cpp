@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/runtime/lut_texture.h"
 #include "engine/runtime/registry.h"
 
 namespace weft::runtime {
@@ -18,7 +19,32 @@ void Imports::setEnvironmentFallback(gl::TextureRef texture, std::uint64_t gener
   fallbackGeneration_ = generation;
 }
 
+void Imports::renewFiles() {
+  std::erase_if(luts_, [](const Lut& lut) { return lut.stale; });
+  for (Lut& lut : luts_) lut.stale = true;
+}
+
+gl::TextureRef Imports::lut(const std::string& file, base::Diagnostics& diagnostics) {
+  if (file.empty()) return {};
+  auto found = std::ranges::find(luts_, file, &Lut::file);
+  if (found == luts_.end()) {
+    luts_.push_back({.file = file, .texture = {}});
+    found = luts_.end() - 1;
+  }
+  if (found->stale) {
+    found->stale = false;
+    const auto table = loadLut(file, diagnostics);
+    auto texture = table ? makeLutTexture(*table, file, diagnostics) : std::nullopt;
+    if (texture) {
+      found->texture = std::move(*texture);
+      found->generation = ++lutGenerations_;
+    }
+  }
+  return found->texture ? found->texture.ref() : gl::TextureRef{};
+}
+
 gl::TextureRef Imports::texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+  if (import.request.type == "cube_lut") return lut(import.request.arguments[0].second.symbol, diagnostics);
   if (import.request.type != "environment") return {};
   const assets::ImageF* image = world_->environment();
   if (!image) return fallback_;
@@ -147,6 +173,10 @@ std::uint64_t Imports::generation(const graph::ImportSpec& import) const {
   const std::string& type = import.request.type;
   if (type == "environment") return world_->environment() ? world_->environmentGeneration() : fallbackGeneration_ << 32;
   if (type == "spheres") return listGeneration(scene::DrawList::spheres);
+  if (type == "cube_lut") {
+    const auto found = std::ranges::find(luts_, import.request.arguments[0].second.symbol, &Lut::file);
+    return found == luts_.end() ? 0 : found->generation;
+  }
   if (type == "cut") return input_.cutGeneration;
   return frames_;
 }

@@ -34,6 +34,9 @@ class Imports {
   // Used while the world has no environment: a texture made by a graph of its own. Not owned.
   void setEnvironmentFallback(gl::TextureRef texture, std::uint64_t generation);
 
+  // Before a graph is loaded: tables read from files are read again on next use, and those unused since the last call go.
+  void renewFiles();
+
   // A buffer import: instance tables need the layout of the block that reads them, draw orders do not.
   BufferRef buffer(const graph::ImportSpec& import, const InstanceLayout& layout, base::Diagnostics& diagnostics);
   BufferRef instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics);
@@ -67,6 +70,16 @@ class Imports {
   std::uint64_t listGeneration(scene::DrawList list) const;
   BufferRef order(scene::DrawList list, scene::SortMethod method, base::Diagnostics& diagnostics);
   const std::vector<scene::Instance>& instancesOf(scene::DrawList list);
+
+  struct Lut {
+    std::string file;
+    gl::Texture texture;
+    std::uint64_t generation = 0;
+    bool stale = true;
+  };
+  gl::TextureRef lut(const std::string& file, base::Diagnostics& diagnostics);
+  std::vector<Lut> luts_;
+  std::uint64_t lutGenerations_ = 0;
 
   const World* world_ = nullptr;
   FrameInput input_;

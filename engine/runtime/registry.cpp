@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/runtime/lut_texture.h"
+
 namespace weft::runtime {
 
 namespace {
@@ -38,6 +40,10 @@ std::vector<graph::ImportType> importTypes() {
                       .initial = Value::number(0),
                       .choices = {},
                       .doc = "length of the sub-pixel Halton sequence; 0 for none"}}},
+      {.name = "cube_lut",
+       .kind = ImportKind::texture,
+       .doc = "A 3D .cube table as an RGBA16F 3D texture, for composite/lut.glsl; not there when `file` is empty.",
+       .arguments = {{.name = "file", .initial = Value::text(""), .choices = {}, .doc = "path of the .cube file"}}},
       {.name = "cut", .kind = ImportKind::event, .doc = "Changes when the camera jumps.", .arguments = {}},
   };
 }
@@ -83,6 +89,16 @@ graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldF
       result.count = countOf(request.arguments[0].second.symbol);
       result.bytes = static_cast<std::uint64_t>(std::max(result.count, 1.0)) * 8;
       result.exists = true;
+    } else if (request.type == "cube_lut") {
+      const std::string& file = request.arguments[0].second.symbol;
+      if (file.empty()) return result;
+      base::Diagnostics said;
+      if (const auto lut = loadLut(file, said)) {
+        result.exists = true;
+        result.format = graph::Format::rgba16f;
+        result.width = result.height = result.depth = static_cast<std::uint32_t>(lut->size);
+      }
+      result.problems = said.items();
     } else {
       result.exists = true;
     }

@@ -70,6 +70,7 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
   const graph::Registry registry = makeRegistry(device_.passTypes, world.facts());
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
+  device_.imports.renewFiles();
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
   const bool wantsEnvironment = std::ranges::any_of(
       flat->imports, [](const graph::ImportSpec& import) { return import.request.type == "environment"; });

@@ -1,9 +1,10 @@
 // Scene-referred to display-referred. The last pass that sees radiance; what follows works on encoded values. In this order:
 // aberration, bloom, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift, gamma, gain),
-// sRGB encoding, grain, dither. Each is a variant of its own: what is off is not compiled. docs/effects.md has the details.
+// sRGB encoding, table, grain, dither. Each is a variant of its own: what is off is not compiled. docs/effects.md has the details.
 // read    color   scene-referred radiance; `as linear` for ABERRATION, else any sampler (texels are fetched)
 //         bloom?  scene-referred, any size; `as linear` unless its size is the target's
 //         exposure?  buffer of exposure/adapt.comp.glsl: a factor beside `ev`; without it, or below 0, there is none
+//         lut?    3D table on encoded values, `as linear`; see lut.glsl. With it the parameter lut_strength, 0..1
 // write   result  display-referred, sRGB encoded
 // params  all three, or none for the values in brackets:
 //         ev              exposure in stops; +1 doubles [0]
@@ -39,6 +40,9 @@
 #define GRAIN 0
 #endif
 
+#ifdef HAS_LUT
+#include "lut.glsl"
+#endif
 #if WHITE_BALANCE
 #include "white_balance.glsl"
 #endif
@@ -57,12 +61,18 @@ uniform sampler2D bloom;
 #ifdef HAS_EXPOSURE
 layout(std430) readonly buffer exposure { vec4 adapted; };
 #endif
-#if defined(HAS_EV) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
+#ifdef HAS_LUT
+uniform sampler3D lut;
+#endif
+#if defined(HAS_EV) || defined(HAS_LUT) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
 layout(std140) uniform Parameters {
 #ifdef HAS_EV
   float ev;
   float bloom_strength;
   float white;
+#endif
+#ifdef HAS_LUT
+  float lut_strength;
 #endif
 #if ABERRATION
   float aberration_px;
@@ -125,6 +135,9 @@ void main() {
   c = clamp(gradeDisplay(c, lift, gamma, gain), 0.0, 1.0);
 #endif
   c = encodeSrgb(c);
+#ifdef HAS_LUT
+  c = clamp(mix(c, applyLut(lut, c), lut_strength), 0.0, 1.0);
+#endif
 #if GRAIN
   c = addGrain(c, ivec2(gl_FragCoord.xy), frame, grain_strength);
 #endif
