@@ -84,7 +84,7 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
   if (set && !root.find("passes")) {
     auto& d = diagnostics_.error(Code::W19, set->place, fmt::format("'{}' is a preset, not a graph", path));
     d.pointer = set->pointer;
-    d.hint = fmt::format("open a graph with --preset {}, or say what this file \"extends\"", path);
+    d.hint = "say what this file \"extends\"; a preset is laid over a graph";
     return nullptr;
   }
   if (set && set->is(Type::object)) {
