@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "app/bench/frame_bench.h"
 #include "app/bench/workload_bench.h"
 #include "app/device_session.h"
 #include "app/session.h"
@@ -72,6 +73,13 @@ int runPlan(const Options& options) {
 
 int runBench(const Options& options) {
   base::Diagnostics diagnostics;
+  if (!options.frameGraph.empty()) {
+    Options frame = options;
+    frame.graph = options.frameGraph;
+    const auto text = benchFrame(frame, diagnostics);
+    if (text) fmt::print("{}\n", *text);
+    return report(diagnostics);
+  }
   WorkloadBenchOptions wanted;
   wanted.files = options.workloads;
   const auto text = options.workloads.size() == 1 ? benchWorkload(options.workloads[0], diagnostics)

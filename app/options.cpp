@@ -98,6 +98,12 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
 
   CLI::App* bench = app.add_subcommand("bench", "measure; prints JSON");
   bench->add_option("--workload", options.workloads, "neutral workload files ({textures, passes}); repeatable");
+  bench->add_option("--frame", options.frameGraph, "a graph file: the cost of its frame in full-screen copies")->excludes("--workload");
+  bench->add_option("--environment", options.environment, "environment map for --frame, .hdr or .exr");
+  bench->add_option("--scene", options.scene, "scene file for --frame");
+  bench->add_option("--size", raw.size, "size of the screen for --frame")->check(CLI::Validator(checkSize, "WxH"));
+  bench->add_option("--backend", options.backend, "where OpenGL comes from, for --frame")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
 
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
