@@ -36,7 +36,7 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
   gl::Context& current = *context;
   return std::unique_ptr<DeviceSession>(
       new DeviceSession{std::move(context), runtime::Renderer(current, options.graph,
-                                                              {.dataFolder = dataFolder(), .cacheFolder = cacheFolderOf(options)})});
+                                                              {.dataFolder = dataFolder(), .cacheFolder = cacheFolderOf(options), .presets = options.presets})});
 }
 
 void printStats(DeviceSession& session, nlohmann::ordered_json times) {

@@ -46,6 +46,7 @@ void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
   command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
   command.add_option("--environment", options.environment, "environment map, .hdr or .exr");
   command.add_option("--size", raw.size, "size of the screen in pixels")->check(CLI::Validator(checkSize, "WxH"));
+  command.add_option("--preset", options.presets, "lay an overlay file over the graph, see graphs/presets; repeatable");
   command.add_option("--disable", options.disables, "disable a pass (any unique suffix of its name); repeatable");
   command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
       ->check(CLI::Validator(checkSet, "NAME=VALUE"));

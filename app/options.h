@@ -18,6 +18,7 @@ struct Options {
   std::uint32_t firstFrame = 0, lastFrame = 0;
   double fps = 60;
   std::vector<std::string> disables;
+  std::vector<std::string> presets;          // overlay files
   std::vector<std::pair<std::string, std::string>> sets;
   std::string backend = "auto";
   std::string cacheFolder;                   // program binaries; empty: the user's cache folder, "none": none

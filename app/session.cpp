@@ -43,7 +43,7 @@ std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostic
 
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts, bool software,
                                             base::Diagnostics& diagnostics) {
-  const auto desc = graph::readGraph(options.graph, diagnostics);
+  const auto desc = graph::readGraph(options.graph, options.presets, diagnostics);
   if (!desc) return nullptr;
   const auto registry = runtime::makeRegistry(passes::PassRegistry::builtin(), facts);
   const auto flat = graph::expandGraph(*desc, registry, settingsOf(options, software), diagnostics);

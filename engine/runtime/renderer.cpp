@@ -31,7 +31,7 @@ Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options o
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
   base::Diagnostics said;
-  const auto desc = graph::readGraph(graphPath_, said);
+  const auto desc = graph::readGraph(graphPath_, options_.presets, said);
   diagnostics.append(said);
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
   return desc && !said.hasErrors() && switchTo(desc, settings, world, diagnostics);

@@ -147,7 +147,7 @@ def check_block(language, info, body, sandbox, folder, number):
     if language in ("cpp", "cmake"):
         return "name the file this stands in: ```cpp tests/docs/…"
     if language == "sh":
-        presets = re.findall(r"--preset[ =](\S+)", body)
+        presets = re.findall(r"^\s*(?:cmake|ctest)\b.*--preset[ =](\S+)", body, flags=re.M)
         known = {p["name"] for p in json.loads((TOP / "CMakePresets.json").read_text())["configurePresets"] if not p.get("hidden")}
         if unknown := set(presets) - known:
             return f"no preset {sorted(unknown)} in CMakePresets.json"

@@ -344,3 +344,13 @@ TEST_CASE("the papers' overlays read and expand") {
   CHECK(valueOf(cine, "post.curve") == "agx");
   CHECK(valueOf(cine, "post.composite.temperature") == "5600");
 }
+
+TEST_CASE("every bundled preset fits the studio") {
+  int presets = 0;
+  for (const auto& entry : fs::directory_iterator(WEFT_SOURCE_DIR "/graphs/presets")) {
+    INFO(entry.path().string());
+    CHECK(fine(WEFT_SOURCE_DIR "/graphs/studio.json", {entry.path().string()}).graph);
+    ++presets;
+  }
+  CHECK(presets >= 3);
+}
