@@ -22,7 +22,7 @@ namespace {
 
 std::shared_ptr<const graph::Plan> planFor(const Options& options, base::Diagnostics& diagnostics) {
   const auto world = loadWorld(options, diagnostics);
-  return makePlan(options, world ? world->facts() : runtime::WorldFacts{}, true, diagnostics);
+  return makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
 }
 
 // Compiles the variant of every live pass and holds it against its slots and parameters.

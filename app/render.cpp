@@ -68,7 +68,7 @@ bool save(runtime::Renderer& renderer, const std::string& path, base::Diagnostic
 
 void showProgress(std::uint32_t done, std::uint32_t total, double seconds) {
   const int width = 40;
-  const int filled = static_cast<int>(done * width / total);
+  const int filled = static_cast<int>(std::uint64_t{done} * width / total);
   const double rest = done ? seconds / done * (total - done) : 0;
   fmt::print(stderr, "\r[{}{}] {}/{} frames, {:.1f} s left ", std::string(static_cast<std::size_t>(filled), '#'),
              std::string(static_cast<std::size_t>(width - filled), '.'), done, total, rest);
@@ -85,7 +85,7 @@ int runRender(const Options& options) {
   auto world = loadWorld(options, diagnostics);
   if (!world || diagnostics.hasErrors()) {
     // The graph's own mistakes are reported in the same run.
-    makePlan(options, world ? world->facts() : runtime::WorldFacts{}, true, diagnostics);
+    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
     return report(diagnostics);
   }
   auto session = openDevice(options, diagnostics);
@@ -99,8 +99,7 @@ int runRender(const Options& options) {
   }
   const double prepared = now();
   double firstFrame = 0;
-  const std::uint32_t total = options.lastFrame - options.firstFrame + 1;
-  const bool progress = total > 1 && !options.quiet;
+  const bool progress = options.lastFrame > 0 && !options.quiet;  // frames before the first one written run too
   session->renderer.device().timers.setEnabled(options.profile);
   runtime::FrameReport last;
   // Every frame from 0 runs, so that frame N with history does not depend on where the range starts.
@@ -112,9 +111,9 @@ int runRender(const Options& options) {
       glFinish();
       firstFrame = now() - before;
     }
+    if (progress) showProgress(frame + 1, options.lastFrame + 1, now() - prepared);
     if (frame < options.firstFrame) continue;
     if (diagnostics.hasErrors() || !save(session->renderer, *outputOf(options.output, frame), diagnostics)) return report(diagnostics);
-    if (progress) showProgress(frame - options.firstFrame + 1, total, now() - prepared);
   }
   session->context->debugLog().drain(diagnostics);
   if (options.stats) printStats(*session, {{"setup_ms", (prepared - start) * 1e3},

@@ -17,6 +17,12 @@ std::string dataFolder() {
   return WEFT_DATA_INSTALLED;
 }
 
+runtime::WorldFacts factsWithoutWorld() {
+  runtime::WorldFacts facts;
+  for (const std::string& list : scene::drawListNames()) facts.lists.push_back({list, 0});
+  return facts;
+}
+
 graph::Settings settingsOf(const Options& options, bool software) {
   return {.screenWidth = options.width,
           .screenHeight = options.height,

@@ -26,6 +26,9 @@ std::string scenePathOf(const Options& options);
 // The scene and the environment that the options name.
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);
 
+// Facts to go on with when the scene could not be read: every draw list, empty.
+runtime::WorldFacts factsWithoutWorld();
+
 // Reads, expands and compiles. Null after errors.
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts, bool software,
                                             base::Diagnostics& diagnostics);

@@ -67,6 +67,8 @@ class Checker {
     std::vector<std::string> names;
     for (const gl::StageSource& stage : variant_.stages)
       names.insert(names.end(), stage.source->declared.begin(), stage.source->declared.end());
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
   }
 
@@ -107,6 +109,7 @@ class Checker {
       case Kind::color:
         if (!reflection_.findOutput(slot.name) && (!mentioned(slot) || !otherUse(slot.name).empty()))
           missing(slot, "an output", otherUse(slot.name));
+        checkOutput(slot, use);
         return;
       case Kind::depth: case Kind::copy: case Kind::vertex: case Kind::index: case Kind::indirect: return;
     }
@@ -124,6 +127,24 @@ class Checker {
     if (!block || instanceLayoutOf(*block, layout, problem)) return;
     fail(Code::W186, place, fmt::format("the block '{}' of '{}' is no instance table: {}", block->name, spec_.shader, problem))
         .hint = "include scene/instances.glsl, or declare its struct";
+  }
+
+  // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
+  void checkOutput(const SlotSpec& slot, const FlatUse& use) {
+    const gl::Interface* output = reflection_.findOutput(slot.name);
+    const auto shape = output ? gl::shapeOf(output->type) : std::nullopt;
+    if (!shape) return;
+    const graph::TexelKind kind = graph::infoOf(graph_.resources[use.resource].format).kind;
+    const GLenum base = kind == graph::TexelKind::unsigned_integer ? GL_UNSIGNED_INT
+                        : kind == graph::TexelKind::signed_integer ? GL_INT
+                                                                   : GL_FLOAT;
+    if (shape->base == base) return;
+    base::Diagnostic& d = fail(Code::W183, slot.place, fmt::format("slot '{}' and the shader's {} do not fit", slot.name,
+                                                                   gl::glslTypeName(output->type)));
+    d.resource = graph_.resourceNames[use.resource];
+    d.expected = fmt::format("{} output for {}", base == GL_FLOAT ? "a float" : base == GL_INT ? "an int" : "an unsigned int",
+                             graph::infoOf(graph_.resources[use.resource].format).name);
+    d.found = gl::glslTypeName(output->type);
   }
 
   void checkSampler(const SlotSpec& slot, const FlatUse& use) {

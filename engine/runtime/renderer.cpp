@@ -92,6 +92,8 @@ bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostic
                                 diagnostics);
   if (!fallback_) return false;
   fallback_->frame(world, headlessFrame(world, 0, 60), diagnostics);
+  // Presenting keeps the finest level alive and no other; an environment has them all.
+  glGenerateTextureMipmap(fallback_->presentedWhole().id);
   device_.imports.setEnvironmentFallback(fallback_->presentedWhole(), 1);
   return !diagnostics.hasErrors();
 }
