@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/key_bindings.h"
+#include "app/view/key_bindings.h"
 
 namespace weft::app::ui {
 
@@ -77,10 +77,10 @@ void Panels::drawHelp() const {
   ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x - 16, screen.y - 16});
   ImGui::Begin("Help", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const KeyBinding& binding : kKeyBindings) {
+    for (const KeyBinding& binding : keyBindings()) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", binding.name);
+      ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", binding.keys);
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(binding.does);
     }

@@ -1,10 +1,9 @@
-// Orbit around the target of a pose: drags turn, the wheel moves nearer and farther. Never rolls, never reaches the poles.
-// Does not: know keys or windows, smooth, or move the target.
+// Orbit around the target of a pose: drags turn, the wheel moves nearer and farther. Never rolls, never
+// reaches the poles. Does not: know keys or windows, smooth, or move the target.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-
 #include <glm/glm.hpp>
 
 #include "engine/scene/camera.h"
@@ -24,10 +23,13 @@ class OrbitCamera {
     yaw_ -= dx * 0.005;
     pitch_ = std::clamp(pitch_ + dy * 0.005, -1.55, 1.55);
   }
-  void zoom(double steps) { distance_ = std::clamp(distance_ * std::pow(0.9, steps), pose_.nearPlane * 2, 1e5); }
+  void zoom(double steps) {
+    distance_ = std::clamp(distance_ * std::pow(0.9, steps), pose_.nearPlane * 2, 1e5);
+  }
   scene::CameraPose pose() const {
     scene::CameraPose pose = pose_;
-    const glm::dvec3 direction(std::cos(pitch_) * std::sin(yaw_), std::sin(pitch_), std::cos(pitch_) * std::cos(yaw_));
+    const glm::dvec3 direction(std::cos(pitch_) * std::sin(yaw_), std::sin(pitch_),
+                               std::cos(pitch_) * std::cos(yaw_));
     pose.position = pose.target + direction * distance_;
     return pose;
   }
