@@ -1,10 +1,14 @@
-// First step of the bloom pyramid: what is bright enough, at half the size. Scene-referred.
+// First step of the bloom pyramid: what is bright enough, at half the size. Scene-referred. One texel that is not a number
+// stays one texel.
 // read    source   full size; any sampler (texels are fetched)
 // write   result   half size
 // params  threshold  luminance-like level (largest channel) where bloom begins; 0 lets everything through unchanged
 //         knee       width of the soft start as a fraction of the threshold, 0..1; 0 is a hard edge [0.5]
 //         firefly    define, default 1: texels weigh 1 / (1 + luminance), so that a single hot one cannot flash
 //                    (Karis, "Next generation post processing in Call of Duty", SIGGRAPH 2014, slide 166)
+#include "common/finite.glsl"
+#include "bright.glsl"
+
 #ifndef FIREFLY
 #define FIREFLY 1
 #endif
@@ -21,15 +25,6 @@ const float knee = 0.5;
 #endif
 out vec4 result;
 
-// Keeps the hue: the colour is scaled by how much of its largest channel passes.
-vec3 keepBright(vec3 color) {
-  float peak = max(max(color.r, color.g), max(color.b, 1e-6));
-  float soft = threshold * knee;
-  float ramp = clamp(peak - threshold + soft, 0.0, 2.0 * soft);
-  ramp = soft > 0.0 ? ramp * ramp / (4.0 * soft) : 0.0;
-  return color * (max(ramp, peak - threshold) / peak);
-}
-
 void main() {
   ivec2 last = textureSize(source, 0) - 1;
   ivec2 a = min(ivec2(gl_FragCoord.xy) * 2, last), b = min(a + 1, last);
@@ -38,7 +33,7 @@ void main() {
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < 4; ++i) {
-    vec3 bright = max(keepBright(c[i]), vec3(0.0));
+    vec3 bright = brightPart(finite(c[i]), threshold, knee);
 #if FIREFLY
     float weight = 1.0 / (1.0 + dot(bright, vec3(0.2126, 0.7152, 0.0722)));
 #else

@@ -1,15 +1,18 @@
 // Scene-referred to display-referred. The last pass that sees radiance; what follows works on encoded values. In this order:
-// aberration, bloom, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift, gamma, gain),
+// aberration, bloom, fog, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift, gamma, gain),
 // sRGB encoding, table, grain, dither. Each is a variant of its own: what is off is not compiled. docs/effects.md has the details.
 // read    color   scene-referred radiance; `as linear` for ABERRATION, else any sampler (texels are fetched)
-//         bloom?  scene-referred, any size; `as linear` unless its size is the target's
+//         bloom?  scene-referred, any size; `as linear` unless its size is the target's: the blurred bright part
+//         depth?  reversed-Z, for FOG
 //         exposure?  buffer of exposure/adapt.comp.glsl: a factor beside `ev`; without it, or below 0, there is none
 //         lut?    3D table on encoded values, `as linear`; see lut.glsl. With it the parameter lut_strength, 0..1
 // write   result  display-referred, sRGB encoded
 // params  all three, or none for the values in brackets:
 //         ev              exposure in stops; +1 doubles [0]
-//         bloom_strength  share of bloom in the mix, 0..1: the picture is mixed, not brightened [0.05]
+//         bloom_strength  share of the bright part that its blur replaces, 0..1 [0.05]
 //         white           radiance, after exposure, that becomes white [8]
+//         threshold, knee what the bright part is, as in bloom/prefilter; both or none [0, 0: everything]
+//         fog             define: fog_color (radiance), fog_density, fog_falloff, fog_base, fog_sky; see fog.glsl
 //         curve           CURVE, see tone_curve.glsl
 //         aberration      define: aberration_px, how far red and blue part from green at the corners, in pixels
 //         white_balance   define: temperature, tint; see white_balance.glsl
@@ -18,6 +21,7 @@
 //         grain           define: grain_strength; see grain.glsl
 //         dither          define, default 1: half a step of noise either way before rounding to 8 bits
 //                         (interleaved gradient noise, Jimenez, SIGGRAPH 2014; uniform, so means are kept)
+#include "common/finite.glsl"
 #include "common/srgb.glsl"
 #include "tone_curve.glsl"
 
@@ -39,9 +43,18 @@
 #ifndef GRAIN
 #define GRAIN 0
 #endif
+#ifndef FOG
+#define FOG 0
+#endif
 
+#ifdef HAS_BLOOM
+#include "bloom/bright.glsl"
+#endif
 #ifdef HAS_LUT
 #include "lut.glsl"
+#endif
+#if FOG
+#include "fog.glsl"
 #endif
 #if WHITE_BALANCE
 #include "white_balance.glsl"
@@ -58,18 +71,32 @@ uniform sampler2D color;
 #ifdef HAS_BLOOM
 uniform sampler2D bloom;
 #endif
+#ifdef HAS_DEPTH
+uniform sampler2D depth;
+#endif
 #ifdef HAS_EXPOSURE
 layout(std430) readonly buffer exposure { vec4 adapted; };
 #endif
 #ifdef HAS_LUT
 uniform sampler3D lut;
 #endif
-#if defined(HAS_EV) || defined(HAS_LUT) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
+#if defined(HAS_EV) || defined(HAS_THRESHOLD) || defined(HAS_LUT) || FOG || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
 layout(std140) uniform Parameters {
 #ifdef HAS_EV
   float ev;
   float bloom_strength;
   float white;
+#endif
+#ifdef HAS_THRESHOLD
+  float threshold;
+  float knee;
+#endif
+#if FOG
+  vec3 fog_color;
+  float fog_density;
+  float fog_falloff;
+  float fog_base;
+  float fog_sky;
 #endif
 #ifdef HAS_LUT
   float lut_strength;
@@ -99,6 +126,9 @@ layout(std140) uniform Parameters {
 #ifndef HAS_EV
 const float ev = 0.0, bloom_strength = 0.05, white = 8.0;
 #endif
+#ifndef HAS_THRESHOLD
+const float threshold = 0.0, knee = 0.0;
+#endif
 in vec2 uv;
 out vec4 result;
 
@@ -113,8 +143,13 @@ void main() {
   c.r = textureLod(color, uv - apart, 0.0).r;
   c.b = textureLod(color, uv + apart, 0.0).b;
 #endif
+  c = finite(c);
 #ifdef HAS_BLOOM
-  c = mix(c, textureLod(bloom, uv, 0.0).rgb, bloom_strength);
+  c += bloom_strength * (textureLod(bloom, uv, 0.0).rgb - brightPart(c, threshold, knee));
+#endif
+#if FOG && defined(HAS_DEPTH)
+  float far = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r;
+  c = mix(fog_color, c, fogTransmittance(uv, far, fog_density, fog_falloff, fog_base, fog_sky));
 #endif
   c *= exp2(ev);
 #ifdef HAS_EXPOSURE

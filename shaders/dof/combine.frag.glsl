@@ -4,6 +4,7 @@
 //         fields   layer 0 before the focus, layer 1 the rest, from bokeh; `as linear`
 // write   result   radiance; in focus the source bit for bit; alpha is the source's
 // params  infinity, focus, largest   as in split
+#include "common/finite.glsl"
 #include "coc.glsl"
 
 uniform sampler2D source, depth;
@@ -22,9 +23,9 @@ void main() {
   vec2 uv = gl_FragCoord.xy * 0.5 / vec2(textureSize(fields, 0).xy);
   if (blur > 0.0) {
     vec4 behind = textureLod(fields, vec3(uv, 1.0), 0.0);
-    own.rgb = mix(own.rgb, behind.rgb / max(behind.a, 1e-4), blur);
+    own.rgb = mix(finite(own.rgb), behind.rgb / max(behind.a, 1e-4), blur);
   }
   vec4 before = textureLod(fields, vec3(uv, 0.0), 0.0);
-  if (before.a > 0.0) own.rgb = own.rgb * (1.0 - before.a) + before.rgb;
+  if (before.a > 0.0) own.rgb = finite(own.rgb) * (1.0 - before.a) + before.rgb;
   result = own;
 }

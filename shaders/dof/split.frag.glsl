@@ -6,6 +6,7 @@
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
 //         largest   limit of the radius, pixels of the full picture
+#include "common/finite.glsl"
 #include "coc.glsl"
 
 uniform sampler2D color, depth;
@@ -26,7 +27,7 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec2 at = min(first + ivec2(i & 1, i >> 1), last);
     float radius = cocRadius(texelFetch(depth, at, 0).r, infinity, focus, float(largest) - 1.0), blur = blurOf(radius);
-    vec4 c = vec4(texelFetch(color, at, 0).rgb, abs(radius) * 0.5);
+    vec4 c = vec4(finite(texelFetch(color, at, 0).rgb), abs(radius) * 0.5);
     if (radius < -0.5) {
       before += c * blur;
       before_weight += blur;

@@ -12,6 +12,7 @@
 // 2014): a nearer texel counts where its own streak reaches, as much as it is spread thin, divided by all samples and not by
 // those found, so that light is neither made nor lost. Underneath lies the pixel's own layer, blurred along its own
 // velocity over what is not nearer: what a moving thing hides is made up from beside it.
+#include "common/finite.glsl"
 #include "blur.glsl"
 
 uniform sampler2D source, velocity, depth, tiles;
@@ -50,14 +51,14 @@ void main() {
 
   vec2 along = longest / far_reach;
   float span = far_reach + 0.5;
-  vec3 front = vec3(0.0), under = own.rgb * kOwn;
+  vec3 front = vec3(0.0), under = finite(own.rgb) * kOwn;
   float front_weight = 0.0, under_weight = kOwn;
   int n = min(samples, int(ceil(2.0 * span)));
   for (int i = 0; i < n; ++i) {
     float t = ((float(i) + noise) / float(n) * 2.0 - 1.0) * span;
     ivec2 at = clamp(ivec2(floor(gl_FragCoord.xy + along * t)), ivec2(0), size - 1);
     float in_front = nearer(texelFetch(depth, at, 0).r, own_depth);
-    vec3 c = texelFetch(source, at, 0).rgb;
+    vec3 c = finite(texelFetch(source, at, 0).rgb);
     float spread = abs(dot(streakOf(texelFetch(velocity, at, 0).rg, vec2(size), shutter, tile), along));
     float w = in_front * reach(spread, abs(t)) * span / max(spread, 0.5);
     front += w * c;
@@ -74,7 +75,7 @@ void main() {
       float t = ((float(i) + noise) / float(n) * 2.0 - 1.0) * own_reach;
       ivec2 at = clamp(ivec2(floor(gl_FragCoord.xy + along * t)), ivec2(0), size - 1);
       float w = 1.0 - nearer(texelFetch(depth, at, 0).r, own_depth);
-      under += w * texelFetch(source, at, 0).rgb;
+      under += w * finite(texelFetch(source, at, 0).rgb);
       under_weight += w;
     }
   }

@@ -86,6 +86,13 @@ std::vector<std::uint32_t> Lab::readBuffer(const std::string& resource, std::siz
   return out;
 }
 
+std::string Lab::passNames() const {
+  std::string names;
+  const graph::Plan& plan = renderer_->execution()->plan();
+  for (const auto& step : plan.steps) names += plan.graph->passNames[step.pass] + "\n";
+  return names;
+}
+
 std::string Lab::complaints() {
   sharedContext().debugLog().drain(diagnostics_);
   return diagnostics_.text();

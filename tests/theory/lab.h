@@ -47,6 +47,7 @@ class Lab {
   void frame(std::uint32_t number = 0);
   Picture read(const std::string& resource, std::uint32_t mip = 0, std::uint32_t layer = 0);
   std::vector<std::uint32_t> readBuffer(const std::string& resource, std::size_t words);
+  std::string passNames() const;  // of what runs, in order, a line each
   // Everything the driver and the engine said; "" when there is nothing above a note.
   std::string complaints();
   const runtime::World& world() const { return world_; }

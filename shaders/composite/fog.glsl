@@ -1,0 +1,22 @@
+// Atmospheric fog: scene-referred; light from afar is replaced by the fog's own, exponentially in the length of the ray
+// (Beer and Lambert), in air that thins out with height (Wenzel, "Real-time atmospheric effects in games", SIGGRAPH 2006).
+#ifndef COMPOSITE_FOG_GLSL
+#define COMPOSITE_FOG_GLSL
+
+#include "common/view.glsl"
+
+// Share of the light that comes through from a point of reversed-Z `depth`. `density` is the extinction at the height
+// `base`, per world unit; it falls by e in 1 / `falloff` world units, or never for 0. `sky` is how much of the fog counts
+// before the sky, which is so far away that only a falloff lets any of it through.
+float fogTransmittance(vec2 target_uv, float depth, float density, float falloff, float base, float sky) {
+  vec3 ray = viewRay(target_uv);
+  float slant = length(ray);
+  float range = min(near_plane / max(depth, 1e-12), 1e6) * slant;
+  float climb = falloff * range * ray.y / slant;
+  // (1 - e^-x) / x, by its series where that cancels.
+  float mean = abs(climb) < 1e-2 ? 1.0 - climb * (0.5 - climb / 6.0) : (1.0 - exp(min(-climb, 60.0))) / climb;
+  float through = exp(-density * exp(min(-falloff * (eye.y - base), 60.0)) * range * mean);
+  return depth > 0.0 ? through : mix(1.0, through, sky);
+}
+
+#endif
