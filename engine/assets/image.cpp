@@ -115,11 +115,17 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnost
 }
 
 std::optional<ImageF> loadEnvironment(const std::string& path, Diagnostics& diagnostics) {
-  std::optional<ImageF> image = loadImage(path, diagnostics);
+  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::W150);
+  if (!bytes) return {};
+  return decodeEnvironment(*bytes, path, diagnostics);
+}
+
+std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+  std::optional<ImageF> image = decodeImage(bytes, name, diagnostics);
   if (!image) return {};
   ImageF wide = widenToRgba(std::move(*image));
   for (std::size_t i = 3; i < wide.texels.size(); i += 4) wide.texels[i] = 1;
-  sanitizeRadiance(wide, path, diagnostics);
+  sanitizeRadiance(wide, name, diagnostics);
   return wide;
 }
 

@@ -45,6 +45,8 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, base::Di
 // loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite and beyond 65504
 // become 65504. Adds one W153 warning with the counts when anything was replaced.
 std::optional<ImageF> loadEnvironment(const std::string& path, base::Diagnostics& diagnostics);
+// The same for bytes in memory, as decodeImage.
+std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
 // The cleaning step alone: all channels of `image`, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
 

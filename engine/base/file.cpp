@@ -24,6 +24,11 @@ constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 }  // namespace
 
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code, const Place& place) {
+  return readFile(path, diagnostics, code, place, {});
+}
+
+std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code, const Place& place,
+                                    const ReadProgress& goOn) {
   const auto fail = [&](const std::string& reason, const std::string& hint) {
     Place where = place;
     if (!where.file) where.file = std::make_shared<const std::string>(path);
@@ -38,11 +43,14 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
     return fail("it is a device", "name a file");
   const FilePtr file(std::fopen(path.c_str(), "rb"));
   if (!file) return fail(std::strerror(errno), "");
+  const std::uintmax_t size = std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, ec) : 0;
+  const std::uint64_t total = ec ? 0 : size;
   std::string bytes;
   char chunk[65536];
   std::size_t got = 0;
   while ((got = std::fread(chunk, 1, sizeof chunk, file.get())) > 0) {
     bytes.append(chunk, got);
+    if (goOn && !goOn(bytes.size(), total)) return std::nullopt;
     if (bytes.size() > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
   }
   if (std::ferror(file.get())) return fail(std::strerror(errno), "");

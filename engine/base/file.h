@@ -1,7 +1,9 @@
-// Whole files in and out, with diagnostics instead of exceptions. Directories, missing files and unreadable files are
-// told apart. Does not: watch, memory-map or decode anything.
+// Whole files in and out, with diagnostics instead of exceptions. Directories, missing files and unreadable
+// files are told apart. Does not: watch, memory-map or decode anything.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,9 +12,16 @@
 
 namespace weft::base {
 
-// The bytes of the file at `path`. On failure reports `code` at `place` (or at the file itself when `place` is empty).
+// The bytes of the file at `path`. On failure reports `code` at `place` (or at the file itself when `place`
+// is empty).
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code = Code::W1,
                                     const Place& place = {});
+
+// Called between portions with the bytes read so far and the file's size (0 when it has none, as a pipe).
+// False ends the reading: readFile returns nothing then and reports nothing.
+using ReadProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;
+std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
+                                    const Place& place, const ReadProgress& goOn);
 
 // Writes through a temporary file beside `path` and renames it, so that a failure never leaves half a file.
 // Reports Code::W180 and returns false when it cannot.

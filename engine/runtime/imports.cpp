@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/runtime/lut_texture.h"
-#include "engine/runtime/registry.h"
 
 namespace weft::runtime {
 
@@ -46,22 +45,9 @@ gl::TextureRef Imports::lut(const std::string& file, base::Diagnostics& diagnost
 gl::TextureRef Imports::texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
   if (import.request.type == "cube_lut") return lut(import.request.arguments[0].second.symbol, diagnostics);
   if (import.request.type != "environment") return {};
-  const assets::ImageF* image = world_->environment();
-  if (!image) return fallback_;
-  if (environmentGeneration_ != world_->environmentGeneration()) {
-    const auto width = static_cast<std::uint32_t>(image->width), height = static_cast<std::uint32_t>(image->height);
-    const gl::TextureDesc desc{
-        .format = GL_RGBA16F, .width = width, .height = height, .mips = fullMips(width, height)};
-    auto texture = gl::Texture::create(desc, "@environment", diagnostics);
-    if (!texture) return environment_ ? environment_.ref() : gl::TextureRef{};
-    // Row 0 of the image is its top row, and row 0 of the texture is +Y: the same order.
-    gl::uploadTexture(texture->ref(), 0, 0, image->channels == 4 ? GL_RGBA : GL_RGB, GL_FLOAT,
-                      std::as_bytes(std::span(image->texels)));
-    glGenerateTextureMipmap(texture->id());
-    environment_ = std::move(*texture);
-    environmentGeneration_ = world_->environmentGeneration();
-  }
-  return environment_.ref();
+  if (!world_->environment()) return fallback_;
+  environments_.use(world_->environment(), diagnostics);
+  return environments_.current();
 }
 
 const std::vector<scene::Instance>& Imports::instancesOf(scene::DrawList list) {

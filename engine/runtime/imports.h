@@ -14,6 +14,7 @@
 #include "engine/gl/objects.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/runtime/block_writer.h"
+#include "engine/runtime/environment_texture.h"
 #include "engine/runtime/world.h"
 #include "engine/scene/sort.h"
 
@@ -31,6 +32,10 @@ class Imports {
 
   // The environment, or the fallback when none is loaded; id 0 when there is neither.
   gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
+  // Sending the next environment beside the one in use, and keeping the one before it. An import read by a sliced group is
+  // published with the group: while the group works on the new environment, the passes that show it read
+  // environments().before(), which is there after keepBefore(true).
+  EnvironmentTextures& environments() { return environments_; }
   // Used while the world has no environment: a texture made by a graph of its own. Not owned.
   void setEnvironmentFallback(gl::TextureRef texture, std::uint64_t generation);
 
@@ -84,8 +89,7 @@ class Imports {
   const World* world_ = nullptr;
   FrameInput input_;
   std::uint64_t frames_ = 0;
-  gl::Texture environment_;
-  std::uint64_t environmentGeneration_ = 0;
+  EnvironmentTextures environments_;
   gl::TextureRef fallback_;
   std::uint64_t fallbackGeneration_ = 0;
   std::vector<std::unique_ptr<Table>> tables_;

@@ -11,6 +11,15 @@
 
 namespace weft::runtime {
 
+namespace {
+
+bool readsEnvironment(const graph::FlatGraph& graph) {
+  return std::ranges::any_of(graph.imports,
+                             [](const graph::ImportSpec& import) { return import.request.type == "environment"; });
+}
+
+}  // namespace
+
 std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder) {
   const std::filesystem::path folder = std::filesystem::path(graphPath).parent_path();
   std::vector<std::string> roots;
@@ -72,9 +81,8 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
   if (!flat || diagnostics.hasErrors()) return nullptr;
   device_.imports.renewFiles();
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
-  const bool wantsEnvironment = std::ranges::any_of(
-      flat->imports, [](const graph::ImportSpec& import) { return import.request.type == "environment"; });
-  if (wantsEnvironment && !world.environment() && !prepareFallback(world, diagnostics)) return nullptr;
+  const bool standIn = !world.environment() && !world.environmentPending();
+  if (standIn && readsEnvironment(*flat) && !prepareFallback(world, diagnostics)) return nullptr;
   return Execution::create(device_, std::move(plan), execution_.get(), diagnostics);
 }
 
@@ -99,7 +107,19 @@ bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostic
 }
 
 FrameReport Renderer::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
-  return execution_ ? execution_->frame(world, input, diagnostics) : FrameReport{};
+  if (!execution_) return {};
+  if (world.environmentPending() && readsEnvironment(*execution_->plan().graph)) {
+    blackOut();
+    return {};
+  }
+  return execution_->frame(world, input, diagnostics);
+}
+
+void Renderer::blackOut() {
+  const graph::FlatGraph& graph = *execution_->plan().graph;
+  const gl::TextureRef texture = execution_->presented();
+  if (texture.id == 0 || graph.resources[graph.present.resource].import != graph::kNone) return;
+  clearTexture(texture, graph.resources[graph.present.resource].format, 0, 0, 1, graph::Value{graph::Value::Type::list, 4, {0, 0, 0, 1}, {}});
 }
 
 std::optional<assets::ImageF> Renderer::readPresentedFloat() {

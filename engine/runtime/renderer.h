@@ -33,6 +33,7 @@ class Renderer {
   bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
   // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes).
   std::vector<std::string> files() const;
+  // Runs nothing and presents black while the graph reads an environment that is still on its way (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
   Execution* execution() { return execution_.get(); }
@@ -53,6 +54,7 @@ class Renderer {
                                            base::Diagnostics& diagnostics);
   // The embedded default environment: graphs/daylight.json, run once when a graph needs @environment and none is loaded.
   bool prepareFallback(const World& world, base::Diagnostics& diagnostics);
+  void blackOut();
 
   std::string graphPath_;
   Options options_;

@@ -12,17 +12,21 @@ void World::setScene(scene::Scene scene) {
   ++sceneGeneration_;
 }
 
-void World::setEnvironment(std::shared_ptr<const assets::ImageF> image) {
-  environment_ = std::move(image);
+void World::setEnvironment(std::shared_ptr<const assets::EnvironmentMap> map) {
+  environment_ = std::move(map);
   ++environmentGeneration_;
+}
+
+void World::setEnvironment(const std::shared_ptr<const assets::ImageF>& image) {
+  setEnvironment(std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*image)));
 }
 
 WorldFacts World::facts() const {
   WorldFacts facts;
+  facts.environment = environment_ || environmentPending();
   if (environment_) {
-    facts.environment = true;
-    facts.environmentWidth = static_cast<std::uint32_t>(environment_->width);
-    facts.environmentHeight = static_cast<std::uint32_t>(environment_->height);
+    facts.environmentWidth = environment_->width;
+    facts.environmentHeight = environment_->height;
   }
   for (int i = 0; i < scene::kDrawListCount; ++i) {
     const auto list = static_cast<scene::DrawList>(i);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/assets/environment_map.h"
 #include "engine/assets/image.h"
 #include "engine/base/diagnostic.h"
 #include "engine/runtime/registry.h"
@@ -23,15 +24,24 @@ class World {
   std::uint64_t sceneGeneration() const { return sceneGeneration_; }
 
   // Null: none was loaded.
-  const assets::ImageF* environment() const { return environment_.get(); }
-  void setEnvironment(std::shared_ptr<const assets::ImageF> image);
+  const std::shared_ptr<const assets::EnvironmentMap>& environment() const { return environment_; }
+  void setEnvironment(std::shared_ptr<const assets::EnvironmentMap> map);
+  // The same picture rounded to halves.
+  void setEnvironment(const std::shared_ptr<const assets::ImageF>& image);
   std::uint64_t environmentGeneration() const { return environmentGeneration_; }
+
+  // The first environment is on its way. Until setEnvironment(), or expectEnvironment(false) when it failed, graphs are
+  // expanded as if there were one, of WorldFacts' size, and Renderer::frame() shows black instead of those that read it.
+  // The arrival changes the facts when the size differs: then the graph is to be applied again; what persists carries over.
+  void expectEnvironment(bool expected = true) { environmentExpected_ = expected; }
+  bool environmentPending() const { return environmentExpected_ && !environment_; }
 
   WorldFacts facts() const;
 
  private:
   scene::Scene scene_;
-  std::shared_ptr<const assets::ImageF> environment_;
+  std::shared_ptr<const assets::EnvironmentMap> environment_;
+  bool environmentExpected_ = false;
   std::uint64_t sceneGeneration_ = 1, environmentGeneration_ = 1;
 };
 

@@ -1,0 +1,36 @@
+// An environment as the GPU takes it: equirectangular RGBA halves, and the way there from a file. What the
+// loader thread runs, and anyone else may call. Errors and warnings are those of loadEnvironment (image.h),
+// with file and reason. Thread safe: no state is shared between calls. Does not: know GL, build mips, or
+// start threads (loader.h does).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/assets/image.h"
+
+namespace weft::assets {
+
+// Row 0 is +Y; alpha is 1; every value is finite and not negative.
+struct EnvironmentMap {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint16_t> texels{};  // width * height * 4 binary16
+};
+
+enum class LoadStage : std::uint8_t { idle, waiting, reading, decoding, converting };
+
+// Told how far a load is: the stage, and how much of it is done (0 to 1; a stage that cannot tell says 0 and
+// then the next stage begins). False gives up. Called on the thread that loads, often.
+using LoadObserver = std::function<bool(LoadStage stage, double done)>;
+
+// Empty after errors, and without any when `observer` gave up.
+std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::Diagnostics& diagnostics,
+                                                 const LoadObserver& observer = {});
+
+// A picture that loadEnvironment would accept, 3 or 4 channels, rounded to halves (half.h).
+EnvironmentMap toEnvironmentMap(const ImageF& image);
+
+}  // namespace weft::assets

@@ -1,0 +1,135 @@
+#include "engine/assets/loader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace weft::assets {
+
+namespace {
+
+// Where a stage begins and ends in the whole, measured on a 1k .hdr: a rough guide, and monotone.
+std::pair<double, double> spanOf(LoadStage stage) {
+  switch (stage) {
+    case LoadStage::reading:
+      return {0.0, 0.3};
+    case LoadStage::decoding:
+      return {0.3, 0.9};
+    case LoadStage::converting:
+      return {0.9, 1.0};
+    default:
+      return {0.0, 0.0};
+  }
+}
+
+}  // namespace
+
+Loader::Loader(StageHook hook) : hook_(std::move(hook)) {}
+
+Loader::~Loader() {
+  thread_.request_stop();
+}
+
+std::uint64_t Loader::request(std::string path, std::uint32_t channel) {
+  const std::lock_guard lock(mutex_);
+  if (channel != 0)
+    std::erase_if(requests_, [&](const Request& each) {
+      if (each.channel != channel) return false;
+      if (each.result) --ready_;
+      *each.cancelled = true;
+      return true;
+    });
+  if (requests_.size() >= kMostRequests) return 0;
+  const std::uint64_t ticket = ++lastTicket_;
+  requests_.push_back(
+      {ticket, channel, std::move(path), std::make_shared<std::atomic<bool>>(false), std::nullopt});
+  newest_ = ticket;
+  if (!thread_.joinable()) thread_ = std::jthread([this](std::stop_token stop) { run(std::move(stop)); });
+  wake_.notify_one();
+  finished_.notify_all();  // whoever waits for a request that was replaced
+  return ticket;
+}
+
+void Loader::cancel(std::uint64_t ticket) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(requests_, [&](const Request& each) {
+    if (each.ticket != ticket) return false;
+    if (each.result) --ready_;
+    *each.cancelled = true;
+    return true;
+  });
+  finished_.notify_all();
+}
+
+std::optional<LoadResult> Loader::poll() {
+  if (ready_ == 0) return {};
+  const std::lock_guard lock(mutex_);
+  const auto found =
+      std::ranges::find_if(requests_, [](const Request& each) { return each.result.has_value(); });
+  if (found == requests_.end()) return {};
+  std::optional<LoadResult> result = std::move(found->result);
+  requests_.erase(found);
+  --ready_;
+  return result;
+}
+
+std::optional<LoadResult> Loader::wait(std::uint64_t ticket) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    const auto found = std::ranges::find(requests_, ticket, &Request::ticket);
+    if (found == requests_.end()) return {};
+    if (found->result) {
+      std::optional<LoadResult> result = std::move(found->result);
+      requests_.erase(found);
+      --ready_;
+      return result;
+    }
+    finished_.wait(lock);
+  }
+}
+
+LoadProgress Loader::progress(std::uint64_t ticket) const {
+  const std::uint64_t shown = shown_;
+  if (shown >> 24 == ticket)
+    return {static_cast<LoadStage>(shown >> 16 & 0xff), static_cast<float>(shown & 0xffff) / 65535.0f};
+  return {shown >> 24 < ticket && ticket <= newest_ ? LoadStage::waiting : LoadStage::idle, 0};
+}
+
+void Loader::show(std::uint64_t ticket, LoadStage stage, double done) {
+  const auto [from, to] = spanOf(stage);
+  const auto steps = static_cast<std::uint64_t>(std::lround((from + (to - from) * done) * 65535));
+  shown_ = ticket << 24 | static_cast<std::uint64_t>(stage) << 16 | steps;
+}
+
+void Loader::run(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    auto next = requests_.end();
+    const bool more = wake_.wait(lock, stop, [&] {
+      next = std::ranges::find_if(requests_, [](const Request& each) { return !each.result; });
+      return next != requests_.end();
+    });
+    if (!more || stop.stop_requested()) return;
+    LoadResult result{next->ticket, next->path, nullptr, {}};
+    const std::shared_ptr<std::atomic<bool>> cancelled = next->cancelled;
+    lock.unlock();
+
+    LoadStage last = LoadStage::idle;
+    auto map = loadEnvironmentMap(result.path, result.diagnostics, [&](LoadStage stage, double done) {
+      show(result.ticket, stage, done);
+      if (std::exchange(last, stage) != stage && hook_) hook_(result.ticket, stage);
+      return !*cancelled && !stop.stop_requested();
+    });
+    if (map) result.map = std::make_shared<const EnvironmentMap>(std::move(*map));
+    show(result.ticket, LoadStage::idle, 0);
+
+    lock.lock();
+    const auto mine = std::ranges::find(requests_, result.ticket, &Request::ticket);
+    if (stop.stop_requested() || mine == requests_.end()) continue;
+    mine->result = std::move(result);
+    ++ready_;
+    finished_.notify_all();
+  }
+}
+
+}  // namespace weft::assets

@@ -1,0 +1,84 @@
+// The loader thread: reads, decodes and converts environments (.hdr, .exr) one after another, off the thread
+// that draws. Requests wait in a bounded queue and finish in the order they were made; a request of a channel
+// replaces what that channel asked for before and has not fetched yet, so that only the last choice of a
+// person costs anything. Failure is a value: a result without a map, with Diagnostics. Progress is read
+// without locks. Destroying the loader stops at the next look between portions of reading and converting; a
+// decoder in the middle of a file is waited for. Does not: know GL, watch files, or cache what it loaded.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "engine/assets/environment_map.h"
+#include "engine/base/diagnostic.h"
+
+namespace weft::assets {
+
+struct LoadProgress {
+  LoadStage stage = LoadStage::idle;
+  float done = 0;  // of the whole load, 0 to 1; grows within one request
+};
+
+struct LoadResult {
+  std::uint64_t ticket = 0;
+  std::string path;                           // as it was asked for
+  std::shared_ptr<const EnvironmentMap> map;  // null after errors
+  base::Diagnostics diagnostics;
+};
+
+class Loader {
+ public:
+  static constexpr std::size_t kMostRequests = 16;  // waiting, running, or finished and not fetched
+  // For tests: called on the loader thread when a stage of a request begins.
+  using StageHook = std::function<void(std::uint64_t ticket, LoadStage stage)>;
+
+  explicit Loader(StageHook hook = {});
+  ~Loader();
+  Loader(const Loader&) = delete;
+  Loader& operator=(const Loader&) = delete;
+
+  // Returns a ticket above all earlier ones, or 0 when too many requests are under way. Channel 0 replaces
+  // nothing.
+  std::uint64_t request(std::string path, std::uint32_t channel = 0);
+  // Of an unknown or fetched ticket: nothing. A cancelled request has no result.
+  void cancel(std::uint64_t ticket);
+
+  // The oldest finished result, if there is one. Never waits for a load.
+  std::optional<LoadResult> poll();
+  // Waits for one request. Empty when it was fetched, replaced or cancelled.
+  std::optional<LoadResult> wait(std::uint64_t ticket);
+
+  // Of the request that runs now; `waiting` when it has not begun, `idle` for every other.
+  LoadProgress progress(std::uint64_t ticket) const;
+
+ private:
+  struct Request {
+    std::uint64_t ticket = 0;
+    std::uint32_t channel = 0;
+    std::string path;
+    std::shared_ptr<std::atomic<bool>> cancelled;
+    std::optional<LoadResult> result;  // once it is finished
+  };
+  void run(std::stop_token stop);
+  void show(std::uint64_t ticket, LoadStage stage, double done);
+
+  StageHook hook_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_, finished_;
+  std::deque<Request> requests_;          // under mutex_, by ticket
+  std::uint64_t lastTicket_ = 0;          // under mutex_
+  std::atomic<std::uint64_t> newest_{0};  // the last ticket given out
+  std::atomic<std::uint64_t> shown_{0};   // ticket << 24 | stage << 16 | done in 1 / 65535
+  std::atomic<std::uint32_t> ready_{0};   // results not fetched
+  std::jthread thread_;                   // from the first request on; joined before the rest goes
+};
+
+}  // namespace weft::assets

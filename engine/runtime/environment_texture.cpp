@@ -1,0 +1,73 @@
+#include "engine/runtime/environment_texture.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "engine/runtime/registry.h"
+
+namespace weft::runtime {
+
+namespace {
+
+// Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
+std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) { return std::as_bytes(std::span(map.texels)); }
+
+std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, base::Diagnostics& diagnostics) {
+  const gl::TextureDesc desc{
+      .format = GL_RGBA16F, .width = map.width, .height = map.height, .mips = fullMips(map.width, map.height)};
+  return gl::Texture::create(desc, "@environment", diagnostics);
+}
+
+}  // namespace
+
+std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics& diagnostics) {
+  if (incoming_.map != map) {
+    incoming_ = {};
+    auto texture = makeTexture(*map, diagnostics);
+    if (!texture) return std::nullopt;
+    const std::size_t rowBytes = std::size_t{map->width} * 4 * sizeof(std::uint16_t);
+    auto stream = gl::PixelStream::create(texture->ref(), 0, GL_RGBA, GL_HALF_FLOAT,
+                                          static_cast<std::uint32_t>(std::max<std::size_t>(1, kBytesPerFrame / rowBytes)),
+                                          "@environment", diagnostics);
+    if (!stream) return std::nullopt;
+    incoming_.map = map;
+    incoming_.texture = std::move(*texture);
+    incoming_.stream = std::move(stream);
+  }
+  if (incoming_.stream) {
+    incoming_.stream->advance(bytesOf(*map));
+    const float sent = static_cast<float>(incoming_.stream->rows()) / static_cast<float>(map->height);
+    if (!incoming_.stream->sentAll()) return sent * 0.99f;
+    glGenerateTextureMipmap(incoming_.texture.id());
+    incoming_.levels = gl::Fence::insert();
+    incoming_.stream.reset();
+  }
+  return incoming_.levels.isSignalled() ? 1.0f : 0.99f;
+}
+
+bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
+  if (currentMap_ == map) return true;
+  gl::Texture next;
+  if (incoming_.map == map && !incoming_.stream) {
+    next = std::move(incoming_.texture);
+  } else {
+    auto texture = makeTexture(*map, diagnostics);
+    if (!texture) return false;
+    gl::uploadTexture(texture->ref(), 0, 0, GL_RGBA, GL_HALF_FLOAT, bytesOf(*map));
+    glGenerateTextureMipmap(texture->id());
+    next = std::move(*texture);
+  }
+  if (incoming_.map == map) incoming_ = {};
+  if (keep_) before_ = std::move(current_);
+  current_ = std::move(next);
+  currentMap_ = map;
+  return true;
+}
+
+void EnvironmentTextures::keepBefore(bool keep) {
+  keep_ = keep;
+  if (!keep) before_ = {};
+}
+
+}  // namespace weft::runtime
