@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cstdio>
 
 #include "app/bench/frame_bench.h"
@@ -13,6 +14,7 @@
 #include "engine/graph/dump_dot.h"
 #include "engine/graph/dump_json.h"
 #include "engine/graph/dump_text.h"
+#include "engine/graph/read.h"
 #include "engine/graph/schema.h"
 #include "engine/runtime/prepared_pass.h"
 
@@ -45,16 +47,38 @@ void checkShaders(const Options& options, const graph::Plan& plan, base::Diagnos
   }
 }
 
+// A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
+// path or include is told together with the graph's own mistakes. Needs no OpenGL.
+void checkShaderFiles(const Options& options, const graph::GraphDesc& desc, gl::SourceLoader& sources,
+                      base::Diagnostics& diagnostics) {
+  const passes::PassRegistry types = passes::PassRegistry::builtin();
+  for (const graph::PassDesc& pass : desc.passes) {
+    if (pass.include && pass.include->graph)
+      checkShaderFiles(options, *pass.include->graph, sources, diagnostics);
+    const passes::PassType* type = pass.shader.empty() ? nullptr : types.find(pass.type);
+    if (!type) continue;
+    const bool pair = type->reflect().shader == graph::ShaderShape::draw;
+    for (const char* end : pair ? std::array{".vert.glsl", ".frag.glsl"} : std::array{"", ""})
+      sources.load(pass.shader + end, diagnostics, pass.shaderPlace);
+  }
+}
+
 }  // namespace
 
 int runCheck(const Options& options) {
   base::Diagnostics diagnostics;
   const auto plan = planFor(options, diagnostics);
   if (plan && options.shaders) checkShaders(options, *plan, diagnostics);
+  base::Diagnostics again;
+  if (const auto desc = plan ? nullptr : graph::readGraph(options.graph, options.presets, again)) {
+    gl::SourceLoader sources(runtime::shaderRootsOf(options.graph, dataFolder()));
+    checkShaderFiles(options, *desc, sources, diagnostics);
+  }
   const int code = report(diagnostics);
   if (code == 0)
     fmt::print("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n", options.graph,
-               plan->graph->passes.size(), plan->steps.size(), plan->storages.size(), plan->bytesAllocated, plan->bytesDeclared);
+               plan->graph->passes.size(), plan->steps.size(), plan->storages.size(), plan->bytesAllocated,
+               plan->bytesDeclared);
   return code;
 }
 
@@ -67,7 +91,8 @@ int runDot(const Options& options) {
 int runPlan(const Options& options) {
   base::Diagnostics diagnostics;
   if (const auto plan = planFor(options, diagnostics))
-    fmt::print("{}", options.format == "json" ? graph::dumpJson(*plan, options.explain) : graph::dumpText(*plan, options.explain));
+    fmt::print("{}", options.format == "json" ? graph::dumpJson(*plan, options.explain)
+                                              : graph::dumpText(*plan, options.explain));
   return report(diagnostics);
 }
 

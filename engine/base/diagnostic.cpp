@@ -14,7 +14,19 @@ const std::string& fileOf(const Diagnostic& diagnostic) {
   return diagnostic.place.file ? *diagnostic.place.file : none;
 }
 
-auto keyOf(const Diagnostic& d) { return std::tie(fileOf(d), d.place.line, d.place.column); }
+auto keyOf(const Diagnostic& d) {
+  return std::tie(fileOf(d), d.place.line, d.place.column);
+}
+
+// A text of any length fits on a screen: its beginning, cut between two characters, and how much there was.
+constexpr std::size_t kLongestText = 400;
+
+std::string shortened(const std::string& text) {
+  if (text.size() <= kLongestText) return text;
+  std::size_t end = kLongestText - 40;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return fmt::format("{}… ({} bytes in all)", text.substr(0, end), text.size());
+}
 
 bool sameText(const Diagnostic& a, const Diagnostic& b) {
   return a.code == b.code && a.severity == b.severity && keyOf(a) == keyOf(b) && a.message == b.message;
@@ -22,7 +34,9 @@ bool sameText(const Diagnostic& a, const Diagnostic& b) {
 
 }  // namespace
 
-std::string nameOf(Code code) { return fmt::format("W{:03}", static_cast<unsigned>(code)); }
+std::string nameOf(Code code) {
+  return fmt::format("W{:03}", static_cast<unsigned>(code));
+}
 
 std::string format(const Diagnostic& d) {
   std::string out;
@@ -34,9 +48,9 @@ std::string format(const Diagnostic& d) {
   const char* severity = d.severity == Severity::error     ? "error"
                          : d.severity == Severity::warning ? "warning"
                                                            : "note";
-  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), d.message);
+  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), shortened(d.message));
   const auto line = [&](const char* label, const std::string& text) {
-    if (!text.empty()) out += fmt::format("\n    {}: {}", label, text);
+    if (!text.empty()) out += fmt::format("\n    {}: {}", label, shortened(text));
   };
   line("pass", d.pass);
   line("resource", d.resource);
@@ -53,11 +67,15 @@ Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
 }
 
 Diagnostic& Diagnostics::error(Code code, Place place, std::string message) {
-  return add({.severity = Severity::error, .code = code, .message = std::move(message), .place = std::move(place)});
+  return add(
+      {.severity = Severity::error, .code = code, .message = std::move(message), .place = std::move(place)});
 }
 
 Diagnostic& Diagnostics::warning(Code code, Place place, std::string message) {
-  return add({.severity = Severity::warning, .code = code, .message = std::move(message), .place = std::move(place)});
+  return add({.severity = Severity::warning,
+              .code = code,
+              .message = std::move(message),
+              .place = std::move(place)});
 }
 
 void Diagnostics::append(const Diagnostics& others) {

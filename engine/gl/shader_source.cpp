@@ -40,6 +40,12 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
+// "../secret" and "a/../../b": a relative path that climbs out of where it is searched.
+bool leavesFolder(const fs::path& path) {
+  const fs::path normal = path.lexically_normal();
+  return !path.is_absolute() && !normal.empty() && *normal.begin() == "..";
+}
+
 // Paths below the folders, relative to them, of every GLSL file: what an include could have meant.
 std::vector<std::string> listShaders(const std::vector<std::string>& folders) {
   std::vector<std::string> names;
@@ -195,7 +201,7 @@ class IncludeExpander {
   const std::vector<std::string>& roots_;
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
-  std::vector<std::string> paths_;   // by file number
+  std::vector<std::string> paths_;  // by file number
   std::vector<std::string> missing_;
   std::vector<bool> unconditional_;  // by file number: stands in the text outside every #if
   std::vector<std::size_t> stack_;   // file numbers, from the stage's own to the current one
@@ -218,6 +224,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key)
 
 std::optional<std::string> SourceLoader::locate(const std::string& path) const {
   std::error_code ec;
+  if (leavesFolder(path)) return std::nullopt;
   if (!fs::path(path).is_absolute())
     for (const std::string& root : roots_)
       if (const fs::path candidate = fs::path(root) / path; fs::exists(candidate, ec))
@@ -230,14 +237,18 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
                                                        const Place& place) {
   const std::optional<std::string> where = locate(path);
   if (!where) {
-    if (fs::path(path).is_absolute() || roots_.empty()) touched_.insert(path);
+    if (fs::path(path).is_absolute() || roots_.empty())
+      touched_.insert(path);
     else
-      for (const std::string& root : roots_) touched_.insert((fs::path(root) / path).lexically_normal().string());
+      for (const std::string& root : roots_)
+        touched_.insert((fs::path(root) / path).lexically_normal().string());
     base::Diagnostic& error =
         diagnostics.error(Code::W100, place, fmt::format("shader '{}' not found", path));
     error.expected =
         roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
-    error.hint = base::nearestHint(path, listShaders(roots_));
+    error.hint = leavesFolder(path) ? "a shader's path stays below these folders: put the file into a folder "
+                                      "shaders/ beside the graph"
+                                    : base::nearestHint(path, listShaders(roots_));
     return nullptr;
   }
   if (auto source = answer(*where)) return source;

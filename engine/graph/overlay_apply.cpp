@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/base/nearest.h"
 #include "engine/graph/suffix.h"
 
 namespace weft::graph {
@@ -269,9 +270,16 @@ class Applier {
         d.expected = "the name of a pass, or the prefix of an include";
         d.hint = hintOf(all, anchor.text);
       }
-      // At the end, so that what stands beside it is no second mistake.
-      passesOf(target_)->items.push_back(withoutPlace(stanza, true));
-      return;
+      // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
+      std::vector<std::string> names;
+      for (const Found& candidate : all) names.push_back(candidate.name);
+      const std::string near = ambiguous ? "" : base::nearestName(anchor.text, names);
+      const auto meant = std::ranges::find(all, near, &Found::name);
+      if (meant == all.end()) {
+        passesOf(target_)->items.push_back(withoutPlace(stanza, true));
+        return;
+      }
+      found = &*meant;
     }
     edit(target_, found->below, [&](Source& source) {
       std::vector<JsonValue>& items = passesOf(source)->items;

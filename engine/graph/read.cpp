@@ -127,11 +127,10 @@ class GraphReader {
     graph.passes.reserve(passes->items.size());
     for (const JsonValue& item : passes->items) {
       std::optional<PassDesc> pass = readPass(context, item);
-      if (!pass) {
-        if (const JsonValue* name = item.find("name"); name && name->is(Type::string))
-          graph.unread.push_back(name->text);
-        continue;
-      }
+      const JsonValue* name = item.find("name");
+      if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
+        graph.unread.push_back(name->text);
+      if (!pass) continue;
       context.pass = pass->name;
       context.checkFresh(seen, pass->name, pass->namePlace,
                          pass->pointer + (pass->include ? "/include" : "/name"), "pass");

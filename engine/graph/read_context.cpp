@@ -74,9 +74,12 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const std
                             std::string_view what) {
   if (isIdent(name) && !isReservedWord(name)) return true;
   auto& d = errorAt(Code::W12, place, pointer, fmt::format("\"{}\" cannot name {}", name, what));
-  d.expected = "letters, digits and '_', not beginning with a digit";
-  d.hint =
-      isReservedWord(name) ? fmt::format("'{}' is reserved: {}", name, fmt::join(kReservedWords, ", ")) : "";
+  if (isReservedWord(name)) {
+    d.expected = fmt::format("a word that is not reserved; reserved are {}", fmt::join(kReservedWords, ", "));
+    d.hint = fmt::format("choose another, such as 'my_{}'", name);
+  } else {
+    d.expected = "letters, digits and '_', not beginning with a digit";
+  }
   return false;
 }
 

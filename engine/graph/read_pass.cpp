@@ -95,13 +95,22 @@ class PassReader {
 
   // ---- pass ----
 
+  // A name for a pass whose own cannot be one; nothing refers to passes by slots, so no second mistake comes
+  // of it.
+  static std::string standIn(const std::string& name) {
+    std::string out = name.empty() ? name : "_" + name;
+    for (char& c : out)
+      if (!isIdentChar(c)) c = '_';
+    return out;
+  }
+
   std::optional<PassDesc> readPass() {
     context_.checkKeys(value_, kPassKeys, "a pass");
     if (const JsonValue* name = value_.find("name")) {
       out_.namePlace = name->place;
       out_.name = context_.text(name, "\"name\"");
       if (name->is(Type::string) && !context_.checkName(out_.name, name->place, name->pointer, "a pass"))
-        out_.name.clear();
+        out_.name = isIdent(out_.name) ? out_.name : standIn(out_.name);  // the rest of the stanza is checked too
     }
     readWords();
     readValues();

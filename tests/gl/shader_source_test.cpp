@@ -132,6 +132,24 @@ TEST_CASE("a missing shader is reported at the one who named it, a directory as 
   CHECK(diagnostics.items()[1].message.find("directory") != std::string::npos);
 }
 
+TEST_CASE("a shader's path stays below its folders") {
+  TempFolder folder;
+  folder.write("secret.glsl", "void main() {}\n");
+  folder.write("shaders/a.frag.glsl", "void main() {}\n");
+  SourceLoader loader({folder.path("shaders")});
+  Diagnostics diagnostics;
+  CHECK(loader.load("sky/../a.frag.glsl", diagnostics) == nullptr);  // no folder sky
+  CHECK(loader.load("./a.frag.glsl", diagnostics));
+  diagnostics.clear();
+  for (const char* path : {"../secret.glsl", "a/../../secret.glsl"}) {
+    CHECK_FALSE(loader.load(path, diagnostics));
+    REQUIRE(diagnostics.size() == 1);
+    CHECK(diagnostics.items()[0].code == Code::W100);
+    CHECK(diagnostics.items()[0].hint.starts_with("a shader's path stays below"));
+    diagnostics.clear();
+  }
+}
+
 TEST_CASE("an unchanged file is expanded once, a changed include again") {
   TempFolder folder;
   folder.write("a.glsl", "float one;\n");
@@ -173,8 +191,8 @@ TEST_CASE("what was read, and what was looked for in vain, is what to watch") {
   }
   loader.forgetTouched();
   CHECK_FALSE(loader.load("x/wants.glsl", diagnostics));
-  CHECK(loader.touched() == Paths{root + "/x/wants.glsl", root + "/x/b.glsl", root + "/x/late.glsl", root + "/late.glsl",
-                                  other + "/late.glsl"});
+  CHECK(loader.touched() == Paths{root + "/x/wants.glsl", root + "/x/b.glsl", root + "/x/late.glsl",
+                                  root + "/late.glsl", other + "/late.glsl"});
   loader.forgetTouched();
   CHECK_FALSE(loader.load("y/none.glsl", diagnostics));
   CHECK(loader.touched() == Paths{root + "/y/none.glsl", other + "/y/none.glsl"});

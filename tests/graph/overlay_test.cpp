@@ -293,6 +293,19 @@ TEST_CASE("what does not fit its base") {
   CHECK(said("") == "W002 base.json 1:14");
 }
 
+TEST_CASE(
+    "a pass with a misspelt anchor stands where it was meant, so that its readers are no second mistake") {
+  const Folder folder;
+  base::Diagnostics diagnostics;
+  const auto desc = readGraph(
+      folder.over(R"("passes": [ { "name": "nw", "type": "compute", "before": "shwo" } ])"), diagnostics);
+  REQUIRE(desc);
+  CHECK(diagnostics.errorCount() == 1);
+  std::vector<std::string> names;
+  for (const PassDesc& pass : desc->passes) names.push_back(pass.name);
+  CHECK(names == std::vector<std::string>{"fill", "post", "nw", "show"});
+}
+
 TEST_CASE("a name that several includes have must be longer") {
   const Folder folder;
   const std::string twin =

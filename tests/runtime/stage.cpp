@@ -53,13 +53,15 @@ CleanScope::~CleanScope() {
   context().debugLog().clear();
 }
 
-Stage::Stage(const std::string& graph, std::uint32_t width, std::uint32_t height, const std::string& scene)
+Stage::Stage(const std::string& graph, std::uint32_t width, std::uint32_t height, const std::string& scene,
+             const std::string& cacheFolder)
     : world(worldOf(scene)) {
   settings.screenWidth = width;
   settings.screenHeight = height;
   settings.software = true;
-  renderer_ = std::make_unique<Renderer>(context(), sourcePath(graph),
-                                         Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = ""});
+  renderer_ = std::make_unique<Renderer>(
+      context(), sourcePath(graph),
+      Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = cacheFolder});
 }
 
 bool Stage::load() {
@@ -67,7 +69,14 @@ bool Stage::load() {
   return renderer_->load(settings, world, diagnostics);
 }
 
-void Stage::run(std::uint32_t frame) { run(headlessFrame(world, frame, 60)); }
+bool Stage::apply() {
+  diagnostics.clear();
+  return renderer_->apply(settings, world, diagnostics);
+}
+
+void Stage::run(std::uint32_t frame) {
+  run(headlessFrame(world, frame, 60));
+}
 
 void Stage::run(const FrameInput& input) {
   diagnostics.clear();

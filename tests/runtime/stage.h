@@ -1,6 +1,6 @@
-// A graph file running on software GL for tests of the whole runtime: one OSMesa context per process, a world from a
-// scene file and an environment, a Renderer. Skips the process with exit code 77 when there is no context.
-// Does not: judge pictures.
+// A graph file running on software GL for tests of the whole runtime: one OSMesa context per process, a world
+// from a scene file and an environment, a Renderer. Skips the process with exit code 77 when there is no
+// context. Does not: judge pictures.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -39,21 +39,22 @@ class Stage {
  public:
   // `graph` relative to the source folder, or absolute.
   explicit Stage(const std::string& graph, std::uint32_t width = 160, std::uint32_t height = 90,
-                 const std::string& scene = "scenes/spheres.json");
+                 const std::string& scene = "scenes/spheres.json", const std::string& cacheFolder = "");
 
   graph::Settings settings;
   World world;
-  base::Diagnostics diagnostics;               // of the last load() or frame()
+  base::Diagnostics diagnostics;  // of the last load() or frame()
 
-  bool load();                                 // reads the file again
-  void run(std::uint32_t frame = 0);           // headless; requires that nothing is reported
+  bool load();                        // reads the file again
+  bool apply();                       // does not: the settings alone changed
+  void run(std::uint32_t frame = 0);  // headless; requires that nothing is reported
   void run(const FrameInput& input);
   bool ran(std::string_view pass) { return execution().ran(pass); }
   Execution& execution() { return *renderer_->execution(); }
   Renderer& renderer() { return *renderer_; }
   // Floats of a whole level of a resource, four per texel (depth: one).
   std::vector<float> read(const std::string& resource, std::uint32_t mip = 0);
-  std::vector<std::uint8_t> pixels();          // presented, RGBA, top row first
+  std::vector<std::uint8_t> pixels();  // presented, RGBA, top row first
   float value() { return renderer_->readPresentedFloat()->texels.at(0); }
 
  private:
