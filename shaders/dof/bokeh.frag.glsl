@@ -1,89 +1,111 @@
-// One layer of the half-size picture, blurred by its discs. Scene-referred; result premultiplied.
-// read    source   from split; any sampler (texels are fetched)
+// One layer of the half-size picture, blurred by its discs but for what fill will add. Scene-referred; result premultiplied.
+// read    source   from split, with levels, `as linear`
+//         discs    from split, with levels, `as linear`
 //         tiles?   from reach: how far anything before the focus reaches here (layer before the focus only); without
 //                  it every pixel is searched as far as a tile
 // write   result   NEAR 1: what lies before the focus and how much of the pixel it covers, as each disc reaches and is spread thin
 //                  NEAR 0: the mean of what is not before the focus within the pixel's own disc, of those whose discs reach;
 //                  behind something nearer the mean of what can be seen beside it. Alpha: how far it can be trusted.
-// params  rings    of samples around the middle one, 8, 16, 24 ... in each; small discs take fewer
-//         blades   of the aperture; fewer than 3 make it round
+// params  rings    of samples around the middle one, 5, 10, 15 ... in each, so that each stands for the same area; small discs
+//                  take fewer, large ones coarser levels
+//         blades   of the aperture, for POLYGON
 //         tile     pixels along a tile's side
-// defines NEAR
-#include "coc.glsl"
-
-uniform sampler2D source;
-#ifdef HAS_TILES
-uniform sampler2D tiles;
-#endif
+//         largest  limit of the radius, pixels of the full picture
+// defines NEAR, POLYGON
+uniform sampler2D source, discs;
 layout(std140) uniform Parameters {
   int rings;
   int blades;
   int tile;
+  int largest;
 };
 out vec4 result;
+#include "disc.glsl"
 
-const float kTau = 6.28318530717959;
+// Directions of 18 degrees, and of a step around the n-th ring.
+const vec2 kStart = vec2(0.951056516, 0.309016994);
+const vec2 kStep[9] = vec2[9](vec2(1.0, 0.0), vec2(0.309016994, 0.951056516), vec2(0.809016994, 0.587785252), vec2(0.913545458, 0.406736643),
+                              vec2(0.951056516, 0.309016994), vec2(0.968583161, 0.248689887), vec2(0.978147601, 0.207911691),
+                              vec2(0.983930, 0.178557), vec2(0.987688341, 0.156434465));
 
-float outline(float angle) {
-  if (blades < 3) return 1.0;
-  float sector = kTau / float(blades);
+#if POLYGON
+float outline(vec2 direction) {
+  float sector = 6.28318530717959 / float(blades), angle = atan(direction.y, direction.x);
   return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
 }
+#endif
+
+// The rings from the middle to `ring` hold this many samples if each stands for one; and the n-th is this far out.
+float samplesTo(int ring) { return 1.0 + 2.5 * float(ring * (ring + 1)); }
+float ringRadius(int ring, float span, float samples) { return ring == 0 ? 0.0 : span * sqrt((1.0 + 2.5 * float(ring * ring)) / samples); }
+
+// Does a disc reach so far? Integrates to its area, pi (disc^2 + 1/12), for radii from a half on.
+float reaches(float disc, float across) { return clamp(disc - across + 0.5, 0.0, 1.0); }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
-  vec4 own = texelFetch(source, pixel, 0);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec2 size = vec2(textureSize(source, 0));
 #if NEAR
-#ifdef HAS_TILES
-  float radius = texelFetch(tiles, pixel / tile, 0).r;
+  float radius = searchRadius(pixel);
+  bool idle = radius <= 0.0;
 #else
-  float radius = float(tile);
+  vec4 own = texelFetch(source, pixel, 0);
+  bool hidden = own.a <= 0.0;
+  float radius = searchRadius(own.a, pixel, discs, largest);
+  float trust = hidden ? 1.0 : max(blurOf(2.0 * radius), 1e-3);
+  bool idle = !hidden && radius <= 0.25;
 #endif
-  if (radius <= 0.0) {
-    result = vec4(0.0);
-    return;
-  }
-#else
-  float radius = abs(own.a);
-  bool hidden = own.a < 0.0;
-  float trust = hidden ? 1.0 : max(blurOf(2.0 * own.a), 4e-3);
-  if (!hidden && radius <= 0.25) {
-    result = vec4(own.rgb * trust, trust);
-    return;
-  }
-#endif
-  float span = radius + 0.5;
-  int n = clamp(int(ceil(span)), 1, rings);
-  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  // A level whose texels are as large as the gaps between the samples.
+  int outermost = clamp(int(ceil(0.7 * radius - 0.2)), 0, rings);
+  float samples = samplesTo(outermost);
+  float level = max(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0), texel = exp2(level);
+  float shared_variance = 4.0 * fillVariance(radius) + 1.333 + 0.667 * texel * texel;
+  float span = sqrt(max(radius * radius - shared_variance, 0.25)) + 0.5;
   vec3 sum = vec3(0.0);
   float weights = 0.0, area = 0.0;
-  for (int ring = 0; ring <= n; ++ring) {
-    int count = max(8 * ring, 1);
-    float across = span * float(ring) / (float(n) + 0.5);
-    float step_angle = kTau / float(count), angle = step_angle * noise;
-    vec2 direction = vec2(cos(angle), sin(angle)), turn = vec2(cos(step_angle), sin(step_angle));
+  if (idle) outermost = -1;
+  for (int ring = 0; ring <= outermost; ++ring) {
+    int count = max(5 * ring, 1);
+    float across = ringRadius(ring, span, samples);
+    vec2 direction = kStart, turn = kStep[ring];
     for (int i = 0; i < count; ++i) {
-      float shape = outline(angle);
-      ivec2 at = clamp(ivec2(floor(gl_FragCoord.xy + across * shape * direction)), ivec2(0), last);
-      angle += step_angle;
-      direction = vec2(direction.x * turn.x - direction.y * turn.y, direction.x * turn.y + direction.y * turn.x);
-      vec4 c = texelFetch(source, at, 0);
-      float reach = clamp(abs(c.a) - across + 0.5, 0.0, 1.0) * span * span / (c.a * c.a + 1.0 / 12.0);
-#if NEAR
-      float w = c.a > 0.0 ? blurOf(2.0 * c.a) * reach : 0.0;
-#else
-      float w = c.a < 0.0 ? 0.0 : hidden ? 1.0 : blurOf(2.0 * c.a) * reach;
+      vec2 at = across * direction;
+      float share = 1.0;
+#if POLYGON
+      float shape = outline(direction);
+      at *= shape;
+      share = shape * shape;
+      area += share;
 #endif
-      w *= shape * shape;
-      area += shape * shape;
-      sum += w * c.rgb;
-      weights += w;
+      direction = vec2(direction.x * turn.x - direction.y * turn.y, direction.x * turn.y + direction.y * turn.x);
+      at = (gl_FragCoord.xy + at) / size;
+      vec4 c = textureLod(source, at, level);
+#if NEAR
+      float disc = textureLod(discs, at, level).r / max(c.a, 1e-4);
+      float blur = blurOf(2.0 * disc);
+      disc = sqrt(max(disc * disc - shared_variance, 0.25));
+      // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
+      float sharing = 0.0;
+      for (int k = 0; k <= outermost; ++k) sharing += max(5.0 * float(k), 1.0) * reaches(disc, ringRadius(k, span, samples));
+      share *= blur * reaches(disc, across) / sharing;
+#else
+      float disc = behindRadius(c.a, largest), blur = blurOf(2.0 * disc);
+      disc = sqrt(max(disc * disc - shared_variance, 0.25));
+      share *= hidden ? 1.0 : blur * reaches(disc, across) / (disc * disc + 1.0 / 12.0);
+      share = c.a > 0.0 ? share / c.a : 0.0;
+#endif
+      sum += share * c.rgb;
+      weights += share * c.a;
     }
   }
 #if NEAR
-  float cover = min(weights / area, 1.0);
-  result = weights > 0.0 ? vec4(sum / weights * cover, cover) : vec4(0.0);
+#if POLYGON
+  weights *= samples / max(area, 1e-4);
+  sum *= samples / max(area, 1e-4);
+#endif
+  result = vec4(sum / max(weights, 1.0), min(weights, 1.0));
 #else
-  result = vec4((weights > 0.0 ? sum / weights : own.rgb) * trust, trust);
+  vec3 mean = weights > 0.0 ? sum / weights : own.rgb / max(own.a, 1e-6);
+  result = vec4(mean * trust, trust);
 #endif
 }

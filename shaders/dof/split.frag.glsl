@@ -1,8 +1,9 @@
 // The picture at half size in two layers, so that what is before the focus and what is not never mix. Scene-referred.
 // read    color   radiance; both by any sampler (texels are fetched)
 //         depth   reversed-Z; the sky, 0, is infinitely far
-// write   near    radiance of what is before the focus, and the radius of its disc in pixels of the half size; 0: nothing there
-//         far     the rest likewise; a negative radius says that something nearer hides all of it, and how blurred that is
+// write   near    radiance of what is before the focus, premultiplied, and 1; or nothing, 0
+//         disc    radius of its disc in pixels of the half size; 0: nothing there
+//         far     the rest, premultiplied: see behindAlpha; 0 where something nearer hides all of it
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
 //         largest   limit of the radius, pixels of the full picture
@@ -16,6 +17,7 @@ layout(std140) uniform Parameters {
   int largest;
 };
 out vec4 near;
+out float disc;
 out vec4 far;
 
 void main() {
@@ -28,18 +30,22 @@ void main() {
     ivec2 at = min(first + ivec2(i & 1, i >> 1), last);
     float radius = cocRadius(texelFetch(depth, at, 0).r, infinity, focus, float(largest) - 1.0), blur = blurOf(radius);
     vec4 c = vec4(finite(texelFetch(color, at, 0).rgb), abs(radius) * 0.5);
-    if (radius < -0.5) {
-      before += c * blur;
-      before_weight += blur;
-      ++before_count;
-      first_before = first_before || i == 0;
-    } else {
-      float w = max(radius > 0.0 ? blur : 0.0, 1e-3);
-      behind += c * w;
-      behind_weight += w;
-    }
+    bool nearer = radius < -0.5;
+    float w = nearer ? blur : 0.0;
+    before += c * w;
+    before_weight += w;
+    before_count += int(nearer);
+    first_before = first_before || (nearer && i == 0);
+    w = nearer ? 0.0 : max(radius > 0.0 ? blur : 0.0, 1e-3);
+    behind += c * w;
+    behind_weight += w;
   }
   // By majority, half of the ties: the silhouette encloses as much as before.
-  near = before_count >= (first_before ? 2 : 3) && before_weight > 0.0 ? before / before_weight : vec4(0.0);
-  far = behind_weight > 0.0 ? behind / behind_weight : before / max(before_weight, 1e-6) * vec4(1.0, 1.0, 1.0, -1.0);
+  bool nothing = before_count < (first_before ? 2 : 3) || before_weight <= 0.0;
+  before /= max(before_weight, 1e-6);
+  near = nothing ? vec4(0.0) : vec4(before.rgb, 1.0);
+  disc = nothing ? 0.0 : before.a;
+  behind /= max(behind_weight, 1e-6);
+  float alpha = behind_weight > 0.0 ? behindAlpha(behind.a, largest) : 0.0;
+  far = vec4(behind.rgb * alpha, alpha);
 }

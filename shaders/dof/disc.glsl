@@ -1,0 +1,33 @@
+// How far a pixel's layer is searched and how its blur is shared between the samples over a disc (bokeh) and the 3 x 3 texels
+// around each pixel that close the gaps (fill; Jimenez, "Next generation post processing in Call of Duty", SIGGRAPH 2014). The disc's
+// variance is radius^2 / 4 per axis, of which the fill and linear sampling take their part.
+#ifndef DOF_DISC_GLSL
+#define DOF_DISC_GLSL
+
+#include "coc.glsl"
+
+// Radius in pixels of the half size to search around `pixel`; below 0.25 there is nothing to do.
+#if NEAR
+#ifdef HAS_TILES
+uniform sampler2D tiles;
+float searchRadius(ivec2 pixel) { return texelFetch(tiles, pixel / tile, 0).r; }
+#else
+float searchRadius(ivec2 pixel) { return float(tile); }
+#endif
+#else
+// Behind the focus it is the pixel's own disc; where something nearer hides the layer, that one's.
+float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
+  return own_alpha > 0.0 ? behindRadius(own_alpha, largest) : texelFetch(discs, pixel, 0).r;
+}
+#endif
+
+// Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them.
+float fillVariance(float radius) { return clamp(0.45 * radius - 1.125, 0.0, 2.0 / 3.0); }
+
+// Weight of the neighbours along an axis in the fill, 0..1.
+float fillWeight(float radius) {
+  float variance = fillVariance(radius);
+  return variance / (2.0 - 2.0 * variance);
+}
+
+#endif
