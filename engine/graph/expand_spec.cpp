@@ -314,10 +314,16 @@ class SpecFiller {
     if (const auto instances =
             evaluateWhole(names_, desc_.instances, 1, 0, 2147483647, "the number of instances", true))
       spec_.instances = static_cast<std::uint32_t>(*instances);
-    for (const Expr& argument : desc_.geometryArguments) {
-      const auto value =
-          evaluateNumber(names_, argument, 0, fmt::format("an argument of '{}'", desc_.geometry));
-      if (value) spec_.geometryArguments.push_back(*value);
+    const auto& types = model_.registry.geometries;
+    const auto type = std::ranges::find(types, desc_.geometry, &GeometryType::name);
+    if (type == types.end()) return;
+    for (std::size_t i = 0; i < type->arguments.size(); ++i) {
+      const GeometryArgument& argument = type->arguments[i];
+      std::optional<std::int64_t> value = argument.initial;
+      if (i < desc_.geometryArguments.size())
+        value = evaluateWhole(names_, desc_.geometryArguments[i], argument.initial, argument.min,
+                              argument.max, fmt::format("the {} of '{}'", argument.name, desc_.geometry));
+      if (value) spec_.geometryArguments.push_back(static_cast<double>(*value));
     }
   }
 

@@ -80,10 +80,19 @@ void checkLists(const Stanza& stanza) {
       std::find(registry.drawLists.begin(), registry.drawLists.end(), desc.list) == registry.drawLists.end())
     stanza.error(Code::W69, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list)).hint =
         base::nearestHint(desc.list, registry.drawLists);
-  if (!desc.geometry.empty() && std::find(registry.geometries.begin(), registry.geometries.end(),
-                                          desc.geometry) == registry.geometries.end())
+  if (desc.geometry.empty()) return;
+  const auto geometry = std::ranges::find(registry.geometries, desc.geometry, &GeometryType::name);
+  if (geometry == registry.geometries.end()) {
+    std::vector<std::string> names;
+    for (const GeometryType& type : registry.geometries) names.push_back(type.name);
     stanza.error(Code::W70, desc.geometryPlace, fmt::format("draws the unknown geometry '{}'", desc.geometry))
-        .hint = base::nearestHint(desc.geometry, registry.geometries);
+        .hint = base::nearestHint(desc.geometry, names);
+  } else if (desc.geometryArguments.size() > geometry->arguments.size()) {
+    auto& d = stanza.error(Code::W48, desc.geometryPlace,
+                           fmt::format("gives '{}' too many arguments", desc.geometry));
+    d.expected = geometry->arguments.empty() ? "none" : fmt::format("at most {}", geometry->arguments.size());
+    d.found = fmt::format("{}", desc.geometryArguments.size());
+  }
 }
 
 void checkFixedSlots(const Stanza& stanza) {

@@ -65,11 +65,23 @@ struct ImportFacts {
   std::vector<base::Diagnostic> problems{};  // reported with the import; an error makes it unusable
 };
 
+// A whole number between the parentheses of a geometry: "icosphere(3)".
+struct GeometryArgument {
+  std::string name;
+  int min = 0, max = 0;
+  int initial = 0;              // when it is left out
+};
+
+struct GeometryType {
+  std::string name;
+  std::vector<GeometryArgument> arguments;
+};
+
 struct Registry {
   std::vector<PassType> passTypes;
   std::vector<ImportType> imports;
   std::vector<std::string> drawLists;       // "spheres", "opaque", …
-  std::vector<std::string> geometries;      // "quad", "icosphere", "mesh", "triangle"
+  std::vector<GeometryType> geometries;     // "quad", "icosphere", "mesh", "triangle"
   std::function<ImportFacts(const ImportRequest&)> factsOf;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace weft::runtime {
@@ -56,7 +57,8 @@ passes::Geometry Geometries::get(const std::string& name, const std::vector<doub
   }
   if (name != "icosphere") return geometry;
 
-  const int subdivisions = std::clamp(arguments.empty() ? 2 : static_cast<int>(arguments[0]), 0, 6);
+  assert(arguments.size() == 1 && arguments[0] >= 0 && arguments[0] <= kMaxSubdivision);
+  const int subdivisions = static_cast<int>(arguments[0]);
   Mesh& mesh = icospheres_[subdivisions];
   if (mesh.count == 0) {
     const ShapeMesh shape = makeIcosphere(subdivisions);

@@ -17,12 +17,13 @@ struct ShapeMesh {
   std::vector<float> positions;        // xyz per vertex, on the unit sphere (the normal equals the position)
   std::vector<std::uint32_t> indices;  // counter-clockwise triangles seen from outside
 };
-// 20 * 4^n triangles from an icosahedron; midpoints are shared. n from 0 to 6.
+// 20 * 4^n triangles from an icosahedron; midpoints are shared. n from 0 to kMaxSubdivision.
+constexpr int kMaxSubdivision = 6;
 ShapeMesh makeIcosphere(int subdivisions);
 
 class Geometries {
  public:
-  // `name` is one of the registry's geometries. Count 0 after an error.
+  // `name` is one of the registry's geometries, with all its arguments, in their ranges. Count 0 after an error.
   passes::Geometry get(const std::string& name, const std::vector<double>& arguments, const gl::Reflection& reflection,
                        base::Diagnostics& diagnostics);
   passes::Geometry empty();            // for fullscreen triangles

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/runtime/geometry.h"
 #include "engine/runtime/lut_texture.h"
 
 namespace weft::runtime {
@@ -66,7 +67,8 @@ graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldF
   graph::Registry registry;
   registry.passTypes = passTypes.reflect();
   registry.imports = importTypes();
-  registry.geometries = {"quad", "icosphere", "triangle"};
+  const graph::GeometryArgument subdivision{.name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
+  registry.geometries = {{"quad", {}}, {"icosphere", {subdivision}}, {"triangle", {}}};
   for (const WorldFacts::List& list : facts.lists) registry.drawLists.push_back(list.name);
   registry.factsOf = [facts](const ImportRequest& request) {
     const auto countOf = [&](const std::string& name) -> double {

@@ -38,12 +38,12 @@ float equirectLevel(float base_width, float angle) {
   return max(log2(angle * base_width * (0.5 / kPi)), 0.0);
 }
 
-// Linear lookup at a level; `height` is the height of level 0.
-vec4 sampleEquirect(sampler2D map, vec3 direction, float level, float height) {
+// Linear lookup at a level; `height` is the height of level 0. `turn`: the map's content is moved by this much of a full
+// turn about +Y, from +X towards +Z.
+vec4 sampleEquirect(sampler2D map, vec3 direction, float turn, float level, float height) {
   vec2 p = equirectUv(direction);
   float half_texel = 0.5 * exp2(ceil(level)) / height;
-  p.y = clamp(p.y, half_texel, 1.0 - half_texel);
-  return textureLod(map, p, level);
+  return textureLod(map, vec2(p.x - turn, clamp(p.y, half_texel, 1.0 - half_texel)), level);
 }
 
 #endif

@@ -1,11 +1,34 @@
 // The environment behind everything.
 // read    sky        equirectangular with mips, `as linear wrap`
+//         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter): instead of it
 // write   radiance   scene-referred, linear; alpha 1
 //         velocity   screen UV per frame of a point at infinity
+// params  sky_turn?  by how much of a full turn the environment is rotated, from +X towards +Z
+//         blur?      level of `blurred`
 #include "common/view.glsl"
 #include "common/equirect.glsl"
 
+#ifdef HAS_BLURRED
+uniform sampler2D blurred;
+#else
 uniform sampler2D sky;
+#endif
+#if defined HAS_SKY_TURN || defined HAS_BLUR
+layout(std140) uniform Parameters {
+#ifdef HAS_SKY_TURN
+  float sky_turn;
+#endif
+#ifdef HAS_BLUR
+  float blur;
+#endif
+};
+#endif
+#ifndef HAS_SKY_TURN
+const float sky_turn = 0.0;
+#endif
+#ifndef HAS_BLUR
+const float blur = 0.0;
+#endif
 in vec2 uv;
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -17,9 +40,15 @@ out vec2 velocity;
 void main() {
   vec3 direction = viewRay(uv);
 #ifdef HAS_RADIANCE
-  // Constant over the picture, and 0 as long as the map is magnified.
+  // The level is constant over the picture, and 0 as long as the map is magnified.
+#ifdef HAS_BLURRED
+  vec2 size = vec2(textureSize(blurred, 0));
+  float level = max(equirectLevel(size.x, pixelAngle()), blur);
+  radiance = vec4(sampleEquirect(blurred, direction, sky_turn, level, size.y).rgb, 1.0);
+#else
   vec2 size = vec2(textureSize(sky, 0));
-  radiance = vec4(sampleEquirect(sky, direction, equirectLevel(size.x, pixelAngle()), size.y).rgb, 1.0);
+  radiance = vec4(sampleEquirect(sky, direction, sky_turn, equirectLevel(size.x, pixelAngle()), size.y).rgb, 1.0);
+#endif
 #endif
 #ifdef HAS_VELOCITY
   velocity = skyVelocity(uv, direction);

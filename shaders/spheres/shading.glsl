@@ -1,7 +1,7 @@
 // Image-based lighting of one surface point: GGX split sum (Karis 2013) with the energy that single scattering loses put
 // back (Fdez-Aguera, JCGT 2019: exact for metals in a white furnace whatever the roughness) and a diffuse layer that
 // gets what the specular one leaves. Samplers: brdf (`as linear`), irradiance? and specular? (`as linear wrap`).
-// COMPENSATION 0 leaves the lost energy out.
+// COMPENSATION 0 leaves the lost energy out. Parameter sky_turn?: by how much of a full turn the environment is rotated.
 #ifndef SPHERES_SHADING_GLSL
 #define SPHERES_SHADING_GLSL
 
@@ -13,6 +13,12 @@
 #endif
 
 uniform sampler2D brdf;
+#ifdef HAS_SKY_TURN
+layout(std140) uniform Parameters { float sky_turn; };
+#else
+const float sky_turn = 0.0;
+#endif
+
 #ifdef HAS_IRRADIANCE
 uniform sampler2D irradiance;
 #endif
@@ -30,11 +36,11 @@ struct Surface {
 vec3 shade(Surface surface, vec3 normal, vec3 mirror, float nv) {
   vec3 around = vec3(0.0), reflected = vec3(0.0);
 #ifdef HAS_IRRADIANCE
-  around = sampleEquirect(irradiance, normal, 0.0, float(textureSize(irradiance, 0).y)).rgb;
+  around = sampleEquirect(irradiance, normal, sky_turn, 0.0, float(textureSize(irradiance, 0).y)).rgb;
 #endif
 #ifdef HAS_SPECULAR
   float level = levelOfRoughness(surface.roughness, textureQueryLevels(specular));
-  reflected = sampleEquirect(specular, mirror, level, float(textureSize(specular, 0).y)).rgb;
+  reflected = sampleEquirect(specular, mirror, sky_turn, level, float(textureSize(specular, 0).y)).rgb;
 #endif
   vec2 split = textureLod(brdf, vec2(nv, surface.roughness), 0.0).rg;
   vec3 f0 = mix(vec3(0.04), surface.albedo, surface.metallic);

@@ -1,0 +1,20 @@
+// A triangle mesh of the unit sphere, moved and scaled to each instance. Opaque: no order is needed.
+#include "common/view.glsl"
+#include "scene/instances.glsl"
+
+in vec3 position;
+in vec3 normal;
+
+out vec3 from_eye;          // world, eye to surface
+out vec3 outwards;          // world, not normalised
+flat out vec4 albedo_roughness;
+flat out vec4 motion_metallic;
+
+void main() {
+  Instance self = instance[gl_InstanceID];
+  from_eye = self.center - eye + self.radius * position;
+  outwards = normal;
+  albedo_roughness = vec4(self.albedo, self.roughness);
+  motion_metallic = vec4(self.center - self.previous_center, self.metallic);
+  gl_Position = view_projection * vec4(self.center + self.radius * position, 1.0);
+}

@@ -1,0 +1,139 @@
+// The studio drawn as triangles against the studio ray-traced; the sorts of the ray-traced mode against each
+// other.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/theory/lab.h"
+#include "tests/theory/oracle.h"
+
+using namespace weft::theory;
+
+namespace {
+
+constexpr std::uint32_t kWidth = 320, kHeight = 240;
+
+// Bright above, a gradient around, darker below: every direction has its own colour.
+std::shared_ptr<const weft::assets::ImageF> gradientEnvironment() {
+  auto image = std::make_shared<weft::assets::ImageF>();
+  image->width = 256;
+  image->height = 128;
+  image->channels = 4;
+  for (int y = 0; y < image->height; ++y)
+    for (int x = 0; x < image->width; ++x) {
+      const Vec3 d = equirectDirection(x, y, 256, 128);
+      for (const double c : {1 + 0.8 * d.x, 1 + 0.8 * d.y, 1 + 0.8 * d.z, 1.0})
+        image->texels.push_back(static_cast<float>(c));
+    }
+  return image;
+}
+
+std::vector<Ball> crowd() {
+  std::vector<Ball> balls;
+  for (int i = 0; i < 12; ++i)
+    balls.push_back({.center = {(i % 4) * 2.5 - 3.75, 2.5 - (i / 4) * 2.5, (i * 5 % 7) * 0.8},
+                     .albedo = {0.9f, 0.5f, 0.1f + 0.05f * static_cast<float>(i)},
+                     .metallic = i % 2 ? 1.0f : 0.0f,
+                     .roughness = static_cast<float>(i) / 11});
+  balls.push_back({.center = {-3.2, 2.1, 4}, .radius = 0.7f, .velocity = {1, 0, 0}});
+  return balls;
+}
+
+Setup studio(std::vector<std::pair<std::string, std::string>> sets) {
+  Setup setup{.graph = "tests/theory/draw_modes.json",
+              .width = kWidth,
+              .height = kHeight,
+              .sets = std::move(sets),
+              .balls = crowd()};
+  setup.camera = {.position = {1, 0.5, 14}, .target = {0, 0, 0}, .fovDegrees = 45, .nearPlane = 0.1};
+  setup.environment = gradientEnvironment();
+  return setup;
+}
+
+Picture draw(const Setup& setup) {
+  Lab lab(setup);
+  lab.frame(1);
+  Picture panels = lab.read("panels");
+  CHECK(lab.complaints() == "");
+  return panels;
+}
+
+// The panels of draw_modes.json.
+const float* radianceAt(const Picture& panels, std::uint32_t x, std::uint32_t y) {
+  return panels.at(x, y);
+}
+const float* velocityAt(const Picture& panels, std::uint32_t x, std::uint32_t y) {
+  return panels.at(2 * kWidth + x, y);
+}
+float depthAt(const Picture& panels, std::uint32_t x, std::uint32_t y) {
+  return panels.at(3 * kWidth + x, y)[0];
+}
+
+}  // namespace
+
+TEST_CASE(
+    "icospheres of 81,920 triangles are the ray-traced spheres: 1 % inside, the silhouette moves by less "
+    "than a pixel") {
+  const Picture traced = draw(studio({})), mesh = draw(studio({{"draw", "icosphere"}, {"subdivision", "6"}}));
+  double worst = 0, worstDepth = 0, worstVelocity = 0;
+  int inside = 0, differs = 0, edges = 0;
+  for (std::uint32_t y = 2; y + 2 < kHeight; ++y)
+    for (std::uint32_t x = 2; x + 2 < kWidth; ++x) {
+      // Inside: both have a sphere here and around, at nearly one depth.
+      const float near = depthAt(traced, x, y);
+      bool interior = near > 0, edge = false;
+      for (int j = -2; j <= 2; ++j)
+        for (int i = -2; i <= 2; ++i) {
+          const auto u = static_cast<std::uint32_t>(static_cast<int>(x) + i),
+                     v = static_cast<std::uint32_t>(static_cast<int>(y) + j);
+          const float other = depthAt(traced, u, v);
+          interior = interior && other > 0 && std::abs(other / near - 1) < 0.05f;
+          edge = edge || (other > 0) != (near > 0);
+        }
+      if ((near > 0) != (depthAt(mesh, x, y) > 0)) {
+        ++differs;
+        CHECK(edge);  // nowhere but beside a silhouette
+      }
+      edges += edge ? 1 : 0;
+      if (!interior) continue;
+      ++inside;
+      for (int c = 0; c < 3; ++c)
+        worst =
+            std::max<double>(worst, std::abs(radianceAt(mesh, x, y)[c] / radianceAt(traced, x, y)[c] - 1));
+      worstDepth = std::max<double>(worstDepth, std::abs(depthAt(mesh, x, y) / near - 1));
+      for (int c = 0; c < 2; ++c)
+        worstVelocity = std::max<double>(worstVelocity,
+                                         std::abs(velocityAt(mesh, x, y)[c] - velocityAt(traced, x, y)[c]));
+    }
+  MESSAGE("worst inside: radiance ", worst, ", depth ", worstDepth, ", velocity ", worstVelocity);
+  CHECK(inside > 5000);
+  CHECK(differs < edges / 2);
+  CHECK(worst < 0.01);
+  CHECK(worstDepth < 1e-3);
+  CHECK(worstVelocity < 2e-5);
+}
+
+TEST_CASE("icospheres: nothing is sorted; a wireframe draws lines only") {
+  Setup setup = studio({{"draw", "icosphere"}, {"subdivision", "3"}});
+  const Picture filled = draw(setup);
+  setup.sets.emplace_back("wireframe", "true");
+  const Picture lines = draw(setup);
+  int pixels = 0, kept = 0;
+  for (std::uint32_t y = 0; y < kHeight; ++y)
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      pixels += depthAt(filled, x, y) > 0;
+      kept += depthAt(lines, x, y) > 0;
+    }
+  CHECK(kept > pixels / 20);
+  CHECK(kept < pixels * 9 / 10);
+}
+
+TEST_CASE("the sorts on the CPU and on the GPU give one picture, byte for byte") {
+  const Picture first = draw(studio({{"sort", "gpu_bitonic"}}));
+  for (const char* sort : {"cpu_std", "cpu_radix"}) {
+    const Picture other = draw(studio({{"sort", sort}}));
+    CAPTURE(sort);
+    CHECK(first.texels == other.texels);
+  }
+}

@@ -1,0 +1,138 @@
+// Rotation and blur of the environment: rotating is shifting the map, for the background and for what it
+// lights; blur keeps the mean; there is no seam.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tests/theory/lab.h"
+#include "tests/theory/oracle.h"
+
+using namespace weft::theory;
+
+namespace {
+
+constexpr int kWidth = 256, kHeight = 128;
+
+// A gradient, a lobe across the seam of the map, and a bright window, moved by whole columns.
+std::shared_ptr<const weft::assets::ImageF> environment(int columns) {
+  auto image = std::make_shared<weft::assets::ImageF>();
+  image->width = kWidth;
+  image->height = kHeight;
+  image->channels = 4;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const int from = ((x - columns) % kWidth + kWidth) % kWidth;
+      const Vec3 d = equirectDirection(from, y, kWidth, kHeight);
+      const double lobe = 2 * std::pow(std::max(0.0, -0.8 * d.x + 0.36 * d.y + 0.48 * d.z), 12.0);
+      const double window = from > 40 && from < 72 && y > 40 && y < 60 ? 3 : 0;
+      for (const double c : {1 + 0.5 * d.x + lobe, 1 + 0.5 * d.y + window, 1 + 0.5 * d.z, 1.0})
+        image->texels.push_back(static_cast<float>(c));
+    }
+  return image;
+}
+
+Setup studio(int columns, double rotation, double blur) {
+  Setup setup{.graph = "graphs/studio.json", .width = 160, .height = 120};
+  setup.sets = {
+      {"bloom", "false"}, {"sky_rotation", std::to_string(rotation)}, {"sky_blur", std::to_string(blur)}};
+  setup.balls = {
+      {.center = {-1.1, 0, 0}, .roughness = 0},
+      {.center = {1.1, 0, 0}, .roughness = 0.4f},
+      {.center = {0, 1.5, 0}, .radius = 0.6f, .albedo = {0.8f, 0.8f, 0.8f}, .metallic = 0, .roughness = 1}};
+  setup.camera = {
+      .position = {5, 0.5, 0}, .target = {0, 0, 0}, .fovDegrees = 80, .nearPlane = 0.1};  // towards the seam
+  setup.environment = environment(columns);
+  return setup;
+}
+
+Picture draw(const Setup& setup) {
+  Lab lab(setup);
+  lab.frame();
+  const Picture picture = lab.read("hdr");
+  CHECK(lab.complaints() == "");
+  return picture;
+}
+
+double worstDifference(const Picture& a, const Picture& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.texels.size(); ++i)
+    worst = std::max<double>(worst, std::abs(a.texels[i] - b.texels[i]));
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("rotation by k columns is the map moved by k columns: background, reflections and diffuse light") {
+  // Rounding of half floats and of the sampler's eight bits between texels; the steps of the window are 3.
+  for (const int columns : {64, -37, 128}) {
+    for (const double blur : {0.0, 1.6}) {
+      CAPTURE(columns);
+      CAPTURE(blur);
+      const double degrees = 360.0 * columns / kWidth;
+      CHECK(worstDifference(draw(studio(0, degrees, blur)), draw(studio(columns, 0, blur))) < 0.02);
+    }
+  }
+  CHECK(worstDifference(draw(studio(0, 90, 0)), draw(studio(0, 0, 0))) > 1);
+}
+
+TEST_CASE("rotation by -180 and by 180 degrees is the same") {
+  CHECK(worstDifference(draw(studio(0, -180, 0)), draw(studio(0, 180, 0))) < 0.02);
+}
+
+TEST_CASE("blur of the background keeps its mean over all directions") {
+  const auto meanAt = [](double blur) {
+    std::array<double, 3> sum{};
+    double weights = 0;
+    for (const glm::dvec3 to :
+         {glm::dvec3{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}}) {
+      Setup setup = studio(0, 25, blur);
+      setup.width = setup.height = 64;
+      setup.balls = {{.center = {0, 0, 1000}, .radius = 0.001f}};
+      setup.camera = {.position = {0, 0, 0}, .target = to, .fovDegrees = 90, .nearPlane = 0.1};
+      const Picture face = draw(setup);
+      for (std::uint32_t y = 0; y < face.height; ++y)
+        for (std::uint32_t x = 0; x < face.width; ++x) {
+          const double u = (x + 0.5) / face.width * 2 - 1, v = (y + 0.5) / face.height * 2 - 1;
+          const double weight = std::pow(1 + u * u + v * v, -1.5);  // solid angle of a pixel of a cube's face
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(face.at(x, y)[c]);
+          weights += weight;
+        }
+    }
+    for (double& s : sum) s /= weights;
+    return sum;
+  };
+  const auto sharp = meanAt(0);
+  for (const double blur : {0.5, 1.0, 2.0, 3.0, 4.0}) {
+    const auto blurred = meanAt(blur);
+    CAPTURE(blur);
+    for (std::size_t c = 0; c < 3; ++c) CHECK(blurred[c] == doctest::Approx(sharp[c]).epsilon(0.01));
+  }
+}
+
+TEST_CASE("no seam in the background at +-180 degrees, sharp or blurred, turned or not") {
+  for (const double blur : {0.0, 0.7, 2.0, 4.0})
+    for (const double rotation : {0.0, 0.3, 120.0}) {
+      Setup setup = studio(0, rotation, blur);
+      setup.balls = {{.center = {1000, 0, 0}, .radius = 0.001f}};
+      const double at = 3.14159265358979 * (1 + rotation / 180);  // azimuth of the map's first column
+      setup.camera = {.position = {0, 0, 0},
+                      .target = {std::cos(at), -0.35, std::sin(at)},
+                      .fovDegrees = 30,
+                      .nearPlane = 0.1};
+      const Picture picture = draw(setup);
+      // Second differences along a row: the map is smooth here, a seam would be a spike at the middle.
+      double middle = 0, elsewhere = 0;
+      for (std::uint32_t y = 0; y < picture.height; y += 3)
+        for (std::uint32_t x = 1; x + 1 < picture.width; ++x) {
+          const double bend =
+              std::abs(picture.at(x - 1, y)[0] - 2 * picture.at(x, y)[0] + picture.at(x + 1, y)[0]);
+          double& worst = x + 3 > picture.width / 2 && x < picture.width / 2 + 3 ? middle : elsewhere;
+          worst = std::max(worst, bend);
+        }
+      CAPTURE(blur);
+      CAPTURE(rotation);
+      CHECK(middle <= 1.5 * elsewhere + 0.004);
+    }
+}
