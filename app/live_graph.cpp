@@ -21,15 +21,17 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
       world_(std::move(world)),
       settings_(std::move(settings)),
       scenePath_(scenePathOf(options)),
-      environmentPath_(options.environment),
-      sceneFiles_(world_.scene().files) {}
+      sceneFiles_(world_.scene().files) {
+  if (world_.environmentPending()) environment_.request(options.environment);
+  else if (!options.environment.empty()) environment_.assume(options.environment);
+}
 
 bool LiveGraph::load(base::Diagnostics& diagnostics) {
   runtime::World world = world_;
   good_ = tryScene(world, diagnostics) && renderer_.load(settings_, world, diagnostics);
   if (good_) {
     world_ = std::move(world);
-    sceneStale_ = environmentStale_ = false;
+    sceneStale_ = false;
     ++switches_;
   }
   watch();
@@ -42,11 +44,6 @@ bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) 
     if (!scene) return false;
     world.setScene(std::move(*scene));
   }
-  if (environmentStale_) {
-    auto image = assets::loadEnvironment(environmentPath_, diagnostics);
-    if (!image) return false;
-    world.setEnvironment(std::make_shared<const assets::ImageF>(std::move(*image)));
-  }
   return true;
 }
 
@@ -54,7 +51,8 @@ void LiveGraph::watch() {
   std::vector<std::string> files = renderer_.files();
   files.insert(files.end(), sceneFiles_.begin(), sceneFiles_.end());
   files.insert(files.end(), world_.scene().files.begin(), world_.scene().files.end());
-  if (!environmentPath_.empty()) files.push_back(environmentPath_);
+  for (const std::string& file : {environment_.shown(), environment_.wanted()})
+    if (!file.empty()) files.push_back(file);
   watcher_.watch(files);
 }
 
@@ -66,12 +64,44 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
   }
   for (const std::string& file : changed) {
     sceneStale_ |= std::ranges::find(sceneFiles_, file) != sceneFiles_.end() || file == scenePath_;
-    environmentStale_ |= file == environmentPath_;
+    const bool environment = file == environment_.shown() || file == environment_.wanted();
+    if (environment) changedEnvironment_ = file;
+    else graphStale_ = true;
   }
   if (!pending_ || now - changedAt_ < kQuietSeconds) return false;
   pending_ = false;
+  if (!changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
+  if (!std::exchange(graphStale_, false)) return false;
   load(diagnostics);
   return true;
+}
+
+bool LiveGraph::pollEnvironment(base::Diagnostics& diagnostics) {
+  const auto event = environment_.poll(renderer_.device().imports.environments(), diagnostics);
+  if (!event) return false;
+  runtime::World world = world_;
+  if (event->map) world.setEnvironment(event->map);
+  environmentGood_ = event->map && tryWorld(world, diagnostics);
+  if (!environmentGood_ && world_.environmentPending()) {
+    world = world_;
+    world.expectEnvironment(false);
+    tryWorld(world, diagnostics);
+  }
+  watch();
+  return true;
+}
+
+// Takes up another world; the graph is expanded again when it would be another one.
+bool LiveGraph::tryWorld(runtime::World world, base::Diagnostics& diagnostics) {
+  const bool same = renderer_.execution() && world.facts() == world_.facts();
+  if (!same && !renderer_.apply(settings_, world, diagnostics)) return false;
+  switches_ += same ? 0 : 1;
+  world_ = std::move(world);
+  return true;
+}
+
+void LiveGraph::stepEnvironment(int by) {
+  if (environment_.step(by)) watch();
 }
 
 bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/live_environment.h"
 #include "app/options.h"
 #include "engine/base/file_watcher.h"
 #include "engine/graph/expand.h"
@@ -16,13 +17,18 @@ namespace weft::app {
 
 class LiveGraph {
  public:
-  // `renderer` must outlive this.
+  // `renderer` must outlive this. An environment that `world` expects is asked for: options.environment, a file.
   LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world, graph::Settings settings);
 
   // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
   bool load(base::Diagnostics& diagnostics);
   // Loads when watched files changed and have been quiet for a moment. `now` in seconds. True when it looked at the disk.
   bool poll(double now, base::Diagnostics& diagnostics);
+  // Once per frame: takes up an environment that has arrived. True when something came of the last request; on failure the
+  // environment before stays, or, when it was to be the first, the stand-in comes.
+  bool pollEnvironment(base::Diagnostics& diagnostics);
+  // Asks for the next (1) or previous (-1) environment of the folder.
+  void stepEnvironment(int by);
   // The size of the screen. False when it is what it was.
   bool resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
   // As --set and --disable: by the full name of a parameter, of a pass. False after errors, and nothing has changed.
@@ -31,24 +37,28 @@ class LiveGraph {
 
   const runtime::World& world() const { return world_; }
   const graph::Settings& settings() const { return settings_; }
+  const LiveEnvironment& environment() const { return environment_; }
   // Whether the files as they are on disk are what is shown.
-  bool good() const { return good_; }
+  bool good() const { return good_ && environmentGood_; }
   // Count switches to another plan, and calls of setParameter and setEnabled.
   std::uint64_t switches() const { return switches_; }
   std::uint64_t changes() const { return changes_; }
 
  private:
   bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
+  bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
   void watch();
 
   runtime::Renderer& renderer_;
   runtime::World world_;
   graph::Settings settings_;
-  std::string scenePath_, environmentPath_;
+  std::string scenePath_;
+  LiveEnvironment environment_;
   std::vector<std::string> sceneFiles_;
   base::FileWatcher watcher_;
-  bool sceneStale_ = false, environmentStale_ = false, pending_ = false, good_ = true;
+  bool sceneStale_ = false, graphStale_ = false, pending_ = false, good_ = true, environmentGood_ = true;
+  std::string changedEnvironment_;  // to be loaded again, or empty
   double changedAt_ = 0;
   std::uint64_t switches_ = 0, changes_ = 0;
 };

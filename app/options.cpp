@@ -41,10 +41,12 @@ struct Raw {
   std::vector<std::string> sets;
 };
 
+constexpr const char* kWaitForAssets = "--wait-for-assets";
+
 void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
   command.add_option("graph", options.graph, "graph file (JSON)")->required();
   command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
-  command.add_option("--environment", options.environment, "environment map, .hdr or .exr");
+  command.add_option("--environment", options.environment, "environment map, .hdr or .exr; for view also a folder of them");
   command.add_option("--size", raw.size, "size of the screen in pixels")->check(CLI::Validator(checkSize, "WxH"));
   command.add_option("--preset", options.presets, "lay an overlay file over the graph, see graphs/presets; repeatable");
   command.add_option("--disable", options.disables, "disable a pass (any unique suffix of its name); repeatable");
@@ -76,12 +78,14 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       ->required();
   render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")->check(CLI::Validator(checkFrames, "A:B"));
   render->add_option("--fps", options.fps, "frames per second of the clock")->check(CLI::Range(1.0, 1000.0));
+  render->add_flag(kWaitForAssets, options.waitForAssets, "the first frame waits for everything it needs; always so without a window");
   render->add_flag("--quiet", options.quiet, "no progress bar");
 
   CLI::App* view = app.add_subcommand("view", "open a window and run a graph in it");
   addGraphOptions(*view, options, raw);
   addDeviceOptions(*view, options);
   view->add_option("--max-frames", options.maxFrames, "close after this many frames (0: when the window is closed)");
+  view->add_flag(kWaitForAssets, options.waitForAssets, "open the window when the environment is there, not before");
   view->add_flag("!--no-ui", options.ui, "no panels over the picture");
   view->add_option("--screenshot", options.screenshot, "PNG to write of the last frame before closing");
 

@@ -30,6 +30,7 @@ struct Options {
   std::string frameGraph;                    // bench --frame
   std::uint32_t maxFrames = 0;               // view: stop after this many frames; 0: until closed
   std::string screenshot;                    // view: written at the end
+  bool waitForAssets = false;                // view: before the first frame; without a window always
   bool ui = true;                            // view: panels over the picture
 };
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "engine/assets/loader.h"
 #include "engine/graph/read.h"
 #include "engine/scene/scene_file.h"
 
@@ -36,11 +37,19 @@ std::string scenePathOf(const Options& options) {
 }
 
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics) {
-  auto scene = scene::loadScene(scenePathOf(options), diagnostics);
-  std::shared_ptr<const assets::ImageF> environment;
-  if (!options.environment.empty())
-    if (auto image = assets::loadEnvironment(options.environment, diagnostics))
-      environment = std::make_shared<const assets::ImageF>(std::move(*image));
+  std::optional<scene::Scene> scene;
+  std::shared_ptr<const assets::EnvironmentMap> environment;
+  if (!options.environment.empty()) {
+    assets::Loader loader;  // beside the scene
+    const std::uint64_t ticket = loader.request(options.environment);
+    scene = scene::loadScene(scenePathOf(options), diagnostics);
+    if (auto loaded = loader.wait(ticket)) {
+      diagnostics.append(loaded->diagnostics);
+      environment = std::move(loaded->map);
+    }
+  } else {
+    scene = scene::loadScene(scenePathOf(options), diagnostics);
+  }
   if (!scene || diagnostics.hasErrors()) return std::nullopt;
   runtime::World world(std::move(*scene));
   if (environment) world.setEnvironment(std::move(environment));

@@ -23,7 +23,7 @@ graph::Settings settingsOf(const Options& options, bool software);
 // Path of the scene file: the one the options name, or the bundled one.
 std::string scenePathOf(const Options& options);
 
-// The scene and the environment that the options name.
+// The scene and the environment that the options name, read before this returns: what waits for assets.
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);
 
 // Facts to go on with when the scene could not be read: every draw list, empty.

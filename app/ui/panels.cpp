@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/ui/loading.h"
 #include "app/view/key_bindings.h"
 
 namespace weft::app::ui {
@@ -37,7 +38,10 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
     if (ImGui::Begin("Passes")) drawPasses(diagnostics);
     ImGui::End();
   }
-  if (!log_.files.empty() || !log_.change.empty() || (visible && !log_.past.empty())) drawLog();
+  const auto isError = [](const base::Diagnostic& each) { return each.severity == base::Severity::error; };
+  const bool urgent = !log_.files.empty() || !log_.change.empty() || std::ranges::any_of(log_.environment, isError);
+  if (urgent || (visible && (!log_.past.empty() || !log_.environment.empty()))) drawLog();
+  drawLoading(live_.environment());
   if (help) drawHelp();
 }
 
@@ -57,7 +61,7 @@ void Panels::drawLog() const {
   ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
   ImGui::Begin("Log", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   if (!live_.good()) ImGui::TextColored({1, 0.7f, 0.3f, 1}, "This is the last good picture; the files on disk have errors:");
-  for (const auto* list : {&log_.files, &log_.change, &log_.past})
+  for (const auto* list : {&log_.files, &log_.environment, &log_.change, &log_.past})
     for (const base::Diagnostic& each : *list) {
       const ImVec4 color = each.severity == base::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
                            : each.severity == base::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)

@@ -11,10 +11,10 @@
 
 namespace weft::app::ui {
 
-// What there is to say: about the files as they are, about the last change made in the window, and what the driver or a
+// What there is to say: about the files as they are, the environment last asked for, the last change made in the window, and what the driver or a
 // frame said, once each.
 struct Log {
-  std::vector<base::Diagnostic> files, change, past;
+  std::vector<base::Diagnostic> files, environment, change, past;
   void addPast(const base::Diagnostics& diagnostics);  // keeps the last hundred
 };
 

@@ -11,6 +11,8 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_UNKNOWN, "", "left drag", "turn around the scene"},
     {GLFW_KEY_UNKNOWN, "", "wheel", "nearer and farther"},
     {GLFW_KEY_R, "reset_camera", "R", "the scene's camera again"},
+    {GLFW_KEY_PAGE_DOWN, "next_environment", "Page Down", "the next environment of the folder"},
+    {GLFW_KEY_PAGE_UP, "previous_environment", "Page Up", "the previous environment of the folder"},
     {GLFW_KEY_SPACE, "panels", "Space", "show or hide the panels"},
     {GLFW_KEY_F1, "help", "F1", "show or hide this help"},
     {GLFW_KEY_P, "profile", "P", "measure each pass (slower on software)"},

@@ -13,8 +13,13 @@ namespace weft::app {
 
 int runView(const Options& options) {
   base::Diagnostics diagnostics;
-  auto world = loadWorld(options, diagnostics);
+  Options files = options;
+  if (!files.environment.empty()) files.environment = firstEnvironment(options.environment, diagnostics).value_or("");
+  Options first = files;
+  if (!options.waitForAssets) first.environment.clear();  // comes while the window is open
+  auto world = loadWorld(first, diagnostics);
   if (!world || diagnostics.hasErrors()) return report(diagnostics);
+  if (!files.environment.empty() && !world->environment()) world->expectEnvironment();
   auto session = openDevice(options, diagnostics);
   if (!session) {
     report(diagnostics);
@@ -28,7 +33,7 @@ int runView(const Options& options) {
   const gl::Size size = session->context->framebufferSize();
   settings.screenWidth = std::max(1u, size.width);
   settings.screenHeight = std::max(1u, size.height);
-  LiveGraph live(options, session->renderer, std::move(*world), std::move(settings));
+  LiveGraph live(files, session->renderer, std::move(*world), std::move(settings));
   if (!live.load(diagnostics)) return report(diagnostics);
   return Viewer(options, *session, live, std::move(diagnostics)).run();
 }

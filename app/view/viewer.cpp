@@ -47,6 +47,8 @@ void Viewer::addActions() {
   actions_.add("help", [this] { panels_.help = !panels_.help; });
   actions_.add("panels", [this] { panels_.visible = !panels_.visible; });
   actions_.add("reset_camera", [this] { camera_ = OrbitCamera(sceneCamera()); });
+  actions_.add("next_environment", [this] { live_.stepEnvironment(1); });
+  actions_.add("previous_environment", [this] { live_.stepEnvironment(-1); });
   actions_.add("profile",
                [this] { renderer_.device().timers.setEnabled(!renderer_.device().timers.enabled()); });
   actions_.add("screenshot", [this] { screenshot_ = true; });
@@ -69,6 +71,7 @@ int Viewer::run() {
     }
     if (live_.resize(size.width, size.height, diagnostics_)) tell(diagnostics_, log_.change);
     if (live_.poll(glfwGetTime(), diagnostics_)) tell(diagnostics_, log_.files);
+    if (live_.pollEnvironment(diagnostics_)) tell(diagnostics_, log_.environment);
     for (const std::string_view action : input_.takeActions()) actions_.run(action);
     const WindowInput::Mouse mouse = input_.takeMouse();
     camera_.turn(mouse.turnX, mouse.turnY);

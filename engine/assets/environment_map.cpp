@@ -65,6 +65,11 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::
   return {};
 }
 
+bool isEnvironmentName(const std::string& name) {
+  const ImageKind kind = kindOfName(name);
+  return kind == ImageKind::hdr || kind == ImageKind::exr;
+}
+
 EnvironmentMap toEnvironmentMap(const ImageF& image) {
   return *convert(image, [](double) { return true; });
 }

@@ -30,6 +30,9 @@ using LoadObserver = std::function<bool(LoadStage stage, double done)>;
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::Diagnostics& diagnostics,
                                                  const LoadObserver& observer = {});
 
+// Whether a name is that of an environment, by its end: .hdr or .exr.
+bool isEnvironmentName(const std::string& name);
+
 // A picture that loadEnvironment would accept, 3 or 4 channels, rounded to halves (half.h).
 EnvironmentMap toEnvironmentMap(const ImageF& image);
 

@@ -6,9 +6,9 @@
 
 namespace weft::gl {
 
-std::optional<PixelStream> PixelStream::create(const TextureRef& texture, std::uint32_t mip, GLenum format, GLenum type,
-                                               std::uint32_t rowsPerPortion, std::string_view label,
-                                               base::Diagnostics& diagnostics) {
+std::optional<PixelStream> PixelStream::create(const TextureRef& texture, std::uint32_t mip, GLenum format,
+                                               GLenum type, std::uint32_t rowsPerPortion,
+                                               std::string_view label, base::Diagnostics& diagnostics) {
   assert(texture.desc.target == GL_TEXTURE_2D && mip < texture.desc.mips);
   PixelStream stream;
   stream.texture_ = texture;
@@ -19,7 +19,8 @@ std::optional<PixelStream> PixelStream::create(const TextureRef& texture, std::u
   stream.rowsPerPortion_ = std::clamp(rowsPerPortion, 1u, stream.extent_.height);
   stream.rowBytes_ = std::size_t{stream.extent_.width} * texelBytes(format, type);
   const std::uint64_t bytes = stream.rowBytes_ * stream.rowsPerPortion_;
-  const std::uint32_t portions = (stream.extent_.height + stream.rowsPerPortion_ - 1) / stream.rowsPerPortion_;
+  const std::uint32_t portions =
+      (stream.extent_.height + stream.rowsPerPortion_ - 1) / stream.rowsPerPortion_;
   constexpr GLbitfield kFlags = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   for (std::size_t i = 0; i < std::min<std::size_t>(kBuffers, portions); ++i) {
     auto buffer = Buffer::create(bytes, kFlags, label, diagnostics);
@@ -43,7 +44,8 @@ void PixelStream::advance(std::span<const std::byte> texels) {
   std::memcpy(portion.mapped, texels.data() + row_ * rowBytes_, rows * rowBytes_);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, portion.buffer.id());
   glTextureSubImage2D(texture_.id, static_cast<GLint>(mip_), 0, static_cast<GLint>(row_),
-                      static_cast<GLsizei>(extent_.width), static_cast<GLsizei>(rows), format_, type_, nullptr);
+                      static_cast<GLsizei>(extent_.width), static_cast<GLsizei>(rows), format_, type_,
+                      nullptr);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   portion.fence = Fence::insert();
   row_ += rows;

@@ -1,7 +1,8 @@
-// Fills one level of a 2D texture a portion of rows at a time, through a ring of persistently mapped pixel-unpack buffers:
-// the copy into a buffer is the only work of the calling thread, and a buffer is written again only when the fence behind
-// its last transfer has signalled. Nothing here waits, for the GPU or anything else.
-// Does not: own the texture, keep the texels, make mips, or choose how much is fitting per frame.
+// Fills one level of a 2D texture a portion of rows at a time, through a ring of persistently mapped
+// pixel-unpack buffers: the copy into a buffer is the only work of the calling thread, and a buffer is
+// written again only when the fence behind its last transfer has signalled. Nothing here waits, for the GPU
+// or anything else. Does not: own the texture, keep the texels, make mips, or choose how much is fitting per
+// frame.
 #pragma once
 
 #include <array>
@@ -13,12 +14,12 @@ namespace weft::gl {
 class PixelStream {
  public:
   // `rowsPerPortion` rows of (format, type) fit a buffer; at least one. W117 when memory is out.
-  static std::optional<PixelStream> create(const TextureRef& texture, std::uint32_t mip, GLenum format, GLenum type,
-                                           std::uint32_t rowsPerPortion, std::string_view label,
+  static std::optional<PixelStream> create(const TextureRef& texture, std::uint32_t mip, GLenum format,
+                                           GLenum type, std::uint32_t rowsPerPortion, std::string_view label,
                                            base::Diagnostics& diagnostics);
 
-  // Sends the next portion of `texels`, which are those of the whole level and the same in every call, or nothing when the
-  // GPU still reads the next buffer.
+  // Sends the next portion of `texels`, which are those of the whole level and the same in every call, or
+  // nothing when the GPU still reads the next buffer.
   void advance(std::span<const std::byte> texels);
   // Rows that are sent.
   std::uint32_t rows() const { return row_; }

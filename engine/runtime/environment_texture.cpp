@@ -11,11 +11,15 @@ namespace weft::runtime {
 namespace {
 
 // Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
-std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) { return std::as_bytes(std::span(map.texels)); }
+std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) {
+  return std::as_bytes(std::span(map.texels));
+}
 
 std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, base::Diagnostics& diagnostics) {
-  const gl::TextureDesc desc{
-      .format = GL_RGBA16F, .width = map.width, .height = map.height, .mips = fullMips(map.width, map.height)};
+  const gl::TextureDesc desc{.format = GL_RGBA16F,
+                             .width = map.width,
+                             .height = map.height,
+                             .mips = fullMips(map.width, map.height)};
   return gl::Texture::create(desc, "@environment", diagnostics);
 }
 
@@ -27,9 +31,10 @@ std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics
     auto texture = makeTexture(*map, diagnostics);
     if (!texture) return std::nullopt;
     const std::size_t rowBytes = std::size_t{map->width} * 4 * sizeof(std::uint16_t);
-    auto stream = gl::PixelStream::create(texture->ref(), 0, GL_RGBA, GL_HALF_FLOAT,
-                                          static_cast<std::uint32_t>(std::max<std::size_t>(1, kBytesPerFrame / rowBytes)),
-                                          "@environment", diagnostics);
+    auto stream = gl::PixelStream::create(
+        texture->ref(), 0, GL_RGBA, GL_HALF_FLOAT,
+        static_cast<std::uint32_t>(std::max<std::size_t>(1, kBytesPerFrame / rowBytes)), "@environment",
+        diagnostics);
     if (!stream) return std::nullopt;
     incoming_.map = map;
     incoming_.texture = std::move(*texture);

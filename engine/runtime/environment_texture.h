@@ -1,6 +1,7 @@
-// The environment on the GPU: the one in use, the one being sent beside it, and on request the one in use before. A new
-// one is sent in portions, one per frame, and taken into use whole: with all its levels, and when the GPU has them.
-// At most three textures exist at once. Does not: decode files (assets::Loader does), or decide when to switch.
+// The environment on the GPU: the one in use, the one being sent beside it, and on request the one in use
+// before. A new one is sent in portions, one per frame, and taken into use whole: with all its levels, and
+// when the GPU has them. At most three textures exist at once. Does not: decode files (assets::Loader does),
+// or decide when to switch.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +18,18 @@ namespace weft::runtime {
 class EnvironmentTextures {
  public:
   using Map = std::shared_ptr<const assets::EnvironmentMap>;
-  // One frame's portion. Copying 4 MiB takes about a millisecond, little beside a frame of 16; a 1k map is there in one
-  // frame, an 8k map (256 MiB) in 64 frames, about a second at 60 Hz.
+  // One frame's portion. Copying 4 MiB takes about a millisecond, little beside a frame of 16; a 1k map is
+  // there in one frame, an 8k map (256 MiB) in 64 frames, about a second at 60 Hz.
   static constexpr std::size_t kBytesPerFrame = std::size_t{4} << 20;
 
-  // Call once per frame with the same map: sends the next portion beside the texture in use. 1 when use() will take it
-  // without another upload. Another map drops what was sent of the one before. Empty when the GPU has no room: W116, W117.
+  // Call once per frame with the same map: sends the next portion beside the texture in use. 1 when use()
+  // will take it without another upload. Another map drops what was sent of the one before. Empty when the
+  // GPU has no room: W116, W117.
   std::optional<float> send(const Map& map, base::Diagnostics& diagnostics);
   void stopSending() { incoming_ = {}; }
 
-  // Makes `map` the one in use: the texture that was sent, or one uploaded here and now. False after errors, and the one in use
-  // stays. Cheap when it is in use already.
+  // Makes `map` the one in use: the texture that was sent, or one uploaded here and now. False after errors,
+  // and the one in use stays. Cheap when it is in use already.
   bool use(const Map& map, base::Diagnostics& diagnostics);
   gl::TextureRef current() const { return current_ ? current_.ref() : gl::TextureRef{}; }
 

@@ -1,5 +1,4 @@
 #include "engine/gl/pixel_stream.h"
-
 #include "tests/gl/gl_test.h"
 
 using namespace weft;
@@ -21,7 +20,8 @@ TEST_CASE("a level sent in portions is the level, whatever the portion, and othe
     const auto texture = Texture::create({.width = 66, .height = 40, .mips = 3}, "stream", diagnostics);
     const std::vector<std::byte> others(66 * 40 * 4, std::byte{9});
     uploadTexture(texture->ref(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE, others);
-    auto stream = PixelStream::create(texture->ref(), 1, GL_RGBA, GL_UNSIGNED_BYTE, rows, "stream", diagnostics);
+    auto stream =
+        PixelStream::create(texture->ref(), 1, GL_RGBA, GL_UNSIGNED_BYTE, rows, "stream", diagnostics);
     REQUIRE(stream);
     std::uint32_t before = 0;
     while (!stream->sentAll()) {

@@ -1,0 +1,25 @@
+#include "app/ui/loading.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace weft::app::ui {
+
+void drawLoading(const LiveEnvironment& environment) {
+  const auto status = environment.status();
+  if (!status) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float width = std::min(420.0f * ImGui::GetIO().FontGlobalScale, screen.x - 16);
+  ImGui::SetNextWindowPos({screen.x * 0.5f, 8}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowSize({width, 0}, ImGuiCond_Always);
+  ImGui::Begin("Loading", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::TextUnformatted(fmt::format("{}: {}", status->name, status->stage).c_str());
+  ImGui::ProgressBar(status->done, {-1, 0}, fmt::format("{:.0f} %", status->done * 100.0f).c_str());
+  ImGui::End();
+}
+
+}  // namespace weft::app::ui
