@@ -1,7 +1,7 @@
 // Fast approximate anti-aliasing of display-referred, encoded values, after the tone curve (Lottes, FXAA 3.11): the
 // pixels that fxaa/edges found, moved along their edge towards the other side.
-// read    source   encoded picture, `as linear`
-// modify  result   the same picture, another texture
+// read    source   a copy of the encoded picture, `as linear`
+// modify  result   the picture
 //         edges    depth: 0 at edges; "depth_test": "equal" keeps every other pixel from being shaded at all
 // params  subpixel   how much single pixels are softened, 0..1
 #include "luma.glsl"

@@ -29,7 +29,7 @@ struct Levels {
 };
 
 // The presented picture of an empty scene under a constant sky, in 8-bit steps.
-Levels levelsOf(float radiance, std::vector<std::pair<std::string, std::string>> sets, const char* picture = "post.smooth") {
+Levels levelsOf(float radiance, std::vector<std::pair<std::string, std::string>> sets, const char* picture = "post.ldr") {
   Setup setup{.graph = "graphs/studio.json", .width = 64, .height = 48, .sets = std::move(sets)};
   setup.environment = constantEnvironment(radiance, radiance, radiance);
   Lab lab(setup);
@@ -78,6 +78,6 @@ TEST_CASE("bloom at threshold 0 keeps a constant picture") {
 
 TEST_CASE("anti-aliasing leaves a flat picture as it is, and can be switched off") {
   const Levels with = levelsOf(0.3f, {{"bloom", "false"}});
-  const Levels without = levelsOf(0.3f, {{"bloom", "false"}, {"fxaa", "false"}}, "post.encoded");
+  const Levels without = levelsOf(0.3f, {{"bloom", "false"}, {"fxaa", "false"}}, "post.ldr");
   CHECK(with.mean == without.mean);
 }

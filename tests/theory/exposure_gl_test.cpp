@@ -71,7 +71,7 @@ TEST_CASE("auto-exposure: converges to the key value from 8 stops either side, m
     CHECK(lawful);
     CHECK(std::abs(before) < 0.0126);
     // And the picture is at the key value.
-    const Picture picture = lab.read("post.encoded");
+    const Picture picture = lab.read("post.ldr");
     CHECK(lab.complaints() == "");
     const auto hable = [](double v) {
       return (v * (0.15 * v + 0.05) + 0.004) / (v * (0.15 * v + 0.5) + 0.06) - 0.02 / 0.3;
@@ -103,7 +103,7 @@ TEST_CASE("auto-exposure: a black picture changes nothing, and is no reason for 
   Lab lab(setupOf(0, 0, 1));
   for (std::uint32_t frame = 0; frame < 3; ++frame) lab.frame(frame);
   CHECK(adapted(lab) == -1);
-  const Picture picture = lab.read("post.encoded");
+  const Picture picture = lab.read("post.ldr");
   for (std::uint32_t x = 0; x < picture.width; ++x) CHECK(picture.at(x, 7)[0] == 0);
   CHECK(lab.complaints() == "");
 }

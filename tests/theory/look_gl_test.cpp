@@ -41,7 +41,7 @@ Picture render(Sets sets, std::uint32_t frame = 0, std::uint32_t width = kWidth)
   Lab lab({.graph = "tests/theory/look.json", .width = width, .height = kHeight, .sets = std::move(sets)});
   lab.frame(frame);
   CHECK(lab.complaints() == "");
-  return lab.read("post.encoded");
+  return lab.read("post.ldr");
 }
 
 double step(const Picture& picture, std::uint32_t x, std::uint32_t y, int channel) {

@@ -51,7 +51,7 @@ Picture render(const std::string& file, const char* strength = "1") {
   Lab lab(setup);
   lab.frame();
   CHECK(lab.complaints() == "");
-  return lab.read("post.encoded");
+  return lab.read("post.ldr");
 }
 
 double largestError(const Picture& picture, const std::function<Rgb(Rgb)>& truth) {
