@@ -129,7 +129,9 @@ namespace weft::base {
   X(185, "unknown member of the View block")                              \
   X(186, "storage block is no instance table")                            \
   X(187, "shader uses what its pass does not name")                       \
-  X(188, "graph presents nothing")
+  X(188, "graph presents nothing")                                        \
+  X(195, "file changed since it was read")                                \
+  X(196, "change that cannot be written back")
 // clang-format on
 
 // A diagnostic code; the numeric value is what follows the W in "W040".

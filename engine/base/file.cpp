@@ -65,16 +65,23 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
         .hint = "name a file in an existing folder that can be written to";
     return false;
   };
-  if (std::filesystem::is_directory(path)) return fail("it is a directory");
-  const std::string temporary = fmt::format("{}.{}.tmp", path, ::getpid());
+  std::error_code ec;
+  if (std::filesystem::is_directory(path, ec)) return fail("it is a directory");
+  // Behind a link stands the file that is meant.
+  const auto canonical = std::filesystem::canonical(path, ec);
+  const std::string target = ec ? path : canonical.string();
+  const auto before = std::filesystem::status(target, ec);
+  const std::string temporary = fmt::format("{}.{}.tmp", target, ::getpid());
   FilePtr file(std::fopen(temporary.c_str(), "wb"));
   if (!file) return fail(std::strerror(errno));
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
                        std::fflush(file.get()) == 0;
   const int error = errno;
   file.reset();
-  std::error_code ec;
-  if (written) std::filesystem::rename(temporary, path, ec);
+  ec.clear();
+  if (written && std::filesystem::is_regular_file(before)) std::filesystem::permissions(temporary, before.permissions(), ec);
+  ec.clear();
+  if (written) std::filesystem::rename(temporary, target, ec);
   if (!written || ec) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);

@@ -23,7 +23,8 @@ using ReadProgress = std::function<bool(std::uint64_t done, std::uint64_t total)
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                     const Place& place, const ReadProgress& goOn);
 
-// Writes through a temporary file beside `path` and renames it, so that a failure never leaves half a file.
+// Writes through a temporary file beside `path` and renames it, so that a failure never leaves half a file. A file
+// that is there keeps its permissions, a link goes on leading to it.
 // Reports Code::W180 and returns false when it cannot.
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics);
 

@@ -2,6 +2,7 @@
 // against anything outside the file. Plain aggregates. Made by readGraph (read.h), consumed by expandGraph (expand.h).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,6 +58,8 @@ struct ParameterDesc {
   std::string pointer;
   Type type = Type::number;
   Value initial;
+  Place initialPlace;          // of the default's value, perhaps in an overlay
+  std::string initialPointer;
   std::optional<double> min, max, step;
   std::string label, doc;
   std::vector<std::string> choices;
@@ -176,6 +179,9 @@ struct SetDesc {
   Value value;
 };
 
+// Files by path, as they were read.
+using FileTexts = std::map<std::string, std::shared_ptr<const std::string>>;
+
 struct GraphDesc {
   std::string path;            // as opened; "" for text without a file
   std::string name;
@@ -191,6 +197,7 @@ struct GraphDesc {
                                            // a use of one is no second error
   std::vector<std::string> files;          // this file, what it extends, its presets, and all of every file
                                            // included below it, for watching
+  FileTexts texts;                         // of the graph that was asked for: all these files; included ones: some
 };
 
 }  // namespace weft::graph

@@ -65,10 +65,17 @@ std::string identityOf(const std::string& path) {
 std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const base::Place& from) {
   const std::string identity = identityOf(path);
   if (const auto known = known_.find(identity); known != known_.end()) return known->second;
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics_, Code::W1, from);
+  const std::shared_ptr<const std::string> bytes = bytesOf(path, from);
   std::shared_ptr<const Source> source = bytes ? text(*bytes, path) : nullptr;
   known_[identity] = source;
   return source;
+}
+
+std::shared_ptr<const std::string> SourceLoader::bytesOf(const std::string& path, const base::Place& from) {
+  if (given_)
+    if (const auto found = given_->find(path); found != given_->end()) return texts_[path] = found->second;
+  std::optional<std::string> bytes = base::readFile(path, diagnostics_, Code::W1, from);
+  return bytes ? texts_[path] = std::make_shared<const std::string>(*std::move(bytes)) : nullptr;
 }
 
 std::shared_ptr<const Source> SourceLoader::text(std::string_view text, const std::string& path) {
@@ -144,7 +151,7 @@ bool SourceLoader::isOpen(const std::string& identity) const {
 }
 
 std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, const std::string& path) {
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics_, Code::W1, {});
+  const std::shared_ptr<const std::string> bytes = bytesOf(path, {});
   if (!bytes) return nullptr;
   const std::optional<JsonValue> root =
       base::parseJson(*bytes, std::make_shared<const std::string>(path), diagnostics_);

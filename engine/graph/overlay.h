@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/json_dom.h"
+#include "engine/graph/desc.h"
 
 namespace weft::graph {
 
@@ -30,10 +31,11 @@ std::string includePrefix(const base::JsonValue& stanza);
 std::string pathBeside(const base::JsonValue& written);
 std::string identityOf(const std::string& path);
 
-// Opens files, each once.
+// Opens files, each once. Those in `given` are not looked for on disk.
 class SourceLoader {
  public:
-  explicit SourceLoader(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit SourceLoader(base::Diagnostics& diagnostics, const FileTexts* given = nullptr)
+      : diagnostics_(diagnostics), given_(given) {}
 
   // Null after a report (the same file again: null without another).
   std::shared_ptr<const Source> file(const std::string& path, const base::Place& from);
@@ -42,14 +44,19 @@ class SourceLoader {
   std::shared_ptr<const Source> withPreset(const Source& source, const std::string& path);
   // True while the overlay of this identity is being laid over its base: it includes or extends itself.
   bool isOpen(const std::string& identity) const;
+  // Of everything opened so far.
+  const FileTexts& texts() const { return texts_; }
 
  private:
+  std::shared_ptr<const std::string> bytesOf(const std::string& path, const base::Place& from);
   std::shared_ptr<const Source> complete(base::JsonValue root, const std::string& path);
   std::shared_ptr<const Source> completeOverlay(const base::JsonValue& root, const base::JsonValue& extends,
                                                 const std::string& path);
   std::shared_ptr<const Source> openBase(const base::JsonValue& extends);
 
   base::Diagnostics& diagnostics_;
+  const FileTexts* given_ = nullptr;
+  FileTexts texts_;
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
   std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
 };

@@ -25,7 +25,8 @@ struct OpenFile {
 
 class GraphReader {
  public:
-  explicit GraphReader(Diagnostics& diagnostics) : diagnostics_(diagnostics), loader_(diagnostics) {}
+  explicit GraphReader(Diagnostics& diagnostics, const FileTexts* given = nullptr)
+      : diagnostics_(diagnostics), loader_(diagnostics, given) {}
 
   std::shared_ptr<const GraphDesc> readFile(const std::string& path, const Place& from) {
     const std::string identity = identityOf(path);
@@ -82,6 +83,7 @@ class GraphReader {
       std::optional<RefDesc> ref = context.ref(&member.value, fmt::format("the output '{}'", member.key));
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
+    graph->texts = loader_.texts();
     return graph;
   }
 
@@ -189,6 +191,12 @@ std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<co
                                            Diagnostics& diagnostics) {
   return readSorted(diagnostics,
                     [&](Diagnostics& said) { return GraphReader(said).readWith(path, presets); });
+}
+
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
+                                           const FileTexts& given, Diagnostics& diagnostics) {
+  return readSorted(diagnostics,
+                    [&](Diagnostics& said) { return GraphReader(said, &given).readWith(path, presets); });
 }
 
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,

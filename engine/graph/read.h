@@ -22,6 +22,10 @@ std::shared_ptr<const GraphDesc> readGraph(const std::string& path, base::Diagno
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            base::Diagnostics& diagnostics);
 
+// The same with these texts in place of the files of these paths.
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
+                                           const FileTexts& given, base::Diagnostics& diagnostics);
+
 // The same for text that stands in memory; `name` is used in places, includes are relative to the folder of
 // `name`.
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,

@@ -61,6 +61,8 @@ class ParameterReader {
     readChoices();
     const JsonValue* initial = object_.find("default");
     if (!initial) return std::nullopt;
+    out_.initialPlace = initial->place;
+    out_.initialPointer = initial->pointer;
     const std::optional<Type> type = typeOf(*initial);
     if (!type) return std::nullopt;
     out_.type = *type;

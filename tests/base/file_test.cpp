@@ -25,6 +25,22 @@ TEST_CASE("a device is not read: /dev/zero has no end") {
   CHECK(all.items()[0].message.find("device") != std::string::npos);
 }
 
+TEST_CASE("writing keeps permissions, and a link leads to what was written") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / "weft_file_test_link";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  Diagnostics all;
+  REQUIRE(writeFile(folder / "real", std::string_view("old"), all));
+  fs::permissions(folder / "real", fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_write);
+  fs::create_symlink("real", folder / "link");
+  REQUIRE(writeFile(folder / "link", std::string_view("new"), all));
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(readFile(folder / "real", all) == "new");
+  CHECK(fs::status(folder / "real").permissions() == (fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_write));
+  fs::remove_all(folder);
+}
+
 TEST_CASE("what is written is read back") {
   const std::string path = (std::filesystem::temp_directory_path() / "weft_file_test.bin").string();
   Diagnostics all;
