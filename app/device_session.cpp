@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "app/session.h"
+#include "engine/gl/objects.h"
 
 namespace weft::app {
 
@@ -31,6 +32,7 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
   wanted.width = options.width;
   wanted.height = options.height;
   wanted.visible = window;
+  wanted.vsync = options.vsync;
   auto context = gl::createContext(wanted, diagnostics);
   if (!context) return nullptr;
   gl::Context& current = *context;
@@ -39,7 +41,7 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
                                                               {.dataFolder = dataFolder(), .cacheFolder = cacheFolderOf(options), .presets = options.presets})});
 }
 
-void printStats(DeviceSession& session, nlohmann::ordered_json times) {
+nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {
   const gl::ProgramCacheStats& programs = session.renderer.device().programs.stats();
   const gl::DeviceInfo& device = session.context->device();
   nlohmann::ordered_json out;
@@ -53,6 +55,7 @@ void printStats(DeviceSession& session, nlohmann::ordered_json times) {
                      {"binary_loads", programs.binaryLoads},
                      {"binary_rejects", programs.binaryRejects}};
   runtime::Execution* execution = session.renderer.execution();
+  if (!execution) return out;
   const graph::Plan& plan = execution->plan();
   out["bytes"] = {{"declared", plan.bytesDeclared}, {"allocated", plan.bytesAllocated}, {"lower_bound", plan.bytesLowerBound}};
   gl::PassTimers& timers = session.renderer.device().timers;
@@ -65,7 +68,19 @@ void printStats(DeviceSession& session, nlohmann::ordered_json times) {
     }
     out["passes"] = std::move(passes);
   }
-  fmt::print(stderr, "{}\n", out.dump(2));
+  return out;
+}
+
+void print(const nlohmann::ordered_json& stats) { fmt::print(stderr, "{}\n", stats.dump(2)); }
+
+std::string closeDevice(std::unique_ptr<DeviceSession> session) {
+  const std::unique_ptr<gl::Context> context = std::move(session->context);
+  session.reset();
+  // Fences have no names; owners count them.
+  gl::LiveObjects left = gl::namedObjects();
+  const auto fence = static_cast<std::size_t>(gl::ObjectKind::fence);
+  left.counts[fence] = gl::liveObjects().counts[fence];
+  return gl::toText(left);
 }
 
 }  // namespace weft::app

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/options.h"
 #include "engine/gl/context.h"
@@ -13,14 +12,19 @@
 namespace weft::app {
 
 struct DeviceSession {
-  std::unique_ptr<gl::Context> context;   // destroyed last
+  std::unique_ptr<gl::Context> context;  // destroyed last
   runtime::Renderer renderer;
 };
 
 // Headless unless options.command is "view". Null after errors.
 std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics);
 
-// --stats: one JSON object on standard error.
-void printStats(DeviceSession& session, nlohmann::ordered_json times);
+// --stats: one JSON object.
+nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
+void print(const nlohmann::ordered_json& stats);  // on standard error
+
+// Destroys the renderer, then asks the driver which objects still exist: "none", unless one was forgotten.
+// The context goes last. What the overlay made must be gone by then.
+std::string closeDevice(std::unique_ptr<DeviceSession> session);
 
 }  // namespace weft::app

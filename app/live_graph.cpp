@@ -11,24 +11,35 @@ namespace weft::app {
 
 namespace {
 
-// Editors and version control write several files, or one in several steps: wait until nothing was written for so long.
+// Editors and version control write several files, or one in several steps: wait until nothing was written
+// for so long.
 constexpr double kQuietSeconds = 0.03;
+
+// Whether `diagnostic` says that the graph does not take a setting: it has no place in a file, and names it.
+bool isAbout(const base::Diagnostic& diagnostic, const std::string& source) {
+  return diagnostic.severity == base::Severity::error && !diagnostic.place.file &&
+         diagnostic.message.find(source) != std::string::npos;
+}
 
 }  // namespace
 
-LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world, graph::Settings settings)
+LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world,
+                     graph::Settings settings)
     : renderer_(renderer),
       world_(std::move(world)),
       settings_(std::move(settings)),
       scenePath_(scenePathOf(options)),
-      sceneFiles_(world_.scene().files) {
-  if (world_.environmentPending()) environment_.request(options.environment);
-  else if (!options.environment.empty()) environment_.assume(options.environment);
+      sceneFiles_(world_.scene().files),
+      sceneStale_(world_.scene().cameras.rows().empty()) {
+  if (world_.environmentPending())
+    environment_.request(options.environment);
+  else if (!options.environment.empty())
+    environment_.assume(options.environment);
 }
 
 bool LiveGraph::load(base::Diagnostics& diagnostics) {
   runtime::World world = world_;
-  good_ = tryScene(world, diagnostics) && renderer_.load(settings_, world, diagnostics);
+  good_ = tryScene(world, diagnostics) && tryGraph(world, diagnostics);
   if (good_) {
     world_ = std::move(world);
     sceneStale_ = false;
@@ -36,6 +47,53 @@ bool LiveGraph::load(base::Diagnostics& diagnostics) {
   }
   watch();
   return good_;
+}
+
+bool LiveGraph::tryGraph(const runtime::World& world, base::Diagnostics& diagnostics) {
+  graph::Settings wanted = settings_;
+  wanted.sets.insert(wanted.sets.end(), lostSets_.begin(), lostSets_.end());
+  wanted.disables.insert(wanted.disables.end(), lostDisables_.begin(), lostDisables_.end());
+  base::Diagnostics said;
+  if (renderer_.load(wanted, world, said)) {
+    diagnostics.append(said);
+    settings_ = std::move(wanted);
+    lostSets_.clear();
+    lostDisables_.clear();
+    return true;
+  }
+  std::vector<std::pair<std::string, std::string>> sets;
+  std::vector<std::string> disables;
+  base::Diagnostics warnings;
+  const auto take = [&](const std::string& source) {
+    const auto found =
+        std::ranges::find_if(said.items(), [&](const auto& each) { return isAbout(each, source); });
+    if (found == said.items().end()) return false;
+    base::Diagnostic warning = *found;
+    warning.severity = base::Severity::warning;
+    warning.message += "; left out until the files take it";
+    warnings.add(std::move(warning));
+    return true;
+  };
+  std::erase_if(wanted.sets, [&](const auto& set) {
+    const bool lost = take(graph::sourceOfSet(set.first, set.second));
+    if (lost) sets.push_back(set);
+    return lost;
+  });
+  std::erase_if(wanted.disables, [&](const std::string& name) {
+    const bool lost = take(graph::sourceOfDisable(name));
+    if (lost) disables.push_back(name);
+    return lost;
+  });
+  if (warnings.empty() || !running()) {
+    diagnostics.append(said);
+    return false;
+  }
+  diagnostics.append(warnings);
+  if (!renderer_.load(wanted, world, diagnostics)) return false;
+  settings_ = std::move(wanted);
+  lostSets_ = std::move(sets);
+  lostDisables_ = std::move(disables);
+  return true;
 }
 
 bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) {
@@ -65,8 +123,10 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
   for (const std::string& file : changed) {
     sceneStale_ |= std::ranges::find(sceneFiles_, file) != sceneFiles_.end() || file == scenePath_;
     const bool environment = file == environment_.shown() || file == environment_.wanted();
-    if (environment) changedEnvironment_ = file;
-    else graphStale_ = true;
+    if (environment)
+      changedEnvironment_ = file;
+    else
+      graphStale_ = true;
   }
   if (!pending_ || now - changedAt_ < kQuietSeconds) return false;
   pending_ = false;
@@ -93,7 +153,11 @@ bool LiveGraph::pollEnvironment(base::Diagnostics& diagnostics) {
 
 // Takes up another world; the graph is expanded again when it would be another one.
 bool LiveGraph::tryWorld(runtime::World world, base::Diagnostics& diagnostics) {
-  const bool same = renderer_.execution() && world.facts() == world_.facts();
+  if (!running()) {  // for when the files are good
+    world_ = std::move(world);
+    return true;
+  }
+  const bool same = world.facts() == world_.facts();
   if (!same && !renderer_.apply(settings_, world, diagnostics)) return false;
   switches_ += same ? 0 : 1;
   world_ = std::move(world);
@@ -108,6 +172,7 @@ bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnost
   if (width == settings_.screenWidth && height == settings_.screenHeight) return false;
   settings_.screenWidth = width;
   settings_.screenHeight = height;
+  if (!running()) return false;
   if (renderer_.apply(settings_, world_, diagnostics)) ++switches_;
   watch();
   return true;
@@ -122,9 +187,12 @@ bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnos
   return true;
 }
 
-bool LiveGraph::setParameter(const std::string& name, const std::string& value, base::Diagnostics& diagnostics) {
+bool LiveGraph::setParameter(const std::string& name, const std::string& value,
+                             base::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
-  std::erase_if(settings.sets, [&](const auto& set) { return set.first == name; });
+  const auto same = [&](const auto& set) { return set.first == name; };
+  std::erase_if(settings.sets, same);
+  std::erase_if(lostSets_, same);
   settings.sets.emplace_back(name, value);
   return trySettings(std::move(settings), diagnostics);
 }

@@ -1,10 +1,12 @@
-// A graph that follows its files: what the viewer shows, the settings it shows it with, and the watch on everything that
-// was read for it. A change is validated whole; after an error the last good frame goes on, and the settings that led to
-// it are taken back when a person made them here. Does not: draw, own the window, or know the camera.
+// A graph that follows its files: what the viewer shows, the settings it shows it with, and the watch on
+// everything that was read for it. A change is validated whole; after an error the last good frame goes on,
+// and the settings that led to it are taken back when a person made them here. Does not: draw, own the
+// window, or know the camera.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/live_environment.h"
@@ -17,27 +19,35 @@ namespace weft::app {
 
 class LiveGraph {
  public:
-  // `renderer` must outlive this. An environment that `world` expects is asked for: options.environment, a file.
-  LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world, graph::Settings settings);
+  // Reads nothing yet; a scene without cameras is read with the first load(). `renderer` must outlive this.
+  // An environment that `world` expects is asked for: options.environment, a file.
+  LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world,
+            graph::Settings settings);
 
   // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
+  // A set or disable that the graph does not take any more is left out with a warning, and comes back when it
+  // does; only the first time, when there is nothing to keep running, is it an error.
   bool load(base::Diagnostics& diagnostics);
-  // Loads when watched files changed and have been quiet for a moment. `now` in seconds. True when it looked at the disk.
+  // Loads when watched files changed and have been quiet for a moment. `now` in seconds. True when it looked
+  // at the disk.
   bool poll(double now, base::Diagnostics& diagnostics);
-  // Once per frame: takes up an environment that has arrived. True when something came of the last request; on failure the
-  // environment before stays, or, when it was to be the first, the stand-in comes.
+  // Once per frame: takes up an environment that has arrived. True when something came of the last request;
+  // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);
   // Asks for the next (1) or previous (-1) environment of the folder.
   void stepEnvironment(int by);
   // The size of the screen. False when it is what it was.
   bool resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
-  // As --set and --disable: by the full name of a parameter, of a pass. False after errors, and nothing has changed.
+  // As --set and --disable: by the full name of a parameter, of a pass. False after errors, and nothing has
+  // changed.
   bool setParameter(const std::string& name, const std::string& value, base::Diagnostics& diagnostics);
   bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
 
   const runtime::World& world() const { return world_; }
   const graph::Settings& settings() const { return settings_; }
   const LiveEnvironment& environment() const { return environment_; }
+  // Whether there is something to draw: some load was good.
+  bool running() const { return renderer_.execution() != nullptr; }
   // Whether the files as they are on disk are what is shown.
   bool good() const { return good_ && environmentGood_; }
   // Count switches to another plan, and calls of setParameter and setEnabled.
@@ -46,6 +56,7 @@ class LiveGraph {
 
  private:
   bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
+  bool tryGraph(const runtime::World& world, base::Diagnostics& diagnostics);
   bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
   void watch();
@@ -53,11 +64,14 @@ class LiveGraph {
   runtime::Renderer& renderer_;
   runtime::World world_;
   graph::Settings settings_;
+  // What the graph as it is has no use for.
+  std::vector<std::pair<std::string, std::string>> lostSets_;
+  std::vector<std::string> lostDisables_;
   std::string scenePath_;
   LiveEnvironment environment_;
   std::vector<std::string> sceneFiles_;
   base::FileWatcher watcher_;
-  bool sceneStale_ = false, graphStale_ = false, pending_ = false, good_ = true, environmentGood_ = true;
+  bool sceneStale_ = false, graphStale_ = false, pending_ = false, good_ = false, environmentGood_ = true;
   std::string changedEnvironment_;  // to be loaded again, or empty
   double changedAt_ = 0;
   std::uint64_t switches_ = 0, changes_ = 0;

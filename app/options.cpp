@@ -87,7 +87,14 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   view->add_option("--max-frames", options.maxFrames, "close after this many frames (0: when the window is closed)");
   view->add_flag(kWaitForAssets, options.waitForAssets, "open the window when the environment is there, not before");
   view->add_flag("!--no-ui", options.ui, "no panels over the picture");
-  view->add_option("--screenshot", options.screenshot, "PNG to write of the last frame before closing");
+  view->add_option("--screenshot", options.screenshot, "picture to write of the last frame before closing, .png or .exr");
+  view->add_option("--record", options.record, "write every frame from the first on, at a fixed step: f_%04d.png, or .exr");
+  view->add_option("--fps", options.fps, "frames per second of recordings")->check(CLI::Range(1.0, 1000.0));
+  view->add_flag("!--no-vsync", options.vsync, "do not wait for the screen's refresh");
+  view->add_flag("--idle", options.idle, "draw only when something changed");
+  view->add_option("--render-scale", options.renderScale, "pixels of the scene per pixel of the window, each way")
+      ->check(CLI::Range(0.1, 4.0));
+  view->add_option("--ui-scale", options.uiScale, "size of the panels (default: as the screen says)")->check(CLI::Range(0.25, 8.0));
 
   CLI::App* check = app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");
   addGraphOptions(*check, options, raw);

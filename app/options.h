@@ -32,6 +32,9 @@ struct Options {
   std::string screenshot;                    // view: written at the end
   bool waitForAssets = false;                // view: before the first frame; without a window always
   bool ui = true;                            // view: panels over the picture
+  bool vsync = true, idle = false;           // view
+  double renderScale = 1, uiScale = 0;       // view: pixels of the scene per pixel of the window; 0: as the screen says
+  std::string record;                        // view: pattern of a recording from the first frame on; empty: none
 };
 
 // Empty and `exitCode` set when the program should stop (help, a wrong argument; the text is already printed).

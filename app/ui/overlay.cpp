@@ -12,11 +12,6 @@ std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  io.FontGlobalScale = scale;
-  ImGui::StyleColorsDark();
-  ImGui::GetStyle().ScaleAllSizes(scale);
-  ImGui::GetStyle().WindowRounding = 3;
-  ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.88f;
   if (!ImGui_ImplGlfw_InitForOpenGL(window, true)) {
     ImGui::DestroyContext();
     return nullptr;
@@ -26,7 +21,24 @@ std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
     ImGui::DestroyContext();
     return nullptr;
   }
-  return std::unique_ptr<Overlay>(new Overlay);
+  std::unique_ptr<Overlay> overlay(new Overlay);
+  overlay->setScale(scale);
+  return overlay;
+}
+
+void Overlay::setScale(float scale) {
+  ImGui::GetIO().FontGlobalScale = scale;
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();  // sizes cannot be scaled back
+  ImGui::StyleColorsDark();
+  style.ScaleAllSizes(scale);
+  style.WindowRounding = 3;
+  style.Colors[ImGuiCol_WindowBg].w = 0.88f;
+}
+
+void Overlay::setMouseEnabled(bool enabled) {
+  int& flags = ImGui::GetIO().ConfigFlags;
+  flags = enabled ? flags & ~ImGuiConfigFlags_NoMouse : flags | ImGuiConfigFlags_NoMouse;
 }
 
 Overlay::~Overlay() {

@@ -21,6 +21,11 @@ class Overlay {
   void begin();
   void end();
 
+  // Sizes of text and widgets, 1 at 96 dots an inch. Between frames.
+  void setScale(float scale);
+  // Off: panels ignore the mouse, wherever it is (it is captured).
+  void setMouseEnabled(bool enabled);
+
   bool wantsMouse() const;
   bool wantsKeys() const;  // a text field has the keyboard
 

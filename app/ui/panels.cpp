@@ -5,13 +5,14 @@
 #include <algorithm>
 
 #include "app/ui/loading.h"
-#include "app/view/key_bindings.h"
 
 namespace weft::app::ui {
 
 void Log::addPast(const base::Diagnostics& diagnostics) {
   for (const base::Diagnostic& each : diagnostics.items()) {
-    const auto same = [&](const base::Diagnostic& old) { return old.code == each.code && old.message == each.message; };
+    const auto same = [&](const base::Diagnostic& old) {
+      return old.code == each.code && old.message == each.message;
+    };
     if (std::ranges::none_of(past, same)) past.push_back(each);
   }
   if (past.size() > 100) past.erase(past.begin(), past.end() - 100);
@@ -39,17 +40,18 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
     ImGui::End();
   }
   const auto isError = [](const base::Diagnostic& each) { return each.severity == base::Severity::error; };
-  const bool urgent = !log_.files.empty() || !log_.change.empty() || std::ranges::any_of(log_.environment, isError);
+  const bool urgent =
+      !log_.files.empty() || !log_.change.empty() || std::ranges::any_of(log_.environment, isError);
   if (urgent || (visible && (!log_.past.empty() || !log_.environment.empty()))) drawLog();
   drawLoading(live_.environment());
-  if (help) drawHelp();
 }
 
 void Panels::drawSummary(const runtime::FrameReport& report) {
   const ImGuiIO& io = ImGui::GetIO();
   const graph::Settings& settings = live_.settings();
-  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth, settings.screenHeight,
-              1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)), report.passesRun, report.passesSkipped);
+  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth,
+              settings.screenHeight, 1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)),
+              report.passesRun, report.passesSkipped);
   ImGui::TextDisabled("%s", renderer_.graphPath().c_str());
   ImGui::TextDisabled("F1: help");
 }
@@ -59,8 +61,10 @@ void Panels::drawLog() const {
   const float height = std::max(64.0f, screen.y * 0.2f);
   ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
   ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
-  ImGui::Begin("Log", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
-  if (!live_.good()) ImGui::TextColored({1, 0.7f, 0.3f, 1}, "This is the last good picture; the files on disk have errors:");
+  ImGui::Begin("Log", nullptr,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+  if (!live_.good())
+    ImGui::TextColored({1, 0.7f, 0.3f, 1}, "This is the last good picture; the files on disk have errors:");
   for (const auto* list : {&log_.files, &log_.environment, &log_.change, &log_.past})
     for (const base::Diagnostic& each : *list) {
       const ImVec4 color = each.severity == base::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
@@ -72,24 +76,6 @@ void Panels::drawLog() const {
       ImGui::PopTextWrapPos();
       ImGui::PopStyleColor();
     }
-  ImGui::End();
-}
-
-void Panels::drawHelp() const {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x - 16, screen.y - 16});
-  ImGui::Begin("Help", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const KeyBinding& binding : keyBindings()) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextColored({0.6f, 0.85f, 1, 1}, "%s", binding.keys);
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(binding.does);
-    }
-    ImGui::EndTable();
-  }
   ImGui::End();
 }
 

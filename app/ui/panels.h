@@ -1,4 +1,4 @@
-// The viewer's panels: passes, parameters, log, help. Each is made anew every frame from what it shows and keeps next to
+// The viewer's panels: passes, parameters, log. Each is made anew every frame from what it shows and keeps next to
 // nothing; what a person changes goes straight into the LiveGraph. Does not: call OpenGL, know the window.
 #pragma once
 
@@ -22,7 +22,7 @@ class Panels {
  public:
   Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log) : live_(live), renderer_(renderer), log_(log) {}
 
-  bool visible = true, help = false;
+  bool visible = true;
 
   // Between Overlay::begin() and end(). `diagnostics` gets what a change that was made here led to.
   void draw(const runtime::FrameReport& report, base::Diagnostics& diagnostics);
@@ -32,7 +32,6 @@ class Panels {
   void drawPasses(base::Diagnostics& diagnostics);
   void drawParameters(base::Diagnostics& diagnostics);
   void drawLog() const;
-  void drawHelp() const;
 
   LiveGraph& live_;
   runtime::Renderer& renderer_;

@@ -3,6 +3,7 @@
 // docs/viewer.md are made of the same rows. Does not: do anything, know GLFW's window.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,18 +11,25 @@
 namespace weft::app {
 
 struct KeyBinding {
-  int key;             // GLFW_KEY_…; GLFW_KEY_UNKNOWN: the mouse, in the table only to be listed
+  enum class How : std::uint8_t {
+    press,  // runs the action
+    held,   // asked for by name while it is down (WindowInput::held)
+    mouse   // only listed
+  };
+  How how;
+  int key;             // GLFW_KEY_…
+  bool shift;          // press: with or without the shift key
   const char* action;  // name; empty for the mouse
-  const char* keys;    // as a person reads it
+  const char* keys;    // as a person reads it; empty: listed by the row before
   const char* does;
 };
 
 std::span<const KeyBinding> keyBindings();
 
-// The action of a key, empty when it has none.
-std::string_view actionOf(int key);
+// The action of a key that was pressed, empty when it has none.
+std::string_view actionOf(int key, bool shift);
 
-// All rows as a Markdown table, as docs/viewer.md has it.
+// What is listed, as a Markdown table: docs/viewer.md has it, and a test compares.
 std::string keyTable();
 
 }  // namespace weft::app

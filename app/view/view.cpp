@@ -1,25 +1,39 @@
-// weft view: a graph in a window, with an orbiting camera; files that change on disk take effect at once.
+// weft view: a graph in a window, with a camera to move; files that change on disk take effect at once.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "app/commands.h"
+#include "app/live_environment.h"
 #include "app/session.h"
 #include "app/view/viewer.h"
 
 namespace weft::app {
 
+namespace {
+
+// Whether saving a file may make it good: nobody is to wait for a file that is not there, or for a wrong
+// command line.
+bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
+  std::error_code ignored;
+  for (const std::string& file : {options.graph, scenePathOf(options)})
+    if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  return std::ranges::none_of(diagnostics.items(), [](const base::Diagnostic& each) {
+    return each.severity == base::Severity::error && !each.place.file;
+  });
+}
+
+}  // namespace
+
 int runView(const Options& options) {
   base::Diagnostics diagnostics;
   Options files = options;
-  if (!files.environment.empty()) files.environment = firstEnvironment(options.environment, diagnostics).value_or("");
-  Options first = files;
-  if (!options.waitForAssets) first.environment.clear();  // comes while the window is open
-  auto world = loadWorld(first, diagnostics);
-  if (!world || diagnostics.hasErrors()) return report(diagnostics);
-  if (!files.environment.empty() && !world->environment()) world->expectEnvironment();
+  if (!files.environment.empty())
+    files.environment = firstEnvironment(options.environment, diagnostics).value_or("");
+  if (diagnostics.hasErrors()) return report(diagnostics);
   auto session = openDevice(options, diagnostics);
   if (!session) {
     report(diagnostics);
@@ -33,9 +47,34 @@ int runView(const Options& options) {
   const gl::Size size = session->context->framebufferSize();
   settings.screenWidth = std::max(1u, size.width);
   settings.screenHeight = std::max(1u, size.height);
-  LiveGraph live(files, session->renderer, std::move(*world), std::move(settings));
-  if (!live.load(diagnostics)) return report(diagnostics);
-  return Viewer(options, *session, live, std::move(diagnostics)).run();
+  // A recording is to be what `weft render` makes: it waits. Otherwise the environment comes while the window
+  // is open.
+  const bool wait = options.waitForAssets || !options.record.empty();
+  Options first = files;
+  if (!wait) first.environment.clear();
+  auto world = loadWorld(first, diagnostics);
+  if (!world) {
+    if (wait && !files.environment.empty()) return report(diagnostics);
+    diagnostics.clear();  // the scene is read again, and says it again
+    world.emplace(scene::Scene{});
+  }
+  if (!files.environment.empty() && !world->environment()) world->expectEnvironment();
+  int code = 0;
+  nlohmann::ordered_json stats;
+  {
+    LiveGraph live(files, session->renderer, std::move(*world), std::move(settings));
+    // With a number of frames to draw there is nobody who could save a file.
+    if (!live.load(diagnostics) && (options.maxFrames || !canBeFixed(options, diagnostics)))
+      return report(diagnostics);
+    Viewer viewer(options, *session, live, std::move(diagnostics));
+    code = viewer.run();
+    if (options.stats)
+      stats = statsOf(*session, {{"frames", viewer.frames()}, {"redraws", viewer.redraws()}});
+  }
+  const std::string left = closeDevice(std::move(session));
+  stats["gl_objects_left"] = left;
+  if (options.stats) print(stats);
+  return code;
 }
 
 }  // namespace weft::app

@@ -1,29 +1,19 @@
+// What the viewer can do, by name.
 #include "app/view/viewer.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
-#include <vector>
 
 #include "app/session.h"
-#include "app/view/capture.h"
 #include "app/view/key_bindings.h"
 
 namespace weft::app {
-
-namespace {
-
-// What is wrong with the files or with a change made here is told, and does not count against the program.
-void tell(base::Diagnostics& diagnostics, std::vector<base::Diagnostic>& list) {
-  report(diagnostics);
-  list = diagnostics.items();
-  diagnostics.clear();
-}
-
-}  // namespace
 
 Viewer::Viewer(const Options& options, DeviceSession& session, LiveGraph& live, base::Diagnostics said)
     : options_(options),
@@ -33,90 +23,84 @@ Viewer::Viewer(const Options& options, DeviceSession& session, LiveGraph& live, 
       live_(live),
       input_(window_),
       panels_(live, session.renderer, log_),
-      camera_(sceneCamera()),
-      previousPose_(camera_.pose()),
       diagnostics_(std::move(said)),
-      start_(glfwGetTime()) {
-  if (options.ui) overlay_ = ui::Overlay::create(window_, session.context->contentScale());
+      renderScale_(options.renderScale),
+      vsync_(options.vsync),
+      idle_(options.idle) {
+  uiScale_ = options.uiScale > 0 ? static_cast<float>(options.uiScale) : session.context->contentScale();
+  if (options.ui) overlay_ = ui::Overlay::create(window_, uiScale_);
   input_.setOverlay(overlay_.get());
   addActions();
   renderer_.device().timers.setEnabled(options.profile);
 }
 
 void Viewer::addActions() {
-  actions_.add("help", [this] { panels_.help = !panels_.help; });
+  actions_.add("help", [this] { help_ = !help_; });
   actions_.add("panels", [this] { panels_.visible = !panels_.visible; });
-  actions_.add("reset_camera", [this] { camera_ = OrbitCamera(sceneCamera()); });
-  actions_.add("next_environment", [this] { live_.stepEnvironment(1); });
-  actions_.add("previous_environment", [this] { live_.stepEnvironment(-1); });
   actions_.add("profile",
                [this] { renderer_.device().timers.setEnabled(!renderer_.device().timers.enabled()); });
-  actions_.add("screenshot", [this] { screenshot_ = true; });
-  actions_.add("close", [this] { glfwSetWindowShouldClose(window_, GLFW_TRUE); });
+  actions_.add("fly", [this] { toggleFlight(); });
+  actions_.add("head_bob", [this] { rig_.headBob = !rig_.headBob; });
+  actions_.add("reset_camera", [this] { lookThrough(0); });
+  for (std::size_t i = 0; i < 9; ++i)
+    actions_.add(fmt::format("camera_{}", i + 1), [this, i] { lookThrough(i); });
+  actions_.add("next_environment", [this] { live_.stepEnvironment(1); });
+  actions_.add("previous_environment", [this] { live_.stepEnvironment(-1); });
+  actions_.add("vsync", [this] { session_.context->setVsync(vsync_ = !vsync_); });
+  actions_.add("idle", [this] { idle_ = !idle_; });
+  actions_.add("render_scale_down", [this] { scaleRendering(-1); });
+  actions_.add("render_scale_up", [this] { scaleRendering(1); });
+  actions_.add("record", [this] { toggleRecording(); });
+  actions_.add("screenshot", [this] { screenshot_ = ".png"; });
+  actions_.add("screenshot_exr", [this] { screenshot_ = ".exr"; });
+  actions_.add("close", [this] {
+    if (input_.captured())
+      toggleFlight();
+    else
+      glfwSetWindowShouldClose(window_, GLFW_TRUE);
+  });
   for ([[maybe_unused]] const KeyBinding& binding : keyBindings())
-    assert((!*binding.action || actions_.has(binding.action)) && "every key does something");
+    assert((binding.how != KeyBinding::How::press || actions_.has(binding.action)) &&
+           "every key does something");
 }
 
-scene::CameraPose Viewer::sceneCamera() const {
-  return runtime::headlessFrame(live_.world(), 0, 60).pose;
+const scene::Camera* Viewer::sceneCamera() const {
+  const scene::Camera* named = scene::findCamera(live_.world().scene(), cameraName_);
+  return named ? named : scene::findCamera(live_.world().scene(), "");
 }
 
-int Viewer::run() {
-  while (!glfwWindowShouldClose(window_)) {
-    glfwPollEvents();
-    const gl::Size size = session_.context->framebufferSize();
-    if (size.width == 0 || size.height == 0) {  // minimised: nothing to draw
-      glfwWaitEventsTimeout(0.1);
-      continue;
-    }
-    if (live_.resize(size.width, size.height, diagnostics_)) tell(diagnostics_, log_.change);
-    if (live_.poll(glfwGetTime(), diagnostics_)) tell(diagnostics_, log_.files);
-    if (live_.pollEnvironment(diagnostics_)) tell(diagnostics_, log_.environment);
-    for (const std::string_view action : input_.takeActions()) actions_.run(action);
-    const WindowInput::Mouse mouse = input_.takeMouse();
-    camera_.turn(mouse.turnX, mouse.turnY);
-    if (mouse.wheel != 0) camera_.zoom(mouse.wheel);
-    frame(size);
-    if (options_.maxFrames && frame_ >= options_.maxFrames) break;
+void Viewer::lookThrough(std::size_t camera) {
+  const auto cameras = live_.world().scene().cameras.rows();
+  if (camera >= cameras.size()) return;
+  if (rig_.mode() == CameraRig::Mode::fly) toggleFlight();
+  cameraName_ = camera == 0 ? "" : cameras[camera].name;
+  rig_.jumpTo(scene::poseAt(cameras[camera], clock_.last().time));
+}
+
+void Viewer::toggleFlight() {
+  const bool fly = rig_.mode() != CameraRig::Mode::fly;
+  rig_.setMode(fly ? CameraRig::Mode::fly : CameraRig::Mode::orbit);
+  input_.capture(fly);
+}
+
+void Viewer::scaleRendering(int steps) {
+  static constexpr std::array kScales = {0.25, 0.5, 0.75, 1.0, 1.5, 2.0};
+  if (steps > 0) {
+    const auto next = std::ranges::upper_bound(kScales, renderScale_);
+    if (next != kScales.end()) renderScale_ = *next;
+  } else {
+    const auto here = std::ranges::lower_bound(kScales, renderScale_);
+    if (here != kScales.begin()) renderScale_ = *(here - 1);
   }
-  return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
 }
 
-void Viewer::frame(gl::Size size) {
-  const double time = glfwGetTime() - start_;
-  runtime::FrameInput in;
-  in.frame = frame_;
-  in.time = time;
-  in.deltaTime = time - lastTime_;
-  in.pose = camera_.pose();
-  in.previousPose = previousPose_;
-  in.headless = false;
-  const runtime::FrameReport done = renderer_.frame(live_.world(), in, diagnostics_);
-  renderer_.present(size.width, size.height);
-  if (std::exchange(screenshot_, false))
-    saveScreenshot(renderer_, fmt::format("weft_{:05}.png", frame_), diagnostics_);
-  session_.context->debugLog().drain(diagnostics_);
-  if (!diagnostics_.empty()) {
-    log_.addPast(diagnostics_);
-    broken_ |= report(diagnostics_) != 0;
-    diagnostics_.clear();
+void Viewer::toggleRecording() {
+  if (recorder_.active()) {
+    recorder_.stop();
+    clock_.fix(0);
+  } else if (recorder_.start(options_.record, diagnostics_)) {
+    clock_.fix(options_.fps);
   }
-  ++frame_;
-  if (frame_ == options_.maxFrames && !options_.screenshot.empty())
-    saveScreenshot(renderer_, options_.screenshot, diagnostics_);
-  drawUi(done);
-  session_.context->swapBuffers();
-  previousPose_ = in.pose;
-  lastTime_ = time;
-}
-
-void Viewer::drawUi(const runtime::FrameReport& done) {
-  if (!overlay_) return;
-  const std::uint64_t before = live_.changes();
-  overlay_->begin();
-  panels_.draw(done, diagnostics_);
-  overlay_->end();
-  if (live_.changes() != before) tell(diagnostics_, log_.change);
 }
 
 }  // namespace weft::app

@@ -5,32 +5,59 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "app/device_session.h"
 #include "app/live_graph.h"
 #include "app/ui/overlay.h"
 #include "app/ui/panels.h"
 #include "app/view/actions.h"
-#include "app/view/orbit_camera.h"
+#include "app/view/camera_rig.h"
+#include "app/view/frame_clock.h"
+#include "app/view/picture_rest.h"
+#include "app/view/recorder.h"
 #include "app/view/window_input.h"
 
 namespace weft::app {
 
 class Viewer {
  public:
-  // `session` has a window, and outlives this; `live` has loaded, and said `said`.
+  // `session` has a window, and outlives this. `live` was loaded, well or not, and said `said`.
   Viewer(const Options& options, DeviceSession& session, LiveGraph& live, base::Diagnostics said);
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // Until the window is closed. The exit code.
+  // Until the window is closed. The exit code: 0 when the files on disk were good in the end and nothing else
+  // failed.
   int run();
+
+  // Frames of the graph, and times that only the panels over the last one were drawn anew.
+  std::uint32_t frames() const { return frame_; }
+  std::uint32_t redraws() const { return redraws_; }
 
  private:
   void addActions();
-  scene::CameraPose sceneCamera() const;
+  // The camera of the scene that is followed; the default one when it is gone. Null without a scene.
+  const scene::Camera* sceneCamera() const;
+  void lookThrough(std::size_t camera);
+  void toggleFlight();
+  void scaleRendering(int steps);
+  void toggleRecording();
+
+  void waitForEvents();
+  void update(gl::Size size);
+  void showState();
+  // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
+  bool busy();
+  bool mustDraw();
   void frame(gl::Size size);
-  void drawUi(const runtime::FrameReport& done);
+  void moveCamera(const FrameClock::Tick& tick);
+  void judgeRest();
+  // The last picture again, for the panels over it.
+  void redraw(gl::Size size);
+  void drawUi();
+  void saveScreenshots();
+  void tellFrame();
 
   const Options& options_;
   DeviceSession& session_;
@@ -42,12 +69,24 @@ class Viewer {
   std::unique_ptr<ui::Overlay> overlay_;  // null with --no-ui
   ui::Log log_;
   ui::Panels panels_;
-  OrbitCamera camera_;
+  CameraRig rig_{scene::CameraPose{}};
+  std::string cameraName_;  // of the scene's camera that is followed; empty: the first
   scene::CameraPose previousPose_;
+  std::uint64_t cuts_ = 0, sceneGeneration_ = 0;
+  FrameClock clock_;
+  Recorder recorder_;
+  PictureRest rest_;
+  runtime::FrameReport report_;    // of the last frame
   base::Diagnostics diagnostics_;  // of what the loop is doing
-  std::uint32_t frame_ = 0;
-  double start_ = 0, lastTime_ = 0;  // seconds
-  bool broken_ = false, screenshot_ = false;
+  std::string screenshot_;         // extension of one that is wanted
+  std::string title_;
+  std::uint32_t frame_ = 0, redraws_ = 0;
+  std::uint64_t events_ = 0, switches_ = 0;  // as they were when they were last looked at
+  int restless_ = 0;                         // redraws that the panels still want
+  float uiScale_ = 1;
+  double renderScale_ = 1;
+  bool vsync_ = true, idle_ = false, help_ = false, minimised_ = false;
+  bool broken_ = false;  // the driver or an output complained
 };
 
 }  // namespace weft::app

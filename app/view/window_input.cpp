@@ -11,42 +11,87 @@
 namespace weft::app {
 
 WindowInput& WindowInput::of(GLFWwindow* window) {
-  return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+  WindowInput& input = *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+  ++input.events_;
+  return input;
 }
 
-WindowInput::WindowInput(GLFWwindow* window) {
+WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) { of(w).onKey(key, action); });
+  glfwSetKeyCallback(
+      window, [](GLFWwindow* w, int key, int, int action, int mods) { of(w).onKey(key, action, mods); });
   glfwSetMouseButtonCallback(
       window, [](GLFWwindow* w, int button, int action, int) { of(w).onButton(button, action); });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).onMove(x, y); });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) {
-    WindowInput& in = of(w);
-    if (!(in.overlay_ && in.overlay_->wantsMouse())) in.mouse_.wheel += dy;
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) { of(w).onScroll(dy); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    WindowInput& input = of(w);
+    if (!focused) input.capture(false);
   });
+  // Only to be counted: a window that was covered or resized wants its picture again.
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w); });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w); });
+  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w); });
 }
 
-void WindowInput::onKey(int key, int action) {
+void WindowInput::capture(bool on) {
+  if (on == captured_) return;
+  captured_ = on;
+  turning_ = panning_ = false;
+  fresh_ = true;  // the cursor is put elsewhere: that is no movement
+  glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+  if (glfwRawMouseMotionSupported())
+    glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, on ? GLFW_TRUE : GLFW_FALSE);
+  if (overlay_) overlay_->setMouseEnabled(!on);
+}
+
+void WindowInput::onKey(int key, int action, int mods) {
   if (action != GLFW_PRESS || (overlay_ && overlay_->wantsKeys())) return;
-  if (const std::string_view name = actionOf(key); !name.empty()) actions_.push_back(name);
+  const std::string_view name = actionOf(key, (mods & GLFW_MOD_SHIFT) != 0);
+  if (!name.empty()) actions_.push_back(name);
 }
 
 void WindowInput::onButton(int button, int action) {
-  if (button == GLFW_MOUSE_BUTTON_LEFT)
-    dragging_ = action == GLFW_PRESS && !(overlay_ && overlay_->wantsMouse());
+  const bool down = action == GLFW_PRESS && !captured_ && !(overlay_ && overlay_->wantsMouse());
+  if (button == GLFW_MOUSE_BUTTON_LEFT) turning_ = down;
+  if (button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE) panning_ = down;
 }
 
 void WindowInput::onMove(double x, double y) {
-  if (dragging_) {
-    mouse_.turnX += x - lastX_;
-    mouse_.turnY += y - lastY_;
+  const glm::dvec2 at(x, y);
+  if (!std::exchange(fresh_, false)) {
+    if (captured_ || turning_)
+      camera_.turn += at - last_;
+    else if (panning_)
+      camera_.pan += at - last_;
   }
-  lastX_ = x;
-  lastY_ = y;
+  last_ = at;
 }
 
-WindowInput::Mouse WindowInput::takeMouse() {
-  return std::exchange(mouse_, {});
+void WindowInput::onScroll(double steps) {
+  if (captured_ || !(overlay_ && overlay_->wantsMouse())) camera_.wheel += steps;
+}
+
+bool WindowInput::held(std::string_view action) const {
+  if (overlay_ && overlay_->wantsKeys()) return false;
+  for (const KeyBinding& binding : keyBindings())
+    if (binding.how == KeyBinding::How::held && action == binding.action &&
+        glfwGetKey(window_, binding.key) == GLFW_PRESS)
+      return true;
+  return false;
+}
+
+CameraInput WindowInput::takeCamera() {
+  CameraInput input = std::exchange(camera_, {});
+  if (!captured_) return input;
+  const auto axis = [&](std::string_view plus, std::string_view minus) {
+    return (held(plus) ? 1.0 : 0.0) - (held(minus) ? 1.0 : 0.0);
+  };
+  input.move = {axis("right", "left"), axis("up", "down"), axis("forward", "back")};
+  input.fast = held("fast");
+  return input;
 }
 
 std::vector<std::string_view> WindowInput::takeActions() {

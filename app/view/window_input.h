@@ -1,9 +1,14 @@
-// The events of a GLFW window, kept until the loop asks for them: names of actions, and what the mouse did
-// over the picture (what it did over a panel is the panel's). Does not: act, or know cameras.
+// The events of a GLFW window, kept until the loop asks for them: names of actions, held keys, what the mouse
+// did over the picture (what it did over a panel is the panel's), and the captured mouse of flight. Does not:
+// act, or know cameras.
 #pragma once
 
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <string_view>
 #include <vector>
+
+#include "app/view/camera_rig.h"
 
 struct GLFWwindow;
 
@@ -20,27 +25,35 @@ class WindowInput {
   WindowInput(const WindowInput&) = delete;
   WindowInput& operator=(const WindowInput&) = delete;
 
-  void setOverlay(const ui::Overlay* overlay) { overlay_ = overlay; }
+  void setOverlay(ui::Overlay* overlay) { overlay_ = overlay; }
 
-  // Since they were asked for last.
-  struct Mouse {
-    double turnX = 0, turnY = 0;  // pixels dragged with the left button
-    double wheel = 0;             // steps
-  };
-  Mouse takeMouse();
+  // While it is captured the cursor is gone, every movement turns, panels get none of it, and it moves
+  // unaccelerated where the system can. Losing the focus lets go of it.
+  void capture(bool on);
+  bool captured() const { return captured_; }
+
+  // What was done for the camera since it was asked last. Held keys count only while the mouse is captured.
+  CameraInput takeCamera();
   std::vector<std::string_view> takeActions();
+  // Whether a key bound as `held` to this action is down.
+  bool held(std::string_view action) const;
+  // Counts every event of any kind: whether anything happened at all.
+  std::uint64_t events() const { return events_; }
 
  private:
   static WindowInput& of(GLFWwindow* window);
-  void onKey(int key, int action);
+  void onKey(int key, int action, int mods);
   void onButton(int button, int action);
   void onMove(double x, double y);
+  void onScroll(double steps);
 
-  const ui::Overlay* overlay_ = nullptr;
+  GLFWwindow* window_;
+  ui::Overlay* overlay_ = nullptr;
   std::vector<std::string_view> actions_;
-  Mouse mouse_;
-  double lastX_ = 0, lastY_ = 0;
-  bool dragging_ = false;
+  CameraInput camera_;
+  glm::dvec2 last_{0};
+  bool turning_ = false, panning_ = false, captured_ = false, fresh_ = true;
+  std::uint64_t events_ = 0;
 };
 
 }  // namespace weft::app

@@ -32,6 +32,31 @@ LiveObjects liveObjects() {
   return live;
 }
 
+LiveObjects namedObjects(GLuint upTo) {
+  LiveObjects named;
+  const auto add = [&](ObjectKind kind, GLboolean exists) {
+    named.counts[static_cast<std::size_t>(kind)] += exists == GL_TRUE;
+  };
+  for (GLuint name = 1; name <= upTo; ++name) {
+    add(ObjectKind::texture, glIsTexture(name));
+    add(ObjectKind::buffer, glIsBuffer(name));
+    add(ObjectKind::framebuffer, glIsFramebuffer(name));
+    add(ObjectKind::sampler, glIsSampler(name));
+    add(ObjectKind::vertex_array, glIsVertexArray(name));
+    add(ObjectKind::query, glIsQuery(name));
+    // Mesa holds on to the last compute program: deleted, and still a program.
+    GLint deleted = GL_FALSE;
+    if (glIsProgram(name))
+      glGetProgramiv(name, GL_DELETE_STATUS, &deleted);
+    else if (glIsShader(name))
+      glGetShaderiv(name, GL_DELETE_STATUS, &deleted);
+    else
+      continue;
+    add(ObjectKind::program, deleted ? GL_FALSE : GL_TRUE);
+  }
+  return named;
+}
+
 std::string toText(const LiveObjects& objects) {
   static constexpr const char* kOne[kKinds] = {"texture",     "texture view", "buffer",
                                                "framebuffer", "sampler",      "vertex array",

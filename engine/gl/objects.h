@@ -41,6 +41,9 @@ struct LiveObjects {
   friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
 };
 LiveObjects liveObjects();
+// What the driver knows of in the current context, whoever made it: names up to `upTo` are asked for one by one. Views
+// count as textures, shaders as programs; fences have no names.
+LiveObjects namedObjects(GLuint upTo = 1 << 14);
 // "2 textures, 1 buffer" or "none".
 std::string toText(const LiveObjects& objects);
 

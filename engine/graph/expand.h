@@ -23,6 +23,10 @@ struct Settings {
   std::vector<std::string> disables;  // --disable NAME; any unique suffix, all its repeats
 };
 
+// How diagnostics about an entry of Settings::sets or ::disables call it: as on the command line.
+std::string sourceOfSet(const std::string& name, const std::string& value);
+std::string sourceOfDisable(const std::string& name);
+
 // The expanded graph, or null after errors. Warnings leave a graph. `diagnostics` may hold errors of the
 // reader already: then everything is checked as far as it goes, and null is returned.
 std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry,

@@ -9,6 +9,16 @@
 #include "engine/base/nearest.h"
 #include "engine/graph/suffix.h"
 
+namespace weft::graph {
+
+std::string sourceOfSet(const std::string& name, const std::string& value) {
+  return fmt::format("--set {}={}", name, value);
+}
+
+std::string sourceOfDisable(const std::string& name) { return "--disable " + name; }
+
+}  // namespace weft::graph
+
 namespace weft::graph::expansion {
 
 namespace {
@@ -119,12 +129,12 @@ void applySets(Model& model) {
                 set.pointer},
                [&](Type) { return set.value; });
   for (const auto& [name, text] : model.settings.sets)
-    applySet(model, name, {fmt::format("--set {}={}", name, text)},
+    applySet(model, name, {sourceOfSet(name, text)},
              [&](Type type) { return parseValue(text, type); });
 }
 
 void applyDisable(Model& model, const std::string& wanted) {
-  const std::string source = "--disable " + wanted;
+  const std::string source = sourceOfDisable(wanted);
   const std::string declared = wanted.substr(0, wanted.find('['));
   struct Candidate {
     Scope* scope;      // an include

@@ -1,0 +1,86 @@
+// The person's camera: follows a camera of the scene until someone takes it, turns around a pivot (orbit), or
+// flies. Moves in steps of 1/60 s whatever the frame rate and is shown between the last two of them, so the
+// same input over the same time gives the same path; the mouse of a frame counts as spread evenly over it.
+// Never rolls, never passes the poles. No call makes a pose that is not finite. Does not: know keys, windows
+// or clocks.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+#include "engine/scene/camera.h"
+
+namespace weft::app {
+
+// What a person did since the last frame.
+struct CameraInput {
+  glm::dvec2 turn{0};  // pixels of the mouse, right and down
+  glm::dvec2 pan{0};   // the same, orbit only: slides the pivot in the picture's plane
+  double wheel = 0;    // steps: nearer; flying: faster
+  glm::dvec3 move{0};  // held keys, flying only: right, up, forward, each -1 to 1
+  bool fast = false;   // held: flies four times as fast
+  bool any() const {
+    return turn != glm::dvec2(0) || pan != glm::dvec2(0) || wheel != 0 || move != glm::dvec3(0);
+  }
+};
+
+class CameraRig {
+ public:
+  enum class Mode : std::uint8_t { scene, orbit, fly };
+
+  static constexpr double kStep = 1.0 / 60;  // seconds of a step
+  static constexpr double kLongestFrame =
+      0.5;  // seconds: of a longer frame the rest is lost, its mouse is not
+  static constexpr double kTurnPerPixel = 0.005;  // radians
+  static constexpr double kMouseSeconds = 0.04;   // the view closes on the mouse with this time constant
+  static constexpr double kFriction = 6;          // per second: speed falls to 1/e in 1/6 s without keys
+
+  explicit CameraRig(const scene::CameraPose& pose) { jumpTo(pose); }
+
+  // A cut: shows `pose` at once, at rest, as a camera of the scene.
+  void jumpTo(const scene::CameraPose& pose);
+  // In Mode::scene, where the scene's camera stands now. No cut.
+  void follow(const scene::CameraPose& pose);
+  // Keeps the pose, bit for bit until something moves.
+  void setMode(Mode mode);
+  Mode mode() const { return mode_; }
+
+  // `seconds` have passed, and this was done in them. The first turn, pan or wheel in Mode::scene takes the
+  // camera to orbit.
+  void advance(double seconds, const CameraInput& input);
+
+  scene::CameraPose pose() const;
+  std::uint64_t cuts() const { return cuts_; }
+  // Whether it will be elsewhere after a while without input.
+  bool moving() const;
+
+  bool headBob = false;                    // flying: the view rises and sways with the way covered
+  double speed() const { return speed_; }  // flying: world units per second that held keys end up at
+
+ private:
+  // A step's result. Angles in radians; in orbit `pivot` and `distance` rule, in flight `eye`.
+  struct State {
+    glm::dvec3 eye{0}, pivot{0}, velocity{0};
+    double yaw = 0, pitch = 0, distance = 1;
+    double bobPhase = 0, bobAmount = 0;  // radians; 0 to 1
+  };
+  static glm::dvec3 backOf(double yaw, double pitch);
+  void step(const CameraInput& share);
+  void flyStep(const CameraInput& share);
+  void place(State& state) const;
+
+  Mode mode_ = Mode::scene;
+  std::optional<scene::CameraPose> exact_;  // what pose() says while nothing has moved
+  scene::CameraPose lens_;                  // field of view and near plane
+  State before_, now_;
+  double goalYaw_ = 0, goalPitch_ = 0, goalDistance_ = 1;
+  glm::dvec3 goalPivot_{0};
+  double speed_ = 1;
+  double rest_ = 0;      // seconds since the last step, below kStep
+  CameraInput pending_;  // came after the last step
+  std::uint64_t cuts_ = 0;
+};
+
+}  // namespace weft::app

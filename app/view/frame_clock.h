@@ -1,0 +1,52 @@
+// The time that frames see. Runs with the wall clock, stands still while nothing is drawn, and advances by a
+// fixed step per frame while a recording is on, however long the frames take. Does not: read a clock.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace weft::app {
+
+class FrameClock {
+ public:
+  struct Tick {
+    double time = 0, delta = 0;  // seconds since the start, since the frame before
+  };
+
+  // The next frame, at `wall` seconds of any clock.
+  Tick tick(double wall) {
+    const double passed = started_ ? std::max(0.0, wall - wall_) : 0.0;
+    started_ = true;
+    wall_ = wall;
+    if (fps_ > 0) {
+      // Not summed up: frame n of a recording that begins at 0 has the time that `weft render` gives it.
+      last_ = {base_ + frames_ / fps_, 1 / fps_};
+      ++frames_;
+    } else {
+      last_ = {last_.time + passed, passed};
+    }
+    return last_;
+  }
+  // The time up to `wall` does not count.
+  void skip(double wall) {
+    wall_ = wall;
+    started_ = true;
+  }
+  // From the next frame on: fixed steps, the first of them now (before any frame: at 0). With 0, the wall
+  // clock again.
+  void fix(double fps) {
+    fps_ = fps;
+    base_ = started_ ? last_.time + 1 / fps : 0;
+    frames_ = 0;
+  }
+  bool fixed() const { return fps_ > 0; }
+  Tick last() const { return last_; }
+
+ private:
+  Tick last_;
+  double wall_ = 0, base_ = 0, fps_ = 0;
+  std::uint32_t frames_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace weft::app

@@ -1,0 +1,223 @@
+// The viewer's loop: events, files, camera, frame, panels.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "app/output_files.h"
+#include "app/session.h"
+#include "app/view/screens.h"
+#include "app/view/viewer.h"
+#include "engine/base/hash.h"
+
+namespace weft::app {
+
+namespace {
+
+constexpr double kLookAtFiles = 0.05;   // seconds between looks at the watched files while nothing is drawn
+constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
+
+// What is wrong with the files or with a change made here is told, and does not count against the program.
+void tell(base::Diagnostics& diagnostics, std::vector<base::Diagnostic>& list) {
+  report(diagnostics);
+  list = diagnostics.items();
+  diagnostics.clear();
+}
+
+}  // namespace
+
+int Viewer::run() {
+  tell(diagnostics_, log_.files);
+  if (!options_.record.empty()) toggleRecording();
+  while (!glfwWindowShouldClose(window_)) {
+    waitForEvents();
+    const gl::Size size = session_.context->framebufferSize();
+    minimised_ = size.width == 0 || size.height == 0;
+    if (minimised_) {
+      clock_.skip(glfwGetTime());
+      continue;
+    }
+    update(size);
+    if (mustDraw()) {
+      frame(size);
+    } else {
+      clock_.skip(glfwGetTime());
+      if (restless_ > 0) redraw(size);
+    }
+    if (options_.maxFrames && frame_ >= options_.maxFrames) break;
+  }
+  recorder_.stop();
+  input_.capture(false);
+  return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
+}
+
+void Viewer::waitForEvents() {
+  const bool nothingToDo = restless_ == 0 && idle_ && live_.running() && rest_.resting() && !busy();
+  if (minimised_ || nothingToDo || !live_.running())
+    glfwWaitEventsTimeout(kLookAtFiles);
+  else
+    glfwPollEvents();
+}
+
+void Viewer::update(gl::Size size) {
+  if (std::exchange(events_, input_.events()) != input_.events()) restless_ = kRestlessAfterEvent;
+  const float uiScale =
+      options_.uiScale > 0 ? static_cast<float>(options_.uiScale) : session_.context->contentScale();
+  if (overlay_ && uiScale != uiScale_) overlay_->setScale(uiScale);
+  uiScale_ = uiScale;
+  // A recording keeps the size it began with.
+  if (!recorder_.active() || recorder_.frames() == 0) {
+    const auto scaled = [&](std::uint32_t pixels) {
+      return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * renderScale_), 1l, 16384l));
+    };
+    if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_)) tell(diagnostics_, log_.change);
+  }
+  if (live_.poll(glfwGetTime(), diagnostics_)) {
+    tell(diagnostics_, log_.files);
+    restless_ = kRestlessAfterEvent;
+  }
+  if (live_.pollEnvironment(diagnostics_)) {
+    tell(diagnostics_, log_.environment);
+    rest_.disturb();
+    restless_ = kRestlessAfterEvent;
+  }
+  for (const std::string_view action : input_.takeActions()) {
+    actions_.run(action);
+    rest_.disturb();
+  }
+  if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
+  if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
+  showState();
+}
+
+void Viewer::showState() {
+  std::string title = "weft: " + options_.graph;
+  if (!live_.running())
+    title += " (waiting: the files have errors)";
+  else if (!live_.good())
+    title += " (the files have errors)";
+  if (recorder_.active()) title += " (recording)";
+  if (title == title_) return;
+  title_ = title;
+  glfwSetWindowTitle(window_, title_.c_str());
+}
+
+bool Viewer::busy() {
+  if (recorder_.active() || rig_.moving() || input_.captured() || live_.environment().status()) return true;
+  const scene::Camera* camera = sceneCamera();
+  return rig_.mode() == CameraRig::Mode::scene && camera && scene::isMoving(*camera);
+}
+
+bool Viewer::mustDraw() {
+  if (!live_.running()) {
+    restless_ = kRestlessAfterEvent;
+    return false;
+  }
+  if (!idle_) return true;
+  if (busy()) rest_.disturb();
+  return !rest_.resting();
+}
+
+void Viewer::frame(gl::Size size) {
+  const FrameClock::Tick tick = clock_.tick(glfwGetTime());
+  moveCamera(tick);
+  runtime::FrameInput in;
+  in.frame = frame_;
+  in.time = tick.time;
+  in.deltaTime = tick.delta;
+  in.pose = rig_.pose();
+  in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
+  in.cutGeneration = cuts_ = rig_.cuts();
+  in.headless = !options_.record.empty();  // as `weft render` makes the same frames
+  report_ = renderer_.frame(live_.world(), in, diagnostics_);
+  previousPose_ = in.pose;
+  recorder_.add(renderer_, diagnostics_);
+  if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
+  if (idle_) judgeRest();
+  renderer_.present(size.width, size.height);
+  tellFrame();
+  ++frame_;
+  if (frame_ == options_.maxFrames && !options_.screenshot.empty())
+    savePresented(renderer_, options_.screenshot, diagnostics_);
+  saveScreenshots();
+  drawUi();
+  session_.context->swapBuffers();
+}
+
+void Viewer::moveCamera(const FrameClock::Tick& tick) {
+  CameraInput input = input_.takeCamera();
+  const scene::Camera* camera = sceneCamera();
+  if (camera && rig_.mode() == CameraRig::Mode::scene) {
+    const scene::CameraPose pose = scene::poseAt(*camera, tick.time);
+    // Another scene, or the first: what is followed may stand elsewhere. What a person took stays where it
+    // is.
+    if (sceneGeneration_ != live_.world().sceneGeneration() && pose != rig_.pose())
+      rig_.jumpTo(pose);
+    else
+      rig_.follow(pose);
+  }
+  sceneGeneration_ = live_.world().sceneGeneration();
+  rig_.advance(tick.delta, input);
+}
+
+void Viewer::judgeRest() {
+  // Passes that run only when something changed: the picture may follow later (slices, a load in steps).
+  const graph::Plan& plan = renderer_.execution()->plan();
+  for (const graph::Step& step : plan.steps)
+    if (plan.graph->passes[step.pass].cadence != graph::Cadence::always &&
+        renderer_.execution()->ran(plan.graph->passNames[step.pass]))
+      rest_.disturb();
+  const double now = glfwGetTime();
+  if (!rest_.wantsLook(now)) return;
+  const auto image = renderer_.readPresented8();
+  rest_.look(now, image ? base::hashBytes(
+                              {reinterpret_cast<const char*>(image->texels.data()), image->texels.size()})
+                        : 0);
+}
+
+void Viewer::redraw(gl::Size size) {
+  --restless_;
+  ++redraws_;
+  renderer_.present(size.width, size.height);
+  saveScreenshots();
+  tellFrame();
+  drawUi();
+  session_.context->swapBuffers();
+}
+
+void Viewer::drawUi() {
+  if (!overlay_) return;
+  const std::uint64_t before = live_.changes();
+  overlay_->begin();
+  if (live_.running())
+    panels_.draw(report_, diagnostics_);
+  else
+    drawWaiting(log_.files);
+  if (help_) drawHelp();
+  overlay_->end();
+  if (live_.changes() != before) tell(diagnostics_, log_.change);
+}
+
+void Viewer::saveScreenshots() {
+  if (screenshot_.empty()) return;
+  const std::string name = screenshotName(frame_, screenshot_.c_str());
+  screenshot_.clear();
+  if (live_.running() && savePresented(renderer_, name, diagnostics_)) {
+    fmt::print("wrote {}\n", name);
+    std::fflush(stdout);
+  }
+}
+
+void Viewer::tellFrame() {
+  session_.context->debugLog().drain(diagnostics_);
+  if (diagnostics_.empty()) return;
+  log_.addPast(diagnostics_);
+  broken_ |= report(diagnostics_) != 0;
+  diagnostics_.clear();
+}
+
+}  // namespace weft::app

@@ -1,0 +1,122 @@
+// The parts of the viewer that need no window: keys, clock, rest, layout of the help.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "app/view/actions.h"
+#include "app/view/frame_clock.h"
+#include "app/view/help_layout.h"
+#include "app/view/key_bindings.h"
+#include "app/view/picture_rest.h"
+
+namespace weft::app {
+namespace {
+
+using How = KeyBinding::How;
+
+TEST_CASE("docs/viewer.md has the table of keys as it is") {
+  std::ifstream file(WEFT_SOURCE_DIR "/docs/viewer.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  REQUIRE(!text.str().empty());
+  CHECK_MESSAGE(text.str().find(keyTable()) != std::string::npos, "it should hold:\n" << keyTable());
+}
+
+TEST_CASE("no key has two meanings, and each that is pressed is found") {
+  std::set<std::pair<int, bool>> pressed;
+  std::set<int> held;
+  for (const KeyBinding& binding : keyBindings()) {
+    CAPTURE(binding.action);
+    if (binding.how == How::mouse) continue;
+    CHECK(*binding.action);
+    CHECK((*binding.keys != 0) == (*binding.does != 0));
+    if (binding.how == How::held) {
+      CHECK(held.insert(binding.key).second);
+    } else {
+      CHECK(pressed.insert({binding.key, binding.shift}).second);
+      CHECK(actionOf(binding.key, binding.shift) == binding.action);
+    }
+  }
+  for (const int key : held) CHECK(actionOf(key, false).empty());
+  CHECK(actionOf(-1, false).empty());
+}
+
+TEST_CASE("actions run by name") {
+  Actions actions;
+  int ran = 0;
+  actions.add("one", [&] { ++ran; });
+  CHECK(actions.run("one"));
+  CHECK_FALSE(actions.run("two"));
+  CHECK(ran == 1);
+}
+
+TEST_CASE("the help fits every window") {
+  const int rows = 40;
+  for (const float scale : {0.5f, 1.0f, 1.5f, 2.0f, 4.0f})
+    for (const auto& [width, height] :
+         {std::pair(1280.0f, 720.0f), {320.0f, 180.0f}, {3840.0f, 2160.0f}, {100.0f, 720.0f}}) {
+      const float rowHeight = 17 * scale, rowWidth = 480 * scale;
+      const HelpLayout fit = fitHelp(rows, rowHeight, rowWidth, width, height);
+      const float high = static_cast<float>((rows + fit.columns - 1) / fit.columns);
+      CHECK(fit.scale > 0);
+      CHECK(fit.scale <= 1);
+      CHECK(high * rowHeight * fit.scale <= height * 1.0001f);
+      CHECK(static_cast<float>(fit.columns) * rowWidth * fit.scale <= width * 1.0001f);
+    }
+  CHECK(fitHelp(40, 17, 480, 1280, 720).scale == 1);  // where there is room, as large as the rest
+}
+
+TEST_CASE("time: the wall's, none while nothing is drawn, fixed steps while recording") {
+  FrameClock clock;
+  CHECK(clock.tick(100).time == 0);
+  CHECK(clock.tick(100.5).time == doctest::Approx(0.5));
+  clock.skip(200);
+  CHECK(clock.tick(200.25).time == doctest::Approx(0.75));
+  CHECK(clock.tick(150).delta == 0);  // a wall clock that goes backwards
+  clock.fix(60);
+  for (int frame = 1; frame <= 120; ++frame) {
+    const FrameClock::Tick tick = clock.tick(1000.0 * frame);
+    CHECK(tick.delta == 1 / 60.0);
+    CHECK(tick.time == doctest::Approx(0.75 + frame / 60.0));
+  }
+  clock.fix(0);
+  CHECK(clock.tick(120000.5).delta == doctest::Approx(0.5));
+}
+
+TEST_CASE("a recording from the start has the times of weft render, to the bit") {
+  FrameClock clock;
+  clock.fix(24);
+  for (std::uint32_t frame = 0; frame < 1000; ++frame) {
+    const FrameClock::Tick tick = clock.tick(frame * 0.731);
+    CHECK(tick.time == frame / 24.0);
+    CHECK(tick.delta == 1.0 / 24.0);
+  }
+}
+
+TEST_CASE("rest is several equal looks in a row, and ends with a disturbance") {
+  PictureRest rest;
+  CHECK(rest.wantsLook(0));
+  double now = 0;
+  const auto look = [&](std::uint64_t hash) { rest.look(now += PictureRest::kBetweenLooks, hash); };
+  look(1);
+  CHECK_FALSE(rest.wantsLook(now));
+  CHECK(rest.wantsLook(now + PictureRest::kBetweenLooks));
+  for (int i = 0; i < 3; ++i) look(1);
+  CHECK_FALSE(rest.resting());
+  look(2);
+  for (int i = 0; i < PictureRest::kLooks - 1; ++i) {
+    CHECK_FALSE(rest.resting());
+    look(2);
+  }
+  CHECK(rest.resting());
+  CHECK_FALSE(rest.wantsLook(now + 100));
+  rest.disturb();
+  CHECK_FALSE(rest.resting());
+  CHECK(rest.wantsLook(now));
+}
+
+}  // namespace
+}  // namespace weft::app
