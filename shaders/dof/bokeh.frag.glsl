@@ -11,7 +11,10 @@
 //         blades   of the aperture, for POLYGON
 //         tile     pixels along a tile's side
 //         largest  limit of the radius, pixels of the full picture
-// defines NEAR, POLYGON
+// defines NEAR, 1 from near_bokeh; POLYGON
+#ifndef NEAR
+#define NEAR 0
+#endif
 uniform sampler2D source, discs;
 layout(std140) uniform Parameters {
   int rings;

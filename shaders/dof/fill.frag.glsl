@@ -6,7 +6,10 @@
 //         tiles?   from reach, for NEAR
 // write   result
 // params  tile, largest   as in bokeh
-// defines NEAR
+// defines NEAR, 1 from near_fill
+#ifndef NEAR
+#define NEAR 0
+#endif
 uniform sampler2D blurred, source, discs;
 layout(std140) uniform Parameters {
   int tile;

@@ -1,9 +1,9 @@
-// Motion blur over an open shutter, centred on the frame. Scene-referred.
-// read    source     radiance; all textures by any sampler (texels are fetched)
+// Motion blur over an open shutter, centred on the frame, in the tiles that gather.vert.glsl picks. Scene-referred.
+// read    source     a copy of the radiance; all textures by any sampler (texels are fetched)
 //         velocity   screen UV per frame
 //         depth      reversed-Z, 0 is the sky, which is blurred like everything else
-//         tiles      from neighbour_max: where it holds less than half a pixel of motion, the source is copied bit for bit
-// write   result     radiance; alpha is the source's
+//         tiles      from neighbour_max
+// modify  result     radiance; alpha stays
 // params  shutter    degrees: 360 is open all the time between two frames
 //         samples    per line at most; short streaks take one per pixel
 //         tile       pixels along a tile's side; also limits the blur
@@ -38,10 +38,6 @@ void main() {
   vec4 own = texelFetch(source, pixel, 0);
   vec2 longest = streakOf(texelFetch(tiles, pixel / tile, 0).rg, vec2(size), shutter, tile);
   float far_reach = length(longest);
-  if (far_reach < 0.25) {
-    result = own;
-    return;
-  }
   vec2 streak = streakOf(texelFetch(velocity, pixel, 0).rg, vec2(size), shutter, tile);
   float own_reach = length(streak);
   float own_depth = texelFetch(depth, pixel, 0).r;

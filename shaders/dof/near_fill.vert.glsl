@@ -1,0 +1,8 @@
+// The tiles that near_fill.frag.glsl works on; parameters as there.
+layout(std140) uniform Parameters {
+  int tile;
+  int largest;
+};
+#include "work.glsl"
+
+void main() { gl_Position = workCorner(tile, 1); }

@@ -1,0 +1,24 @@
+// The tiles that something before the focus reaches; shared by the vertex shaders of that layer, which draw a quad for each.
+// read    tiles?   from reach; without it all of them
+// params  tile     pixels of the half size along a tile's side
+#ifndef DOF_WORK_GLSL
+#define DOF_WORK_GLSL
+
+#include "common/tile_quad.glsl"
+
+#ifdef HAS_TILES
+uniform sampler2D tiles;
+#endif
+
+// `target` texels of a target for one of the half size.
+vec4 workCorner(int tile, int target) {
+  ivec2 half_size = ivec2(viewport) / target, grid = max((half_size + tile - 1) / tile, ivec2(1)), at = tileOf(grid);
+#ifdef HAS_TILES
+  bool wanted = texelFetch(tiles, at, 0).r > 0.0;
+#else
+  const bool wanted = true;
+#endif
+  return tileCorner(at, grid, tile * target, wanted);
+}
+
+#endif
