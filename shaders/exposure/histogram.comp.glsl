@@ -1,5 +1,5 @@
-// How bright the picture is: a histogram of log2 luminance, from the means of 2 x 2 texels. Scene-referred.
-// read    source      `as linear`; one thread for each 2 x 2 texels of it
+// How bright the picture is: a histogram of log2 luminance, from the mean of the middle 2 x 2 of every 4 x 4 texels. Scene-referred.
+// read    source      `as linear`; one thread for each 4 x 4 texels of it
 // modify  histogram   256 counts, see histogram.glsl; cleared to 0 before
 #include "histogram.glsl"
 
@@ -12,8 +12,8 @@ void main() {
   group_counts[gl_LocalInvocationIndex] = 0u;
   barrier();
   ivec2 size = textureSize(source, 0);
-  if (all(lessThan(gl_GlobalInvocationID.xy, uvec2(max(size / 2, 1))))) {
-    vec3 color = textureLod(source, (2.0 * vec2(gl_GlobalInvocationID.xy) + 1.0) / vec2(size), 0.0).rgb;
+  if (all(lessThan(gl_GlobalInvocationID.xy, uvec2(max(size / 4, 1))))) {
+    vec3 color = textureLod(source, (4.0 * vec2(gl_GlobalInvocationID.xy) + 2.0) / vec2(size), 0.0).rgb;
     // Comparisons that a NaN fails.
     float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
     float bin = luminance > exp2(kDarkest) ? binOf(min(luminance, 65504.0)) : 0.0;

@@ -11,8 +11,8 @@ layout(std140) uniform Parameters { float subpixel; };
 in vec2 uv;
 out vec4 result;
 
-const int kSteps = 8;
-const float kStride[8] = float[8](1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 4.0, 8.0);
+const int kSteps = 5;
+const float kStride[5] = float[5](1.0, 1.5, 2.0, 4.0, 12.0);
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
