@@ -85,10 +85,7 @@ void Viewer::update(gl::Size size) {
     rest_.disturb();
     restless_ = kRestlessAfterEvent;
   }
-  for (const std::string_view action : input_.takeActions()) {
-    actions_.run(action);
-    rest_.disturb();
-  }
+  for (const std::string_view action : input_.takeActions()) actions_.run(action);
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
   if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
   showState();
@@ -107,7 +104,9 @@ void Viewer::showState() {
 }
 
 bool Viewer::busy() {
-  if (recorder_.active() || rig_.moving() || input_.captured() || live_.environment().status()) return true;
+  if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
+      live_.environment().status())
+    return true;
   const scene::Camera* camera = sceneCamera();
   return rig_.mode() == CameraRig::Mode::scene && camera && scene::isMoving(*camera);
 }
@@ -139,11 +138,11 @@ void Viewer::frame(gl::Size size) {
   if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
   if (idle_) judgeRest();
   renderer_.present(size.width, size.height);
-  tellFrame();
   ++frame_;
   if (frame_ == options_.maxFrames && !options_.screenshot.empty())
     savePresented(renderer_, options_.screenshot, diagnostics_);
   saveScreenshots();
+  tellFrame();
   drawUi();
   session_.context->swapBuffers();
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
-#include "engine/graph/read_context.h"
 #include "engine/graph/suffix.h"
 
 namespace weft::graph {
@@ -128,10 +127,7 @@ void applySets(Model& model) {
       applySet(model, set.name,
                {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), scope->prefix, set.place,
                 set.pointer},
-               [&](Type type) {
-                 const bool path = type == Type::file && set.value.type == Value::Type::symbol;
-                 return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
-               });
+               [&](Type) { return set.value; });
   for (const auto& [name, text] : model.settings.sets)
     applySet(model, name, {sourceOfSet(name, text)},
              [&](Type type) { return parseValue(text, type); });

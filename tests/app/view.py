@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""`weft view` in a window of a virtual display: five frames, a screenshot that is a picture, exit code 0. Without a
-display it says so instead."""
+"""`weft view` in a window of a virtual display: five frames, a screenshot that is a picture, exit code 0. A
+recording equals what `weft render` makes. Without a display it says so instead."""
 import os
 import pathlib
 import shutil
 import sys
 
-from program import Report, run, temporary_folder
+from program import TOP, Report, run, temporary_folder
 
 
 def main():
@@ -31,7 +31,30 @@ def main():
             words = mean.out.split()
             report.check(mean.code == 0 and words[:2] == ["640", "360"], f"{graph}: {mean.out}{mean.err}")
             report.check(20 < float(words[2]) < 235 and float(words[3]) > 10, f"{graph}: mean and spread {words[2:]}")
+        recording(weft, compare, pathlib.Path(name), xvfb, report)
     report.end()
+
+
+def recording(weft, compare, folder, xvfb, report):
+    """--record is `weft render --frames`, with a moving camera, blur of its motion and an exposure that adapts."""
+    scene = folder / "orbit.json"
+    text = (TOP / "scenes/spheres.json").read_text().replace("../materials", str(TOP / "materials"))
+    scene.write_text(text.replace('"target": [0, 0, 0], "fov": 60 }', '"target": [0, 0, 0], "fov": 60, "orbit": 90 }', 1))
+    graph = ["graphs/studio.json", "--scene", scene, "--size", "160x90", "--set", "motion_blur=true", "--set", "auto_exposure=true",
+             "--fps", "24", "--program-cache", "none"]
+    done = run(weft, "view", *graph, "--record", folder / "rec/f_%02d.png", "--max-frames", "6", "--screenshot", folder / "end.exr",
+               "--render-scale", "1", "--stats", before=xvfb)
+    report.check(done.code == 0 and '"gl_objects_left": "none"' in done.err, f"recording: {done.code}\n{done.err}")
+    same = run(weft, "render", *graph, "-o", folder / "ren/f_%02d.png", "--frames", "0:5", "--quiet")
+    report.check(same.code == 0, same.err)
+    pictures = [[folder / f"{kind}/f_{i:02}.png" for kind in ("rec", "ren")] for i in range(6)]
+    for recorded, rendered in pictures:
+        if report.check(recorded.exists() and rendered.exists(), f"{recorded} or {rendered} is missing"):
+            report.check(recorded.read_bytes() == rendered.read_bytes(), f"{recorded.name} differs from weft render's")
+    report.check(pictures[0][0].read_bytes() != pictures[5][0].read_bytes(), "the camera stands still")
+    report.check((folder / "end.exr").exists(), "no .exr")
+    half = run(weft, "view", *graph, "--max-frames", "1", "--screenshot", folder / "half.png", "--render-scale", "0.5", before=xvfb)
+    report.check(run(compare, "--describe", folder / "half.png").out.split()[:2] == ["80", "45"], f"render scale: {half.err}")
 
 
 main()

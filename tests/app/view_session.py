@@ -5,83 +5,10 @@ dragged in; Escape closes it. Then: exit code 0, no message of the driver. Waits
 import os
 import pathlib
 import re
-import shutil
-import subprocess
 import sys
-import time
 
-from program import TOP, Report, run, temporary_folder
-
-LIMIT = 120  # seconds for anything to happen
-
-
-class Session:
-    def __init__(self, weft, folder, *arguments):
-        self.folder, self.log, self.shots = folder, folder / "stderr.txt", 0
-        environment = {**os.environ, "WEFT_DATA": str(folder)}
-        command = [weft, "view", "graphs/studio.json", "--size", "320x180", "--program-cache", "none", *arguments]
-        with open(self.log, "w") as log:
-            self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=subprocess.DEVNULL)
-        self.window = None
-
-    def said(self):
-        return self.log.read_text(errors="replace")
-
-    def alive(self):
-        return self.process.poll() is None
-
-    def until(self, holds):
-        """The first thing true of `holds`; None when time is up or the program has ended."""
-        end = time.monotonic() + LIMIT
-        while time.monotonic() < end:
-            found = holds()
-            if found:
-                return found
-            if not self.alive():
-                return None
-            time.sleep(0.05)
-        return None
-
-    def tool(self, *arguments):
-        return subprocess.run(["xdotool", *map(str, arguments)], capture_output=True, text=True).stdout.split()
-
-    def open(self):
-        found = self.until(lambda: self.tool("search", "--onlyvisible", "--name", "^weft: "))
-        self.window = found[-1] if found else None
-        self.tool("mousemove", "--window", self.window, 160, 90)
-        return self.window
-
-    def key(self, name):
-        self.tool("key", name)
-
-    def shot(self):
-        """The picture of a later frame, as a path."""
-        before, pressed = set(self.folder.glob("weft_*.png")), 0.0
-
-        def look():
-            nonlocal pressed
-            if time.monotonic() - pressed > 5:  # a key may come before the window takes any
-                pressed = time.monotonic()
-                self.key("F12")
-            return set(self.folder.glob("weft_*.png")) - before
-
-        found = self.until(look)
-        return max(found) if found else None
-
-
-def edit(path, pattern, text):
-    """As editors save: a file beside it, then a rename."""
-    before = path.read_text()
-    after = re.sub(pattern, lambda _: text, before, count=1)
-    assert after != before, f"nothing to edit in {path}"
-    save(path, after)
-    return before
-
-
-def save(path, text):
-    beside = path.with_name(path.name + "~")
-    beside.write_text(text)
-    beside.rename(path)
+from program import Report, run, temporary_folder
+from window import Session, copy_of_tree, edit, inside_display, save
 
 
 def session(weft, compare, folder, report):
@@ -159,16 +86,10 @@ def session(weft, compare, folder, report):
 
 def main():
     weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
-    if "--inside" not in sys.argv:
-        if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
-            report.skip("xvfb-run or xdotool is not installed")
-            report.end()
-        xvfb = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
-        sys.exit(subprocess.run([*xvfb, sys.executable, __file__, weft, compare, "--inside"]).returncode)
+    inside_display(report, weft, compare, __file__)
     with temporary_folder() as name:
         folder = pathlib.Path(name)
-        for part in ("graphs", "shaders", "scenes", "materials"):
-            shutil.copytree(TOP / part, folder / part)
+        copy_of_tree(folder)
         session(weft, compare, folder, report)
     report.end()
 

@@ -1,0 +1,44 @@
+"""What a virtual display shows, panels and all, read from the file in which Xvfb keeps its frame buffer (-fbdir).
+As a program: screen.py FOLDER OUT.png, to look at it."""
+import pathlib
+import struct
+import sys
+import zlib
+
+
+class Screen:
+    def __init__(self, folder):
+        self.path = pathlib.Path(folder) / "Xvfb_screen0"
+
+    def read(self):
+        """Width, height, and rows of RGB bytes."""
+        data = self.path.read_bytes()
+        header = struct.unpack(">25I", data[:100])
+        size, width, height, bits, line, colors = header[0], header[4], header[5], header[11], header[12], header[19]
+        assert header[1] == 7 and bits == 32, "no XWD file of 32 bits"
+        start = size + colors * 12
+        rows = []
+        for y in range(height):
+            row = data[start + y * line:start + y * line + width * 4]
+            rgb = bytearray(width * 3)
+            rgb[0::3], rgb[1::3], rgb[2::3] = row[2::4], row[1::4], row[0::4]
+            rows.append(bytes(rgb))
+        return width, height, rows
+
+    def pixels(self):
+        """For comparing: everything, as bytes."""
+        return self.path.read_bytes()
+
+    def save(self, path):
+        width, height, rows = self.read()
+
+        def chunk(kind, body):
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+        raw = b"".join(b"\0" + row for row in rows)
+        pathlib.Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                                       chunk(b"IDAT", zlib.compress(raw, 1)) + chunk(b"IEND", b""))
+
+
+if __name__ == "__main__":
+    Screen(sys.argv[1]).save(sys.argv[2])

@@ -1,0 +1,278 @@
+#!/usr/bin/env python3
+"""What a person does in the viewer besides saving files: looks through cameras, turns, flies and lets go, switches a pass off in
+the panel, changes the render scale, records until the disk is full, lets it idle; starts with files that have errors and saves the
+fix; keeps tweaks that a changed file no longer takes out of its way. At the end no GL object is left. The time from a save to the
+picture on the screen is measured and printed, not judged."""
+import os
+import pathlib
+import re
+import sys
+import time
+
+from program import Report, run, temporary_folder
+from screen import Screen
+from window import Session, copy_of_tree, edit, inside_display, save
+
+DIFFERENT = 2  # 8-bit steps of the mean, for pictures that are to look different
+
+
+class Eyes:
+    def __init__(self, compare):
+        self.compare = compare
+
+    def describe(self, shot):
+        """Width, height, mean and spread of a picture."""
+        words = run(self.compare, "--describe", shot).out.split()
+        return (int(words[0]), int(words[1]), float(words[2]), float(words[3])) if len(words) >= 4 else (0, 0, 0.0, 0.0)
+
+
+def close(live, report, code=0, left=True):
+    live.key("Escape")
+    live.until(lambda: not live.alive())
+    report.check(live.process.poll() == code, f"exit code {live.process.poll()}, not {code}\n{live.said()}")
+    report.check("W120" not in live.said(), live.said())
+    if left:
+        report.check('"gl_objects_left": "none"' in live.said(), f"objects are left\n{live.said()[-1500:]}")
+
+
+def differs(live, old, report, what):
+    seen = live.until(lambda: (s := live.shot()) and s.read_bytes() != old.read_bytes() and s)
+    report.check(seen, f"{what}: the picture stays as it was\n{live.said()}")
+    return seen or old
+
+
+def settles(live, wanted, report, what):
+    """Takes pictures until one is `wanted` to the byte."""
+    seen = live.until(lambda: (s := live.shot()) and s.read_bytes() == wanted.read_bytes() and s)
+    report.check(seen, f"{what}: the picture of before never comes back\n{live.said()}")
+
+
+def look_around(live, eyes, report):
+    first = live.shot()
+    if not report.check(first, f"no first picture\n{live.said()}"):
+        return
+    described = eyes.describe(first)
+    report.check(described[2] > 15 and described[3] > 10, f"first picture: {described}")
+    seen = {first.read_bytes()}
+    for key in "2345":
+        live.key(key)
+        shot = live.until(lambda: (s := live.shot()) and s.read_bytes() not in seen and s)
+        if report.check(shot, f"camera {key}: a picture that was there before\n{live.said()}"):
+            seen.add(shot.read_bytes())
+            report.check(eyes.describe(shot)[3] > 5, f"camera {key}: {eyes.describe(shot)}")
+    live.key("r")
+    settles(live, first, report, "R after the cameras")
+
+    live.key("f")  # flies
+    live.tool("keydown", "w")
+    ahead = differs(live, first, report, "flying forward")
+    live.tool("keyup", "w")
+    live.tool("mousemove_relative", "--", 60, 20)
+    turned = differs(live, ahead, report, "the captured mouse")
+    live.key("Escape")  # lets go, and does not close
+    report.check(live.shot() and live.alive(), "Escape in flight ends the program")
+    live.key("r")
+    settles(live, first, report, "R after a flight")
+    report.check(turned.read_bytes() != first.read_bytes(), "flight ends where it began")
+
+    live.key("minus")
+    small = live.until(lambda: (s := live.shot()) and eyes.describe(s)[:2] == (480, 270) and s)
+    report.check(small, "render scale 0.75 never comes")
+    live.key("equal")
+    settles(live, first, report, "render scale 1 again")
+
+    live.key("shift+F12")
+    report.check(live.until(lambda: list(live.folder.glob("weft_*.exr"))), "Shift F12 writes no .exr")
+    for key in ("v", "v", "b", "b", "p", "p", "F1", "F1"):
+        live.key(key)
+    settles(live, first, report, "after switches that do not change pictures")
+    return first
+
+
+def switch_a_pass_off(live, first, screen, report):
+    """Finds a box in the right panel by trying: down the left edge of what is right of the middle."""
+    width, height = 640, 360
+
+    def click(x, y):
+        live.tool("mousemove", "--window", live.window, x, y)
+        live.tool("click", 1)
+
+    before = screen.pixels()
+    live.key("space")
+    report.check(live.until(lambda: screen.pixels() != before), "the panels go away on the screen: they do not")
+    live.key("space")
+    for x in (width - 288 - 8 + 20, width - 288 - 8 + 40):
+        for y in range(30, 260, 10):
+            click(x, y)
+            shot = live.shot()
+            if not shot or shot.read_bytes() == first.read_bytes():
+                continue
+            report.check(live.alive(), f"a click at {x}, {y} ends the program")
+            live.tool("mousemove", "--window", live.window, 5, height - 5)
+            return True
+    return report.check(False, "no click in the panel of passes changes the picture")
+
+
+def record(live, report):
+    live.key("F10")
+    folder = live.folder / "record_1"
+    report.check(live.until(lambda: (folder / "f_00003.png").exists()), f"F10 records nothing\n{live.said()}")
+    live.key("F10")
+    live.shot()
+    count = len(list(folder.glob("*.png")))
+    live.shot()
+    report.check(len(list(folder.glob("*.png"))) == count, "F10 does not stop the recording")
+    # The disk is full at the third frame.
+    (live.folder / "record_2").mkdir()
+    (live.folder / "record_2").rename(live.folder / "record_3")
+    second = live.folder / "record_2"
+    live.key("F10")
+    if report.check(live.until(lambda: (second / "f_00000.png").exists()), "the second recording does not begin"):
+        at = len(list(second.glob("f_*.png"))) + 20
+        for frame in range(at, at + 2000):
+            os.symlink("/dev/full", second / f"f_{frame:05}.png.{live.process.pid}.tmp")
+        report.check(live.until(lambda: "error[W180]" in live.said()), f"a full disk is not reported\n{live.said()}")
+    report.check(live.alive() and live.shot(), "a full disk ends the program")
+
+
+def idle(live, report):
+    def frame_of(shot):
+        return int(re.match(r"weft_(\d+)", shot.name).group(1))
+
+    live.key("i")
+    rest = live.until(lambda: (a := live.shot()) and not time.sleep(0.3) and (b := live.shot()) and frame_of(a) == frame_of(b) and b)
+    if not report.check(rest, "idle mode never comes to rest"):
+        return
+    live.key("2")
+    woken = live.until(lambda: (s := live.shot()) and frame_of(s) > frame_of(rest) and s.read_bytes() != rest.read_bytes() and s)
+    report.check(woken, "a key does not wake it")
+    live.until(lambda: (a := live.shot()) and not time.sleep(0.3) and (b := live.shot()) and frame_of(a) == frame_of(b))
+    last = live.shot()
+    edit(live.folder / "scenes/spheres.json", r'"spacing": [\d.]+', '"spacing": 3.1')
+    woken = live.until(lambda: (s := live.shot()) and frame_of(s) > frame_of(last) and s.read_bytes() != last.read_bytes() and s)
+    report.check(woken, "a saved file does not wake it")
+    live.key("i")
+
+
+def start_broken(weft, folder, eyes, report):
+    graph = folder / "graphs/glow.json"
+    whole = graph.read_text()
+    for part, path in (("graph", graph), ("scene", folder / "scenes/spheres.json")):
+        good = path.read_text()
+        save(path, good.replace("{", "{{", 1))
+        live = Session(weft, folder, "--stats", graph="graphs/glow.json")
+        try:
+            report.check(live.open(), f"{part}: no window for a broken file\n{live.said()}")
+            report.check(live.until(lambda: "waiting" in " ".join(live.tool("getwindowname", live.window))), f"{part}: no notice")
+            report.check(f"{path.name}:" in live.said(), f"{part}: the terminal does not say what is wrong\n{live.said()}")
+            live.tool("windowsize", live.window, 400, 250)
+            save(path, good)
+            live.until(lambda: "waiting" not in " ".join(live.tool("getwindowname", live.window)))
+            shot = live.shot()
+            report.check(shot and eyes.describe(shot)[3] > 5, f"{part}: no picture after the fix\n{live.said()}")
+            close(live, report)
+        finally:
+            if live.alive():
+                live.process.kill()
+                live.process.wait()
+    save(graph, whole.replace("{", "{{", 1))
+    live = Session(weft, folder, "--stats", graph="graphs/glow.json")
+    try:
+        live.open()
+        live.until(lambda: "waiting" in " ".join(live.tool("getwindowname", live.window)))
+        live.tool("key", "--window", live.window, "Escape")
+        close(live, report, code=1)
+    finally:
+        save(graph, whole)
+        if live.alive():
+            live.process.kill()
+            live.process.wait()
+
+
+def lose_a_tweak(weft, folder, screen, report):
+    """And measures how long a save takes to be on the screen."""
+    graph = folder / "graphs/glow.json"
+    whole = graph.read_text()
+    live = Session(weft, folder, "--stats", "--no-ui", "--set", "strength=0.9", "--disable", "tint", graph="graphs/lost.json")
+    lost = folder / "graphs/lost.json"
+    try:
+        report.check(live.open(), f"no window\n{live.said()}")
+        with_tweak = live.shot()
+        save(lost, TWEAKED.replace('"tint"', '"hue"').replace("strength", "power"))
+        save(folder / "shaders/lost.frag.glsl", LOST_SHADER.replace("strength", "power"))
+        report.check(live.until(lambda: "warning[W044]" in live.said() and "warning[W045]" in live.said()),
+                     f"a tweak that is lost is not told\n{live.said()}")
+        without = differs(live, with_tweak, report, "a file without the tweaked parameter")
+        save(folder / "shaders/lost.frag.glsl", LOST_SHADER)
+        save(lost, TWEAKED)
+        settles(live, with_tweak, report, "the tweak, when its parameter is back")
+        report.check(without.read_bytes() != with_tweak.read_bytes(), "the tweak shows")
+        waits = []
+        for value in range(12):
+            before = screen.pixels()
+            text = LOST_SHADER.replace("0.25", f"{0.3 + 0.05 * value:.2f}")
+            start = time.monotonic()
+            save(folder / "shaders/lost.frag.glsl", text)
+            if not live.until(lambda: screen.pixels() != before):
+                break
+            waits.append(1e3 * (time.monotonic() - start))
+        if waits:
+            print(f"from a save to the screen, 320x180, one pass: {sorted(waits)[len(waits) // 2]:.0f} ms in the median of "
+                  f"{len(waits)}, {max(waits):.0f} ms at most, 30 ms of them waiting for further writes (looked at every 50 ms)")
+        close(live, report)
+    finally:
+        save(graph, whole)
+        if live.alive():
+            live.process.kill()
+            live.process.wait()
+
+
+TWEAKED = """{
+  "parameters": { "strength": { "type": "float", "default": 0.2, "min": 0, "max": 1 } },
+  "resources": { "ldr": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "base", "type": "fullscreen", "shader": "lost.frag.glsl", "write": { "result": "ldr" }, "parameters": { "strength": "$strength" } },
+    { "name": "tint", "type": "fullscreen", "shader": "tint.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "ldr" } }
+  ],
+  "present": "ldr"
+}
+"""
+LOST_SHADER = """layout(std140) uniform Parameters { float strength; };
+in vec2 uv;
+out vec4 result;
+void main() { result = vec4(strength, uv.x, 0.25, 1.0); }
+"""
+TINT_SHADER = """uniform sampler2D source;
+out vec4 result;
+void main() { result = texelFetch(source, ivec2(gl_FragCoord.xy), 0).bgra; }
+"""
+
+
+def main():
+    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
+    screen, eyes = Screen(inside_display(report, weft, compare, __file__)), Eyes(compare)
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        copy_of_tree(folder)
+        save(folder / "graphs/lost.json", TWEAKED)
+        save(folder / "shaders/lost.frag.glsl", LOST_SHADER)
+        save(folder / "shaders/tint.frag.glsl", TINT_SHADER)
+        live = Session(weft, folder, "--stats", graph="graphs/studio.json", size="640x360")
+        try:
+            report.check(live.open(), f"no window\n{live.said()}")
+            first = look_around(live, eyes, report)
+            if first:
+                switch_a_pass_off(live, first, screen, report)
+            idle(live, report)
+            record(live, report)
+            close(live, report, code=1)  # the full disk
+        finally:
+            if live.alive():
+                live.process.kill()
+                live.process.wait()
+        start_broken(weft, folder, eyes, report)
+        lose_a_tweak(weft, folder, screen, report)
+    report.end()
+
+
+main()
