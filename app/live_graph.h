@@ -31,6 +31,8 @@ class LiveGraph {
   // Loads when watched files changed and have been quiet for a moment. `now` in seconds. True when it looked
   // at the disk.
   bool poll(double now, base::Diagnostics& diagnostics);
+  // Files changed, and poll() has not loaded them yet.
+  bool pending() const { return pending_; }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 #include <utility>
 
 #include "app/output_files.h"
@@ -18,7 +20,9 @@ namespace weft::app {
 
 namespace {
 
-constexpr double kLookAtFiles = 0.05;   // seconds between looks at the watched files while nothing is drawn
+constexpr double kLookAtFiles = 0.05;  // seconds between looks at the watched files while nothing is drawn
+constexpr std::chrono::milliseconds kWaitForWrites{5};
+constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets frames in between
 constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
 
 // What is wrong with the files or with a change made here is told, and does not count against the program.
@@ -76,7 +80,14 @@ void Viewer::update(gl::Size size) {
     };
     if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_)) tell(diagnostics_, log_.change);
   }
-  if (live_.poll(glfwGetTime(), diagnostics_)) {
+  bool looked = live_.poll(glfwGetTime(), diagnostics_);
+  // The moment in which more may be written is waited out here, not behind another frame of what is out of
+  // date.
+  for (int i = 0; i < kWaitsForWrites && !looked && live_.pending(); ++i) {
+    std::this_thread::sleep_for(kWaitForWrites);
+    looked = live_.poll(glfwGetTime(), diagnostics_);
+  }
+  if (looked) {
     tell(diagnostics_, log_.files);
     restless_ = kRestlessAfterEvent;
   }
