@@ -47,7 +47,7 @@ float reaches(float disc, float across) { return clamp(disc - across + 0.5, 0.0,
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec2 size = vec2(textureSize(source, 0));
+  vec2 to_uv = 1.0 / vec2(textureSize(source, 0));
 #if NEAR
   float radius = searchRadius(pixel);
   bool idle = radius <= 0.0;
@@ -81,7 +81,7 @@ void main() {
       area += share;
 #endif
       direction = vec2(direction.x * turn.x - direction.y * turn.y, direction.x * turn.y + direction.y * turn.x);
-      at = (gl_FragCoord.xy + at) / size;
+      at = (gl_FragCoord.xy + at) * to_uv;
       vec4 c = textureLod(source, at, level);
 #if NEAR
       float disc = textureLod(discs, at, level).r / max(c.a, 1e-4);
@@ -94,8 +94,8 @@ void main() {
 #else
       float disc = behindRadius(c.a, largest), blur = blurOf(2.0 * disc);
       disc = sqrt(max(disc * disc - shared_variance, 0.25));
-      share *= hidden ? 1.0 : blur * reaches(disc, across) / (disc * disc + 1.0 / 12.0);
-      share = c.a > 0.0 ? share / c.a : 0.0;
+      share *= hidden ? 1.0 : blur * reaches(disc, across);
+      share /= max(hidden ? c.a : c.a * (disc * disc + 1.0 / 12.0), 1e-7);
 #endif
       sum += share * c.rgb;
       weights += share * c.a;
