@@ -88,6 +88,8 @@ class Reader {
   }
 
   void readSize(const std::vector<Word>& words, int dimensions, int largest) {
+    if (lut_.size != 0 && lut_.dimensions != dimensions)
+      return fail(words[0].column, "a 1D and a 3D table in one file; export the 3D table alone, or split the file");
     if (lut_.size != 0) return fail(words[0].column, "a second size");
     int size = 0;
     const std::string_view text = words.size() == 2 ? words[1].text : std::string_view();

@@ -51,7 +51,7 @@ void resolvePresent(Model& model) {
     d.expected = "a colour texture of this frame";
     return;
   }
-  use->mips = 1;
+  if (!ref.mip || !ref.mip->range) use->mips = 1;  // a span is kept whole; what is shown is its first level
   use->layers = 1;
   use->kind = Kind::copy;
   model.graph.present = *use;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/read_context.h"
 #include "engine/graph/suffix.h"
 
 namespace weft::graph {
@@ -127,7 +128,10 @@ void applySets(Model& model) {
       applySet(model, set.name,
                {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), scope->prefix, set.place,
                 set.pointer},
-               [&](Type) { return set.value; });
+               [&](Type type) {
+                 const bool path = type == Type::file && set.value.type == Value::Type::symbol;
+                 return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
+               });
   for (const auto& [name, text] : model.settings.sets)
     applySet(model, name, {sourceOfSet(name, text)},
              [&](Type type) { return parseValue(text, type); });

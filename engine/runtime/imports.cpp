@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/runtime/lut_texture.h"
 
 namespace weft::runtime {
 
@@ -27,14 +26,15 @@ gl::TextureRef Imports::lut(const std::string& file, base::Diagnostics& diagnost
   if (file.empty()) return {};
   auto found = std::ranges::find(luts_, file, &Lut::file);
   if (found == luts_.end()) {
-    luts_.push_back({.file = file, .texture = {}});
+    luts_.push_back({.file = file, .table = nullptr, .texture = {}});
     found = luts_.end() - 1;
   }
   if (found->stale) {
     found->stale = false;
-    const auto table = loadLut(file, diagnostics);
-    auto texture = table ? makeLutTexture(*table, file, diagnostics) : std::nullopt;
+    const auto table = lutFiles_.get(file, diagnostics);
+    auto texture = table && table != found->table ? makeLutTexture(*table, file, diagnostics) : std::nullopt;
     if (texture) {
+      found->table = table;
       found->texture = std::move(*texture);
       found->generation = ++lutGenerations_;
     }

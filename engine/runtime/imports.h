@@ -15,6 +15,7 @@
 #include "engine/graph/flat_graph.h"
 #include "engine/runtime/block_writer.h"
 #include "engine/runtime/environment_texture.h"
+#include "engine/runtime/lut_texture.h"
 #include "engine/runtime/world.h"
 #include "engine/scene/sort.h"
 
@@ -39,8 +40,9 @@ class Imports {
   // Used while the world has no environment: a texture made by a graph of its own. Not owned.
   void setEnvironmentFallback(gl::TextureRef texture, std::uint64_t generation);
 
-  // Before a graph is loaded: tables read from files are read again on next use, and those unused since the last call go.
+  // Before a graph is loaded: tables whose file changed are made again on next use, and those unused since the last call go.
   void renewFiles();
+  LutFiles& lutFiles() { return lutFiles_; }
 
   // A buffer import: instance tables need the layout of the block that reads them, draw orders do not.
   BufferRef buffer(const graph::ImportSpec& import, const InstanceLayout& layout, base::Diagnostics& diagnostics);
@@ -78,11 +80,13 @@ class Imports {
 
   struct Lut {
     std::string file;
+    std::shared_ptr<const assets::CubeLut> table;  // what the texture holds
     gl::Texture texture;
     std::uint64_t generation = 0;
     bool stale = true;
   };
   gl::TextureRef lut(const std::string& file, base::Diagnostics& diagnostics);
+  LutFiles lutFiles_;
   std::vector<Lut> luts_;
   std::uint64_t lutGenerations_ = 0;
 

@@ -43,7 +43,7 @@ std::vector<graph::ImportType> importTypes() {
                       .doc = "length of the sub-pixel Halton sequence; 0 for none"}}},
       {.name = "cube_lut",
        .kind = ImportKind::texture,
-       .doc = "A 3D .cube table as an RGBA16F 3D texture, for composite/lut.glsl; not there when `file` is empty.",
+       .doc = "A .cube table, 3D or 1D, as an RGBA16F 3D texture for composite/lut.glsl; not there when `file` is empty.",
        .arguments = {{.name = "file", .initial = Value::text(""), .choices = {}, .doc = "path of the .cube file"}}},
       {.name = "cut", .kind = ImportKind::event, .doc = "Changes when the camera jumps.", .arguments = {}},
   };
@@ -63,14 +63,14 @@ bool operator==(const WorldFacts& a, const WorldFacts& b) {
          a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same);
 }
 
-graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldFacts& facts) {
+graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldFacts& facts, LutFiles* luts) {
   graph::Registry registry;
   registry.passTypes = passTypes.reflect();
   registry.imports = importTypes();
   const graph::GeometryArgument subdivision{.name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
   registry.geometries = {{"quad", {}}, {"icosphere", {subdivision}}, {"triangle", {}}};
   for (const WorldFacts::List& list : facts.lists) registry.drawLists.push_back(list.name);
-  registry.factsOf = [facts](const ImportRequest& request) {
+  registry.factsOf = [facts, luts](const ImportRequest& request) {
     const auto countOf = [&](const std::string& name) -> double {
       for (const WorldFacts::List& list : facts.lists)
         if (list.name == name) return static_cast<double>(list.count);
@@ -95,10 +95,14 @@ graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldF
       const std::string& file = request.arguments[0].second.symbol;
       if (file.empty()) return result;
       base::Diagnostics said;
-      if (const auto lut = loadLut(file, said)) {
+      LutFiles once;
+      if (const auto lut = (luts ? *luts : once).get(file, said)) {
+        const gl::Extent extent = lutExtent(*lut);
         result.exists = true;
         result.format = graph::Format::rgba16f;
-        result.width = result.height = result.depth = static_cast<std::uint32_t>(lut->size);
+        result.width = extent.width;
+        result.height = extent.height;
+        result.depth = extent.layers;
       }
       result.problems = said.items();
     } else {

@@ -11,6 +11,8 @@
 
 namespace weft::runtime {
 
+class LutFiles;
+
 // The facts of a scene and an environment that a graph can ask for: size(environment), count(spheres), has(environment).
 struct WorldFacts {
   bool environment = false;              // one was loaded; otherwise @environment has only its fallback, graphs/daylight.json
@@ -23,7 +25,8 @@ struct WorldFacts {
   friend bool operator==(const WorldFacts&, const WorldFacts&);
 };
 
-graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldFacts& facts);
+// `luts` keeps the tables that were read, and must outlive the registry; without, each is read when it is asked for.
+graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldFacts& facts, LutFiles* luts = nullptr);
 
 // Levels of a full mip chain of a width x height texture.
 std::uint32_t fullMips(std::uint32_t width, std::uint32_t height);

@@ -62,10 +62,13 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, const grap
                         base::Diagnostics& all) {
   base::Diagnostics diagnostics;  // of this attempt alone
   device_.sources.forgetTouched();
+  LutFiles& luts = device_.imports.lutFiles();
+  luts.forgetTouched();
   auto made = makeExecution(*desc, settings, world, diagnostics);
   all.append(diagnostics);
   const std::set<std::string>& shaders = device_.sources.touched();
   triedFiles_.insert(triedFiles_.end(), shaders.begin(), shaders.end());
+  triedFiles_.insert(triedFiles_.end(), luts.touched().begin(), luts.touched().end());
   if (!made) return false;
   execution_ = std::move(made);
   desc_ = std::move(desc);
@@ -76,7 +79,7 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, const grap
 
 std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, const graph::Settings& settings,
                                                    const World& world, base::Diagnostics& diagnostics) {
-  const graph::Registry registry = makeRegistry(device_.passTypes, world.facts());
+  const graph::Registry registry = makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles());
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
   device_.imports.renewFiles();
@@ -100,8 +103,6 @@ bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostic
                                 diagnostics);
   if (!fallback_) return false;
   fallback_->frame(world, headlessFrame(world, 0, 60), diagnostics);
-  // Presenting keeps the finest level alive and no other; an environment has them all.
-  glGenerateTextureMipmap(fallback_->presentedWhole().id);
   device_.imports.setEnvironmentFallback(fallback_->presentedWhole(), 1);
   return !diagnostics.hasErrors();
 }

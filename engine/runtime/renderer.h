@@ -31,7 +31,7 @@ class Renderer {
   // The same without reading the graph files: the last description that ran, under other settings. Shaders that changed
   // on disk are taken up.
   bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
-  // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes).
+  // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes, tables).
   std::vector<std::string> files() const;
   // Runs nothing and presents black while the graph reads an environment that is still on its way (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);

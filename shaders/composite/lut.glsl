@@ -1,15 +1,35 @@
-// A 3D table of colours, as the import cube_lut gives it: display-referred, encoded, in and out. Bound `as linear`.
+// A table of colours, as the import cube_lut gives it: display-referred, encoded, in and out. Bound `as linear`.
+// A cube is as deep as wide; three curves (a 1D .cube) are not, and have their entries along rows.
 #ifndef COMPOSITE_LUT_GLSL
 #define COMPOSITE_LUT_GLSL
 
+vec4 lutEntry(sampler3D table, int i) {
+  int width = textureSize(table, 0).x;
+  return texelFetch(table, ivec3(i % width, i / width, 0), 0);
+}
+
+vec3 applyCurves(sampler3D table, vec3 encoded) {
+  // Domain and number of entries stand in the alpha of the first eight.
+  vec3 low = vec3(lutEntry(table, 0).a, lutEntry(table, 2).a, lutEntry(table, 4).a);
+  vec3 high = vec3(lutEntry(table, 1).a, lutEntry(table, 3).a, lutEntry(table, 5).a);
+  int n = int(lutEntry(table, 6).a) * 1024 + int(lutEntry(table, 7).a);
+  vec3 at = clamp((encoded - low) / (high - low), 0.0, 1.0) * float(n - 1);
+  ivec3 i = min(ivec3(at), n - 2);
+  vec3 here = vec3(lutEntry(table, i.r).r, lutEntry(table, i.g).g, lutEntry(table, i.b).b);
+  vec3 next = vec3(lutEntry(table, i.r + 1).r, lutEntry(table, i.g + 1).g, lutEntry(table, i.b + 1).b);
+  return mix(here, next, at - vec3(i));
+}
+
 vec3 applyLut(sampler3D table, vec3 encoded) {
+  ivec3 size = textureSize(table, 0);
+  if (size.x != size.z) return applyCurves(table, encoded);
   // The domain stands in the alpha of the corners.
   vec3 low = vec3(texelFetch(table, ivec3(0), 0).a, texelFetch(table, ivec3(0, 1, 0), 0).a,
                   texelFetch(table, ivec3(0, 0, 1), 0).a);
   vec3 high = vec3(texelFetch(table, ivec3(1, 0, 0), 0).a, texelFetch(table, ivec3(1, 1, 0), 0).a,
                    texelFetch(table, ivec3(1, 0, 1), 0).a);
   vec3 at = clamp((encoded - low) / (high - low), 0.0, 1.0);
-  float n = float(textureSize(table, 0).x);
+  float n = float(size.x);
   return textureLod(table, (at * (n - 1.0) + 0.5) / n, 0.0).rgb;  // first and last entries are at texel centres
 }
 

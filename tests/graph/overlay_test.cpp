@@ -229,6 +229,17 @@ TEST_CASE("values: presets in order, then the command line; included files first
   CHECK(std::ranges::find(both.graph->files, b) != both.graph->files.end());
   CHECK(valueOf(fine(base, {b, a}), "gain") == "3");
   CHECK(valueOf(fine(base, {a, b}, with({{"gain", "5"}})), "gain") == "5");
+  // a path is from the folder of the file that says it, one of the command line is as it is
+  folder.write("lut.json", R"({ "extends": "base.json", "parameters": { "lut": { "type": "file", "default": "d.cube" } } })");
+  const std::string lut = folder.file("lut.json");
+  const std::string p = folder.write("parts/p.json", R"({ "set": { "lut": "../tables/p.cube" } })");
+  const std::string absolute = folder.write("parts/absolute.json", R"({ "set": { "lut": "/tables/p.cube" } })");
+  const std::string none = folder.write("parts/none.json", R"({ "set": { "lut": "" } })");
+  CHECK(valueOf(fine(lut), "lut") == folder.file("d.cube"));
+  CHECK(valueOf(fine(lut, {p}), "lut") == folder.file("tables/p.cube"));
+  CHECK(valueOf(fine(lut, {absolute}), "lut") == "/tables/p.cube");
+  CHECK(valueOf(fine(lut, {p, none}), "lut") == "");
+  CHECK(valueOf(fine(lut, {p}, with({{"lut", "x/y.cube"}})), "lut") == "x/y.cube");
   // a preset is an overlay: it may say more
   const std::string c = folder.write(
       "c.json",

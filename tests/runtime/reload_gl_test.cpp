@@ -1,6 +1,7 @@
 // A running graph and its file: reordering, changed parameters, resizing, broken files.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -43,6 +44,40 @@ const std::string kScale =
 const std::string kTail = R"( ], "present": "sum" })";
 
 }  // namespace
+
+TEST_CASE("reload: a colour table is watched, and taken up when its file changed") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  const std::string path = file.path() + ".cube";
+  const auto write = [&](const char* rows) { std::ofstream(path) << "LUT_1D_SIZE 2\n" << rows; };
+  Stage stage("tests/runtime/graphs/toggle.json", 16, 9);
+  stage.settings.sets = {{"post.lut", path}};
+  const auto watched = [&] {
+    const auto files = stage.renderer().files();
+    return std::ranges::count(files, path) > 0;
+  };
+  CHECK(!stage.load());  // not there yet
+  CHECK(watched());
+  write("0 0 0\n1 1 1\n");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  CHECK(watched());
+  stage.run(0);
+  const auto same = stage.pixels();
+  REQUIRE(stage.load());
+  stage.run(1);
+  CHECK(stage.pixels() == same);
+  write("1.0 1.0 1.0\n0 0 0\n");
+  REQUIRE(stage.load());
+  stage.run(2);
+  CHECK(stage.pixels() != same);
+  write("no table");
+  CHECK(!stage.load());
+  CHECK(watched());
+  write("0 0 0\n1 1 1\n");
+  REQUIRE(stage.load());
+  stage.run(3);
+  CHECK(stage.pixels() == same);
+}
 
 TEST_CASE("reload: two effects swapped in the file give the other result, without an edit of a slot") {
   const CleanScope clean;

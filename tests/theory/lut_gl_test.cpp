@@ -36,6 +36,17 @@ std::string cube(int size, double low, double high, const std::function<Rgb(Rgb)
   return text;
 }
 
+std::string curves(int size, double low, double high, const std::function<Rgb(Rgb)>& f) {
+  std::string text =
+      fmt::format("LUT_1D_SIZE {0}\nDOMAIN_MIN {1} {1} {1}\nDOMAIN_MAX {2} {2} {2}\n", size, low, high);
+  for (int i = 0; i < size; ++i) {
+    const double x = low + (high - low) * i / (size - 1);
+    const Rgb out = f({x, x, x});
+    text += fmt::format("{} {} {}\n", out.r, out.g, out.b);
+  }
+  return text;
+}
+
 Picture render(const std::string& file, const char* strength = "1") {
   Setup setup{.graph = "tests/theory/look.json", .width = 256, .height = 4};
   setup.sets = {{"bloom", "false"},
@@ -98,6 +109,23 @@ TEST_CASE("red is the fastest axis; values between entries are linear; strength 
   CHECK(largestError(render(folder.write("tent.cube", cube(3, 0, 1, tent))), tent) < 1);
 }
 
+TEST_CASE("a 1D table is a curve per channel, linear between entries, at every size and domain") {
+  const TemporaryFolder folder;
+  const auto same = [](Rgb c) { return c; };
+  const auto bent = [](Rgb c) { return Rgb{c.r * c.r, 1 - c.g, 0.25 + c.b / 2}; };
+  for (const int size : {2, 3, 7, 1023, 1024, 1025, 5000, 65536})
+    for (const auto& [low, high] : {std::pair{0.0, 1.0}, {-0.5, 1.5}}) {
+      CAPTURE(size);
+      CAPTURE(low);
+      CHECK(largestError(render(folder.write("same.cube", curves(size, low, high, same))), same) < 1);
+      if (size > 1000)
+        CHECK(largestError(render(folder.write("bent.cube", curves(size, low, high, bent))), bent) < 1);
+    }
+  // A tent over three entries, in red alone: its peak stands at the middle entry.
+  const auto tent = [](Rgb c) { return Rgb{1 - 2 * std::abs(c.r - 0.5), c.g, c.b}; };
+  CHECK(largestError(render(folder.write("tent.cube", curves(3, 0, 1, tent))), tent) < 1);
+}
+
 TEST_CASE("a table that cannot be used is an error of the graph, before anything runs") {
   const TemporaryFolder folder;
   const auto codesOf = [](const std::string& file) {
@@ -116,5 +144,6 @@ TEST_CASE("a table that cannot be used is an error of the graph, before anything
   CHECK(codesOf("") == "");
   CHECK(codesOf(folder.at("missing.cube")) == "W001 ");
   CHECK(codesOf(folder.write("short.cube", "LUT_3D_SIZE 2\n0 0 0\n")) == "W154 ");
-  CHECK(codesOf(folder.write("curves.cube", "LUT_1D_SIZE 2\n0 0 0\n1 1 1\n")) == "W154 ");
+  CHECK(codesOf(folder.write("curves.cube", "LUT_1D_SIZE 2\n0 0 0\n1 1 1\n")) == "");
+  CHECK(codesOf(folder.write("both.cube", "LUT_1D_SIZE 2\nLUT_3D_SIZE 2\n0 0 0\n1 1 1\n")) == "W154 ");
 }
