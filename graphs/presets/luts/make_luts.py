@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""The colour tables of the presets, from a few lines of arithmetic each.
+
+    make_luts.py            write the .cube files beside this script
+    make_luts.py --check    exit 1 when one of them is not what would be written
+
+Tables work on display-referred, sRGB encoded values, 17 entries along an axis, red fastest. They are looks, made up here;
+none imitates a product. Numbers are rounded to four places, so that any machine writes the same bytes.
+"""
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+SIZE = 17
+WEIGHTS = (0.2126, 0.7152, 0.0722)
+
+
+def clamp(x, low=0.0, high=1.0):
+    return min(max(x, low), high)
+
+
+def mix(a, b, t):
+    return a + (b - a) * t
+
+
+def each(f, color):
+    return tuple(f(c) for c in color)
+
+
+def luma(color, weights=WEIGHTS):
+    return sum(w * c for w, c in zip(weights, color))
+
+
+def saturate(color, amount):
+    grey = luma(color)
+    return each(lambda c: mix(grey, c, amount), color)
+
+
+def s_curve(x, strength):
+    """Between the identity, 0, and 3 x^2 - 2 x^3, 1: darker shadows, brighter highlights, 0.5 and both ends stay."""
+    return mix(x, x * x * (3 - 2 * x), strength)
+
+
+def split_tone(color, shadows, highlights):
+    """Adds one colour to the shadows and another to the highlights; black and white keep their place."""
+    grey = clamp(luma(color))
+    dark, light = grey * (1 - grey) ** 2 * 4, grey * grey * (1 - grey) * 4
+    return tuple(c + dark * s + light * h for c, s, h in zip(color, shadows, highlights))
+
+
+def cinema(color):
+    """Soft contrast, teal shadows, warm highlights, greens held back."""
+    r, g, b = saturate(each(lambda c: s_curve(c, 0.35), color), 0.92)
+    g = mix(g, max(r, b), 0.25 * clamp(g - max(r, b)))
+    r, g, b = split_tone((r, g, b), (-0.035, 0.005, 0.03), (0.03, 0.008, -0.03))
+    return each(lambda c: 0.015 + 0.97 * c, (r, g, b))
+
+
+def warm_negative(color):
+    """A print from colour negative: open shadows with a little green, long warm highlights, milder colours."""
+    color = each(lambda c: mix(c, c ** 0.9, 0.6), saturate(color, 0.88))
+    color = split_tone(color, (-0.01, 0.015, 0.005), (0.045, 0.02, -0.035))
+    return tuple(low + (high - low) * c for c, low, high in zip(color, (0.03, 0.032, 0.04), (0.99, 0.975, 0.93)))
+
+
+def slide(color):
+    """Reversal film: steep, deep blacks with a cool cast, strong colours."""
+    return split_tone(saturate(each(lambda c: s_curve(c ** 1.05, 0.8), color), 1.1), (-0.02, -0.005, 0.03), (0.012, 0.0, -0.008))
+
+
+def black_and_white(color):
+    """Panchromatic film behind a yellow filter: blue skies darken, skin and sand lighten."""
+    grey = s_curve(clamp(luma(color, (0.42, 0.5, 0.08))), 0.5)
+    return (grey, grey, grey)
+
+
+def bleach_bypass(color):
+    """Silver left in the print: a grey picture laid over the coloured one, hard and pale."""
+    grey = luma(color)
+    over = each(lambda c: 2 * c * grey if grey < 0.5 else 1 - 2 * (1 - c) * (1 - grey), color)
+    return saturate(tuple(mix(c, o, 0.75) for c, o in zip(color, over)), 0.6)
+
+
+def day_for_night(color):
+    """A day scene taken for night: dark, blue, most colours gone, highlights dimmed."""
+    r, g, b = saturate(color, 0.45)
+    return each(lambda c: 0.62 * c ** 1.35, (0.7 * r, 0.88 * g, 1.15 * b))
+
+
+TABLES = [cinema, warm_negative, slide, black_and_white, bleach_bypass, day_for_night]
+
+
+def text_of(table):
+    lines = [f'TITLE "{table.__name__}"', f"LUT_3D_SIZE {SIZE}"]
+    steps = [i / (SIZE - 1) for i in range(SIZE)]
+    for b in steps:
+        for g in steps:
+            for r in steps:
+                lines.append(" ".join(f"{clamp(c):.4f}" for c in table((r, g, b))))
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    wrong = 0
+    for table in TABLES:
+        path, text = HERE / f"{table.__name__}.cube", text_of(table)
+        if sys.argv[1:] != ["--check"]:
+            path.write_text(text)
+        elif not path.exists() or path.read_text() != text:
+            print(f"{path} is not what make_luts.py writes")
+            wrong = 1
+    return wrong
+
+
+if __name__ == "__main__":
+    sys.exit(main())

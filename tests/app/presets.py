@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""The presets of graphs/presets: their tables are what make_luts.py writes, and each is a look of its own on the studio.
+
+Usage: presets.py WEFT, from the source folder.
+Each preset passes `check`; renders from another working directory, so that its table is found beside it; differs from the
+picture without preset and from every other one; and is a picture: neither flat, nor mostly black or white.
+"""
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+TOP = pathlib.Path.cwd()
+WEFT = pathlib.Path(sys.argv[1]).resolve()
+PRESETS = sorted((TOP / "graphs/presets").glob("*.json"))
+failures = []
+
+
+def expect(what, held):
+    if not held:
+        failures.append(what)
+        print("FAILED", what)
+
+
+def pixels_of(path):
+    """RGB bytes of an 8-bit PNG without interlacing."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    channels = {2: 3, 6: 4}[color]
+    assert depth == 8
+    raw, stride, rows, before = zlib.decompress(packed), width * channels, [], bytes(width * channels)
+    for y in range(height):
+        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left, up = row[i - channels] if i >= channels else 0, before[i]
+            corner = before[i - channels] if i >= channels else 0
+            if kind == 4:
+                guess = left + up - corner
+                a, b, c = abs(guess - left), abs(guess - up), abs(guess - corner)
+                add = left if a <= b and a <= c else up if b <= c else corner
+            else:
+                add = (0, left, up, (left + up) // 2)[kind]
+            row[i] = (row[i] + add) & 255
+        rows.append(bytes(row))
+        before = bytes(row)
+    return bytes(row[i] for row in rows for i in range(stride) if i % channels < 3)
+
+
+def difference(a, b):
+    return sum(abs(x - y) for x, y in zip(a, b)) / len(a)
+
+
+def main():
+    luts = subprocess.run([sys.executable, TOP / "graphs/presets/luts/make_luts.py", "--check"], capture_output=True, text=True)
+    expect("the tables are what make_luts.py writes: " + luts.stdout, luts.returncode == 0)
+    expect("there are at least eight presets", len(PRESETS) >= 8)
+    pictures = {}
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        for preset in [None, *PRESETS]:
+            name = preset.stem if preset else "no preset"
+            over = ["--preset", preset] if preset else []
+            checked = subprocess.run([WEFT, "check", "graphs/studio.json", *over], cwd=TOP, capture_output=True, text=True)
+            expect(f"{name} passes check\n{checked.stderr}", checked.returncode == 0 and not checked.stderr)
+            image = folder / f"{name}.png"
+            done = subprocess.run([WEFT, "render", TOP / "graphs/studio.json", *over, "--size", "128x72", "--frames", "1:1",
+                                   "--program-cache", folder / "programs", "-o", image], cwd=folder, capture_output=True, text=True)
+            expect(f"{name} renders\n{done.stderr}", done.returncode == 0 and image.exists())
+            if not image.exists():
+                continue
+            pixels = pictures[name] = pixels_of(image)
+            mean = sum(pixels) / len(pixels)
+            spread = sum(abs(p - mean) for p in pixels) / len(pixels)
+            extreme = sum(p in (0, 255) for p in pixels) / len(pixels)
+            print(f"{name}: mean {mean:.0f}, deviation {spread:.0f}, {100 * extreme:.1f} % clipped")
+            expect(f"{name} is a picture", 15 < mean < 240 and spread > 8 and extreme < 0.15)
+    names = list(pictures)
+    for i, a in enumerate(names):
+        for b in names[:i]:
+            expect(f"{a} looks different from {b}", difference(pictures[a], pictures[b]) > 1)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
