@@ -63,6 +63,23 @@ TEST_CASE("owners move, count and delete") {
   CHECK(toText(liveObjects()) == "none");
 }
 
+TEST_CASE("the driver's count sees what no owner knows of") {
+  CleanScope clean;
+  const LiveObjects before = namedObjects();
+  GLuint texture = 0, buffer = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+  glCreateBuffers(1, &buffer);
+  const GLuint program = glCreateProgram();
+  const LiveObjects now = namedObjects();
+  for (const ObjectKind kind : {ObjectKind::texture, ObjectKind::buffer, ObjectKind::program})
+    CHECK(now.of(kind) == before.of(kind) + 1);
+  CHECK(now.total() == before.total() + 3);
+  glDeleteTextures(1, &texture);
+  glDeleteBuffers(1, &buffer);
+  glDeleteProgram(program);
+  CHECK(namedObjects() == before);
+}
+
 TEST_CASE("every target takes an upload and gives it back, level by level and layer by layer") {
   CleanScope clean;
   const TextureDesc descs[] = {
