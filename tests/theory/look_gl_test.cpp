@@ -253,6 +253,7 @@ TEST_CASE("aberration: green stays, red and blue part by the pixels asked for, a
   CHECK(largestDifference(render(plain({0.3, 0.5, 0.2}, {0.3, 0.5, 0.2}, quiet)),
                           render(plain({0.3, 0.5, 0.2}, {0.3, 0.5, 0.2}, on))) < 1.01);
   on.push_back({"encoded", "true"});
+  // Depth is 0 everywhere, so this is the sky.
   const Picture picture = render(plain({0, 0, 0}, {1, 1, 1}, on));
   const double slope = 255.0 / (kWidth - 1);  // steps per pixel
   for (const std::uint32_t x : {24u, 40u, 88u, 104u}) {
