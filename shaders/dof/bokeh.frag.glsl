@@ -42,8 +42,8 @@ float outline(vec2 direction) {
 float samplesTo(int ring) { return 1.0 + 2.5 * float(ring * (ring + 1)); }
 float ringRadius(int ring, float span, float samples) { return ring == 0 ? 0.0 : span * sqrt((1.0 + 2.5 * float(ring * ring)) / samples); }
 
-// Does a disc reach so far? Integrates to its area, pi (disc^2 + 1/12), for radii from a half on.
-float reaches(float disc, float across) { return clamp(disc - across + 0.5, 0.0, 1.0); }
+// Does a disc reach so far? The outermost ring of a disc of this size counts nearly whole, so that small discs are flatter.
+float reaches(float disc, float across) { return clamp(disc - across + 0.65, 0.0, 1.0); }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -62,7 +62,7 @@ void main() {
   int outermost = clamp(int(ceil(0.7 * radius - 0.2)), 0, rings);
   float samples = samplesTo(outermost);
   float level = max(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0), texel = exp2(level);
-  float shared_variance = 4.0 * fillVariance(radius) + 1.333 + 0.667 * texel * texel;
+  float shared_variance = 4.0 * fillVariance(radius) + 1.7 + 0.667 * texel * texel;
   float span = sqrt(max(radius * radius - shared_variance, 0.25)) + 0.5;
   vec3 sum = vec3(0.0);
   float weights = 0.0, area = 0.0;

@@ -22,7 +22,7 @@ float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
 #endif
 
 // Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them.
-float fillVariance(float radius) { return clamp(0.45 * radius - 1.125, 0.0, 2.0 / 3.0); }
+float fillVariance(float radius) { return clamp(0.62 * radius - 1.829, 0.0, 2.0 / 3.0); }
 
 // Weight of the neighbours along an axis in the fill, 0..1.
 float fillWeight(float radius) {
