@@ -29,6 +29,7 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
       world_(std::move(world)),
       settings_(std::move(settings)),
       scenePath_(scenePathOf(options)),
+      sceneChoice_(sceneChoiceOf(options)),
       sceneFiles_(world_.scene().files),
       sceneStale_(world_.scene().cameras.rows().empty()) {
   if (world_.environmentPending())
@@ -98,7 +99,7 @@ bool LiveGraph::tryGraph(const runtime::World& world, base::Diagnostics& diagnos
 
 bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) {
   if (sceneStale_) {
-    auto scene = scene::loadScene(scenePath_, diagnostics, &sceneFiles_);
+    auto scene = scene::loadScene(scenePath_, diagnostics, &sceneFiles_, sceneChoice_);
     if (!scene) return false;
     world.setScene(std::move(*scene));
   }

@@ -14,6 +14,7 @@
 #include "engine/base/file_watcher.h"
 #include "engine/graph/expand.h"
 #include "engine/runtime/renderer.h"
+#include "engine/scene/scene_file.h"
 
 namespace weft::app {
 
@@ -70,6 +71,7 @@ class LiveGraph {
   std::vector<std::pair<std::string, std::string>> lostSets_;
   std::vector<std::string> lostDisables_;
   std::string scenePath_;
+  scene::SceneChoice sceneChoice_;
   LiveEnvironment environment_;
   std::vector<std::string> sceneFiles_;
   base::FileWatcher watcher_;

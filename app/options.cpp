@@ -46,6 +46,8 @@ constexpr const char* kWaitForAssets = "--wait-for-assets";
 void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
   command.add_option("graph", options.graph, "graph file (JSON)")->required();
   command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
+  command.add_option("--camera", options.camera, "camera of the scene to look through (default: its first)");
+  command.add_option("--materials", options.materials, "material library for the scene's grid, instead of the one it names");
   command.add_option("--environment", options.environment, "environment map, .hdr or .exr; for view also a folder of them");
   command.add_option("--size", raw.size, "size of the screen in pixels")->check(CLI::Validator(checkSize, "WxH"));
   command.add_option("--preset", options.presets, "lay an overlay file over the graph, see graphs/presets; repeatable");

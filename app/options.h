@@ -13,6 +13,7 @@ struct Options {
   std::string command;                       // "render", "view", "check", "dot", "plan", "bench", "schema", "types"
   std::string graph;                         // path of the graph file
   std::string scene, environment;            // empty: the bundled spheres, no environment
+  std::string camera, materials;             // of the scene; empty: its first camera, the materials it names
   std::string output;                        // -o
   std::uint32_t width = 1280, height = 720;  // --size
   std::uint32_t firstFrame = 0, lastFrame = 0;

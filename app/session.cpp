@@ -36,19 +36,23 @@ std::string scenePathOf(const Options& options) {
   return options.scene.empty() ? dataFolder() + "/scenes/spheres.json" : options.scene;
 }
 
+scene::SceneChoice sceneChoiceOf(const Options& options) {
+  return {.camera = options.camera, .materials = options.materials};
+}
+
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics) {
   std::optional<scene::Scene> scene;
   std::shared_ptr<const assets::EnvironmentMap> environment;
   if (!options.environment.empty()) {
     assets::Loader loader;  // beside the scene
     const std::uint64_t ticket = loader.request(options.environment);
-    scene = scene::loadScene(scenePathOf(options), diagnostics);
+    scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
     if (auto loaded = loader.wait(ticket)) {
       diagnostics.append(loaded->diagnostics);
       environment = std::move(loaded->map);
     }
   } else {
-    scene = scene::loadScene(scenePathOf(options), diagnostics);
+    scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
   }
   if (!scene || diagnostics.hasErrors()) return std::nullopt;
   runtime::World world(std::move(*scene));

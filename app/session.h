@@ -12,6 +12,7 @@
 #include "engine/graph/expand.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/world.h"
+#include "engine/scene/scene_file.h"
 
 namespace weft::app {
 
@@ -22,6 +23,7 @@ graph::Settings settingsOf(const Options& options, bool software);
 
 // Path of the scene file: the one the options name, or the bundled one.
 std::string scenePathOf(const Options& options);
+scene::SceneChoice sceneChoiceOf(const Options& options);
 
 // The scene and the environment that the options name, read before this returns: what waits for assets.
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);

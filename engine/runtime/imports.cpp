@@ -60,14 +60,21 @@ const std::vector<scene::Instance>& Imports::instancesOf(scene::DrawList list) {
   return cpu.rows;
 }
 
-std::uint64_t Imports::listGeneration(scene::DrawList list) const {
-  const std::uint64_t still = world_->sceneGeneration() << 32;
-  return scene::isMoving(world_->scene(), list) ? still + frames_ : still;
+const Imports::ListFacts& Imports::factsOf(scene::DrawList list) const {
+  ListFacts& facts = lists_[static_cast<std::size_t>(list)];
+  if (facts.scene != world_->sceneGeneration())
+    facts = {.scene = world_->sceneGeneration(),
+             .count = static_cast<std::uint32_t>(scene::countInstances(world_->scene(), list)),
+             .moving = scene::isMoving(world_->scene(), list)};
+  return facts;
 }
 
-std::uint32_t Imports::countOf(scene::DrawList list) const {
-  return static_cast<std::uint32_t>(scene::countInstances(world_->scene(), list));
+std::uint64_t Imports::listGeneration(scene::DrawList list) const {
+  const std::uint64_t still = world_->sceneGeneration() << 32;
+  return factsOf(list).moving ? still + frames_ : still;
 }
+
+std::uint32_t Imports::countOf(scene::DrawList list) const { return factsOf(list).count; }
 
 BufferRef Imports::instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics) {
   Table* table = nullptr;

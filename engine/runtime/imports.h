@@ -74,6 +74,15 @@ class Imports {
     bool stale = true;
     scene::ViewData data;
   };
+  // What is asked of a draw list several times a frame; looking at every sphere each time would cost with a million.
+  struct ListFacts {
+    std::uint64_t scene = 0;  // generation
+    std::uint32_t count = 0;
+    bool moving = false;
+  };
+  const ListFacts& factsOf(scene::DrawList list) const;
+  mutable ListFacts lists_[scene::kDrawListCount];
+
   std::uint64_t listGeneration(scene::DrawList list) const;
   BufferRef order(scene::DrawList list, scene::SortMethod method, base::Diagnostics& diagnostics);
   const std::vector<scene::Instance>& instancesOf(scene::DrawList list);

@@ -41,7 +41,8 @@ glm::dvec3 toDvec3(const std::array<double, 3>& v) {
 
 class Reader {
  public:
-  Reader(const std::string& name, Diagnostics& diagnostics) : name_(name), diagnostics_(diagnostics) {}
+  Reader(const std::string& name, Diagnostics& diagnostics, const SceneChoice& choice)
+      : name_(name), diagnostics_(diagnostics), choice_(choice) {}
 
   std::optional<Scene> read(std::string_view text) {
     const std::size_t errorsBefore = diagnostics_.errorCount();
@@ -53,10 +54,16 @@ class Reader {
     if (const JsonValue* library = fields.find("library")) readLibrary(*library, "'library' of the scene");
     if (const JsonValue* materials = fields.object("materials"))
       for (const JsonMember& member : materials->members) addMaterial(member.key, member.value, member.place);
-    if (const JsonValue* cameras = fields.object("cameras"))
-      for (const JsonMember& member : cameras->members) readCamera(member.key, member.value);
+    const JsonValue* cameras = fields.object("cameras");
+    if (cameras) readCameras(*cameras);
+    if (!choice_.camera.empty() && !findCamera(scene_, choice_.camera))
+      failCamera(cameras ? *cameras : *root);
     if (scene_.cameras.size() == 0) scene_.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
-    if (const JsonValue* grid = fields.find("grid")) readGrid(*grid);
+    const JsonValue* grid = fields.find("grid");
+    if (grid) readGrid(*grid);
+    if (!grid && !choice_.materials.empty())
+      fail(Code::W161, *root,
+           fmt::format("there is no grid to give the materials of '{}' to", choice_.materials));
     if (const JsonValue* spheres = fields.array("spheres"))
       for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
     if (const JsonValue* lights = fields.object("point_lights"))
@@ -92,8 +99,11 @@ class Reader {
   std::vector<MaterialId> readLibrary(const JsonValue& value, const std::string& what) {
     const auto given = base::readText(value, what, diagnostics_);
     if (!given) return {};
-    const std::string path =
-        (std::filesystem::path(name_).parent_path() / *given).lexically_normal().string();
+    return readLibraryFile((std::filesystem::path(name_).parent_path() / *given).lexically_normal().string(),
+                           value);
+  }
+
+  std::vector<MaterialId> readLibraryFile(const std::string& path, const JsonValue& value) {
     if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
     std::vector<MaterialId>& ids = libraries_[path];
     const auto text = base::readFile(path, diagnostics_, Code::W1, value.place);
@@ -177,7 +187,9 @@ class Reader {
     fields.finish();
 
     std::vector<MaterialId> ids;
-    if (materials && materials->is(JsonValue::Type::array)) {
+    if (!choice_.materials.empty()) {
+      ids = readLibraryFile(choice_.materials, value);
+    } else if (materials && materials->is(JsonValue::Type::array)) {
       if (materials->items.empty()) fail(Code::W161, *materials, "the grid names no material");
       for (const JsonValue& item : materials->items)
         ids.push_back(findMaterial(item, "a material of the grid"));
@@ -224,6 +236,21 @@ class Reader {
                             : findMaterial(*material, fmt::format("'material' of {}", what));
     fields.finish();
     scene_.spheres.add(sphere);
+  }
+
+  // The chosen one first.
+  void readCameras(const JsonValue& cameras) {
+    for (const JsonMember& member : cameras.members)
+      if (member.key == choice_.camera) readCamera(member.key, member.value);
+    for (const JsonMember& member : cameras.members)
+      if (member.key != choice_.camera) readCamera(member.key, member.value);
+  }
+
+  void failCamera(const JsonValue& where) {
+    std::vector<std::string> names;
+    for (const Camera& camera : scene_.cameras.rows()) names.push_back(camera.name);
+    fail(Code::W163, where, fmt::format("the scene has no camera '{}'", choice_.camera)).hint =
+        names.empty() ? "name one under \"cameras\"" : base::nearestHint(choice_.camera, names);
   }
 
   void readCamera(const std::string& name, const JsonValue& value) {
@@ -307,6 +334,7 @@ class Reader {
 
   const std::string name_;
   Diagnostics& diagnostics_;
+  const SceneChoice& choice_;
   Scene scene_;
   std::map<std::string, MaterialId> byName_;
   std::map<std::string, std::vector<MaterialId>> libraries_;  // by path
@@ -314,15 +342,17 @@ class Reader {
 
 }  // namespace
 
-std::optional<Scene> readScene(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
-  return Reader(name, diagnostics).read(text);
+std::optional<Scene> readScene(std::string_view text, const std::string& name, Diagnostics& diagnostics,
+                               const SceneChoice& choice) {
+  return Reader(name, diagnostics, choice).read(text);
 }
 
-std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics, std::vector<std::string>* files) {
+std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics,
+                               std::vector<std::string>* files, const SceneChoice& choice) {
   if (files) *files = {path};
   const std::optional<std::string> text = base::readFile(path, diagnostics);
   if (!text) return {};
-  Reader reader(path, diagnostics);
+  Reader reader(path, diagnostics, choice);
   std::optional<Scene> scene = reader.read(*text);
   if (files)
     for (const std::string& library : reader.libraries()) files->push_back(library);

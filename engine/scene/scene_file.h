@@ -1,6 +1,6 @@
 // Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W2..W6 with
-// their place, values out of range as W160, unknown materials as W161, unknown draw lists as W162, and what
-// its material library reports. The format is described in docs/scenes.md.
+// their place, values out of range as W160, unknown materials as W161, unknown draw lists as W162, unknown
+// cameras as W163, and what its material library reports. The format is described in docs/scenes.md.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,19 @@
 
 namespace weft::scene {
 
-// Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that took part
-// or should have, also after errors: what to watch.
+// What is chosen from outside the file. Empty: as the file says.
+struct SceneChoice {
+  std::string camera;  // becomes the first, the default one; unknown: W163
+  std::string
+      materials;  // path of a library that takes the place of the grid's `materials`; without a grid: W161
+};
+
+// Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that
+// took part or should have, also after errors: what to watch.
 std::optional<Scene> loadScene(const std::string& path, base::Diagnostics& diagnostics,
-                               std::vector<std::string>* files = nullptr);
+                               std::vector<std::string>* files = nullptr, const SceneChoice& choice = {});
 // The same for text in memory; paths are relative to the folder of `name`.
-std::optional<Scene> readScene(std::string_view text, const std::string& name,
-                               base::Diagnostics& diagnostics);
+std::optional<Scene> readScene(std::string_view text, const std::string& name, base::Diagnostics& diagnostics,
+                               const SceneChoice& choice = {});
 
 }  // namespace weft::scene

@@ -38,12 +38,12 @@ float equirectLevel(float base_width, float angle) {
   return max(log2(angle * base_width * (0.5 / kPi)), 0.0);
 }
 
-// Linear lookup at a level; `height` is the height of level 0. `turn`: the map's content is moved by this much of a full
-// turn about +Y, from +X towards +Z.
-vec4 sampleEquirect(sampler2D map, vec3 direction, float turn, float level, float height) {
-  vec2 p = equirectUv(direction);
-  float half_texel = 0.5 * exp2(ceil(level)) / height;
-  return textureLod(map, vec2(p.x - turn, clamp(p.y, half_texel, 1.0 - half_texel)), level);
+// Linear lookup at a level; `height` is the height of level 0. u may lie outside 0..1: subtracting part of a turn moves the
+// map's content by it about +Y, from +X towards +Z.
+vec4 sampleEquirect(sampler2D map, vec2 map_uv, float level, float height) {
+  float texels = uintBitsToFloat(uint(127 + int(ceil(level))) << 23);  // exp2 of a whole number: a texel of the coarser level
+  float half_texel = 0.5 * texels / height;
+  return textureLod(map, vec2(map_uv.x, clamp(map_uv.y, half_texel, 1.0 - half_texel)), level);
 }
 
 #endif

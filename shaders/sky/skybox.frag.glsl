@@ -40,14 +40,15 @@ out vec2 velocity;
 void main() {
   vec3 direction = viewRay(uv);
 #ifdef HAS_RADIANCE
+  vec2 at = equirectUv(direction) - vec2(sky_turn, 0.0);
   // The level is constant over the picture, and 0 as long as the map is magnified.
 #ifdef HAS_BLURRED
   vec2 size = vec2(textureSize(blurred, 0));
   float level = max(equirectLevel(size.x, pixelAngle()), blur);
-  radiance = vec4(sampleEquirect(blurred, direction, sky_turn, level, size.y).rgb, 1.0);
+  radiance = vec4(sampleEquirect(blurred, at, level, size.y).rgb, 1.0);
 #else
   vec2 size = vec2(textureSize(sky, 0));
-  radiance = vec4(sampleEquirect(sky, direction, sky_turn, equirectLevel(size.x, pixelAngle()), size.y).rgb, 1.0);
+  radiance = vec4(sampleEquirect(sky, at, equirectLevel(size.x, pixelAngle()), size.y).rgb, 1.0);
 #endif
 #endif
 #ifdef HAS_VELOCITY

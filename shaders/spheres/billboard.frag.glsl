@@ -17,6 +17,7 @@ flat in vec2 anchor_pixel;
 flat in vec2 edge;
 flat in vec4 albedo_roughness;
 flat in vec4 motion_metallic;
+flat in vec3 lobe;
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -69,7 +70,7 @@ void main() {
 #ifdef HAS_RADIANCE
   vec3 mirror = to_world * (v * inversesqrt(vv) + 2.0 * nv * normal_view);
   Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
-  radiance = vec4(shade(surface, to_world * normal_view, mirror, nv) * coverage, coverage);
+  radiance = vec4(shade(surface, to_world * normal_view, mirror, nv, lobe) * coverage, coverage);
 #endif
 #ifdef HAS_VELOCITY
   vec3 hit = eye + to_world * (v * t);

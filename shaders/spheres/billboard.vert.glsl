@@ -3,12 +3,11 @@
 // read    order?   uvec2(key, index) per instance: the instance to draw i-th is element i's index
 #include "common/view.glsl"
 #include "scene/instances.glsl"
+#include "shading.glsl"
 
 #ifdef HAS_ORDER
 layout(std430) readonly buffer order { uvec2 order_element[]; };
 #endif
-
-const float kPi = 3.14159265358979;
 
 flat out vec4 sphere;       // centre in view space, radius
 flat out vec3 anchor;       // slope that pixel offsets count from; z is 1 when it is the centre's, 0 when it is the axis
@@ -16,6 +15,7 @@ flat out vec2 anchor_pixel;
 flat out vec2 edge;         // shift of the silhouette in pixels and factor of the coverage, see below
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
+flat out vec3 lobe;             // see shading.glsl
 
 // Slopes x / -z between the two tangents from the eye to the circle at (x, z = distance in front).
 vec2 slopeBounds(float x, float z, float r) {
@@ -48,6 +48,8 @@ void main() {
   sphere = vec4(c, r);
   albedo_roughness = vec4(self.albedo, self.roughness);
   motion_metallic = vec4(self.center - self.previous_center, self.metallic);
+
+  lobe = lobeOf(self.roughness, pixelAngle() * max(z, 0.0) / r);
 
   vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
   bool in_front = z > r * 1.0001;

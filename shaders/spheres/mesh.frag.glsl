@@ -11,6 +11,7 @@ in vec3 from_eye;
 in vec3 outwards;
 flat in vec4 albedo_roughness;
 flat in vec4 motion_metallic;
+flat in vec3 lobe;
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -24,7 +25,7 @@ void main() {
   vec3 n = normalize(outwards), v = normalize(from_eye);
   float nv = clamp(-dot(n, v), 0.0, 1.0);
   Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
-  radiance = vec4(shade(surface, n, v + 2.0 * nv * n, nv), 1.0);
+  radiance = vec4(shade(surface, n, v + 2.0 * nv * n, nv, lobe), 1.0);
 #endif
 #ifdef HAS_VELOCITY
   vec4 before = previous_view_projection * vec4(eye + from_eye - motion_metallic.xyz, 1.0);

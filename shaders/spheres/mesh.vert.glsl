@@ -1,6 +1,7 @@
 // A triangle mesh of the unit sphere, moved and scaled to each instance. Opaque: no order is needed.
 #include "common/view.glsl"
 #include "scene/instances.glsl"
+#include "shading.glsl"
 
 in vec3 position;
 in vec3 normal;
@@ -9,6 +10,7 @@ out vec3 from_eye;          // world, eye to surface
 out vec3 outwards;          // world, not normalised
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
+flat out vec3 lobe;             // see shading.glsl
 
 void main() {
   Instance self = instance[gl_InstanceID];
@@ -16,5 +18,7 @@ void main() {
   outwards = normal;
   albedo_roughness = vec4(self.albedo, self.roughness);
   motion_metallic = vec4(self.center - self.previous_center, self.metallic);
+  float depth = -(view * vec4(self.center, 1.0)).z;
+  lobe = lobeOf(self.roughness, pixelAngle() * max(depth, 0.0) / self.radius);
   gl_Position = view_projection * vec4(self.center + self.radius * position, 1.0);
 }

@@ -241,6 +241,38 @@ TEST_CASE("a name in both the library and the scene, a broken library, a missing
   CHECK(diagnostics.errorCount() == 2);
 }
 
+TEST_CASE("a camera and a material library chosen from outside the file") {
+  const TemporaryFolder folder;
+  const std::string library =
+      folder.write("m.json", R"([{"name": "x", "albedo": [0.5, 1, 1], "metallic": 0, "roughness": 0}])");
+  const std::string path = folder.write("s.json", R"({
+    "materials": {"a": {"albedo": [1, 0, 0]}},
+    "cameras": {"front": {"position": [0, 0, 9]}, "top": {"position": [0, 9, 0]}, "side": {"position": [9, 0, 0]}},
+    "grid": {"count": [2, 1, 1], "materials": ["a"]}})");
+  base::Diagnostics diagnostics;
+  std::vector<std::string> files;
+  const auto scene = loadScene(path, diagnostics, &files, {.camera = "top", .materials = library});
+  REQUIRE_MESSAGE(scene, diagnostics.text());
+  CHECK(files == std::vector{path, library});
+  CHECK(findCamera(*scene, "")->name == "top");
+  CHECK(scene->cameras.size() == 3);
+  for (const Sphere& sphere : scene->spheres.rows())
+    CHECK(scene->materials.find(sphere.material)->name == "x");
+
+  CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.camera = "tpo"}));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == base::Code::W163);
+  CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");
+  diagnostics.clear();
+  CHECK_FALSE(
+      loadScene(folder.write("e.json", "{}"), diagnostics, nullptr, {.camera = "c", .materials = library}));
+  CHECK(diagnostics.contains(base::Code::W163));
+  CHECK(diagnostics.contains(base::Code::W161));
+  diagnostics.clear();
+  CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.materials = folder.at("missing.json")}));
+  CHECK(diagnostics.contains(base::Code::W1));
+}
+
 TEST_CASE("everything wrong is reported at once") {
   base::Diagnostics diagnostics;
   CHECK_FALSE(readScene(
