@@ -120,7 +120,6 @@ namespace weft::base {
   X(160, "scene value out of range")                                      \
   X(161, "unknown material")                                              \
   X(162, "unknown draw list")                                             \
-  X(163, "unknown camera")                                                \
   /* command line, runtime, outputs */                                    \
   X(180, "output cannot be written")                                        \
   X(181, "slot is not in the shader")                                     \

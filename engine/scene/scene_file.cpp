@@ -249,7 +249,7 @@ class Reader {
   void failCamera(const JsonValue& where) {
     std::vector<std::string> names;
     for (const Camera& camera : scene_.cameras.rows()) names.push_back(camera.name);
-    fail(Code::W163, where, fmt::format("the scene has no camera '{}'", choice_.camera)).hint =
+    fail(Code::W160, where, fmt::format("the scene has no camera '{}'", choice_.camera)).hint =
         names.empty() ? "name one under \"cameras\"" : base::nearestHint(choice_.camera, names);
   }
 

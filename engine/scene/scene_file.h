@@ -1,6 +1,6 @@
 // Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W2..W6 with
-// their place, values out of range as W160, unknown materials as W161, unknown draw lists as W162, unknown
-// cameras as W163, and what its material library reports. The format is described in docs/scenes.md.
+// their place, values out of range and an unknown camera as W160, unknown materials as W161, unknown draw
+// lists as W162, and what its material library reports. The format is described in docs/scenes.md.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace weft::scene {
 
 // What is chosen from outside the file. Empty: as the file says.
 struct SceneChoice {
-  std::string camera;  // becomes the first, the default one; unknown: W163
+  std::string camera;  // becomes the first, the default one; unknown: W160
   std::string
       materials;  // path of a library that takes the place of the grid's `materials`; without a grid: W161
 };

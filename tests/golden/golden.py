@@ -25,6 +25,8 @@ def command(weft, verb, entry):
         line += ["--set", f"{name}={value}"]
     for name in entry.get("disables", []):
         line += ["--disable", name]
+    if entry.get("camera"):
+        line += ["--camera", entry["camera"]]
     if entry.get("environment"):
         line += ["--environment", entry["environment"]]
     return line

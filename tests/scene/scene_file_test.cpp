@@ -261,12 +261,12 @@ TEST_CASE("a camera and a material library chosen from outside the file") {
 
   CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.camera = "tpo"}));
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::W163);
+  CHECK(diagnostics.items()[0].code == base::Code::W160);
   CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");
   diagnostics.clear();
   CHECK_FALSE(
       loadScene(folder.write("e.json", "{}"), diagnostics, nullptr, {.camera = "c", .materials = library}));
-  CHECK(diagnostics.contains(base::Code::W163));
+  CHECK(diagnostics.contains(base::Code::W160));
   CHECK(diagnostics.contains(base::Code::W161));
   diagnostics.clear();
   CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.materials = folder.at("missing.json")}));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <string>
 
 #include "tests/theory/lab.h"
 
@@ -94,7 +95,7 @@ void compare(Setup (*setup)(std::uint32_t, bool, const char*), double factor) {
   for (const char* mode : {"billboard", "icosphere"}) {
     const double with = errorAgainst(fine, draw(setup(1, true, mode))),
                  without = errorAgainst(fine, draw(setup(1, false, mode)));
-    MESSAGE(mode, ": RMS error with anti-aliasing ", with, ", without ", without);
+    MESSAGE(std::string(mode), ": RMS error with anti-aliasing ", with, ", without ", without);
     CHECK(with < factor * without);
   }
 }

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""The front view beside the reference picture: sphere for sphere at the same place, with colours in the same order.
+
+Usage: seed_front.py WEFT. Skipped without ../shared/data/ref. The reference has another tone curve, other filtering and hard
+edges, so pixels are not compared: see docs/seed_front.md.
+"""
+import math
+import pathlib
+import struct
+import sys
+import zlib
+
+from program import SHARED, Report, run, temporary_folder
+
+REF = SHARED / "data/ref"
+WIDTH, HEIGHT = 1280, 720
+DISC = 16      # pixels around a centre whose mean is a sphere's colour
+PATCH = 44     # half the side of the patch that is aligned, 4 to 10 pixels beyond the silhouette
+SHIFT = 4
+
+
+def read_png(path):
+    """Rows of RGB bytes of an 8-bit RGB or RGBA picture without interlacing."""
+    data = path.read_bytes()
+    at, packed, header = 8, b"", None
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            header = struct.unpack(">IIBBBBB", body)
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    width, height, depth, color = header[:4]
+    assert depth == 8 and color in (2, 6)
+    n = 3 if color == 2 else 4
+    raw, stride = zlib.decompress(packed), width * n
+    rows, before = [], bytearray(stride)
+    for y in range(height):
+        kind = raw[y * (stride + 1)]
+        row = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        if kind == 1:
+            for i in range(n, stride):
+                row[i] = (row[i] + row[i - n]) & 255
+        elif kind == 2:
+            row = bytearray((a + b) & 255 for a, b in zip(row, before))
+        elif kind == 3:
+            for i in range(stride):
+                row[i] = (row[i] + ((row[i - n] if i >= n else 0) + before[i]) // 2) & 255
+        elif kind == 4:
+            for i in range(stride):
+                a, b, c = row[i - n] if i >= n else 0, before[i], before[i - n] if i >= n else 0
+                p = a + b - c
+                pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
+                row[i] = (row[i] + (a if pa <= pb and pa <= pc else b if pb <= pc else c)) & 255
+        rows.append(row)
+        before = row
+    return [[tuple(row[x * n:x * n + 3]) for x in range(width)] for row in rows]
+
+
+def centers():
+    """Where the middles of the spheres are: column, row, x, y in pixels; the perspective image of a sphere is not centred
+    on that of its centre."""
+    focal = HEIGHT / 2 / math.tan(math.radians(30))
+    for row in range(10):
+        for column in range(10):
+            x, y, z, r = (column - 4.5) * 2.5, (4.5 - row) * 2.5, 20, 1
+            scale = focal * z / (z * z - r * r)
+            yield column, row, WIDTH / 2 + x * scale, HEIGHT / 2 - y * scale
+
+
+def mean_color(picture, x, y):
+    sums, count = [0, 0, 0], 0
+    for j in range(-DISC, DISC + 1):
+        for i in range(-DISC, DISC + 1):
+            if i * i + j * j > DISC * DISC:
+                continue
+            texel = picture[int(y) + j][int(x) + i]
+            for c in range(3):
+                sums[c] += texel[c]
+            count += 1
+    return [s / count for s in sums]
+
+
+def edges(picture, x, y, reach):
+    """How much neighbours differ, on every second pixel of a square."""
+    out = {}
+    for j in range(-reach, reach + 1):
+        row, below = picture[int(y) + j], picture[int(y) + j + 1]
+        for i in range(-reach, reach + 1):
+            a, b, c = row[int(x) + i], row[int(x) + i + 1], below[int(x) + i]
+            out[i, j] = min(sum(abs(a[k] - b[k]) + abs(a[k] - c[k]) for k in range(3)), 120)
+    return out
+
+
+def best_shift(ours, theirs, x, y):
+    # Only a ring about the silhouette: what is reflected inside differs.
+    ring = [(i, j) for i in range(-PATCH, PATCH + 1, 2) for j in range(-PATCH, PATCH + 1, 2)
+            if 24 <= math.hypot(i, j) <= PATCH]
+    a, b = edges(ours, x, y, PATCH), edges(theirs, x, y, PATCH + SHIFT)
+
+    def likeness(shift):
+        return sum(a[p] * b[p[0] + shift[0], p[1] + shift[1]] for p in ring)
+
+    shifts = [(i, j) for i in range(-SHIFT, SHIFT + 1) for j in range(-SHIFT, SHIFT + 1)]
+    return max(shifts, key=likeness)
+
+
+def ranks(values):
+    order = sorted(range(len(values)), key=lambda i: values[i])
+    out = [0] * len(values)
+    for rank, i in enumerate(order):
+        out[i] = rank
+    return out
+
+
+def correlation(a, b):
+    """Spearman's."""
+    n = len(a)
+    return 1 - 6 * sum((p - q) ** 2 for p, q in zip(ranks(a), ranks(b))) / (n * (n * n - 1))
+
+
+def main():
+    weft, report = sys.argv[1], Report()
+    if not REF.is_dir():
+        report.skip(f"{REF} is not there")
+        report.end()
+    with temporary_folder() as folder:
+        picture = pathlib.Path(folder) / "front.png"
+        done = run(weft, "render", "graphs/studio.json", "--materials", REF / "seed_materials.json", "--environment",
+                   REF / "procedural_env_2k.hdr", "--size", f"{WIDTH}x{HEIGHT}", "--quiet", "-o", picture)
+        report.check(done.code == 0, f"render: exit code {done.code}\n{done.err}")
+        if done.code:
+            report.end()
+        ours = read_png(picture)
+    theirs = read_png(REF / "seed_front_720.png")
+
+    whole = [c for c in centers() if PATCH + SHIFT + 1 < c[3] < HEIGHT - PATCH - SHIFT - 2]
+    report.check(len(whole) == 80, f"{len(whole)} spheres are whole in the picture, expected 80")
+    shifts = [best_shift(ours, theirs, x, y) for _, _, x, y in whole]
+    aligned = sum(max(abs(i), abs(j)) <= 1 for i, j in shifts)
+    print(f"aligned within a pixel: {aligned} of {len(whole)}; others {[(w[:2], s) for w, s in zip(whole, shifts) if max(map(abs, s)) > 1]}")
+    report.check(aligned >= 76, f"only {aligned} of {len(whole)} silhouettes lie within a pixel of the reference's")
+
+    a, b = [mean_color(ours, x, y) for _, _, x, y in whole], [mean_color(theirs, x, y) for _, _, x, y in whole]
+    for name, weights in (("brightness", (0.2126, 0.7152, 0.0722)), ("red against green", (1, -1, 0)), ("blue against green", (0, -1, 1))):
+        value = correlation(*([sum(w * c for w, c in zip(weights, color)) for color in colors] for colors in (a, b)))
+        print(f"{name}: rank correlation {value:.3f}")
+        report.check(value > 0.9, f"{name} of the spheres: rank correlation {value:.3f}")
+    report.end()
+
+
+main()
