@@ -156,3 +156,26 @@ TEST_CASE(
   wanted.run(1);
   CHECK(sky.pixels() == wanted.pixels());
 }
+
+TEST_CASE("the stand-in for an environment has all its levels") {
+  context();
+  const CleanScope scope;
+  Stage stage("graphs/glow.json", 32, 18);
+  REQUIRE(stage.load());
+  stage.run(0);
+  graph::ImportSpec import;
+  import.request.type = "environment";
+  const gl::TextureRef texture = stage.renderer().device().imports.texture(import, stage.diagnostics);
+  REQUIRE(texture.desc.mips == 11);
+  const auto meanOf = [](const std::vector<float>& texels) {
+    double sum = 0;
+    for (std::size_t i = 0; i < texels.size(); i += 4)
+      sum += static_cast<double>(texels[i] + texels[i + 1] + texels[i + 2]);
+    return sum * 4 / static_cast<double>(texels.size());
+  };
+  const auto levels = levelsOf(texture);
+  for (const auto& level : levels) {
+    CAPTURE(level.size());
+    CHECK(meanOf(level) == doctest::Approx(meanOf(levels[0])).epsilon(0.02));
+  }
+}
