@@ -12,7 +12,8 @@ void drawLoading(const LiveEnvironment& environment) {
   if (!status) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const float width = std::min(420.0f * ImGui::GetIO().FontGlobalScale, screen.x - 16);
-  ImGui::SetNextWindowPos({screen.x * 0.5f, 8}, ImGuiCond_Always, {0.5f, 0});
+  // Between the panels, which end at three quarters, and the log.
+  ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.8f - 12}, ImGuiCond_Always, {0.5f, 1});
   ImGui::SetNextWindowSize({width, 0}, ImGuiCond_Always);
   ImGui::Begin("Loading", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
