@@ -19,6 +19,7 @@ Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& optio
   steps::linkVersions(g, scratch);
   steps::findLive(g, plan, scratch);
   steps::orderPasses(g, options.orderSeed, plan, scratch);
+  steps::findJobs(g, plan);
   steps::findLifetimes(g, plan, scratch);
   steps::placeStorage(g, options.share, plan, scratch);
   if (scratch.anyStore) steps::placeBarriers(g, plan, scratch);

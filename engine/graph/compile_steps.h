@@ -14,6 +14,8 @@ void linkVersions(const FlatGraph& graph, CompileScratch& scratch);
 void findLive(const FlatGraph& graph, Plan& plan, CompileScratch& scratch);
 // Plan::steps, stepOf: declared order of the live passes, or a random legal one
 void orderPasses(const FlatGraph& graph, std::uint64_t seed, Plan& plan, const CompileScratch& scratch);
+// jobs
+void findJobs(const FlatGraph& graph, Plan& plan);
 // firstStep, lastStep, persistent, clears, outputLive, bytesBound, and births
 void findLifetimes(const FlatGraph& graph, Plan& plan, CompileScratch& scratch);
 // storages, storageOf, bufferOffsetOf, arenaBytes, bytes

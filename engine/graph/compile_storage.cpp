@@ -172,7 +172,7 @@ class Placer {
     const std::uint8_t flags = scratch_.flags[index];
     if ((flags & Scratch::kImported) != 0) return;
     const FlatResource& r = graph_.resources[index];
-    const std::uint64_t bytes = r.bytes * (std::uint64_t{r.history} + 1);
+    const std::uint64_t bytes = r.bytes * std::uint64_t{plan_.copiesOf(index)};
     plan_.bytesDeclared += bytes;
     if ((flags & Scratch::kPersistent) != 0) {
       plan_.bytesAllocated += bytes;
@@ -221,7 +221,7 @@ class Placer {
     storage.depth = r.depth;
     storage.viewClass = infoOf(r.format).viewClass;
     storage.format = r.format;
-    storage.copies = static_cast<std::uint8_t>(r.history + 1);
+    storage.copies = static_cast<std::uint8_t>(plan_.copiesOf(index));
     storage.bytes = bytes;
     plan_.storages.push_back(storage);
     return plan_.storages.back();

@@ -69,6 +69,9 @@ std::string dumpJson(const Plan& plan, bool explain) {
     ordered_json s;
     s["pass"] = graph.passNames[step.pass];
     s["update"] = nameOf(pass.cadence);
+    if (pass.group != kNone && pass.group < graph.groupNames.size())
+      s["group"] = graph.groupNames[pass.group];
+    if (pass.slices != 1) s["slices"] = pass.slices;
     s["barriers"] = bitsJson(step.barriers);
     s["clears"] = ordered_json::array();
     for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c)
@@ -131,6 +134,7 @@ std::string dumpJson(const Plan& plan, bool explain) {
       j["size"] = {resource.width, resource.height};
     }
     if (resource.history > 0) j["history"] = resource.history;
+    if (plan.copiesOf(r) > 1) j["copies"] = plan.copiesOf(r);
     if (plan.firstStep[r] != kNone) j["steps"] = lifeJson(plan, r);
     if (plan.storageOf[r] != kNone) j["storage"] = plan.storageOf[r];
     if (plan.bufferOffsetOf[r] != Plan::kNoOffset) j["offset"] = plan.bufferOffsetOf[r];

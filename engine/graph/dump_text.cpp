@@ -193,9 +193,8 @@ class Writer {
       if (plan_.bufferOffsetOf[r] != Plan::kNoOffset)
         text += " offset " + std::to_string(plan_.bufferOffsetOf[r]);
       else
-        text += " persistent" + (graph_.resources[r].history > 0
-                                     ? " copies " + std::to_string(graph_.resources[r].history + 1)
-                                     : std::string());
+        text += " persistent" +
+                (plan_.copiesOf(r) > 1 ? " copies " + std::to_string(plan_.copiesOf(r)) : std::string());
       line(1, text + " bytes " + std::to_string(graph_.resources[r].bytes));
       if (explainer_) line(2, "why " + explainer_->whyStorage(r));
     }

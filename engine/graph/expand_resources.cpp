@@ -334,7 +334,8 @@ std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind,
   auto& imports = model.graph.imports;
   for (std::uint32_t i = 0; i < imports.size(); ++i)
     if (imports[i].request == request) return i;
-  imports.push_back({std::move(request), kind, name});
+  const ImportType* type = findImportType(model.registry, request.type);
+  imports.push_back({std::move(request), kind, name, type && type->instances});
   model.importResource.push_back(kNone);
   return static_cast<std::uint32_t>(imports.size() - 1);
 }

@@ -133,6 +133,9 @@ std::string Explainer::whyStorage(std::uint32_t resource) const {
   if (isImported(r)) return "imported";
   if (plan_.firstStep[resource] == kNone) return "none: no live pass touches it";
   if (plan_.persistent[resource] != 0) {
+    if (plan_.jobs.spreadWriterOf(resource) != kNone)
+      return "its own: written over several frames beside what was published, it needs " +
+             std::to_string(plan_.copiesOf(resource)) + " copies";
     if (r.history > 0)
       return "its own: history of " + std::to_string(r.history) + " needs " + std::to_string(r.history + 1) +
              " copies";
@@ -167,7 +170,9 @@ bool Explainer::touchesSameMemory(const Touch& a, std::int64_t frameA, const Tou
     return plan_.bufferOffsetOf[ra] < plan_.bufferOffsetOf[rb] + std::max<std::uint64_t>(1, y.bytes) &&
            plan_.bufferOffsetOf[rb] < plan_.bufferOffsetOf[ra] + std::max<std::uint64_t>(1, x.bytes);
   if (ra == rb) {
-    if (((frameA - a.use.history) - (frameB - b.use.history)) % (x.history + 1) != 0) return false;
+    if (plan_.jobs.spreadWriterOf(ra) == kNone &&
+        ((frameA - a.use.history) - (frameB - b.use.history)) % (x.history + 1) != 0)
+      return false;
   } else if (plan_.storageOf[ra] == kNone || plan_.storageOf[ra] != plan_.storageOf[rb]) {
     return false;
   }

@@ -121,6 +121,7 @@ struct ImportSpec {
   ImportRequest request;
   ImportKind kind = ImportKind::texture;
   std::string name;               // resource name in the graph, or "@environment"
+  bool instances = false;         // as ImportType::instances
 };
 
 struct ParameterSpec {

@@ -56,8 +56,9 @@ enum class Mode : std::uint8_t {
   ignored,  // nothing ever stores to its storage: no hazard can touch it
   single,   // one cell
   multi,    // one cell per sub-resource
-  history,  // two rows of cells: the current copy, and the oldest one
-  arena,    // one cell, which takes over what earlier owners of its bytes left
+  history,  // two rows of cells: the current copy, and the oldest one. Not for what a spread job writes: when
+            // its copies change places is unknown, so all of them count as one
+  arena,  // one cell, which takes over what earlier owners of its bytes left
 };
 
 struct Track {
@@ -104,10 +105,10 @@ class Collector {
       if (arena ? !arenaStored : (flags & Scratch::kStored) == 0) continue;
       const std::uint32_t cells =
           (flags & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
-      track.mode = arena                               ? Mode::arena
-                   : (flags & Scratch::kHistory) != 0  ? Mode::history
-                   : (flags & Scratch::kGranular) != 0 ? Mode::multi
-                                                       : Mode::single;
+      track.mode = arena                                                                       ? Mode::arena
+                   : (flags & Scratch::kHistory) != 0 && plan_.jobs.spreadWriterOf(r) == kNone ? Mode::history
+                   : (flags & Scratch::kGranular) != 0                                         ? Mode::multi
+                                                                                               : Mode::single;
       if (arena) anyArena_ = true;
       if (track.mode == Mode::history) histories_.push_back(r);
       if (storage != kNone && storageBase[storage] != kNone) {

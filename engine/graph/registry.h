@@ -29,6 +29,10 @@ struct PassType {
   Kind defaultWriteTexture = Kind::color;   // a depth format becomes Kind::depth when this is color
   std::vector<std::string> keys;            // pass keys it takes besides those every pass takes: "threads", "list", …
   std::vector<FixedSlot> fixedSlots;        // empty: slots are the author's
+  // Of types without a shader. `framebuffers`: its slots are bound as framebuffers, as a blit needs.
+  // `fromSource`: the view of what it writes begins at the level it reads, and its GL command fetches,
+  // renders or copies as the driver likes.
+  bool framebuffers = false, fromSource = false;
 };
 
 enum class ImportKind : std::uint8_t { texture, buffer, view, list, event };
@@ -45,6 +49,7 @@ struct ImportType {
   ImportKind kind = ImportKind::texture;
   std::string doc;
   std::vector<ImportArgument> arguments;
+  bool instances = false;  // of buffers: rows of a draw list, laid out as the reading shader's block says
 };
 
 // An import with its arguments evaluated. Two requests with equal type and arguments are one import.

@@ -27,6 +27,8 @@ class Preparer {
     out_.type = c_.types.find(spec_.type);
     out_.context.spec = &spec_;
     const graph::PassType type = out_.type->reflect();
+    out_.framebuffers = type.framebuffers;
+    out_.fromSource = type.fromSource;
     collectUses();
     if (type.shader == graph::ShaderShape::none) {
       out_.usable = bindFixed();
@@ -205,7 +207,7 @@ class Preparer {
     for (const auto& [slot, use] : uses) {
       const bool from = slot->access == Access::read;
       FlatUse span = use;
-      if (!from && spec_.type == "mipmap") {  // one view from the source level to the last one written
+      if (!from && out_.fromSource) {  // one view from the source level to the last one written
         for (const auto& [other, source] : uses)
           if (other->access == Access::read) span.mip = source.mip;
         span.mips = static_cast<std::uint16_t>(use.mip + use.mips - span.mip);

@@ -87,6 +87,7 @@ struct PreparedPass {
   std::vector<std::uint32_t> written, read;     // resources (attached writes; reads)
   std::uint32_t width = 0, height = 0;          // of the attachments
   bool feedback = false;
+  bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;                                // scene::DrawList whose rows are the instances of a draw; -1: none
   // uniform bytes live in one shared buffer; offsets are aligned, size 0: the program has no such block
   const gl::Block* parametersBlock = nullptr;

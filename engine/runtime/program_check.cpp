@@ -268,7 +268,7 @@ class Checker {
 
 bool isInstanceTable(const FlatGraph& graph, const FlatUse& use) {
   const std::uint32_t import = graph.resources[use.resource].import;
-  return import != graph::kNone && graph.imports[import].request.type == "spheres";
+  return import != graph::kNone && graph.imports[import].instances;
 }
 
 gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,

@@ -31,8 +31,8 @@ bool hasHistoryWithoutAlwaysWriter(const Plan& plan) {
 
 // How often the graphs reach the interesting cases.
 struct Coverage {
-  std::size_t shared = 0, overlapping = 0, histories = 0, persistent = 0, splitClears = 0, feedback = 0,
-              parts = 0;
+  std::size_t spread = 0, shared = 0, overlapping = 0, histories = 0, persistent = 0, splitClears = 0,
+              feedback = 0, parts = 0;
 
   void add(const Plan& plan) {
     const FlatGraph& graph = *plan.graph;
@@ -40,6 +40,7 @@ struct Coverage {
     std::uint64_t buffers = 0;
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
       if (plan.firstStep[r] == kNone) continue;
+      spread += plan.copiesOf(r) > graph.resources[r].history + 1u ? 1 : 0;
       histories += graph.resources[r].history > 0 ? 1 : 0;
       persistent += plan.persistent[r];
       if (plan.bufferOffsetOf[r] != Plan::kNoOffset) buffers += (graph.resources[r].bytes + 255) / 256 * 256;
@@ -59,21 +60,22 @@ struct Coverage {
 TEST_CASE("the random graphs reach every kind of case") {
   Coverage c;
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) c.add(randomGraph(seed).compiled());
-  MESSAGE("shared " << c.shared << ", overlapping arenas " << c.overlapping << ", histories " << c.histories
-                    << ", persistent " << c.persistent << ", split clears " << c.splitClears << ", feedback "
-                    << c.feedback << ", parts " << c.parts);
+  MESSAGE("spread " << c.spread << ", shared " << c.shared << ", overlapping arenas " << c.overlapping
+                    << ", histories " << c.histories << ", persistent " << c.persistent << ", split clears "
+                    << c.splitClears << ", feedback " << c.feedback << ", parts " << c.parts);
   for (const std::size_t n :
-       {c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
+       {c.spread, c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
     CHECK(n > kGraphs / 25);
 }
 
 TEST_CASE("no hazard is left under any cadence, and no bit is to spare") {
-  std::size_t bits = 0, steps = 0, byCadenceOnly = 0, failures = 0;
+  std::size_t bits = 0, steps = 0, byCadenceOnly = 0, bySpread = 0, failures = 0;
   const auto judge = [&](const Plan& plan, std::uint64_t seed, std::size_t samples, const char* how) {
     const oracle::Verdict verdict = oracle::judgeBarriers(plan, seed, samples);
     bits += verdict.bits;
     steps += plan.steps.size();
     byCadenceOnly += verdict.byCadenceOnly;
+    bySpread += verdict.bySpread;
     const bool excused = verdict.byCadenceOnly == 0 || hasHistoryWithoutAlwaysWriter(plan);
     if ((!verdict.complaint.empty() || !excused) && ++failures < 10)
       FAIL_CHECK("graph " << seed << how << ": " << verdict.complaint);
@@ -86,9 +88,10 @@ TEST_CASE("no hazard is left under any cadence, and no bit is to spare") {
   }
   CHECK(failures == 0);
   MESSAGE(kGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly
-                  << " by cadence only");
+                  << " by cadence only, " << bySpread << " for spread jobs alone");
   CHECK(bits > kGraphs * 8);  // the graphs do need barriers
   CHECK(byCadenceOnly * 1000 < bits);
+  CHECK(bySpread * 50 < bits);
 }
 
 TEST_CASE("liveness, order and storage agree with slow second opinions") {

@@ -136,7 +136,7 @@ class Replay {
         if (runs[step.pass]) {
           for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c) {
             begin("clear before " + name, frame);
-            touch(plan_.clears[c].use, Op::clear, false);
+            touch(plan_.clears[c].use, Op::clear, false, step.pass);
             if (std::string found = commit(); !found.empty()) return found;
           }
         }
@@ -148,27 +148,29 @@ class Replay {
           if (plan_.attached[u] == 0) continue;
           const FlatUse& use = graph_.uses[u];
           const Op op = opOf(use, isBuffer(graph_.resources[use.resource]));
-          touch(use, op, use.access != Access::read && (op == Op::image || op == Op::storage));
+          touch(use, op, use.access != Access::read && (op == Op::image || op == Op::storage), step.pass);
           // Texture barriers order rendering with fetches of it, not shader stores with fetches.
-          if (use.feedback) touch(use, Op::texture_fetch, false);
+          if (use.feedback) touch(use, Op::texture_fetch, false, step.pass);
         }
         if (std::string found = commit(); !found.empty()) return found;
       }
       barrier(plan_.finalBarriers);
       begin("the end of the frame", frame);
       if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone)
-        touch(graph_.present, Op::blit, false);
+        touch(graph_.present, Op::blit, false, kNone);
       for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
         if (plan_.outputLive[i] != 0)
           touch(graph_.outputs[i],
-                isBuffer(graph_.resources[graph_.outputs[i].resource]) ? Op::buffer_copy : Op::blit, false);
+                isBuffer(graph_.resources[graph_.outputs[i].resource]) ? Op::buffer_copy : Op::blit, false,
+                kNone);
       if (std::string found = commit(); !found.empty()) return found;
     }
     return "";
   }
 
  private:
-  // x becomes x@-1 at the start of every frame in which a writer of x runs.
+  // x becomes x@-1 at the start of every frame in which a writer of x runs; of a spread job, in which it
+  // publishes.
   void rotate(const std::vector<bool>& runs) {
     std::vector<bool> rotates(graph_.resources.size(), false);
     for (const Step& step : plan_.steps) {
@@ -178,8 +180,10 @@ class Replay {
         if (plan_.attached[u] != 0 && graph_.uses[u].access != Access::read)
           rotates[graph_.uses[u].resource] = true;
     }
-    for (std::size_t r = 0; r < rotates.size(); ++r)
-      if (rotates[r]) ++published_[r];
+    for (std::uint32_t r = 0; r < rotates.size(); ++r) {
+      const std::uint32_t job = plan_.jobs.spreadWriterOf(r);
+      if (job == kNone ? rotates[r] : runs[graph_.passes.size() + job]) ++published_[r];
+    }
   }
 
   void barrier(std::uint16_t mask) {
@@ -195,10 +199,14 @@ class Replay {
     ++clock_;
   }
 
-  void touch(const FlatUse& use, Op op, bool store) {
+  // Passes of a spread job see the copy that is being written, one ahead of the latest publication.
+  void touch(const FlatUse& use, Op op, bool store, std::uint32_t pass) {
     const FlatResource& r = graph_.resources[use.resource];
-    const std::uint32_t copies = r.history + 1u;
-    const auto copy = static_cast<std::uint32_t>((published_[use.resource] + copies - use.history) % copies);
+    const std::uint32_t job = plan_.jobs.spreadWriterOf(use.resource);
+    const std::uint32_t copies = r.history + (job == kNone ? 1u : 2u);
+    const bool inside = job != kNone && pass != kNone && plan_.jobs.jobOf(pass) == job;
+    const auto copy = static_cast<std::uint32_t>(
+        (published_[use.resource] + (inside ? 1 : 0) + copies - use.history) % copies);
     const auto visit = [&](const Unit& unit) {
       const Past& past = memory_[unit];
       const std::uint32_t see = bitToSeeShaderWrites(op, isBuffer(r));
@@ -261,7 +269,8 @@ std::string findHazard(const Plan& plan, const Schedule& schedule) {
 Schedule everythingRuns(const Plan& plan) {
   std::size_t deepest = 0;
   for (const FlatResource& r : plan.graph->resources) deepest = std::max<std::size_t>(deepest, r.history);
-  return Schedule(3 + 2 * deepest, std::vector<bool>(plan.graph->passes.size(), true));
+  return Schedule(3 + 2 * deepest,
+                  std::vector<bool>(plan.graph->passes.size() + plan.jobs.spread.size(), true));
 }
 
 std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std::size_t samples) {
@@ -275,13 +284,16 @@ std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std
   std::mt19937_64 random(seed);
   std::vector<Schedule> schedules;
   for (std::size_t i = 0; i < count; ++i) {
-    Schedule schedule(frames, std::vector<bool>(graph.passes.size(), true));
+    Schedule schedule(frames, std::vector<bool>(graph.passes.size() + plan.jobs.spread.size(), true));
     std::size_t k = 0;
     for (auto& frame : schedule)
       for (const std::uint32_t p : optional) {
         frame[p] = all ? (i >> k & 1) != 0 : (random() & 1) != 0;
         ++k;
       }
+    for (auto& frame : schedule)
+      for (std::size_t job = 0; job < plan.jobs.spread.size(); ++job)
+        frame[graph.passes.size() + job] = (random() & 1) != 0;
     schedules.push_back(std::move(schedule));
   }
   return schedules;
@@ -322,6 +334,10 @@ Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples)
   for (const Plan& mutant : withoutOneBit(plan)) {
     ++verdict.bits;
     if (!findHazard(mutant, full).empty()) continue;
+    if (!plan.jobs.ofResource.empty()) {
+      ++verdict.bySpread;
+      continue;
+    }
     if (!hazardUnderCadence(mutant).empty()) {
       ++verdict.byCadenceOnly;
       continue;

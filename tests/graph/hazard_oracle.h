@@ -12,7 +12,8 @@
 
 namespace weft::graph::oracle {
 
-// One flag per frame and pass: does it run? Indexed [frame][pass].
+// One flag per frame and pass: does it run? Indexed [frame][pass]; behind the passes one flag per job: what
+// it wrote over the frames before is published at the start of this one.
 using Schedule = std::vector<std::vector<bool>>;
 
 // The first hazard of the replay in words, or "".
@@ -29,10 +30,13 @@ struct Verdict {
   std::string complaint;  // "" when there is no hazard under any schedule and no bit is to spare
   std::size_t bits = 0;   // of the plan
   std::size_t byCadenceOnly =
-      0;  // bits that can be dropped while everything runs, but not under some cadence
+      0;                     // bits that can be dropped while everything runs, but not under some cadence
+  std::size_t bySpread = 0;  // of plans with spread jobs, whose copies the compiler takes for one: bits that
+                             // can be dropped while everything runs and publishes
 };
 
-// A bit is to spare when dropping it leaves no hazard under any of the schedules.
+// A bit is to spare when dropping it leaves no hazard under any of the schedules; a complaint unless a job is
+// spread.
 Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples = 64);
 
 // All single bits of the plan: each entry is the plan with one of them dropped.

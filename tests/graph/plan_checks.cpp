@@ -74,6 +74,49 @@ std::string checkLiveness(const Plan& plan) {
   return "";
 }
 
+// What a pass in slices writes, or any pass that must publish with it: by closure, one pass after the other.
+static std::vector<char> spreadResources(const Plan& plan) {
+  const FlatGraph& graph = *plan.graph;
+  const auto writes = [&](std::uint32_t p, std::uint32_t r) {
+    for (std::uint32_t u = graph.passes[p].firstUse; u < graph.passes[p].firstUse + graph.passes[p].useCount;
+         ++u)
+      if (plan.attached[u] != 0 && graph.uses[u].resource == r && graph.uses[u].access != Access::read)
+        return true;
+    return false;
+  };
+  const auto together = [&](std::uint32_t p, std::uint32_t q) {
+    if (graph.passes[p].group != kNone && graph.passes[p].group == graph.passes[q].group) return true;
+    for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
+      if (!writes(p, r) || !writes(q, r)) continue;
+      bool joint = graph.resources[r].history > 0;
+      for (std::uint32_t w = 0; w < graph.passes.size(); ++w) {
+        if (plan.stepOf[w] == kNone || !writes(w, r)) continue;
+        const FlatPass& pass = graph.passes[w];
+        joint = joint || (pass.cadence != Cadence::always && (pass.group != kNone || pass.slices != 1));
+        for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+          joint = joint || (plan.attached[u] != 0 && graph.uses[u].resource == r &&
+                            graph.uses[u].access == Access::modify);
+      }
+      if (joint) return true;
+    }
+    return false;
+  };
+  std::vector<std::uint32_t> members;
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+    if (plan.stepOf[p] != kNone && graph.passes[p].cadence != Cadence::always && graph.passes[p].slices > 1)
+      members.push_back(p);
+  for (std::size_t i = 0; i < members.size(); ++i)
+    for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+      if (plan.stepOf[p] != kNone && graph.passes[p].cadence != Cadence::always &&
+          std::ranges::find(members, p) == members.end() && together(p, members[i]))
+        members.push_back(p);
+  std::vector<char> spread(graph.resources.size(), 0);
+  for (const std::uint32_t p : members)
+    for (std::uint32_t r = 0; r < graph.resources.size(); ++r)
+      if (writes(p, r)) spread[r] = 1;
+  return spread;
+}
+
 std::string checkStorage(const Plan& plan) {
   const FlatGraph& graph = *plan.graph;
   const std::size_t count = graph.resources.size(), steps = plan.steps.size();
@@ -100,6 +143,7 @@ std::string checkStorage(const Plan& plan) {
   for (std::size_t i = 0; i < graph.outputs.size(); ++i)
     if (plan.outputLive[i] != 0) touch(graph.outputs[i].resource, steps);
 
+  const std::vector<char> spread = spreadResources(plan);
   using Class = std::tuple<int, std::uint32_t, std::uint32_t, std::uint32_t, int, int, int, int>;
   const auto classOf = [&](const FlatResource& r) {
     const int family = r.target == Target::texture_3d               ? 1
@@ -121,8 +165,9 @@ std::string checkStorage(const Plan& plan) {
     if (plan.firstStep[r] != life[r].first || plan.lastStep[r] != life[r].second)
       return name + " has a wrong lifetime";
     if ((plan.persistent[r] != 0) != mine) return name + " is persistent or not, wrongly";
-    declared += resource.bytes * (resource.history + 1u);
-    if (mine) fixed += resource.bytes * (resource.history + 1u);
+    const std::uint32_t copies = resource.history + (spread[r] != 0 ? 2u : 1u);
+    declared += resource.bytes * copies;
+    if (mine) fixed += resource.bytes * copies;
     if (isBuffer(resource)) {
       if ((plan.bufferOffsetOf[r] != Plan::kNoOffset) == mine)
         return name + " is in the arena or not, wrongly";
@@ -133,7 +178,7 @@ std::string checkStorage(const Plan& plan) {
       const Storage& storage = plan.storages[plan.storageOf[r]];
       if (storage.width != resource.width || storage.height != resource.height ||
           storage.layers != resource.layers || storage.mips != resource.mips ||
-          storage.viewClass != infoOf(resource.format).viewClass || storage.copies != resource.history + 1 ||
+          storage.viewClass != infoOf(resource.format).viewClass || storage.copies != copies ||
           storage.persistent != mine)
         return name + " has a storage of another class";
       if (!mine) bytes[classOf(resource)] = resource.bytes;

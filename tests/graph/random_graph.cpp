@@ -16,6 +16,7 @@ class Generator {
     const std::size_t passes = 2 + pick(20), resources = streaming_ ? 8 + pick(24) : 3 + pick(12);
     histories_ = chance(streaming_ ? 15 : 40);
     cadences_ = chance(streaming_ ? 15 : 40);
+    slices_ = cadences_ && chance(50);
     clears_ = chance(50);
     const bool compute = chance(85);
     for (std::size_t i = 0; i < resources; ++i) addResource(i);
@@ -120,6 +121,11 @@ class Generator {
   void addPass(std::size_t p, bool compute) {
     constexpr Cadence cadences[] = {Cadence::once, Cadence::on_change};
     b_.pass("p" + std::to_string(p), cadences_ && chance(35) ? cadences[pick(2)] : Cadence::always);
+    FlatPass& pass = b_.graph.passes.back();
+    if (pass.cadence != Cadence::always && slices_) {
+      if (chance(40)) pass.slices = static_cast<std::uint32_t>(2 + pick(3));
+      if (chance(30)) pass.group = static_cast<std::uint32_t>(pick(2));
+    }
     if (chance(8)) b_.sideEffect();
     for (auto& cells : locked_) std::fill(cells.begin(), cells.end(), 0);
     for (std::size_t i = 2 + pick(6); i > 0; --i) addRead(compute);
@@ -179,7 +185,7 @@ class Generator {
   std::mt19937_64 random_;
   FlatBuilder b_;
   std::size_t front_ = 0;  // resources below it have had their turn to be written
-  bool streaming_ = false, histories_ = false, cadences_ = false, clears_ = false;
+  bool streaming_ = false, histories_ = false, cadences_ = false, slices_ = false, clears_ = false;
   std::vector<std::vector<char>> versions_, locked_;  // per resource and sub-resource
   // versions: 0 none, 1 version zero, 2 written; locked by the pass being made: 1 read, 2 written
 };

@@ -9,7 +9,8 @@ graph::PassType Blit::reflect() const {
           .defaultReadTexture = graph::Kind::copy,
           .defaultWriteTexture = graph::Kind::copy,
           .fixedSlots = {{"source", graph::Access::read, "the level and layer to copy from"},
-                         {"destination", graph::Access::write, "the level and layer to copy to"}}};
+                         {"destination", graph::Access::write, "the level and layer to copy to"}},
+          .framebuffers = true};
 }
 
 void Blit::execute(const PassContext& context) const {

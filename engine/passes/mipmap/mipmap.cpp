@@ -10,7 +10,8 @@ graph::PassType Mipmap::reflect() const {
           .defaultReadTexture = graph::Kind::copy,
           .defaultWriteTexture = graph::Kind::copy,
           .fixedSlots = {{"source", graph::Access::read, "the finest level, already written"},
-                         {"result", graph::Access::write, "the levels below it"}}};
+                         {"result", graph::Access::write, "the levels below it"}},
+          .fromSource = true};
 }
 
 // The executor hands over one view that starts at the source level and ends at the last level written.

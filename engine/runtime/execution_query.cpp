@@ -1,0 +1,65 @@
+// What an execution shows to the outside: resources by name, the presented picture.
+#include "engine/runtime/execution.h"
+
+namespace weft::runtime {
+
+using graph::FlatUse;
+using graph::kNone;
+
+std::uint32_t Execution::lastVersionOf(std::string_view name) const {
+  std::uint32_t found = kNone;
+  const auto& names = plan_->graph->resourceNames;
+  for (std::uint32_t r = 0; r < names.size(); ++r) {
+    const std::string_view each = names[r];
+    const bool version =
+        each == name || (each.starts_with(name) && each.size() > name.size() && each[name.size()] == '#');
+    if (version && plan_->firstStep[r] != kNone) found = r;
+  }
+  return found;
+}
+
+gl::TextureRef Execution::texture(std::string_view name) {
+  const std::uint32_t r = lastVersionOf(name);
+  return r == kNone ? gl::TextureRef{} : texture(r);
+}
+
+gl::TextureRef Execution::texture(std::uint32_t r) {
+  base::Diagnostics ignored;
+  const graph::FlatResource& desc = plan_->graph->resources[r];
+  const FlatUse all{.resource = r, .mips = desc.mips, .layers = desc.layers};
+  return pool_->view(*plan_, all, (*pool_)[r].copyOf(0), 0, ignored);
+}
+
+BufferRef Execution::buffer(std::string_view name, std::uint64_t& offset) {
+  const std::uint32_t r = lastVersionOf(name);
+  if (r == kNone || (*pool_)[r].buffers.empty()) return {};
+  const GpuResource& resource = (*pool_)[r];
+  offset = resource.offset;
+  return {resource.buffers[resource.copyOf(0)], resource.bytes};
+}
+
+gl::TextureRef Execution::presented() {
+  const FlatUse& use = plan_->graph->present;
+  if (use.resource == kNone) return {};
+  base::Diagnostics ignored;
+  return pool_->view(*plan_, use, (*pool_)[use.resource].copyOf(0), GL_TEXTURE_2D, ignored);
+}
+
+gl::TextureRef Execution::presentedWhole() {
+  FlatUse all = plan_->graph->present;
+  if (all.resource == kNone) return {};
+  const graph::FlatResource& desc = plan_->graph->resources[all.resource];
+  all.mip = all.layer = 0;
+  all.mips = desc.mips;
+  all.layers = desc.layers;
+  base::Diagnostics ignored;
+  return pool_->view(*plan_, all, (*pool_)[all.resource].copyOf(0), 0, ignored);
+}
+
+bool Execution::ran(std::string_view pass) const {
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    if (passes_[step].context.spec->name == pass) return cadence_->runs(step) && passes_[step].usable;
+  return false;
+}
+
+}  // namespace weft::runtime
