@@ -133,6 +133,7 @@ struct PassParameterDesc {
 struct IncludeDesc {
   std::string file;            // as written, relative to the including file
   std::string as;              // prefix; never empty after reading
+  std::string group;           // which its passes that are not `always` and name none join; may be empty
   std::vector<std::pair<std::string, RefDesc>> binds;
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
 };

@@ -5,6 +5,7 @@
 #include "engine/graph/expand_resources.h"
 #include "engine/graph/expand_scope.h"
 #include "engine/graph/expand_settings.h"
+#include "engine/graph/expand_slices.h"
 
 namespace weft::graph {
 
@@ -28,6 +29,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   expandPasses(model, deferred);
   finishGraph(model, deferred);
   judgeMissing(model);
+  if (!own.hasErrors()) checkSlices(model);
   if (!own.hasErrors()) warnUnread(model);
   own.sortByPlace();
   diagnostics.append(own);

@@ -98,6 +98,7 @@ struct Scope {
   Scope* parent = nullptr;
   const PassDesc* stanza = nullptr;  // the include in the parent
   std::string prefix;                // "" or "post."
+  std::string group;                 // full name of the group that the include puts its passes into, or ""
   NameMap<std::uint32_t> resources;  // entities
   NameMap<std::uint32_t> parameters, lets;
   NameMap<std::uint32_t> passParameters;  // "composite.fog"

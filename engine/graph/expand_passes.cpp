@@ -179,8 +179,9 @@ class PassWalk {
   // ---- what goes into the graph ----
 
   std::uint32_t groupOf() {
-    if (desc_->group.empty()) return kNone;
-    const std::string name = scope_->prefix + desc_->group;
+    std::string name = desc_->group.empty() ? std::string() : scope_->prefix + desc_->group;
+    if (name.empty() && desc_->cadence != Cadence::always) name = scope_->group;
+    if (name.empty()) return kNone;
     const auto [at, fresh] = groups_.try_emplace(name, static_cast<std::uint32_t>(graph_.groupNames.size()));
     if (fresh) graph_.groupNames.push_back(name);
     return at->second;
@@ -194,6 +195,12 @@ class PassWalk {
         evaluateWhole(names, desc_->slices, 1, 0, 65536, fmt::format("the slices of {}", context.user));
     if (!slices) return;
     flat.slices = static_cast<std::uint32_t>(*slices);
+    if (flat.slices > 1 && type_ && type_->shader == ShaderShape::none) {
+      auto& d = model_.diagnostics.error(Code::W77, desc_->slices.place(),
+                                         fmt::format("{} is a {}, which runs whole", context.user, desc_->type));
+      d.pass = context.pass;
+      d.hint = "remove \"slices\": the pass takes one frame of its group";
+    }
     if (flat.slices > 0 || flat.group != kNone) return;
     auto& d = model_.diagnostics.error(
         Code::W77, desc_->slices.place(),

@@ -29,6 +29,7 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
   child.parent = &scope;
   child.stanza = &stanza;
   child.prefix = scope.prefix + include.as + ".";
+  child.group = include.group.empty() ? scope.group : scope.prefix + include.group;
   scope.includes.try_emplace(include.as, &child);
   buildScope(model, child);
   std::vector<std::string> inputs;

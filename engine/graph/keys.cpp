@@ -107,6 +107,7 @@ constexpr KeySpec kInclude[] = {
     {"include", R"({"type":"string"})", "path of a graph, from this file's folder", true},
     {"as", "@name", "prefix of its names; the file's name when absent"},
     {"bind", "@slots", "its inputs; those absent take the resource of the same name"},
+    {"group", R"({"type":"string"})", "group of its passes that are not always and name none"},
 };
 
 constexpr KeySpec kState[] = {

@@ -57,6 +57,7 @@ class PassReader {
     const JsonValue* file = value_.find("include");
     IncludeDesc& include = out_.include.emplace();
     include.file = context_.text(file, "\"include\"");
+    include.group = context_.text(value_.find("group"), "\"group\"");
     readBinds(include);
     if (include.file.empty()) {
       if (file && file->is(Type::string))

@@ -36,6 +36,8 @@ struct PassContext {
   bool linear = false;                       // blit: filter of the source slot
   Geometry geometry;
   std::uint32_t instances = 0;               // draw
+  // Slices [slice, slice + sliceCount) of `slices`. Rows of pixels are the executor's scissor; compute takes rows of groups.
+  std::uint32_t slice = 0, sliceCount = 1, slices = 1;
 };
 
 class PassType {

@@ -1,8 +1,10 @@
-// Which passes of a plan run in a frame: all `always` ones; `once` ones that have not run on what they write now;
-// `on_change` ones whose inputs, parameters, program or storage changed since they last ran. Passes that build one
-// resource together (several writers of a resource with history, or a chain of modifies) run all or none.
-// Works on hashes and generation counters only. Does not: know GL, or keep anything across plans by itself; the owner
-// carries PassMemory over by pass name. decide() allocates nothing.
+// Which passes of a plan run in a frame, and which part of each: all `always` ones; `once` ones that have not
+// run on what they write now; `on_change` ones whose inputs, parameters, program or storage changed since
+// they last ran. Passes of one job (plan.h) run all or none. A spread job does one slice of one pass per
+// frame, starts again when something it saw changes, and is published by the owner at the start of the frame
+// after its last slice. A pass that is not `always` waits while something it reads was never published. Works
+// on hashes and generation counters only. Does not: know GL, or keep anything across plans by itself; the
+// owner carries PassMemory over by pass name. decide() allocates nothing.
 #pragma once
 
 #include <cstdint>
@@ -15,35 +17,76 @@ namespace weft::runtime {
 // What a pass was when it last ran.
 struct PassMemory {
   bool ran = false;
-  std::uint64_t own = 0;                     // hash of program, parameters, storage written, imports
-  std::vector<std::uint64_t> inputs;         // generation of each read use, in use order, after that frame
+  std::uint64_t own = 0;              // hash of program, parameters, storage written, imports
+  std::vector<std::uint64_t> inputs;  // generation of each read use, in use order, after that frame
+};
+
+// Slices [first, first + count) of `of`; all of a pass that is not sliced.
+struct SliceRange {
+  std::uint32_t first = 0, count = 1, of = 1;
+  bool begins() const { return first == 0; }
+  friend bool operator==(const SliceRange&, const SliceRange&) = default;
 };
 
 class FrameCadence {
  public:
   explicit FrameCadence(const graph::Plan& plan);
 
-  // `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) answers.
+  // `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and
+  // slices(step) answer.
   void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
+  // The same for a round ahead of the frame, in which spread jobs run whole: of the other passes only those
+  // that jobs may wait for run, none that is `always`. Nothing runs when no spread job does; then false.
+  bool decideAhead(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
   bool runs(std::size_t step) const { return run_[step] != 0; }
+  SliceRange slices(std::size_t step) const { return slices_[step]; }
   std::size_t countRunning() const;
 
-  // To be called after the frame for each step that ran, with the generations as decide() got them and as the frame left
-  // them: a pass may read a resource of which it, or a later pass, writes another part; history is what it was before.
-  void remember(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& before,
+  // After the frame, with the generations as decide() got them and as the frame left them: a pass may read a
+  // resource of which it, or a later pass, writes another part; history is what it was before.
+  void endFrame(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& before,
                 const std::vector<std::uint64_t>& after);
+
+  // Spread jobs whose last slice has run wait here until the owner publishes them: turns their resources,
+  // moves their generations, and says so.
+  bool isFinished(std::uint32_t job) const { return jobs_[job].finished; }
+  void markPublished(std::uint32_t job);
+  // For a plan that takes over storage: what the job writes holds a publication.
+  void restorePublished(std::uint32_t job) { jobs_[job].published = true; }
+  bool isPublished(std::uint32_t job) const { return jobs_[job].published; }
 
   std::vector<PassMemory>& memories() { return memories_; }
 
  private:
-  bool wants(std::size_t step, std::uint64_t own, const std::vector<std::uint64_t>& generations) const;
+  struct Job {
+    std::vector<std::uint32_t> steps;  // in plan order
+    bool spread = false;
+    bool wants = false, blocked = false;  // within decide()
+    bool active = false, finished = false, published = false, started = false;
+    std::uint32_t at = 0, slice = 0;  // the next turn: index into steps, slice
+  };
+  bool differs(std::size_t step, const PassMemory& memory, bool inputs, const std::vector<std::uint64_t>& own,
+               const std::vector<std::uint64_t>& generations) const;
+  bool wants(std::size_t step, const std::vector<std::uint64_t>& own,
+             const std::vector<std::uint64_t>& generations) const;
+  bool isInside(std::size_t step, std::uint32_t resource) const;
+  void settle(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations,
+              bool ahead);
+  bool sweep(bool ahead);
+  void takeTurn(Job& job, bool whole);
+  void take(std::size_t step, PassMemory& memory, std::uint64_t own, const std::vector<std::uint64_t>& before,
+            const std::vector<std::uint64_t>& after) const;
 
   const graph::Plan& plan_;
-  std::vector<PassMemory> memories_;         // per step
-  std::vector<std::uint32_t> setOf_;         // per step: passes of one set run together; kNone for loners
-  std::vector<std::uint8_t> setRuns_;
-  std::vector<std::uint8_t> run_;
-  std::vector<std::uint8_t> written_;        // per resource, within decide(): a running step writes it
+  std::vector<PassMemory> memories_,
+      latches_;                       // per step; latches: what a spread job that is under way has seen
+  std::vector<std::uint32_t> jobOf_;  // per step, kNone
+  std::vector<Job> jobs_;
+  std::vector<SliceRange> slices_;
+  std::vector<std::uint8_t> run_, wants_;  // per step
+  std::vector<std::uint8_t> written_,
+      blocked_;  // per resource, within decide(): a running step writes it; it is not there
+  std::vector<std::uint8_t> alwaysWritten_;  // per resource
 };
 
 }  // namespace weft::runtime

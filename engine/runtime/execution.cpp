@@ -7,31 +7,60 @@
 #include <limits>
 
 #include "engine/base/hash.h"
+#include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/formats.h"
 
 namespace weft::runtime {
 
-using graph::Access;
-using graph::FlatUse;
 using graph::kNone;
 
 FrameReport Execution::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
   world_ = &world;
   input_ = input;
+  FrameReport report;
+  device_.timers.beginFrame(static_cast<std::uint32_t>(passes_.size()));
+  std::fill(ran_.begin(), ran_.end(), std::uint8_t{0});
   device_.imports.beginFrame(world, input);
+  publishFinished();
   refreshImports(diagnostics);
   resetHistories(diagnostics);
   refreshUniforms();
   refreshOwnHashes();
-  generationsBefore_ = generations_;
+  if (input.headless) finishSlices(report, diagnostics);
   cadence_->decide(own_, generations_);
+  runDecided(report, diagnostics);
+  device_.timers.endFrame();
+  if (plan_->finalBarriers) {
+    glMemoryBarrier(glBarriersOf(plan_->finalBarriers));
+    ++report.barriers;
+  }
+  report.passesRun = static_cast<std::uint32_t>(std::ranges::count(ran_, std::uint8_t{1}));
+  report.passesSkipped = static_cast<std::uint32_t>(passes_.size()) - report.passesRun;
+  ++framesRun_;
+  return report;
+}
+
+// Every job that has something to do does all of it before the frame. A job may wait for what another publishes, so at
+// most as many rounds as there are jobs.
+void Execution::finishSlices(FrameReport& report, base::Diagnostics& diagnostics) {
+  bool any = false;
+  for (std::size_t round = 0; round < plan_->jobs.spread.size() && cadence_->decideAhead(own_, generations_); ++round) {
+    runDecided(report, diagnostics);
+    publishFinished();
+    any = true;
+  }
+  if (any) refreshUniforms();  // ages
+}
+
+// Barriers are issued of skipped steps too, see plan.h.
+void Execution::runDecided(FrameReport& report, base::Diagnostics& diagnostics) {
+  generationsBefore_ = generations_;
+  refreshSlices();
   if (uniformsDirty_ && !uniformBytes_.empty()) {
     gl::uploadBuffer(uniforms_.id(), 0, uniformBytes_);
     uniformsDirty_ = false;
   }
   std::fill(rotated_.begin(), rotated_.end(), std::uint8_t{0});
-  FrameReport report;
-  device_.timers.beginFrame(static_cast<std::uint32_t>(passes_.size()));
   for (std::size_t step = 0; step < passes_.size(); ++step) {
     const graph::Step& planned = plan_->steps[step];
     if (planned.barriers) {
@@ -44,23 +73,33 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
       glMemoryBarrier(bits);
       ++report.barriers;
     }
-    if (!cadence_->runs(step) || !passes_[step].usable) {
+    if (!cadence_->runs(step)) {
       if (planned.barriersAfterClears) glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
-      ++report.passesSkipped;
       continue;
     }
+    ran_[step] = 1;
     runStep(step, diagnostics);
-    ++report.passesRun;
   }
-  for (std::size_t step = 0; step < passes_.size(); ++step)
-    if (cadence_->runs(step) && passes_[step].usable) cadence_->remember(step, own_[step], generationsBefore_, generations_);
-  device_.timers.endFrame();
-  if (plan_->finalBarriers) {
-    glMemoryBarrier(glBarriersOf(plan_->finalBarriers));
-    ++report.barriers;
+  cadence_->endFrame(own_, generationsBefore_, generations_);
+}
+
+// What spread jobs finished in the frame before becomes what everybody sees.
+void Execution::publishFinished() {
+  for (std::uint32_t job = 0; job < plan_->jobs.spread.size(); ++job) {
+    if (!cadence_->isFinished(job)) continue;
+    for (std::uint32_t r = 0; r < generations_.size(); ++r)
+      if ((*pool_)[r].job == job) publish(r);
+    cadence_->markPublished(job);
   }
-  ++framesRun_;
-  return report;
+}
+
+void Execution::publish(std::uint32_t resource) {
+  GpuResource& mine = (*pool_)[resource];
+  if (mine.copies > 1) mine.current = (mine.current + 1) % mine.copies;
+  ++mine.publications;
+  const bool beforeFirst = input_.headless && framesRun_ == 0;
+  mine.publishedAt = beforeFirst ? -std::numeric_limits<double>::infinity() : input_.time;
+  generations_[resource] = nextGeneration_++;
 }
 
 void Execution::refreshImports(base::Diagnostics& diagnostics) {
@@ -89,17 +128,8 @@ void Execution::resetHistories(base::Diagnostics& diagnostics) {
     if (!changed) continue;
     GpuResource& resource = (*pool_)[history.resource];
     resource.publications = 0;
-    const graph::FlatResource& desc = graph.resources[history.resource];
-    for (std::uint32_t copy = 0; copy < resource.copies; ++copy) {
-      if (resource.texture) {
-        const FlatUse all{.resource = history.resource, .mips = desc.mips, .layers = desc.layers};
-        const gl::TextureRef ref = pool_->view(*plan_, all, copy, 0, diagnostics);
-        for (std::uint32_t mip = 0; mip < desc.mips; ++mip)
-          clearTexture(ref, desc.format, mip, 0, desc.layers, history.first);
-      } else if (copy < resource.buffers.size()) {
-        clearBuffer(resource.buffers[copy], resource.offset, resource.bytes, history.first);
-      }
-    }
+    ++resource.resets;
+    pool_->fill(*plan_, history.resource, history.first, diagnostics);
   }
 }
 
@@ -146,23 +176,46 @@ void Execution::refreshOwnHashes() {
     };
     mix(pass.parametersOffset, pass.parametersBlock);
     mix(pass.viewOffset, pass.viewBlock);
-    for (const std::uint32_t resource : pass.written) own = base::hashCombine(own, (*pool_)[resource].serial);
+    for (const std::uint32_t resource : pass.written) own = base::hashCombine(own, (*pool_)[resource].serial + ((*pool_)[resource].resets << 40));
     for (const std::uint32_t axis : pass.context.spec->threads) own = base::hashCombine(own, axis);
     own_[step] = own;
   }
 }
 
-// The first running writer of a resource in a frame turns its history by one and publishes.
+// The first running writer of a resource in a frame turns its history by one and publishes; a spread job's do neither.
 void Execution::rotateWritten(const PreparedPass& pass) {
   for (const std::uint32_t r : pass.written) {
-    generations_[r] = nextGeneration_++;
-    if (rotated_[r]) continue;
+    if ((*pool_)[r].job != kNone) continue;
+    if (rotated_[r]) {
+      generations_[r] = nextGeneration_++;
+      continue;
+    }
     rotated_[r] = 1;
-    GpuResource& resource = (*pool_)[r];
-    if (resource.copies > 1) resource.current = (resource.current + 1) % resource.copies;
-    ++resource.publications;
-    const bool beforeFirst = input_.headless && framesRun_ == 0;
-    resource.publishedAt = beforeFirst ? -std::numeric_limits<double>::infinity() : input_.time;
+    publish(r);
+  }
+}
+
+// Which part of its work each pass does in this frame, for the pass type and for the shader.
+void Execution::refreshSlices() {
+  for (std::size_t step = 0; step < passes_.size(); ++step) {
+    PreparedPass& pass = passes_[step];
+    if (!cadence_->runs(step)) continue;
+    const SliceRange range = cadence_->slices(step);
+    pass.context.slice = range.first;
+    pass.context.sliceCount = range.count;
+    pass.context.slices = range.of;
+    if (!pass.sliceBlock) continue;
+    const passes::WorkGroups groups = passes::workGroupsOf(pass.context);
+    std::byte* at = uniformBytes_.data() + pass.sliceOffset;
+    for (const gl::BlockMember& member : pass.sliceBlock->members) {
+      graph::Value value{graph::Value::Type::list, 3, {}, {}};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        value.v[axis] = groups.first[axis] * (member.name == "first_group" ? 1u : pass.context.groupSize[axis]);
+      std::byte before[32];
+      std::memcpy(before, at + member.offset, 12);
+      writeValue(at, member, value);
+      uniformsDirty_ |= std::memcmp(before, at + member.offset, 12) != 0;
+    }
   }
 }
 

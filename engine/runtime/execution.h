@@ -77,6 +77,11 @@ class Execution {
   void refreshUniforms();
   void refreshOwnHashes();
   void resetHistories(base::Diagnostics& diagnostics);
+  void finishSlices(FrameReport& report, base::Diagnostics& diagnostics);
+  void refreshSlices();
+  void runDecided(FrameReport& report, base::Diagnostics& diagnostics);
+  void publishFinished();
+  void publish(std::uint32_t resource);
   void runStep(std::size_t step, base::Diagnostics& diagnostics);
   void rotateWritten(const PreparedPass& pass);
   void bind(PreparedPass& pass, base::Diagnostics& diagnostics);
@@ -98,6 +103,7 @@ class Execution {
   std::uint64_t nextGeneration_ = 1;
   std::vector<std::uint64_t> own_;               // per step
   std::vector<std::uint8_t> rotated_;            // per resource, this frame
+  std::vector<std::uint8_t> ran_;                // per step, this frame
   std::vector<std::uint64_t> resetState_;        // per history: hash of what resets it
   FrameInput input_;
   const World* world_ = nullptr;

@@ -58,6 +58,7 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   rotated_.assign(resources, 0);
   cadence_ = std::make_unique<FrameCadence>(*plan_);
   own_.assign(plan_->steps.size(), 0);
+  ran_.assign(plan_->steps.size(), 0);
   resetState_.assign(plan_->graph->histories.size(), 0);
   PrepareContext context{.plan = *plan_,
                          .types = device_.passTypes,
@@ -93,6 +94,7 @@ void Execution::layoutUniforms(base::Diagnostics& diagnostics) {
   for (PreparedPass& pass : passes_) {
     pass.parametersOffset = place(pass.parametersBlock);
     pass.viewOffset = place(pass.viewBlock);
+    pass.sliceOffset = place(pass.sliceBlock);
   }
   uniformBytes_.assign(total, std::byte{0});
   for (PreparedPass& pass : passes_) {
@@ -127,6 +129,12 @@ void Execution::carryOver(Execution& before) {
     for (std::size_t old = 0; old < before.passes_.size(); ++old)
       if (before.plan_->graph->specs[before.plan_->steps[old].pass].name == name)
         cadence_->memories()[step] = before.cadence_->memories()[old];
+  }
+  for (std::uint32_t job = 0; job < plan_->jobs.spread.size(); ++job) {
+    bool published = plan_->jobs.spread[job] != 0;
+    for (std::uint32_t r = 0; r < generations_.size(); ++r)
+      if ((*pool_)[r].job == job && plan_->firstStep[r] != graph::kNone) published &= (*pool_)[r].publications > 0;
+    if (published) cadence_->restorePublished(job);
   }
   for (std::size_t h = 0; h < resetState_.size(); ++h)
     for (std::size_t o = 0; o < before.resetState_.size(); ++o) {

@@ -16,11 +16,11 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
   device_.timers.begin(static_cast<std::uint32_t>(step));
   rotateWritten(pass);
   const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
-  if (!pass.clears.empty()) {
+  if (!pass.clears.empty() && cadence_->slices(step).begins()) {
     openMasks();
     for (const ClearCommand& clear : pass.clears) {
       const GpuResource& resource = (*pool_)[clear.use.resource];
-      const std::uint32_t copy = resource.copyOf(0);
+      const std::uint32_t copy = resource.copyOf(0, pass.job);
       if (!resource.texture) {
         clearBuffer(resource.buffers[copy], resource.offset, resource.bytes, clear.value);
       } else if (clear.attachment >= 0 && framebuffer) {
@@ -61,11 +61,13 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
   if (framebuffer) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     applyState(pass);
+    scissorTo(pass);
   } else {
     openMasks();
   }
   if (pass.feedback) glTextureBarrier();
   pass.type->execute(pass.context);
+  if (framebuffer) glDisable(GL_SCISSOR_TEST);
   device_.timers.end(static_cast<std::uint32_t>(step));
 }
 
@@ -73,10 +75,11 @@ GLuint Execution::framebufferOf(PreparedPass& pass, base::Diagnostics& diagnosti
   attachmentScratch_.clear();
   for (const AttachmentBinding& attachment : pass.attachments) {
     const GpuResource& resource = (*pool_)[attachment.resource];
-    attachmentScratch_.push_back({.point = attachment.point,
-                                  .texture = attachment.textures[resource.copyOf(attachment.use.history)],
-                                  .mip = attachment.mip,
-                                  .layer = attachment.layer});
+    attachmentScratch_.push_back(
+        {.point = attachment.point,
+         .texture = attachment.textures[resource.copyOf(attachment.use.history, pass.job)],
+         .mip = attachment.mip,
+         .layer = attachment.layer});
   }
   return framebuffers_.get(attachmentScratch_, pass.context.spec->name, diagnostics);
 }
@@ -85,15 +88,15 @@ void Execution::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   if (pass.variant) glUseProgram(pass.variant->program.id());
   for (const TextureBinding& binding : pass.textures) {
     const GpuResource& resource = (*pool_)[binding.resource];
-    const GLuint texture =
-        binding.views.empty() ? resource.imported.id : binding.views[resource.copyOf(binding.history)];
+    const GLuint texture = binding.views.empty() ? resource.imported.id
+                                                 : binding.views[resource.copyOf(binding.history, pass.job)];
     glBindTextureUnit(binding.unit, texture);
     glBindSampler(binding.unit, binding.sampler);
   }
   for (const ImageBinding& binding : pass.images) {
     const GpuResource& resource = (*pool_)[binding.resource];
-    const GLuint texture =
-        binding.views.empty() ? resource.imported.id : binding.views[resource.copyOf(binding.history)];
+    const GLuint texture = binding.views.empty() ? resource.imported.id
+                                                 : binding.views[resource.copyOf(binding.history, pass.job)];
     glBindImageTexture(binding.unit, texture, 0, binding.layered, 0, binding.access, binding.format);
   }
   for (const BufferBinding& binding : pass.buffers) {
@@ -110,7 +113,8 @@ void Execution::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
       continue;
     }
     const GpuResource& resource = (*pool_)[binding.resource];
-    glBindBufferRange(binding.target, binding.index, resource.buffers[resource.copyOf(binding.history)],
+    glBindBufferRange(binding.target, binding.index,
+                      resource.buffers[resource.copyOf(binding.history, pass.job)],
                       static_cast<GLintptr>(resource.offset), static_cast<GLsizeiptr>(resource.bytes));
   }
   const auto bindBlock = [&](const gl::Block* block, std::uint32_t offset) {
@@ -118,11 +122,12 @@ void Execution::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   };
   bindBlock(pass.parametersBlock, pass.parametersOffset);
   bindBlock(pass.viewBlock, pass.viewOffset);
+  bindBlock(pass.sliceBlock, pass.sliceOffset);
   for (const FixedBinding& binding : pass.fixed) {
     const GpuResource& resource = (*pool_)[binding.resource];
     passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
-    const GLuint view =
-        binding.views.empty() ? resource.imported.id : binding.views[resource.copyOf(binding.history)];
+    const GLuint view = binding.views.empty() ? resource.imported.id
+                                              : binding.views[resource.copyOf(binding.history, pass.job)];
     bound.name = view;
     if (!pass.framebuffers) continue;
     const auto kind = graph::infoOf(plan_->graph->resources[binding.resource].format).kind;

@@ -27,6 +27,18 @@ void setBlend(GLuint index, graph::Blend blend) {
 
 }  // namespace
 
+void scissorTo(const PreparedPass& pass) {
+  const passes::PassContext& c = pass.context;
+  if (c.sliceCount == c.slices) {
+    glDisable(GL_SCISSOR_TEST);
+    return;
+  }
+  const auto at = [&](std::uint64_t slice) { return static_cast<GLint>(pass.height * slice / c.slices); };
+  const GLint from = at(c.slice);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, from, static_cast<GLsizei>(pass.width), at(c.slice + c.sliceCount) - from);
+}
+
 void openMasks() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);

@@ -6,6 +6,8 @@
 namespace weft::runtime {
 
 void applyState(const PreparedPass& pass);
+// Confines rendering to the rows of the pass's slices; off for a pass that runs whole.
+void scissorTo(const PreparedPass& pass);
 // What clears and blits rely on: every mask open, scissor off.
 void openMasks();
 

@@ -29,6 +29,7 @@ class Preparer {
     const graph::PassType type = out_.type->reflect();
     out_.framebuffers = type.framebuffers;
     out_.fromSource = type.fromSource;
+    out_.job = c_.plan.jobs.jobOf(step_.pass);
     collectUses();
     if (type.shader == graph::ShaderShape::none) {
       out_.usable = bindFixed();
@@ -67,6 +68,7 @@ class Preparer {
     const gl::Reflection& reflection = out_.variant->program.reflection();
     out_.parametersBlock = reflection.findUniformBlock("Parameters");
     out_.viewBlock = reflection.findUniformBlock("View");
+    out_.sliceBlock = reflection.findUniformBlock("Slice");
     std::copy_n(reflection.workGroup, 3, out_.context.groupSize);
     return true;
   }

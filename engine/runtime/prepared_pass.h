@@ -87,12 +87,14 @@ struct PreparedPass {
   std::vector<std::uint32_t> written, read;     // resources (attached writes; reads)
   std::uint32_t width = 0, height = 0;          // of the attachments
   bool feedback = false;
+  std::uint32_t job = graph::kNone;             // as Plan::jobs
   bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;                                // scene::DrawList whose rows are the instances of a draw; -1: none
   // uniform bytes live in one shared buffer; offsets are aligned, size 0: the program has no such block
   const gl::Block* parametersBlock = nullptr;
   const gl::Block* viewBlock = nullptr;
-  std::uint32_t parametersOffset = 0, viewOffset = 0;
+  const gl::Block* sliceBlock = nullptr;
+  std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode

@@ -44,6 +44,7 @@ class Checker {
       : plan_(plan),
         graph_(*plan.graph),
         spec_(graph_.specs[pass]),
+        pass_(pass),
         variant_(variant),
         reflection_(variant.program.reflection()),
         diagnostics_(diagnostics) {}
@@ -52,6 +53,7 @@ class Checker {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
     checkParameters();
     checkRest();
+    checkSlices(graph_.passes[pass_]);
     return good_;
   }
 
@@ -245,6 +247,12 @@ class Checker {
             fail(Code::W185, spec_.shaderPlace,
                  fmt::format("the View block of '{}' has an unknown member '{}'", spec_.shader, member.name))
                 .hint = base::nearestHint(member.name, viewMemberNames());
+      } else if (block.name == "Slice") {
+        for (const gl::BlockMember& member : block.members)
+          if (member.name != "first_group" && member.name != "first_invocation")
+            fail(Code::W185, spec_.shaderPlace,
+                 fmt::format("the Slice block of '{}' has an unknown member '{}'", spec_.shader, member.name))
+                .hint = "include common/slice.glsl";
       } else if (block.name != "Parameters" && !isSlot(block.name)) {
         unfed("a uniform block", block.name);
       }
@@ -255,9 +263,19 @@ class Checker {
           .hint = "move it into `layout(std140) uniform Parameters { … };`";
   }
 
+  // Every slice would be the whole of it.
+  void checkSlices(const graph::FlatPass& pass) {
+    const bool compute = !variant_.stages.empty() && variant_.stages[0].stage == GL_COMPUTE_SHADER;
+    if (!compute || pass.slices < 2 || reflection_.findUniformBlock("Slice")) return;
+    fail(Code::W189, spec_.shaderPlace,
+         fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", spec_.shader, spec_.name, pass.slices))
+        .hint = "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove \"slices\"";
+  }
+
   const Plan& plan_;
   const FlatGraph& graph_;
   const PassSpec& spec_;
+  const std::uint32_t pass_;
   const gl::Variant& variant_;
   const gl::Reflection& reflection_;
   base::Diagnostics& diagnostics_;

@@ -82,26 +82,38 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
         if (old.serial == mine.serial && old.copies == mine.copies) {
           mine.current = old.current;
           mine.publications = old.publications;
+          mine.resets = old.resets;
           mine.publishedAt = old.publishedAt;
         }
     }
   }
-  for (const graph::HistorySpec& history : plan.graph->histories) {
-    GpuResource& mine = (*pool)[history.resource];
-    if (!mine.fresh || mine.serial == 0) continue;
-    const FlatResource& r = plan.graph->resources[history.resource];
-    for (std::uint32_t copy = 0; copy < mine.copies; ++copy) {
-      if (mine.texture) {
-        const FlatUse all{.resource = history.resource, .mips = r.mips, .layers = r.layers};
-        const gl::TextureRef ref = pool->view(plan, all, copy, 0, diagnostics);
-        for (std::uint32_t mip = 0; mip < r.mips && ref.id; ++mip)
-          clearTexture(ref, r.format, mip, 0, r.layers, history.first);
-      } else if (!mine.buffers.empty()) {
-        clearBuffer(mine.buffers[copy], mine.offset, mine.bytes, history.first);
-      }
-    }
+  for (const graph::HistorySpec& history : plan.graph->histories)
+    if ((*pool)[history.resource].fresh) pool->fill(plan, history.resource, history.first, diagnostics);
+  // What others see of a spread job's resource before it is first published: version zero, else zeros.
+  for (std::uint32_t r = 0; r < pool->resources_.size(); ++r) {
+    GpuResource& mine = (*pool)[r];
+    mine.job = plan.jobs.spreadWriterOf(r);
+    if (mine.job == kNone || !mine.fresh || plan.graph->resources[r].history > 0) continue;
+    graph::Value zero = graph::Value::number(0);
+    for (const graph::ClearSpec& clear : plan.graph->clears)
+      if (clear.resource == r) zero = clear.value;
+    pool->fill(plan, r, zero, diagnostics);
   }
   return pool;
+}
+
+void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::Value& value, base::Diagnostics& diagnostics) {
+  const GpuResource& mine = resources_[resource];
+  const FlatResource& r = plan.graph->resources[resource];
+  for (std::uint32_t copy = 0; copy < mine.copies; ++copy) {
+    if (mine.texture) {
+      const FlatUse all{.resource = resource, .mips = r.mips, .layers = r.layers};
+      const gl::TextureRef ref = view(plan, all, copy, 0, diagnostics);
+      for (std::uint32_t mip = 0; mip < r.mips && ref.id; ++mip) clearTexture(ref, r.format, mip, 0, r.layers, value);
+    } else if (copy < mine.buffers.size()) {
+      clearBuffer(mine.buffers[copy], mine.offset, mine.bytes, value);
+    }
+  }
 }
 
 bool ResourcePool::createTextures(const Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics) {
@@ -167,7 +179,7 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
       mine.fresh = arenaFresh;
       continue;
     }
-    const std::uint32_t copies = desc.history + 1u;
+    const std::uint32_t copies = plan.copiesOf(static_cast<std::uint32_t>(r));
     PersistentBuffer buffer;
     if (before) {
       for (PersistentBuffer& old : before->buffers_)

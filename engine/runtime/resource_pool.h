@@ -57,11 +57,17 @@ struct GpuResource {
   std::vector<GLuint> buffers;                 // per copy
   std::uint64_t offset = 0, bytes = 0;         // range within the buffer
   std::uint32_t copies = 1, current = 0;       // current: the latest publication
+  std::uint32_t job = graph::kNone;            // the spread job that writes it: its passes see the copy after `current`
+  std::uint64_t resets = 0;                    // how often its history went back to the first value
   std::uint64_t serial = 0;                    // identity of the storage
   std::uint64_t publications = 0;
   double publishedAt = -std::numeric_limits<double>::infinity();
   bool fresh = true;                           // storage was made for this plan: contents undefined
-  std::uint32_t copyOf(std::uint32_t history) const { return (current + copies - history % copies) % copies; }
+  // As passes of `reader`, a job or kNone, see it.
+  std::uint32_t copyOf(std::uint32_t history, std::uint32_t reader = graph::kNone) const {
+    const std::uint32_t newest = current + (job != graph::kNone && job == reader ? 1 : 0);
+    return (newest + copies - history % copies) % copies;
+  }
 };
 
 class ResourcePool {
@@ -76,6 +82,8 @@ class ResourcePool {
   // A view of levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
   gl::TextureRef view(const graph::Plan& plan, const graph::FlatUse& use, std::uint32_t copy, GLenum target,
                       base::Diagnostics& diagnostics);
+  // Every copy of an own resource, all of it.
+  void fill(const graph::Plan& plan, std::uint32_t resource, const graph::Value& value, base::Diagnostics& diagnostics);
 
  private:
   bool createTextures(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);

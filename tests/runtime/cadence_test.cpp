@@ -50,8 +50,7 @@ std::vector<int> runFrame(FrameCadence& cadence, const Plan& plan, std::vector<s
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
       if (plan.graph->uses[u].access != Access::read) ++generations[plan.graph->uses[u].resource];
   }
-  for (std::size_t s = 0; s < plan.steps.size(); ++s)
-    if (cadence.runs(s)) cadence.remember(s, own[s], before, generations);
+  cadence.endFrame(own, before, generations);
   return ran;
 }
 

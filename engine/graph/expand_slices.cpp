@@ -1,0 +1,90 @@
+// What cannot be spread over frames, told once all passes are known: W77.
+#include "engine/graph/expand_slices.h"
+
+#include <fmt/format.h>
+
+#include "engine/graph/plan.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+template <class F>
+void eachUse(const FlatGraph& graph, std::uint32_t pass, F&& f) {
+  const FlatPass& p = graph.passes[pass];
+  for (std::uint32_t u = p.firstUse; u < p.firstUse + p.useCount; ++u) f(graph.uses[u]);
+}
+
+base::Diagnostic& fail(Model& model, std::uint32_t pass, std::uint32_t resource, std::string message) {
+  auto& d = model.diagnostics.error(Code::W77, model.graph.specs[pass].place, std::move(message));
+  d.pass = model.graph.passNames[pass];
+  if (resource != kNone) d.resource = model.graph.resourceNames[resource];
+  return d;
+}
+
+// Follows what `job` writes through passes that are not of it: where it comes back to the job, neither could ever end.
+void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job) {
+  const FlatGraph& graph = model.graph;
+  std::vector<std::uint32_t> from(graph.resources.size(), kNone);  // the pass outside that last touched it
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    if (jobs.jobOf(p) == job) {
+      eachUse(graph, p, [&](const FlatUse& use) {
+        if (use.access != Access::read || use.history > 0 || from[use.resource] == kNone) return;
+        const std::uint32_t between = from[use.resource];
+        fail(model, between, use.resource,
+             fmt::format("pass '{}' stands between slices: it reads what they write and pass '{}' reads what it writes",
+                         graph.passNames[between], graph.passNames[p]))
+            .hint = "give it the same \"group\"";
+        from[use.resource] = kNone;
+      });
+      continue;
+    }
+    bool reads = false;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      if (use.access == Access::read && use.history == 0)
+        reads |= jobs.spreadWriterOf(use.resource) == job || from[use.resource] != kNone;
+    });
+    if (!reads || graph.passes[p].cadence == Cadence::always) continue;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      if (use.access != Access::read) from[use.resource] = p;
+    });
+  }
+}
+
+}  // namespace
+
+void checkSlices(Model& model) {
+  const FlatGraph& graph = model.graph;
+  const auto every = [](std::uint32_t) { return true; };
+  const Jobs jobs = formJobs(graph, every, every);
+  if (jobs.ofResource.empty()) return;
+  std::vector<std::uint32_t> alwaysWriter(graph.resources.size(), kNone);
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    if (graph.passes[p].cadence != Cadence::always) continue;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      if (use.access == Access::read) return;
+      alwaysWriter[use.resource] = p;
+      if (jobs.spreadWriterOf(use.resource) == kNone || use.access == Access::modify) return;  // modify is W76
+      fail(model, p, use.resource,
+           fmt::format("pass '{}' runs in every frame and writes '{}', which others write over several frames",
+                       graph.passNames[p], graph.resourceNames[use.resource]))
+          .hint = "write a resource of its own, or remove \"slices\"";
+    });
+  }
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    const std::uint32_t job = jobs.jobOf(p);
+    if (job == kNone || jobs.spread[job] == 0) continue;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      const std::uint32_t writer = use.access == Access::read && use.history == 0 ? alwaysWriter[use.resource] : kNone;
+      if (writer == kNone || jobs.spreadWriterOf(use.resource) != kNone) return;
+      fail(model, p, use.resource,
+           fmt::format("pass '{}' is spread over frames and reads '{}', which pass '{}' makes anew in each",
+                       graph.passNames[p], graph.resourceNames[use.resource], graph.passNames[writer]))
+          .hint = fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]);
+    });
+  }
+  for (std::uint32_t job = 0; job < jobs.spread.size(); ++job)
+    if (jobs.spread[job] != 0) checkWayBack(model, jobs, job);
+}
+
+}  // namespace weft::graph::expansion
