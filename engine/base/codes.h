@@ -130,7 +130,6 @@ namespace weft::base {
   X(186, "storage block is no instance table")                            \
   X(187, "shader uses what its pass does not name")                       \
   X(188, "graph presents nothing")                                        \
-  X(189, "slices that the shader does not know")                          \
   X(195, "file changed since it was read")                                \
   X(196, "change that cannot be written back")
 // clang-format on

@@ -110,7 +110,8 @@ Json passChange() {
   Json properties = Json::object();
   for (const auto keys : {kPassKeys, kIncludeKeys})
     for (const KeySpec& spec : keys)
-      properties[std::string(spec.key)] = {{"description", std::string(spec.doc)}};
+      if (!properties.contains(std::string(spec.key)))
+        properties[std::string(spec.key)] = {{"description", std::string(spec.doc)}};
   for (const KeySpec& spec : kPlaceKeys) properties[std::string(spec.key)] = shapeOf(spec);
   return {{"description", "in an overlay: changes, removes, moves or adds a pass or an include"},
           {"type", "object"},

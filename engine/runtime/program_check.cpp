@@ -267,7 +267,7 @@ class Checker {
   void checkSlices(const graph::FlatPass& pass) {
     const bool compute = !variant_.stages.empty() && variant_.stages[0].stage == GL_COMPUTE_SHADER;
     if (!compute || pass.slices < 2 || reflection_.findUniformBlock("Slice")) return;
-    fail(Code::W189, spec_.shaderPlace,
+    fail(Code::W77, spec_.shaderPlace,
          fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", spec_.shader, spec_.name, pass.slices))
         .hint = "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove \"slices\"";
   }

@@ -186,6 +186,29 @@ TEST_CASE("cadence: an always pass may not add to what a slower one made") {
   CHECK(bad.of(Code::W76).pass == "fast");
 }
 
+TEST_CASE("slices: what could never end, what another writes too, and types that run whole are told") {
+  const auto tryPasses = [](const std::string& passes) {
+    return expandText(R"J({ "resources": {
+        "a": { "texture": "rgba8", "size": 8, "mips": 2 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },
+      "passes": [)J" + passes + R"J(,
+        { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "src": "b" }, "write": { "r": "c" } } ], "present": "c" })J");
+  };
+  const std::string slow = R"J({ "name": "slow", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, )J";
+  CHECK(tryPasses(slow + R"J("write": { "r": "b" } })J").text() == "");
+  CHECK(tryPasses(R"J({ "name": "fast", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "a.mip[0]" } }, )J" + slow +
+                  R"J("read": { "src": "a.mip[0]" }, "write": { "r": "b" } })J").of(Code::W77).pass == "slow");
+  const std::string group = R"J({ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "group": "g",
+        "write": { "r": "a.mip[0]" } },
+      { "name": "between", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", GROUP "read": { "src": "a.mip[0]" }, "write": { "r": "c" } },
+      { "name": "two", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "group": "g", "read": { "src": "c" }, "write": { "r": "b" } })J";
+  const auto with = [&](const std::string& in) { return std::string(group).replace(group.find("GROUP"), 5, in); };
+  CHECK(tryPasses(with("")).of(Code::W77).pass == "between");
+  CHECK(tryPasses(with(R"J("group": "g",)J")).text() == "");
+  CHECK(tryPasses(R"J({ "name": "top", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "write": { "r": "a.mip[0]" } },
+      { "name": "mips", "type": "mipmap", "update": "on_change", "slices": 3, "read": { "source": "a.mip[0]" }, "write": { "result": "a.mip[1]" } },
+      { "name": "use", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "src": "a" }, "write": { "r": "b" } })J").of(Code::W77).pass == "mips");
+}
+
 TEST_CASE("includes: prefixes, binds, inputs of the same name, names from outside") {
   const std::filesystem::path folder = std::filesystem::path(WEFT_BINARY_DIR) / "expand_include";
   std::filesystem::create_directories(folder);

@@ -142,3 +142,119 @@ TEST_CASE("an on_change pass that reads history runs after each publication, and
   CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 1, 1});
   CHECK(runFrame(cadence, plan, own, generations) == std::vector<int>{0, 0, 1});
 }
+
+namespace {
+
+// A frame of a plan with spread jobs: "2:1/3 4" is slice 1 of 3 of step 2, and all of step 4.
+std::string runSlices(FrameCadence& cadence, const Plan& plan, const std::vector<std::uint64_t>& own,
+                      std::vector<std::uint64_t>& generations) {
+  for (std::uint32_t job = 0; job < plan.jobs.spread.size(); ++job) {
+    if (!cadence.isFinished(job)) continue;
+    for (std::uint32_t r = 0; r < generations.size(); ++r)
+      if (plan.jobs.spreadWriterOf(r) == job) ++generations[r];
+    cadence.markPublished(job);
+  }
+  cadence.decide(own, generations);
+  const std::vector<std::uint64_t> before = generations;
+  std::string ran;
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    if (!cadence.runs(s)) continue;
+    const weft::runtime::SliceRange range = cadence.slices(s);
+    ran += (ran.empty() ? "" : " ") + std::to_string(s);
+    if (range.of > 1) ran += ":" + std::to_string(range.first) + "/" + std::to_string(range.of);
+    const FlatPass& pass = plan.graph->passes[plan.steps[s].pass];
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const std::uint32_t r = plan.graph->uses[u].resource;
+      if (plan.graph->uses[u].access != Access::read && plan.jobs.spreadWriterOf(r) == kNone) ++generations[r];
+    }
+  }
+  cadence.endFrame(own, before, generations);
+  return ran;
+}
+
+// source -> [a in 2, b in 1, c rides] -> reader, on_change -> picture, always
+struct SlicedGraph {
+  Builder b;
+  Plan plan;
+  std::vector<std::uint64_t> own = std::vector<std::uint64_t>(6, 1), generations = std::vector<std::uint64_t>(6, 1);
+
+  explicit SlicedGraph(Cadence cadence = kOnChange) {
+    for (int i = 0; i < 6; ++i) b.resource();
+    b.pass(kOnChange, {{0, Access::write}});
+    b.pass(cadence, {{0, Access::read}, {1, Access::write}});
+    b.pass(cadence, {{1, Access::read}, {2, Access::write}});
+    b.pass(cadence, {{2, Access::read}, {3, Access::write}});
+    b.pass(kOnChange, {{3, Access::read}, {4, Access::write}});
+    b.pass(kAlways, {{1, Access::read}, {4, Access::read}, {5, Access::write}});
+    for (int p = 1; p < 4; ++p) b.graph->passes[p].group = 0;
+    b.graph->passes[1].slices = 2;
+    b.graph->passes[3].slices = 0;
+    plan = b.compile(5);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("slices: one per frame in order, riders with the one before, readers wait for the publication") {
+  SlicedGraph g;
+  FrameCadence cadence(g.plan);
+  CHECK(g.plan.copiesOf(1) == 2);
+  CHECK(g.plan.copiesOf(4) == 1);
+  const auto frame = [&] { return runSlices(cadence, g.plan, g.own, g.generations); };
+  CHECK(frame() == "0 1:0/2 5");
+  CHECK(frame() == "1:1/2 5");
+  CHECK(frame() == "2 3 5");
+  CHECK(frame() == "4 5");
+  CHECK(frame() == "5");
+  g.own[2] = 9;  // a parameter of one of them: all of them again
+  CHECK(frame() == "1:0/2 5");
+  CHECK(frame() == "1:1/2 5");
+  g.own[0] = 9;  // an input is made anew: from the start
+  CHECK(frame() == "0 1:0/2 5");
+  CHECK(frame() == "1:1/2 5");
+  CHECK(frame() == "2 3 5");
+  g.own[3] = 9;  // what is finished is published, whatever changed since
+  CHECK(frame() == "1:0/2 4 5");
+}
+
+TEST_CASE("slices: once takes no notice of inputs, unless it is under way") {
+  SlicedGraph g(kOnce);
+  FrameCadence cadence(g.plan);
+  const auto frame = [&] { return runSlices(cadence, g.plan, g.own, g.generations); };
+  CHECK(frame() == "0 1:0/2 5");
+  g.own[0] = 2;
+  CHECK(frame() == "0 1:0/2 5");
+  CHECK(frame() == "1:1/2 5");
+  CHECK(frame() == "2 3 5");
+  CHECK(frame() == "4 5");
+  g.own[0] = 3;
+  CHECK(frame() == "0 5");
+  g.own[1] = 3;  // its storage was made anew
+  CHECK(frame() == "1:0/2 5");
+}
+
+TEST_CASE("slices: ahead of a headless frame a job runs whole, and nothing runs when there is nothing to do") {
+  SlicedGraph g;
+  FrameCadence cadence(g.plan);
+  REQUIRE(cadence.decideAhead(g.own, g.generations));
+  CHECK(cadence.countRunning() == 4);  // what it reads, and itself
+  CHECK_FALSE(cadence.runs(4));
+  CHECK_FALSE(cadence.runs(5));
+  cadence.endFrame(g.own, g.generations, g.generations);
+  CHECK(cadence.isFinished(0));
+  cadence.markPublished(0);
+  CHECK_FALSE(cadence.decideAhead(g.own, g.generations));
+  CHECK(cadence.countRunning() == 0);
+  CHECK(runSlices(cadence, g.plan, g.own, g.generations) == "4 5");
+}
+
+TEST_CASE("a group without slices runs all or none, in one frame") {
+  SlicedGraph g;
+  g.b.graph->passes[1].slices = 1;
+  const Plan plan = g.b.compile(5);
+  FrameCadence cadence(plan);
+  CHECK(plan.copiesOf(1) == 1);
+  CHECK(runFrame(cadence, plan, g.own, g.generations) == std::vector<int>{1, 1, 1, 1, 1, 1});
+  g.own[3] = 2;
+  CHECK(runFrame(cadence, plan, g.own, g.generations) == std::vector<int>{0, 1, 1, 1, 1, 1});
+}
