@@ -7,6 +7,7 @@
 // the cosine's variation inside a cell costs less than 0.1 %. (Nine spherical harmonics would ring by several per cent
 // beside a sun.) Cells turn with the column of the result, so the weights of a row are computed once.
 #include "common/equirect.glsl"
+#include "common/slice.glsl"
 
 const int kColumns = 64, kRows = 32;
 layout(local_size_x = 64) in;
@@ -17,7 +18,7 @@ shared float weights[kRows * kColumns];
 
 void main() {
   ivec2 size = imageSize(result);
-  int row = int(gl_WorkGroupID.y);
+  int row = int(sliceGroup().y);
   float theta = (float(row) + 0.5) / float(size.y) * kPi;
   float cos_n = cos(theta), sin_n = sin(theta);
   int column = int(gl_LocalInvocationID.x);
@@ -29,7 +30,7 @@ void main() {
   }
   barrier();
 
-  int x = int(gl_GlobalInvocationID.x);
+  int x = int(sliceInvocation().x);
   if (x >= size.x || row >= size.y) return;
   float level = max(log2(float(textureSize(environment, 0).x) / float(kColumns)), 0.0);
   float u = (float(x) + 0.5) / float(size.x);

@@ -8,6 +8,7 @@
 // (Krivanek and Colbert, EGSR 2008) and weighted by N.L. Around the axis all texels of a row see the same samples,
 // only turned: their map coordinates relative to the texel are computed once per work group.
 #include "common/equirect.glsl"
+#include "common/slice.glsl"
 #include "roughness_level.glsl"
 
 #ifndef COPY
@@ -59,7 +60,7 @@ void fillTable(float theta, int count) {
 
 void main() {
   ivec2 size = imageSize(result);
-  ivec2 at = ivec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  ivec2 at = ivec2(sliceInvocation().x, sliceGroup().y);
   vec2 center = (vec2(at) + 0.5) / vec2(size);
 #if COPY
   if (at.x >= size.x || at.y >= size.y) return;

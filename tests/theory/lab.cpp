@@ -61,8 +61,10 @@ Lab::Lab(const Setup& setup) : setup_(setup), world_(sceneOf(setup)) {
   REQUIRE(loaded);
 }
 
-void Lab::frame(std::uint32_t number) {
-  renderer_->frame(world_, runtime::headlessFrame(world_, number, 60), diagnostics_);
+void Lab::frame(std::uint32_t number, bool headless) {
+  runtime::FrameInput input = runtime::headlessFrame(world_, number, 60);
+  input.headless = headless;
+  renderer_->frame(world_, input, diagnostics_);
   INFO(diagnostics_.text());
   REQUIRE_FALSE(diagnostics_.hasErrors());
 }

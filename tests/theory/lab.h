@@ -44,7 +44,7 @@ struct Picture {
 class Lab {
  public:
   explicit Lab(const Setup& setup);
-  void frame(std::uint32_t number = 0);
+  void frame(std::uint32_t number = 0, bool headless = true);  // not headless: work in slices takes its frames
   Picture read(const std::string& resource, std::uint32_t mip = 0, std::uint32_t layer = 0);
   std::vector<std::uint32_t> readBuffer(const std::string& resource, std::size_t words);
   std::string passNames() const;  // of what runs, in order, a line each

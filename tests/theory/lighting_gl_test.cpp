@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "tests/theory/lab.h"
@@ -86,4 +87,44 @@ TEST_CASE("no seam: the first and the last column of every map continue each oth
       CHECK(across <= 1.5f * beside + 0.002f);
     }
   }
+}
+
+namespace {
+
+float meanLuminance(std::shared_ptr<const weft::assets::ImageF> environment) {
+  Setup setup{.graph = "tests/theory/furnace.json", .balls = {{}}};
+  setup.environment = std::move(environment);
+  Lab lab(setup);
+  lab.frame();
+  CHECK(lab.complaints() == "");
+  return std::bit_cast<float>(lab.readBuffer("ibl.luminance", 1)[0]);
+}
+
+}  // namespace
+
+TEST_CASE("mean luminance: a constant is kept, and rows count by their share of the sphere") {
+  CHECK(meanLuminance(constantEnvironment(0.5f, 0.5f, 0.5f)) == doctest::Approx(0.5).epsilon(1e-5));
+  CHECK(meanLuminance(constantEnvironment(1, 0, 0)) == doctest::Approx(0.2126).epsilon(1e-5));
+  // 1 above a height of cos(60 degrees) = 1/2: a quarter of the sphere, though a third of the rows.
+  auto cap = std::make_shared<weft::assets::ImageF>(weft::assets::ImageF{96, 48, 4, {}});
+  for (int y = 0; y < 48; ++y) cap->texels.insert(cap->texels.end(), 96 * 4, y < 16 ? 1.0f : 0.0f);
+  CHECK(meanLuminance(cap) == doctest::Approx(0.25).epsilon(1e-5));
+  // The lobe's mean over the sphere is 1 / (2 (power + 1)); halves and texel centres cost what is left.
+  CHECK(meanLuminance(lobeEnvironment()) == doctest::Approx(0.5 / (kPower + 1)).epsilon(2e-3));
+}
+
+TEST_CASE("the maps made in slices are those made at once, byte for byte") {
+  Setup setup = lit();
+  Lab whole(setup);
+  whole.frame();
+  setup.sets = {{"ibl.sliced", "true"}};
+  Lab sliced(setup);
+  sliced.frame(0, false);
+  CHECK(sliced.read("ibl.specular", 1).texels[0] == 0);  // not published
+  for (std::uint32_t frame = 1; frame < 60; ++frame) sliced.frame(frame, false);
+  for (std::uint32_t level = 0; level < 5; ++level)
+    CHECK(sliced.read("ibl.specular", level).texels == whole.read("ibl.specular", level).texels);
+  CHECK(sliced.read("ibl.irradiance").texels == whole.read("ibl.irradiance").texels);
+  CHECK(sliced.readBuffer("ibl.luminance", 1) == whole.readBuffer("ibl.luminance", 1));
+  CHECK(sliced.complaints() == "");
 }
