@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+"""The gallery: each effect of gallery.json off and on, under one environment, as ../gallery.md and ../images/gallery/*.png.
+
+    docs/gallery/gallery.py                 render everything anew with ./run and write the page
+    docs/gallery/gallery.py NAME ...        only the pictures of these entries, then the page
+    docs/gallery/gallery.py --check WEFT    write nothing: the page must be the one that gallery.json makes, every picture
+                                            must be there, every property must be a test, and every effect, rendered small,
+                                            must change the picture
+
+An entry: `name`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both; `says`, what
+to see; `property`, [test file, beginning of the name of a test case]. Pictures made by equal arguments are made once.
+"""
+import hashlib
+import json
+import pathlib
+import re
+import shlex
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+HERE = pathlib.Path(__file__).resolve().parent
+TOP = HERE.parents[1]
+PAGE, PICTURES = TOP / "docs/gallery.md", TOP / "docs/images/gallery"
+GALLERY = json.loads((HERE / "gallery.json").read_text())
+ENVIRONMENT = GALLERY["environment"]
+
+
+def arguments(entry, side):
+    return shlex.split(" ".join(text for text in (GALLERY["all"], entry.get("both", ""), entry.get(side, "")) if text))
+
+
+def picture_of(entry, side):
+    """What several entries may share has a name made from its arguments."""
+    if side == "on" and "on" in entry:
+        return f"{entry['name']}.png"
+    line = " ".join(arguments(entry, side))
+    return f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.png"
+
+
+def render(weft, entry, side, output, size=None):
+    line = [*weft, "render", *arguments(entry, side), "--quiet", "-o", str(output), "--size", size or entry.get("size", GALLERY["size"]),
+            "--environment", entry.get("environment", ENVIRONMENT)]
+    done = subprocess.run(line, cwd=TOP, capture_output=True, text=True)
+    if done.returncode or "error[" in done.stderr:
+        sys.exit(f"{' '.join(line)}\n{done.stderr}")
+
+
+def cases(file):
+    """The names of the test cases in a file; a name may be written in several literals."""
+    text = re.sub(r'"\s*\n\s*"', "", (TOP / file).read_text())
+    return re.findall(r'TEST_CASE(?:_FIXTURE)?\(\s*(?:\w+,\s*)?"([^"]*)"', text)
+
+
+def case_of(entry):
+    file, beginning = entry["property"]
+    if file.endswith(".py"):  # words of what the script says it does
+        return beginning if beginning in " ".join((TOP / file).read_text().split()) else None
+    return next((case for case in cases(file) if case.startswith(beginning)), None)
+
+
+def page():
+    out = [GALLERY["about"], ""]
+    chapter = None
+    for entry in GALLERY["entries"]:
+        if entry["chapter"] != chapter:
+            chapter = entry["chapter"]
+            out += [f"## {chapter}", ""]
+        off, on = (entry.get(side) or "as it is" for side in ("off", "on"))
+        both = f" Both: `{entry['both']}`." if entry.get("both") else ""
+        out += [f"### {entry['effect']}", "", f"{entry['says']}{both}", "",
+                f"| `{off}` | `{on}` |", "|---|---|",
+                f"| ![off](images/gallery/{picture_of(entry, 'off')}) | ![on](images/gallery/{picture_of(entry, 'on')}) |", ""]
+        out += [f"Held by `{entry['property'][0]}`: {case_of(entry)}.", ""]
+    front = GALLERY["front"]
+    out += [f"## {front['effect']}", "", front["says"], "", f"| Weft | the model |", "|---|---|",
+            f"| ![Weft](images/gallery/{front['name']}.png) | ![the model]({front['model']}) |"]
+    return "\n".join(out).rstrip() + "\n"
+
+
+def read_png(path):
+    """Bytes of the texels of an 8-bit PNG that is not interlaced, filters undone."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, _, color = struct.unpack(">IIBB", body[:10])
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + length
+    channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
+    raw, stride, before, out = zlib.decompress(packed), width * channels, bytearray(width * channels), bytearray()
+    for y in range(height):
+        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for x in range(stride):
+            a = row[x - channels] if x >= channels else 0
+            b, c = before[x], before[x - channels] if x >= channels else 0
+            if kind == 4:
+                p = a + b - c
+                near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+            else:
+                near = (0, a, b, (a + b) // 2)[kind]
+            row[x] = (row[x] + near) & 255
+        out, before = out + row, row
+    return out
+
+
+def all_pictures():
+    pairs = {picture_of(entry, side) for entry in GALLERY["entries"] for side in ("off", "on")}
+    return pairs | {picture_of(GALLERY["front"], "on")}
+
+
+def check(weft):
+    problems = []
+    if not PAGE.exists() or PAGE.read_text() != page():
+        problems.append(f"docs/gallery.md is not what gallery.json makes; run docs/gallery/gallery.py")
+    names = all_pictures()
+    there = {path.name for path in PICTURES.glob("*.png")}
+    problems += [f"{PICTURES.name}/{name} is not there" for name in sorted(names - there)]
+    problems += [f"{PICTURES.name}/{name} belongs to no entry" for name in sorted(there - names)]
+    for entry in GALLERY["entries"]:
+        if not case_of(entry):
+            problems.append(f"{entry['name']}: there is no test case {entry['property']}")
+    if not (TOP / ENVIRONMENT).exists():
+        print(f"skipped the pictures: {ENVIRONMENT} is not on this machine")
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            made = {}
+            for entry in GALLERY["entries"]:
+                for side in ("off", "on"):
+                    key = picture_of(entry, side)
+                    if key not in made:
+                        path = pathlib.Path(folder) / key
+                        render([weft], entry, side, path, GALLERY["check_size"])
+                        made[key] = read_png(path)
+                off, on = (made[picture_of(entry, side)] for side in ("off", "on"))
+                changed = sum(a != b for a, b in zip(off, on)) / len(off)
+                equal = entry.get("equal", False)
+                if (changed > 0) == equal:
+                    problems.append(f"{entry['name']}: {changed:.2%} of the values differ, and {'none' if equal else 'some'} should")
+                if max(on) == min(on):
+                    problems.append(f"{entry['name']}: the picture is one flat value")
+    for problem in problems:
+        print(problem)
+    print(f"{len(GALLERY['entries'])} entries, {len(problems)} problems")
+    return 1 if problems else 0
+
+
+def main():
+    if sys.argv[1:2] == ["--check"]:
+        sys.exit(check(sys.argv[2]))
+    if not (TOP / ENVIRONMENT).exists():
+        sys.exit(f"{ENVIRONMENT} is needed: an equirectangular environment, see docs/gallery/gallery.json")
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    known = [entry["name"] for entry in [*GALLERY["entries"], GALLERY["front"]]]
+    wanted = sys.argv[1:] or known
+    unknown = set(wanted) - set(known)
+    if unknown:
+        sys.exit(f"no entry is called {', '.join(sorted(unknown))}")
+    made = set()
+    for entry in GALLERY["entries"]:
+        for side in ("off", "on"):
+            name = picture_of(entry, side)
+            if entry["name"] in wanted and name not in made:
+                render([str(TOP / "run")], entry, side, PICTURES / name)
+                made.add(name)
+                print(f"docs/images/gallery/{name}")
+    front = GALLERY["front"]
+    if front["name"] in wanted:
+        if (TOP / front["environment"]).exists():
+            render([str(TOP / "run")], front, "on", PICTURES / picture_of(front, "on"))
+        else:
+            print(f"skipped {front['name']}: {front['environment']} is not on this machine")
+    names = all_pictures()
+    for path in PICTURES.glob("*.png"):
+        if path.name not in names:
+            path.unlink()
+    PAGE.write_text(page())
+    print("docs/gallery.md")
+
+
+if __name__ == "__main__":
+    main()
