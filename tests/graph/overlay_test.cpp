@@ -372,6 +372,7 @@ TEST_CASE("the papers' overlays read and expand") {
 TEST_CASE("every bundled preset fits the studio") {
   int presets = 0;
   for (const auto& entry : fs::directory_iterator(WEFT_SOURCE_DIR "/graphs/presets")) {
+    if (entry.path().extension() != ".json") continue;  // beside them: the tables they name
     INFO(entry.path().string());
     CHECK(fine(WEFT_SOURCE_DIR "/graphs/studio.json", {entry.path().string()}).graph);
     ++presets;
