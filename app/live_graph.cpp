@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "app/session.h"
+#include "engine/graph/suffix.h"
+#include "engine/graph/write_back.h"
 #include "engine/scene/scene_file.h"
 
 namespace weft::app {
@@ -196,6 +198,27 @@ bool LiveGraph::setParameter(const std::string& name, const std::string& value,
   std::erase_if(lostSets_, same);
   settings.sets.emplace_back(name, value);
   return trySettings(std::move(settings), diagnostics);
+}
+
+bool LiveGraph::resetParameter(const std::string& name, base::Diagnostics& diagnostics) {
+  graph::Settings settings = settings_;
+  std::erase_if(settings.sets, [&](const auto& set) { return graph::hasSuffix(name, set.first); });
+  return trySettings(std::move(settings), diagnostics);
+}
+
+bool LiveGraph::isChanged(const std::string& parameter) const {
+  return std::ranges::any_of(settings_.sets, [&](const auto& set) { return graph::hasSuffix(parameter, set.first); });
+}
+
+bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics) {
+  ++changes_;
+  if (!renderer_.desc()) return false;
+  const graph::Registry registry = runtime::makeRegistry(renderer_.device().passTypes, world_.facts());
+  const auto plan = graph::planWriteBack(*renderer_.desc(), renderer_.presets(), registry, settings_, diagnostics);
+  if (!plan || !graph::saveWriteBack(*plan, diagnostics)) return false;
+  for (const graph::WriteBack::File& file : plan->files) files.push_back(file.path);
+  settings_ = plan->rest;
+  return load(diagnostics);
 }
 
 bool LiveGraph::setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics) {

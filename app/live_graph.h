@@ -46,6 +46,13 @@ class LiveGraph {
   bool setParameter(const std::string& name, const std::string& value, base::Diagnostics& diagnostics);
   bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
 
+  // What the files say again, instead of what setParameter said. False after errors.
+  bool resetParameter(const std::string& name, base::Diagnostics& diagnostics);
+  bool isChanged(const std::string& parameter) const;
+  // Writes changed parameters and disabled passes into the files they come from (engine/graph/write_back.h); `files` are
+  // those that were written. False after errors: nothing was.
+  bool writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics);
+
   const runtime::World& world() const { return world_; }
   const graph::Settings& settings() const { return settings_; }
   const LiveEnvironment& environment() const { return environment_; }

@@ -61,6 +61,7 @@ void addDeviceOptions(CLI::App& command, Options& options) {
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
   command.add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'");
   command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
+  command.add_option("--trace", options.trace, "write a Chrome trace of the frames, for ui.perfetto.dev (measures each pass)");
   command.add_flag("--profile", options.profile, "measure each pass (slower: waits for the GPU after every pass on software)");
 }
 
@@ -88,6 +89,9 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   addDeviceOptions(*view, options);
   view->add_option("--max-frames", options.maxFrames, "close after this many frames (0: when the window is closed)");
   view->add_flag(kWaitForAssets, options.waitForAssets, "open the window when the environment is there, not before");
+  view->add_option("--panels", options.panels, "show (or hide) at the start: parameters, passes, inspector, profiler, storage, histogram")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"parameters", "passes", "inspector", "profiler", "storage", "histogram"}));
   view->add_flag("!--no-ui", options.ui, "no panels over the picture");
   view->add_option("--screenshot", options.screenshot, "picture to write of the last frame before closing, .png or .exr");
   view->add_option("--record", options.record, "write every frame from the first on, at a fixed step: f_%04d.png, or .exr");

@@ -32,6 +32,8 @@ struct Options {
   std::uint32_t maxFrames = 0;               // view: stop after this many frames; 0: until closed
   std::string screenshot;                    // view: written at the end
   bool waitForAssets = false;                // view: before the first frame; without a window always
+  std::string trace;                         // render, view: Chrome trace to write
+  std::vector<std::string> panels;           // view: shown or hidden at the start
   bool ui = true;                            // view: panels over the picture
   bool vsync = true, idle = false;           // view
   double renderScale = 1, uiScale = 0;       // view: pixels of the scene per pixel of the window; 0: as the screen says

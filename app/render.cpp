@@ -10,6 +10,7 @@
 #include "app/device_session.h"
 #include "app/output_files.h"
 #include "app/session.h"
+#include "app/trace_recorder.h"
 
 namespace weft::app {
 
@@ -54,11 +55,15 @@ int runRender(const Options& options) {
   double firstFrame = 0;
   const bool progress = options.lastFrame > 0 && !options.quiet;  // frames before the first one written run too
   session->renderer.device().timers.setEnabled(options.profile);
+  auto recorder = std::make_unique<TraceRecorder>(session->renderer.device().timers);
+  if (!options.trace.empty() && !recorder->start(options.trace, diagnostics)) return report(diagnostics);
   runtime::FrameReport last;
   // Every frame from 0 runs, so that frame N with history does not depend on where the range starts.
   for (std::uint32_t frame = 0; frame <= options.lastFrame; ++frame) {
     const double before = now();
+    recorder->begin(session->renderer.execution()->plan(), frame);
     last = session->renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
+    recorder->end(last);
     session->context->debugLog().drain(diagnostics);
     if (frame == 0) {
       glFinish();
@@ -69,6 +74,8 @@ int runRender(const Options& options) {
     if (diagnostics.hasErrors() || !savePresented(session->renderer, *outputNameOf(options.output, frame), diagnostics)) return report(diagnostics);
   }
   session->context->debugLog().drain(diagnostics);
+  recorder->stop(diagnostics);
+  recorder.reset();
   if (options.stats) {
     auto stats = statsOf(*session, {{"setup_ms", (prepared - start) * 1e3},
                                     {"first_frame_ms", firstFrame * 1e3},

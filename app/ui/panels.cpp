@@ -1,5 +1,6 @@
 #include "app/ui/panels.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -18,47 +19,213 @@ void Log::addPast(const base::Diagnostics& diagnostics) {
   if (past.size() > 100) past.erase(past.begin(), past.end() - 100);
 }
 
+namespace {
+
+float logHeight() {
+  const float screen = ImGui::GetIO().DisplaySize.y;
+  return std::max(64.0f, std::min(screen * 0.2f, ImGui::GetFontSize() * 9));
+}
+
+constexpr std::array<const char*, 6> kNames = {"parameters", "passes", "inspector", "profiler", "storage", "histogram"};
+constexpr std::array<const char*, 6> kTitles = {"Parameters", "Passes", "Texture inspector", "Frame profiler", "Storage", "Histogram"};
+
+}  // namespace
+
+Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log)
+    : live_(live), renderer_(renderer), log_(log), trace_(renderer.device().timers), inspector_(renderer) {}
+
+Panels::~Panels() { inspector_.release(); }
+
+bool Panels::toggle(std::string_view panel) {
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    if (panel == kNames[i]) {
+      open_[i] = !open_[i] || !visible;
+      latest_ = static_cast<Panel>(i);
+      visible = true;
+      arrange_ = true;
+      return true;
+    }
+  return false;
+}
+
+std::vector<std::string> Panels::names() { return {kNames.begin(), kNames.end()}; }
+
+void Panels::beforeFrame(std::uint64_t frame) {
+  frame_ = frame;
+  inspector_.beforeFrame(visible && open_[kInspector]);
+  if (renderer_.execution()) trace_.begin(renderer_.execution()->plan(), frame);
+}
+
+void Panels::afterFrame(const runtime::FrameReport& report) {
+  trace_.end(report);
+  if (visible && open_[kHistogram] && renderer_.execution()) histogram_.update(renderer_.execution()->presented());
+}
+
 void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnostics) {
   if (explained_ != live_.switches() || !explainer_) {
     explainer_ = std::make_unique<graph::Explainer>(renderer_.execution()->plan());
     explained_ = live_.switches();
   }
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
   if (visible) {
-    const float scale = ImGui::GetIO().FontGlobalScale;
-    const ImVec2 size(std::min(380.0f * scale, screen.x * 0.45f), std::max(64.0f, screen.y * 0.75f));
-    ImGui::SetNextWindowPos({8, 8}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Parameters")) {
+    drawMenu(diagnostics);
+    arrange();
+    if (begin(kParameters)) {
       drawSummary(report);
       drawParameters(diagnostics);
     }
-    ImGui::End();
-    ImGui::SetNextWindowPos({screen.x - size.x - 8, 8}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Passes")) drawPasses(diagnostics);
-    ImGui::End();
+    if (open_[kParameters]) ImGui::End();
+    if (begin(kPasses)) drawPasses(diagnostics);
+    if (open_[kPasses]) ImGui::End();
+    if (begin(kInspector)) inspector_.draw(diagnostics);
+    if (open_[kInspector]) ImGui::End();
+    if (begin(kProfiler)) drawProfiler(diagnostics);
+    if (open_[kProfiler]) ImGui::End();
+    if (begin(kStorage)) drawStorage();
+    if (open_[kStorage]) ImGui::End();
+    if (begin(kHistogram)) drawHistogram();
+    if (open_[kHistogram]) ImGui::End();
+    arrange_ = false;
   }
-  const auto isError = [](const base::Diagnostic& each) { return each.severity == base::Severity::error; };
-  const bool urgent =
-      !log_.files.empty() || !log_.change.empty() || std::ranges::any_of(log_.environment, isError);
-  if (urgent || (visible && (!log_.past.empty() || !log_.environment.empty()))) drawLog();
+  if (hasLog()) drawLog();
   drawLoading(live_.environment());
+}
+
+bool Panels::hasLog() const {
+  const auto isError = [](const base::Diagnostic& each) { return each.severity == base::Severity::error; };
+  const bool urgent = !log_.files.empty() || !log_.change.empty() || std::ranges::any_of(log_.environment, isError);
+  return urgent || (visible && (!log_.past.empty() || !log_.environment.empty()));
+}
+
+void Panels::drawMenu(base::Diagnostics& diagnostics) {
+  if (!ImGui::BeginMainMenuBar()) return;
+  if (ImGui::BeginMenu("Panels")) {
+    for (std::size_t i = 0; i < kTitles.size(); ++i)
+      if (ImGui::MenuItem(kTitles[i], nullptr, open_[i])) {
+        open_[i] = !open_[i];
+        latest_ = static_cast<Panel>(i);
+        arrange_ = true;
+      }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Arrange")) arrange_ = true;
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Files")) {
+    const graph::Settings& settings = live_.settings();
+    const bool any = !settings.sets.empty() || !settings.disables.empty();
+    if (ImGui::MenuItem("Write changes into the files", "F8", false, any)) writeBack(diagnostics);
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Measure")) {
+    gl::PassTimers& timers = renderer_.device().timers;
+    if (ImGui::MenuItem("Each pass", "P", timers.enabled(), !trace_.recording())) timers.setEnabled(!timers.enabled());
+    if (ImGui::MenuItem(trace_.recording() ? "End the trace" : "Begin a trace", "F9")) toggleTrace(diagnostics);
+    ImGui::EndMenu();
+  }
+  if (trace_.recording())
+    ImGui::TextColored({1, 0.5f, 0.4f, 1}, "tracing: %llu frames", static_cast<unsigned long long>(trace_.frames()));
+  else if (!said_.empty())
+    ImGui::TextDisabled("%s", said_.c_str());
+  ImGui::EndMainMenuBar();
+}
+
+// Columns: parameters and passes at the sides, others one below the other between them; where the window is narrow, the two
+// share the left side. Below all of it stands the log.
+void Panels::arrange() {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  if (screen.x != width_ || screen.y != height_) arrange_ = true;
+  width_ = screen.x;
+  height_ = screen.y;
+  if (!arrange_) return;
+  const float gap = 6, top = ImGui::GetFrameHeight() + gap, em = ImGui::GetFontSize();
+  const float bottom = screen.y - logHeight() - 2 * gap;  // the log's, also while there is none
+  const float height = std::max(bottom - top, 4 * em);
+  std::vector<Panel> others;
+  for (const Panel panel : {kInspector, kProfiler, kStorage, kHistogram})
+    if (open_[panel]) others.push_back(panel);
+  // Where there is no room for all, the one opened last stays longest.
+  while (others.size() > 1 && height / static_cast<float>(others.size() + (open_[kInspector] ? 1 : 0)) < 10 * em) {
+    const auto first = std::ranges::find_if(others, [&](Panel panel) { return panel != latest_; });
+    open_[*first] = false;
+    others.erase(first);
+  }
+  const bool narrow = screen.x < 88 * em && !others.empty();
+  const float side = std::min(narrow ? screen.x * 0.42f : 29 * em, screen.x * 0.45f);
+  float left = gap, right = screen.x - gap;
+  if (narrow) {
+    const bool both = open_[kParameters] && open_[kPasses];
+    const float each = both ? (height - gap) / 2 : height;
+    places_[kParameters] = {gap, top, side, each};
+    places_[kPasses] = {gap, both ? top + each + gap : top, side, each};
+    if (open_[kParameters] || open_[kPasses]) left += side + gap;
+  } else {
+    places_[kParameters] = {gap, top, side, height};
+    places_[kPasses] = {right - side, top, side, height};
+    if (open_[kParameters]) left += side + gap;
+    if (open_[kPasses]) right -= side + gap;
+  }
+  float shares = 0, y = top;
+  const auto shareOf = [](Panel panel) { return panel == kInspector ? 2.0f : 1.0f; };
+  for (const Panel panel : others) shares += shareOf(panel);
+  const float room = height - gap * (static_cast<float>(others.size()) - 1);
+  for (const Panel panel : others) {
+    const float each = room * shareOf(panel) / shares;
+    places_[panel] = {left, y, right - left, each};
+    y += each + gap;
+  }
+}
+
+bool Panels::begin(Panel panel) {
+  if (!open_[panel]) return false;
+  const ImGuiCond when = arrange_ ? ImGuiCond_Always : ImGuiCond_Appearing;
+  const Place& place = places_[panel];
+  ImGui::SetNextWindowPos({place.x, place.y}, when);
+  ImGui::SetNextWindowSize({place.width, place.height}, when);
+  bool stays = true;
+  const bool shown = ImGui::Begin(kTitles[panel], &stays);
+  if (!stays) {
+    ImGui::End();
+    open_[panel] = false;
+    return false;
+  }
+  return shown;
+}
+
+void Panels::writeBack(base::Diagnostics& diagnostics) {
+  std::vector<std::string> files;
+  if (live_.writeBack(files, diagnostics)) {
+    said_ = files.empty() ? "the files say so already" : "wrote";
+    for (const std::string& file : files) said_ += " " + file;
+    fmt::print("{}\n", said_);
+  } else {
+    said_ = "nothing was written: see the log";
+  }
+}
+
+void Panels::toggleTrace(base::Diagnostics& diagnostics) {
+  if (!trace_.recording()) {
+    trace_.start(fmt::format("weft_{:05}.trace.json", frame_), diagnostics);
+    return;
+  }
+  const std::string path = trace_.path();
+  if (trace_.stop(diagnostics)) {
+    said_ = "wrote " + path;
+    fmt::print("{}\n", said_);
+  }
 }
 
 void Panels::drawSummary(const runtime::FrameReport& report) {
   const ImGuiIO& io = ImGui::GetIO();
   const graph::Settings& settings = live_.settings();
-  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth,
-              settings.screenHeight, 1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)),
-              report.passesRun, report.passesSkipped);
+  ImGui::PushTextWrapPos(0);
+  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth, settings.screenHeight,
+              1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)), report.passesRun, report.passesSkipped);
   ImGui::TextDisabled("%s", renderer_.graphPath().c_str());
-  ImGui::TextDisabled("F1: help");
+  ImGui::PopTextWrapPos();
 }
 
 void Panels::drawLog() const {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const float height = std::max(64.0f, screen.y * 0.2f);
+  const float height = logHeight();
   ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
   ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
   ImGui::Begin("Log", nullptr,

@@ -1,13 +1,20 @@
-// The viewer's panels: passes, parameters, log. Each is made anew every frame from what it shows and keeps next to
-// nothing; what a person changes goes straight into the LiveGraph. Does not: call OpenGL, know the window.
+// The viewer's panels: parameters, passes, texture inspector, frame profiler, storage, histogram, log. Each is made
+// anew every frame from what it shows and keeps what a person chose in it; changes go straight into the LiveGraph.
+// Does not: know the window, or draw what the inspector shows (engine/runtime/inspector.h does).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/live_graph.h"
+#include "app/trace_recorder.h"
+#include "app/ui/inspector_panel.h"
 #include "engine/graph/explain.h"
+#include "engine/runtime/picture_histogram.h"
 
 namespace weft::app::ui {
 
@@ -20,24 +27,67 @@ struct Log {
 
 class Panels {
  public:
-  Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log) : live_(live), renderer_(renderer), log_(log) {}
+  Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log);
+  ~Panels();
+  Panels(const Panels&) = delete;
+  Panels& operator=(const Panels&) = delete;
 
   bool visible = true;
 
+  // Shows or hides one by its name, as kPanels has them. False for another name.
+  bool toggle(std::string_view panel);
+  static std::vector<std::string> names();
+
+  // Around Renderer::frame().
+  void beforeFrame(std::uint64_t frame);
+  void afterFrame(const runtime::FrameReport& report);
   // Between Overlay::begin() and end(). `diagnostics` gets what a change that was made here led to.
   void draw(const runtime::FrameReport& report, base::Diagnostics& diagnostics);
 
+  // In idle mode: what was chosen shows only in another frame of the graph.
+  bool wantsFrame() const { return visible && open_[kInspector] && inspector_.wantsFrame(); }
+
+  // Writes what was changed here into the files; says what it wrote in the log.
+  void writeBack(base::Diagnostics& diagnostics);
+  // Starts a trace in weft_<frame>.trace.json, or ends it.
+  void toggleTrace(base::Diagnostics& diagnostics);
+  TraceRecorder& tracer() { return trace_; }
+
  private:
+  enum Panel : std::size_t { kParameters, kPasses, kInspector, kProfiler, kStorage, kHistogram, kPanelCount };
+
+  void drawMenu(base::Diagnostics& diagnostics);
+  void arrange();
+  bool begin(Panel panel);
   void drawSummary(const runtime::FrameReport& report);
   void drawPasses(base::Diagnostics& diagnostics);
   void drawParameters(base::Diagnostics& diagnostics);
+  void drawProfiler(base::Diagnostics& diagnostics);
+  void drawStorage();
+  void drawHistogram();
   void drawLog() const;
+  bool hasLog() const;
 
   LiveGraph& live_;
   runtime::Renderer& renderer_;
   Log& log_;
+  TraceRecorder trace_;
+  InspectorPanel inspector_;
+  runtime::PictureHistogram histogram_;
   std::unique_ptr<graph::Explainer> explainer_;  // of the plan of `explained_`
-  std::uint64_t explained_ = 0;
+  std::uint64_t explained_ = 0, frame_ = 0;
+
+  struct Place {
+    float x = 0, y = 0, width = 0, height = 0;
+  };
+  std::array<bool, kPanelCount> open_{true, true};
+  std::array<Place, kPanelCount> places_{};
+  Panel latest_ = kPasses;        // shown or hidden last
+  float width_ = 0, height_ = 0;  // of the window when it was arranged
+  bool arrange_ = true;           // places are to be taken in this frame
+  std::string search_;            // of the parameters
+  std::string said_;              // what the menu did last
+  bool gpuStack_ = true;          // profiler: stack GPU times, else CPU times
 };
 
 }  // namespace weft::app::ui

@@ -2,6 +2,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -34,7 +36,35 @@ std::optional<Value> editNumber(const char* label, const graph::ParameterSpec& p
   return edited ? std::optional(Value::number(x)) : std::nullopt;
 }
 
+// A list of three or four that its name calls a colour, from 0 to 1.
+bool isColor(const graph::ParameterSpec& parameter) {
+  const ParameterDesc& desc = parameter.desc;
+  if ((desc.type != Type::vec3 && desc.type != Type::vec4) || desc.min != 0 || desc.max != 1) return false;
+  const std::string names = desc.name + desc.label;
+  for (const char* word : {"color", "colour", "Color", "Colour", "albedo", "tint"})
+    if (names.find(word) != std::string::npos) return true;
+  return false;
+}
+
+std::optional<Value> editColor(const char* label, const graph::ParameterSpec& parameter) {
+  Value value = parameter.value;
+  float color[4] = {0, 0, 0, 1};
+  for (std::size_t i = 0; i < value.count; ++i) color[i] = static_cast<float>(value.v[i]);
+  const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float;
+  if (!(value.count == 4 ? ImGui::ColorEdit4(label, color, flags) : ImGui::ColorEdit3(label, color, flags))) return std::nullopt;
+  for (std::size_t i = 0; i < value.count; ++i) value.v[i] = std::round(static_cast<double>(color[i]) * 1000) / 1000;
+  return value;
+}
+
+std::optional<Value> editFile(const char* label, const graph::ParameterSpec& parameter) {
+  char text[1024] = {};
+  parameter.value.symbol.copy(text, sizeof text - 1);
+  if (!ImGui::InputText(label, text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue)) return std::nullopt;
+  return Value::text(text);
+}
+
 std::optional<Value> editVector(const char* label, const graph::ParameterSpec& parameter) {
+  if (isColor(parameter)) return editColor(label, parameter);
   Value value = parameter.value;
   const double low = parameter.desc.min.value_or(-1e9), high = parameter.desc.max.value_or(1e9);
   const bool edited = ImGui::DragScalarN(label, ImGuiDataType_Double, value.v.data(), value.count,
@@ -66,42 +96,80 @@ std::optional<Value> edit(const char* label, const graph::ParameterSpec& paramet
     case Type::vec3:
     case Type::vec4: return editVector(label, parameter);
     case Type::choice: return editChoice(label, parameter);
-    case Type::file: ImGui::LabelText(label, "%s", parameter.value.symbol.c_str()); return std::nullopt;
+    case Type::file: return editFile(label, parameter);
   }
   return std::nullopt;
+}
+
+// Whether every letter of `wanted` stands in `text`, in one piece, in whatever case.
+bool matches(const std::string& wanted, const std::string& text) {
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
+  return wanted.empty() || std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), same) != text.end();
 }
 
 }  // namespace
 
 void Panels::drawParameters(base::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
-  std::string changed, text, scope = "\n";
-  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.45f);
+  char search[128] = {};
+  search_.copy(search, sizeof search - 1);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::InputTextWithHint("##search", "search", search, sizeof search)) search_ = search;
+  ImGui::BeginChild("list");
+  std::string changed, text, reset, scope = "\n";
+  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX;
+  bool table = false;
   for (const graph::ParameterSpec& parameter : graph.parameters) {
+    const std::string& label = parameter.desc.label.empty() ? parameter.desc.name : parameter.desc.label;
+    if (!matches(search_, parameter.path) && !matches(search_, label)) continue;
     const std::size_t dot = parameter.path.rfind('.');
     const std::string prefix = dot == std::string::npos ? std::string() : parameter.path.substr(0, dot);
     if (prefix != scope) {
       scope = prefix;
+      if (table) ImGui::EndTable();
+      table = false;
       if (!prefix.empty()) ImGui::TextDisabled("%s", prefix.c_str());
     }
+    if (!table) {
+      table = ImGui::BeginTable("values", 2, kFlags);
+      if (!table) break;
+      ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_None, 0.42f);
+      ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_None, 0.58f);
+    }
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
     ImGui::PushID(parameter.path.c_str());
-    const std::string& name = parameter.desc.label.empty() ? parameter.desc.name : parameter.desc.label;
-    if (const auto value = edit(name.c_str(), parameter)) {
+    const bool tweaked = live_.isChanged(parameter.path);
+    if (tweaked) ImGui::PushStyleColor(ImGuiCol_Text, {1, 0.85f, 0.4f, 1});
+    ImGui::SetNextItemWidth(-1);
+    if (const auto value = edit("##value", parameter)) {
       changed = parameter.path;
       text = graph::toText(*value);
     }
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s = %s%s%s%s\nright click: as the files say", parameter.path.c_str(),
-                        graph::toText(parameter.value).c_str(), parameter.structural ? "\nchanges the plan" : "",
-                        parameter.desc.doc.empty() ? "" : "\n", parameter.desc.doc.c_str());
-    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
-      changed = parameter.path;
-      text = graph::toText(parameter.desc.initial);
+    bool hovered = ImGui::IsItemHovered(), clicked = ImGui::IsItemClicked(ImGuiMouseButton_Right);
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextWrapped("%s%s", tweaked ? "* " : "", label.c_str());
+    hovered |= ImGui::IsItemHovered();
+    clicked |= ImGui::IsItemClicked(ImGuiMouseButton_Right);
+    if (tweaked) ImGui::PopStyleColor();
+    if (hovered) {
+      ImGui::BeginTooltip();
+      ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
+      ImGui::TextUnformatted((label + "\n" + parameter.path + " = " + graph::toText(parameter.value) +
+                              (parameter.structural ? "\nchanges the plan" : "") + (parameter.desc.doc.empty() ? "" : "\n") +
+                              parameter.desc.doc + (tweaked ? "\n* changed here; right click: as the files say" : ""))
+                                 .c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::EndTooltip();
     }
+    if (tweaked && clicked) reset = parameter.path;
     ImGui::PopID();
   }
-  ImGui::PopItemWidth();
+  if (table) ImGui::EndTable();
+  ImGui::EndChild();
   if (!changed.empty()) live_.setParameter(changed, text, diagnostics);
+  else if (!reset.empty()) live_.resetParameter(reset, diagnostics);
 }
 
 }  // namespace weft::app::ui

@@ -1,4 +1,5 @@
 // Passes in the order they run; below, those that do not, and why.
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <cstring>
@@ -38,9 +39,15 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
   std::string pass;  // to turn on or off when all is drawn
   bool enable = false;
 
+  // Little room: whether a pass ran shows in the colour of its name, CPU times only in the tooltip.
+  const bool narrow = ImGui::GetContentRegionAvail().x < ImGui::GetFontSize() * 24;
   const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-  if (ImGui::BeginTable("passes", 3, flags)) {
-    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
+  if (ImGui::BeginTable("passes", narrow ? (profile ? 2 : 1) : (profile ? 4 : 2), flags)) {
+    ImGui::TableSetupColumn("in the order they run", ImGuiTableColumnFlags_WidthStretch);
+    if (!narrow) ImGui::TableSetupColumn("");
+    if (profile) ImGui::TableSetupColumn("GPU ms");
+    if (profile && !narrow) ImGui::TableSetupColumn("CPU ms");
+    ImGui::TableHeadersRow();
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(plan.steps.size()));
     while (clipper.Step())
@@ -53,14 +60,23 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         bool on = true;
+        if (!ran) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
         if (ImGui::Checkbox(name.c_str(), &on)) pass = graph.specs[index].declared;
-        explain(explainer_->whyPass(index) + "\n" + explainer_->whyHere(index));
-        ImGui::TableNextColumn();
-        ran ? ImGui::TextUnformatted("ran") : ImGui::TextDisabled("kept");
-        explain(ran ? "" : "nothing it depends on has changed since it ran");
-        ImGui::TableNextColumn();
-        if (profile && step < timers.results().size() && timers.results()[step].ran)
-          ImGui::Text("%6.2f ms", timers.results()[step].gpu);
+        if (!ran) ImGui::PopStyleColor();
+        const bool timed = profile && step < timers.results().size() && timers.results()[step].ran;
+        explain(name + (timed ? fmt::format(": GPU {:.2f} ms, CPU {:.2f} ms", timers.results()[step].gpu, timers.results()[step].cpu) : "") + "\n" +
+                explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
+                (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
+        if (!narrow) {
+          ImGui::TableNextColumn();
+          ran ? ImGui::TextUnformatted("ran") : ImGui::TextDisabled("kept");
+        }
+        if (timed) {
+          ImGui::TableNextColumn();
+          ImGui::Text("%6.2f", timers.results()[step].gpu);
+          if (!narrow) ImGui::TableNextColumn();
+          if (!narrow) ImGui::Text("%6.2f", timers.results()[step].cpu);
+        }
         ImGui::PopID();
       }
     ImGui::EndTable();
@@ -76,8 +92,16 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
     }
     ImGui::EndDisabled();
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", why.c_str());
-    explain(why);
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(why.c_str()).x) {
+      ImGui::NewLine();
+      ImGui::Indent();
+      ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+      ImGui::TextWrapped("%s", why.c_str());
+      ImGui::PopStyleColor();
+      ImGui::Unindent();
+    } else {
+      ImGui::TextDisabled("%s", why.c_str());
+    }
     ImGui::PopID();
   };
   for (std::uint32_t i = 0; i < graph.passes.size(); ++i)

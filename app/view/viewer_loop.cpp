@@ -55,6 +55,7 @@ int Viewer::run() {
     if (options_.maxFrames && frame_ >= options_.maxFrames) break;
   }
   recorder_.stop();
+  panels_.tracer().stop(diagnostics_);
   input_.capture(false);
   return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
 }
@@ -96,7 +97,9 @@ void Viewer::update(gl::Size size) {
     rest_.disturb();
     restless_ = kRestlessAfterEvent;
   }
+  const std::uint64_t changes = live_.changes();
   for (const std::string_view action : input_.takeActions()) actions_.run(action);
+  if (live_.changes() != changes) tell(diagnostics_, log_.change);
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
   if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
   showState();
@@ -143,7 +146,9 @@ void Viewer::frame(gl::Size size) {
   in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
   in.cutGeneration = cuts_ = rig_.cuts();
   in.headless = !options_.record.empty();  // as `weft render` makes the same frames
+  panels_.beforeFrame(frame_);
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
+  panels_.afterFrame(report_);
   previousPose_ = in.pose;
   recorder_.add(renderer_, diagnostics_);
   if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
@@ -209,6 +214,7 @@ void Viewer::drawUi() {
     drawWaiting(log_.files);
   if (help_) drawHelp();
   overlay_->end();
+  if (panels_.wantsFrame()) rest_.disturb();
   if (live_.changes() != before) tell(diagnostics_, log_.change);
 }
 

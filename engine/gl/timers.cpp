@@ -8,20 +8,21 @@
 
 namespace weft::gl {
 
-namespace {
-
-double nowMs() {
+double steadyMs() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
-
-}  // namespace
 
 PassTimers::PassTimers(const DeviceInfo& device)
     : queries_(device.hasTimerQueries && !workarounds::timerQueriesLie(device)) {}
 
 void PassTimers::setEnabled(bool enabled) {
   if (enabled_ && !enabled) finish();
+  if (!enabled_ && enabled && queries_) {
+    GLint64 gpu = 0;
+    glGetInteger64v(GL_TIMESTAMP, &gpu);
+    clockOffset_ = steadyMs() - static_cast<double>(gpu) * 1e-6;
+  }
   enabled_ = enabled;
 }
 
@@ -46,7 +47,8 @@ void PassTimers::begin(std::uint32_t pass) {
     glQueryCounter(frame.starts[pass].id(), GL_TIMESTAMP);
   else
     glFinish();
-  cpuStart_ = gpuStart_ = nowMs();
+  cpuStart_ = steadyMs();
+  if (!frame.times[pass].ran) frame.times[pass].cpuAt = frame.times[pass].gpuAt = cpuStart_;
 }
 
 void PassTimers::end(std::uint32_t pass) {
@@ -54,13 +56,13 @@ void PassTimers::end(std::uint32_t pass) {
   Frame& frame = frames_[current_];
   PassTime& time = frame.times[pass];
   time.ran = true;
-  time.cpu += nowMs() - cpuStart_;
+  time.cpu += steadyMs() - cpuStart_;
   frame.last = pass;
   if (queries_) {
     glQueryCounter(frame.ends[pass].id(), GL_TIMESTAMP);
   } else {
     glFinish();
-    time.gpu += nowMs() - gpuStart_;
+    time.gpu += steadyMs() - cpuStart_;
   }
 }
 
@@ -81,11 +83,15 @@ void PassTimers::endFrame() {
 void PassTimers::collect(Frame& frame) {
   if (queries_)
     for (std::size_t i = 0; i < frame.times.size(); ++i)
-      if (frame.times[i].ran)
-        frame.times[i].gpu = static_cast<double>(frame.ends[i].result() - frame.starts[i].result()) * 1e-6;
+      if (frame.times[i].ran) {
+        const std::uint64_t start = frame.starts[i].result();
+        frame.times[i].gpu = static_cast<double>(frame.ends[i].result() - start) * 1e-6;
+        frame.times[i].gpuAt = static_cast<double>(start) * 1e-6 + clockOffset_;
+      }
   results_.assign(frame.times.begin(), frame.times.end());
   resultFrame_ = frame.number;
   frame.number = 0;
+  if (listener_) listener_(resultFrame_, results_);
 }
 
 void PassTimers::finish() {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/gl/context.h"
@@ -17,13 +19,21 @@ struct PassTime {
   bool ran = false;
   double gpu = 0;  // ms
   double cpu = 0;  // ms between begin() and end() on this thread, without the finish
+  double gpuAt = 0, cpuAt = 0;  // when they began: ms of the steady clock, the GPU's clock set to it
 };
+
+// The steady clock in ms: what PassTime counts in.
+double steadyMs();
 
 class PassTimers {
  public:
   explicit PassTimers(const DeviceInfo& device);
 
   void setEnabled(bool enabled);
+  // Called with every frame's number and times once they are complete, in order, from within beginFrame(), endFrame(),
+  // setEnabled() or finish(). Empty: nobody. Must not call back.
+  using Listener = std::function<void(std::uint64_t number, std::span<const PassTime> times)>;
+  void setListener(Listener listener) { listener_ = std::move(listener); }
   bool enabled() const { return enabled_; }
   bool usesQueries() const { return queries_; }
 
@@ -37,6 +47,8 @@ class PassTimers {
   std::span<const PassTime> results() const { return results_; }
   // Its number, counting endFrame() calls while enabled from 1; 0 before the first.
   std::uint64_t resultFrame() const { return resultFrame_; }
+  // The number that the frame to begin next will have.
+  std::uint64_t nextFrame() const { return counter_ + 1; }
   // Waits for all frames in flight; results() is then the last one.
   void finish();
 
@@ -53,7 +65,9 @@ class PassTimers {
   Frame frames_[kFramesInFlight];
   std::size_t current_ = 0;
   std::uint64_t counter_ = 0, resultFrame_ = 0;
-  double cpuStart_ = 0, gpuStart_ = 0;
+  double cpuStart_ = 0;
+  double clockOffset_ = 0;  // ms from the GPU's clock to the steady one
+  Listener listener_;
   std::vector<PassTime> results_;
 };
 

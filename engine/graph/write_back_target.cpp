@@ -157,27 +157,29 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
           means.size() == 1 && prefix + names[means[0]] == wanted.path)
         deciding = &*set;
   }
-  if (deciding && deciding->place.file)
-    edits.add(*deciding->place.file,
-              [&](const std::string& text) { return putValue(text, deciding->pointer, wanted.value); });
-  const std::string name = shortest(wanted.path, paths);
-  if (const auto overlay = overlayOf(desc, presets, texts))
-    edits.add(*overlay, [&](const std::string& text) { return putInSet(text, name, wanted.value); });
-  if (found.desc->initialPlace.file) {
-    const std::string& path = *found.desc->initialPlace.file;
+  // A path is written from the folder of the file it stands in.
+  const auto valueIn = [&](const std::string& path) {
     Value value = wanted.value;
-    if (found.desc->type == ParameterDesc::Type::file && !value.symbol.empty())
-      if (std::filesystem::path(value.symbol).is_relative()) {
-        std::error_code ignored;
-        const auto whole = [&](const std::filesystem::path& at) {
-          return std::filesystem::absolute(at, ignored).lexically_normal();
-        };
-        value.symbol = whole(value.symbol).lexically_relative(whole(path).parent_path()).string();
-      }
-    edits.add(path,
-              [&](const std::string& text) { return putValue(text, found.desc->initialPointer, value); });
-  }
-  edits.add(desc.path, [&](const std::string& text) { return putInSet(text, name, wanted.value); });
+    if (found.desc->type != ParameterDesc::Type::file || value.symbol.empty()) return value;
+    if (std::filesystem::path(value.symbol).is_absolute()) return value;
+    std::error_code ignored;
+    const auto whole = [&](const std::filesystem::path& at) {
+      return std::filesystem::absolute(at, ignored).lexically_normal();
+    };
+    value.symbol = whole(value.symbol).lexically_relative(whole(path).parent_path()).string();
+    return value;
+  };
+  const auto put = [&](const std::string& path, const std::string& pointer) {
+    edits.add(path, [&](const std::string& text) { return putValue(text, pointer, valueIn(path)); });
+  };
+  const auto putSet = [&](const std::string& path) {
+    const std::string name = shortest(wanted.path, paths);
+    edits.add(path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
+  };
+  if (deciding && deciding->place.file) put(*deciding->place.file, deciding->pointer);
+  if (const auto overlay = overlayOf(desc, presets, texts)) putSet(*overlay);
+  if (found.desc->initialPlace.file) put(*found.desc->initialPlace.file, found.desc->initialPointer);
+  putSet(desc.path);
   return std::move(edits.made);
 }
 

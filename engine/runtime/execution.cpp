@@ -75,10 +75,12 @@ void Execution::runDecided(FrameReport& report, base::Diagnostics& diagnostics) 
     }
     if (!cadence_->runs(step)) {
       if (planned.barriersAfterClears) glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
+      if (step == tapStep_) tap_();
       continue;
     }
     ran_[step] = 1;
     runStep(step, diagnostics);
+    if (step == tapStep_) tap_();
   }
   cadence_->endFrame(own_, generationsBefore_, generations_);
 }

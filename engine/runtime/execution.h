@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -64,8 +65,14 @@ class Execution {
   // The current texture or buffer of a resource by its name in the graph ("hdr", "ibl.brdf"), for tests and inspectors:
   // the last version of that name, or nothing when it is not alive.
   gl::TextureRef texture(std::string_view resource);
-  gl::TextureRef texture(std::uint32_t resource);   // an own texture by its index in the graph; alive, not imported
+  gl::TextureRef texture(std::uint32_t resource, std::uint32_t history = 0);   // by its index in the graph; alive
   BufferRef buffer(std::string_view resource, std::uint64_t& offset);
+  BufferRef buffer(std::uint32_t resource, std::uint64_t& offset, std::uint32_t history = 0);
+  // A tap into the frame: `look` is called right after `step` in every frame, run or kept, while what the step wrote is
+  // still in its storage (later steps may put other resources there). It may read, copy and draw into textures of its own;
+  // the plan and what runs stay the same. An empty function ends it; one tap at a time, none in a new execution.
+  void tap(std::uint32_t step, std::function<void()> look);
+  bool tapped() const { return tapStep_ != graph::kNone; }
   bool ran(std::string_view pass) const;   // in the last frame
 
  private:
@@ -108,6 +115,8 @@ class Execution {
   FrameInput input_;
   const World* world_ = nullptr;
   std::uint64_t framesRun_ = 0;
+  std::size_t tapStep_ = graph::kNone;
+  std::function<void()> tap_;
 };
 
 }  // namespace weft::runtime

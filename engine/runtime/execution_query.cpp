@@ -1,4 +1,6 @@
 // What an execution shows to the outside: resources by name, the presented picture.
+#include <utility>
+
 #include "engine/runtime/execution.h"
 
 namespace weft::runtime {
@@ -23,19 +25,28 @@ gl::TextureRef Execution::texture(std::string_view name) {
   return r == kNone ? gl::TextureRef{} : texture(r);
 }
 
-gl::TextureRef Execution::texture(std::uint32_t r) {
+gl::TextureRef Execution::texture(std::uint32_t r, std::uint32_t history) {
   base::Diagnostics ignored;
   const graph::FlatResource& desc = plan_->graph->resources[r];
   const FlatUse all{.resource = r, .mips = desc.mips, .layers = desc.layers};
-  return pool_->view(*plan_, all, (*pool_)[r].copyOf(0), 0, ignored);
+  return pool_->view(*plan_, all, (*pool_)[r].copyOf(history), 0, ignored);
 }
 
 BufferRef Execution::buffer(std::string_view name, std::uint64_t& offset) {
   const std::uint32_t r = lastVersionOf(name);
-  if (r == kNone || (*pool_)[r].buffers.empty()) return {};
+  return r == kNone ? BufferRef{} : buffer(r, offset);
+}
+
+BufferRef Execution::buffer(std::uint32_t r, std::uint64_t& offset, std::uint32_t history) {
   const GpuResource& resource = (*pool_)[r];
+  if (resource.buffers.empty()) return {};
   offset = resource.offset;
-  return {resource.buffers[resource.copyOf(0)], resource.bytes};
+  return {resource.buffers[resource.copyOf(history)], resource.bytes};
+}
+
+void Execution::tap(std::uint32_t step, std::function<void()> look) {
+  tapStep_ = look ? std::size_t{step} : std::size_t{kNone};
+  tap_ = std::move(look);
 }
 
 gl::TextureRef Execution::presented() {

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ class Renderer {
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
   Execution* execution() { return execution_.get(); }
+  // What runs, as it was read; null before the first load().
+  const graph::GraphDesc* desc() const { return desc_.get(); }
+  std::span<const std::string> presets() const { return options_.presets; }
   Device& device() { return device_; }
   const std::string& graphPath() const { return graphPath_; }
 

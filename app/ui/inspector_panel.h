@@ -1,0 +1,42 @@
+// The texture inspector's window: which resource, where in the frame, which part, how shown; zoom, pan and the value under
+// the cursor. Does not: copy or draw texels (engine/runtime/inspector.h does).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/runtime/inspector.h"
+#include "engine/runtime/renderer.h"
+
+namespace weft::app::ui {
+
+class InspectorPanel {
+ public:
+  explicit InspectorPanel(runtime::Renderer& renderer) : renderer_(renderer), inspector_(renderer.device()) {}
+
+  // Before each frame; `wanted`: the window is open.
+  void beforeFrame(bool wanted);
+  // Inside the window.
+  void draw(base::Diagnostics& diagnostics);
+  void release();
+  bool wantsFrame() const { return wantsFrame_; }  // something else is to be copied
+
+ private:
+  void chooseTarget(const graph::Plan& plan);
+  void choosePart(const graph::FlatResource& resource);
+  void chooseView(const graph::FlatResource& resource);
+  void drawPicture(base::Diagnostics& diagnostics);
+  void drawNumbers();
+
+  runtime::Renderer& renderer_;
+  runtime::Inspector inspector_;
+  runtime::InspectTarget target_;
+  runtime::InspectView view_;
+  std::string shown_;   // resource of the last frame
+  std::string fitted_;  // resource and part that the zoom was fitted to
+  bool found_ = false, fit_ = true, wantsFrame_ = false;
+  std::optional<runtime::InspectStatistics> statistics_;
+  int numbers_ = 0;  // buffers: 0 float, 1 hexadecimal, 2 unsigned, 3 signed
+};
+
+}  // namespace weft::app::ui
