@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,23 +18,23 @@ using graph::ParameterDesc;
 using graph::Value;
 using Type = ParameterDesc::Type;
 
+// Dear ImGui asserts on wider ranges, and its whole numbers end at 2^30: those are edited as doubles as well.
+constexpr double kWidest = std::numeric_limits<double>::max() / 2;
+
 std::optional<Value> editNumber(const char* label, const graph::ParameterSpec& parameter) {
   const ParameterDesc& desc = parameter.desc;
-  const bool ranged = desc.min && desc.max;
-  if (desc.type == Type::integer) {
-    int x = static_cast<int>(parameter.value.v[0]);
-    const int low = desc.min ? static_cast<int>(*desc.min) : INT32_MIN / 2, high = desc.max ? static_cast<int>(*desc.max) : INT32_MAX / 2;
-    const bool edited = ranged ? ImGui::SliderInt(label, &x, low, high, "%d", ImGuiSliderFlags_AlwaysClamp)
-                               : ImGui::DragInt(label, &x, 0.1f, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
-    return edited ? std::optional(Value::number(x)) : std::nullopt;
-  }
+  const bool whole = desc.type == Type::integer;
+  const double low = std::max(desc.min.value_or(-1e9), -kWidest),
+               high = std::min(desc.max.value_or(1e9), kWidest);
+  const char* format = whole ? "%.0f" : "%.4g";
   double x = parameter.value.v[0];
-  const double low = desc.min.value_or(-1e9), high = desc.max.value_or(1e9);
-  const bool edited =
-      ranged ? ImGui::SliderScalar(label, ImGuiDataType_Double, &x, &low, &high, "%.4g", ImGuiSliderFlags_AlwaysClamp)
-             : ImGui::DragScalar(label, ImGuiDataType_Double, &x, static_cast<float>(desc.step.value_or(0.01)), &low, &high,
-                                 "%.4g", ImGuiSliderFlags_AlwaysClamp);
-  return edited ? std::optional(Value::number(x)) : std::nullopt;
+  const bool edited = desc.min && desc.max
+                          ? ImGui::SliderScalar(label, ImGuiDataType_Double, &x, &low, &high, format,
+                                                ImGuiSliderFlags_AlwaysClamp)
+                          : ImGui::DragScalar(label, ImGuiDataType_Double, &x,
+                                              static_cast<float>(desc.step.value_or(whole ? 0.1 : 0.01)),
+                                              &low, &high, format, ImGuiSliderFlags_AlwaysClamp);
+  return edited ? std::optional(Value::number(whole ? std::round(x) : x)) : std::nullopt;
 }
 
 // A list of three or four that its name calls a colour, from 0 to 1.

@@ -2,21 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <variant>
 
 namespace weft::runtime {
 
 namespace {
 
+// The nearest number that T has; 0 for NaN. (Out of range, C++ leaves the conversion undefined.)
+template <class T>
+T toWhole(double x) {
+  if (std::isnan(x)) return 0;
+  return static_cast<T>(std::clamp(x, static_cast<double>(std::numeric_limits<T>::min()),
+                                   static_cast<double>(std::numeric_limits<T>::max())));
+}
+
 void putScalar(std::byte* at, GLenum base, double x) {
   if (base == GL_INT) {
-    const auto value = static_cast<std::int32_t>(x);
+    const auto value = toWhole<std::int32_t>(x);
     std::memcpy(at, &value, sizeof value);
   } else if (base == GL_UNSIGNED_INT) {
-    const auto value = static_cast<std::uint32_t>(x < 0 ? 0 : x);
+    const auto value = toWhole<std::uint32_t>(x);
     std::memcpy(at, &value, sizeof value);
   } else if (base == GL_BOOL) {
     const std::uint32_t value = x != 0;

@@ -141,7 +141,7 @@ const scene::ViewData& Imports::view(const graph::ImportSpec* import, std::uint3
   std::uint32_t jitter = 0;
   if (import)
     for (const auto& [name, value] : import->request.arguments)
-      if (name == "jitter") jitter = static_cast<std::uint32_t>(std::max(0.0, value.v[0]));
+      if (name == "jitter") jitter = static_cast<std::uint32_t>(std::clamp(value.v[0], 0.0, 4294967295.0));
   CachedView* cached = nullptr;
   for (CachedView& each : views_)
     if (each.jitter == jitter && each.width == width && each.height == height) cached = &each;

@@ -31,8 +31,39 @@ def main():
             words = mean.out.split()
             report.check(mean.code == 0 and words[:2] == ["640", "360"], f"{graph}: {mean.out}{mean.err}")
             report.check(20 < float(words[2]) < 235 and float(words[3]) > 10, f"{graph}: mean and spread {words[2:]}")
+        wide_parameters(weft, pathlib.Path(name), xvfb, report)
         recording(weft, compare, pathlib.Path(name), xvfb, report)
     report.end()
+
+
+WIDE = """{
+  "parameters": {
+    "seed": { "type": "int", "default": 7, "min": 0, "max": 2147483647 },
+    "bits": { "type": "int", "default": 4294967295, "min": 0, "max": 4294967295 },
+    "free": { "type": "int", "default": 1e30 },
+    "size": { "type": "float", "default": 0.5, "min": -1e308, "max": 1.7e308 },
+    "tint": { "type": "vec3", "default": [0.5, 1e30, -1e30], "min": -1e300, "max": 1e300 } },
+  "resources": { "ldr": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "base", "type": "fullscreen", "shader": "wide.frag.glsl", "write": { "result": "ldr" },
+      "parameters": { "seed": "$seed", "bits": "$bits", "free": "$free", "size": "$size", "tint": "$tint" } } ],
+  "present": "ldr"
+}
+"""
+WIDE_SHADER = """layout(std140) uniform Parameters { int seed; uint bits; int free; float size; vec3 tint; };
+in vec2 uv;
+out vec4 result;
+void main() { result = vec4(seed == 7, bits == 0xffffffffu, free == 0x7fffffff, 1) * size * uv.x + vec4(0.0001 * tint.x); }
+"""
+
+
+def wide_parameters(weft, folder, xvfb, report):
+    """Parameters with the widest ranges and values: the panel takes them all."""
+    (folder / "shaders").mkdir()
+    (folder / "shaders/wide.frag.glsl").write_text(WIDE_SHADER)
+    (folder / "wide.json").write_text(WIDE)
+    done = run(weft, "view", "wide.json", "--size", "640x480", "--max-frames", "4", "--program-cache", "none", before=xvfb, folder=folder)
+    report.check(done.code == 0 and not done.diagnostics, f"wide parameters: exit code {done.code}\n{done.err}")
 
 
 def recording(weft, compare, folder, xvfb, report):

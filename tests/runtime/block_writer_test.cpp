@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 
 using namespace weft;
@@ -29,6 +30,23 @@ TEST_CASE("values are converted at the destination") {
   CHECK(at<std::int32_t>(block, 4) == -3);
   CHECK(at<std::uint32_t>(block, 8) == 1u);
   CHECK(at<float>(block, 24) == 3.0f);
+}
+
+TEST_CASE("a number beyond a whole type becomes its nearest value") {
+  std::vector<std::byte> block(16, std::byte{0});
+  const auto write = [&](GLenum type, double x) {
+    runtime::writeValue(block.data(), {.name = "i", .type = type, .offset = 0}, Value::number(x));
+  };
+  write(GL_INT, 1e30);
+  CHECK(at<std::int32_t>(block, 0) == 2147483647);
+  write(GL_INT, -1e30);
+  CHECK(at<std::int32_t>(block, 0) == -2147483647 - 1);
+  write(GL_INT, std::nan(""));
+  CHECK(at<std::int32_t>(block, 0) == 0);
+  write(GL_UNSIGNED_INT, 1e30);
+  CHECK(at<std::uint32_t>(block, 0) == 4294967295u);
+  write(GL_UNSIGNED_INT, -1);
+  CHECK(at<std::uint32_t>(block, 0) == 0u);
 }
 
 TEST_CASE("a member says what it expects of a value that does not fit") {
