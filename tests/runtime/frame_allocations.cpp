@@ -11,16 +11,19 @@ namespace {
 thread_local bool counting = false;
 thread_local std::size_t count = 0;
 
-void* take(std::size_t size, std::size_t alignment) {
+void* takeOrNull(std::size_t size, std::size_t alignment) noexcept {
   if (counting && count++ == 0) {
     counting = false;
     void* frames[16];
     backtrace_symbols_fd(frames, backtrace(frames, 16), 2);
     counting = true;
   }
-  void* memory = alignment ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment) : std::malloc(size);
-  if (!memory) throw std::bad_alloc();
-  return memory;
+  return alignment ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment) : std::malloc(size);
+}
+
+void* take(std::size_t size, std::size_t alignment) {
+  if (void* memory = takeOrNull(size, alignment)) return memory;
+  throw std::bad_alloc();
 }
 
 }  // namespace
@@ -43,6 +46,11 @@ std::size_t stopCountingAllocations() {
 
 void* operator new(std::size_t size) { return take(size, 0); }
 void* operator new(std::size_t size, std::align_val_t alignment) { return take(size, static_cast<std::size_t>(alignment)); }
+// The library's own nothrow forms would come from elsewhere under a sanitizer, and not match the delete below.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return takeOrNull(size, 0); }
+void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return takeOrNull(size, static_cast<std::size_t>(alignment));
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
