@@ -119,6 +119,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   bench->add_option("--frame", options.frameGraph, "a graph file: the cost of its frame in full-screen copies")->excludes("--workload");
   bench->add_option("--environment", options.environment, "environment map for --frame, .hdr or .exr");
   bench->add_option("--scene", options.scene, "scene file for --frame");
+  bench->add_option("--camera", options.camera, "camera of the scene for --frame");
+  bench->add_option("--materials", options.materials, "material library for --frame");
   bench->add_option("--size", raw.size, "size of the screen for --frame")->check(CLI::Validator(checkSize, "WxH"));
   bench->add_option("--backend", options.backend, "where OpenGL comes from, for --frame")
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));

@@ -97,7 +97,7 @@ constexpr KeySpec kPass[] = {
     {"threads", "@value", "compute invocations, rounded up to the local size"},
     {"instances", "@value", "instances of a draw without a list"},
     {"list", R"({"type":"string"})", "draw list"},
-    {"geometry", R"({"type":"string"})", "quad, mesh, triangle, icosphere(n)"},
+    {"geometry", R"({"type":"string"})", "quad, octagon, mesh, triangle, icosphere(n)"},
     {"view", "@reference", "camera, light or cube face; @camera when absent"},
     {"feedback", R"({"type":"boolean"})", "a modify slot also reads its own texel"},
     {"side_effect", R"({"type":"boolean"})", "never culled"},

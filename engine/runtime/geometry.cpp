@@ -51,9 +51,9 @@ passes::Geometry Geometries::empty() {
 passes::Geometry Geometries::get(const std::string& name, const std::vector<double>& arguments,
                                  const gl::Reflection& reflection, base::Diagnostics& diagnostics) {
   passes::Geometry geometry = empty();
-  if (name == "quad") {
+  if (name == "quad" || name == "octagon") {
     geometry.mode = GL_TRIANGLE_STRIP;
-    geometry.count = 4;
+    geometry.count = name == "quad" ? 4 : 8;
   }
   if (name != "icosphere") return geometry;
 

@@ -69,7 +69,7 @@ graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldF
   registry.passTypes = passTypes.reflect();
   registry.imports = importTypes();
   const graph::GeometryArgument subdivision{.name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
-  registry.geometries = {{"quad", {}}, {"icosphere", {subdivision}}, {"triangle", {}}};
+  registry.geometries = {{"quad", {}}, {"octagon", {}}, {"icosphere", {subdivision}}, {"triangle", {}}};
   for (const WorldFacts::List& list : facts.lists) registry.drawLists.push_back(list.name);
   registry.factsOf = [facts, luts](const ImportRequest& request) {
     const auto countOf = [&](const std::string& name) -> double {

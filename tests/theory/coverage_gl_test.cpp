@@ -115,3 +115,31 @@ TEST_CASE("depth: near / distance along the view axis at the sphere's front") {
   CHECK(depth.at(kWidth / 2, kHeight / 2)[0] == doctest::Approx(0.1 / 8).epsilon(1e-3));
   CHECK(depth.at(2, 2)[0] == 0);  // infinity
 }
+
+TEST_CASE("octagons draw what rectangles draw, byte for byte") {
+  const auto texelsOf = [](std::vector<Ball> balls, double fov, bool octagon) {
+    Setup setup = scene(std::move(balls), fov);
+    setup.sets = {{"octagon", octagon ? "true" : "false"}};
+    Lab lab(setup);
+    lab.frame();
+    CHECK(lab.complaints() == "");
+    return lab.read("hdr").texels;
+  };
+  // Many at once; stretched and cut by the picture's border; the eye inside, beside and almost touching;
+  // sizes below a pixel.
+  std::vector<Ball> crowd;
+  for (int i = 0; i < 60; ++i)
+    crowd.push_back({.center = {9 * std::sin(i * 2.4), 7 * std::cos(i * 3.7), -6.0 - i * 0.4},
+                     .radius = 0.2f + 0.02f * static_cast<float>(i)});
+  std::vector<std::vector<Ball>> scenes{crowd};
+  for (const Ball& ball : {Ball{.center = {2.5, 1.2, -1.5}}, Ball{.center = {0.2, 0.1, -0.3}},
+                           Ball{.center = {1.05, 0, 0}}, Ball{.center = {0, -1.2, -0.8}},
+                           Ball{.center = {0.7, 0.7, -0.72}}, Ball{.center = {1, 2, -300}, .radius = 0.3f}})
+    scenes.push_back({ball});
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (const double fov : {30.0, 90.0, 140.0}) {
+      CAPTURE(i);
+      CAPTURE(fov);
+      CHECK(texelsOf(scenes[i], fov, true) == texelsOf(scenes[i], fov, false));
+    }
+}
