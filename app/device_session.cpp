@@ -58,6 +58,18 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
   if (!execution) return out;
   const graph::Plan& plan = execution->plan();
   out["bytes"] = {{"declared", plan.bytesDeclared}, {"allocated", plan.bytesAllocated}, {"lower_bound", plan.bytesLowerBound}};
+  execution->finishReadBack();
+  nlohmann::ordered_json outputs = nlohmann::ordered_json::object();
+  for (const runtime::Output& output : execution->outputs()) {
+    nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < output.count(); ++i)
+      if (output.kind == runtime::NumberKind::floating)
+        numbers.push_back(output.number(i));
+      else
+        numbers.push_back(static_cast<std::int64_t>(output.number(i)));
+    outputs[output.name] = std::move(numbers);
+  }
+  out["outputs"] = std::move(outputs);
   gl::PassTimers& timers = session.renderer.device().timers;
   if (timers.enabled()) {
     timers.finish();

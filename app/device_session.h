@@ -19,7 +19,7 @@ struct DeviceSession {
 // Headless unless options.command is "view". Null after errors.
 std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics);
 
-// --stats: one JSON object.
+// --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
 void print(const nlohmann::ordered_json& stats);  // on standard error
 

@@ -82,7 +82,7 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
     if (open_[kProfiler]) ImGui::End();
     if (begin(kStorage)) drawStorage();
     if (open_[kStorage]) ImGui::End();
-    if (begin(kHistogram)) drawHistogram();
+    if (begin(kHistogram)) drawHistogram(diagnostics);
     if (open_[kHistogram]) ImGui::End();
     arrange_ = false;
   }

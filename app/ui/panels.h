@@ -64,7 +64,7 @@ class Panels {
   void drawParameters(base::Diagnostics& diagnostics);
   void drawProfiler(base::Diagnostics& diagnostics);
   void drawStorage();
-  void drawHistogram();
+  void drawHistogram(base::Diagnostics& diagnostics);
   void drawLog() const;
   bool hasLog() const;
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/ui/luminance_plot.h"
 #include "app/ui/panels.h"
 #include "engine/base/hash.h"
 
@@ -111,7 +112,16 @@ void Panels::drawStorage() {
   ImGui::EndTable();
 }
 
-void Panels::drawHistogram() {
+void Panels::drawHistogram(base::Diagnostics& diagnostics) {
+  runtime::Execution& execution = *renderer_.execution();
+  for (const graph::ParameterSpec& parameter : execution.plan().graph->parameters) {
+    if (parameter.value.type != graph::Value::Type::boolean || !isCalled(parameter.path, "histogram")) continue;
+    bool on = parameter.value.truth();
+    if (!ImGui::Checkbox("before the tone curve", &on)) break;
+    live_.setParameter(parameter.path, on ? "true" : "false", diagnostics);
+    return;  // with another plan: in the next frame
+  }
+  if (drawLuminance(execution)) return;
   ImGui::TextDisabled("the picture as presented, 8-bit values");
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 area(std::max(32.0f, ImGui::GetContentRegionAvail().x), std::max(32.0f, ImGui::GetContentRegionAvail().y));

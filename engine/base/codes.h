@@ -85,6 +85,7 @@ namespace weft::base {
   X(82,  "texture that contradicts itself")                               \
   X(84,  "not a pass but a parameter")                                    \
   X(85,  "condition leaves a slot empty")                                 \
+  X(86,  "output that cannot be read back")                               \
   X(90,  "culled: output overwritten")                                    \
   X(91,  "culled: output never read")                                     \
   X(92,  "nothing is presented")                                          \

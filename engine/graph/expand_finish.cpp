@@ -4,6 +4,7 @@
 #include "engine/graph/expand_checks.h"
 #include "engine/graph/expand_passes.h"
 #include "engine/graph/expand_versions.h"
+#include "engine/graph/subresource.h"
 
 namespace weft::graph::expansion {
 
@@ -57,12 +58,34 @@ void resolvePresent(Model& model) {
   model.graph.present = *use;
 }
 
+// What the runtime can bring to the CPU every frame.
+bool checkOutput(Model& model, const OutputDesc& output, const std::string& name, const FlatUse& use) {
+  const FlatResource& resource = model.graph.resources[use.resource];
+  std::string expected;
+  const std::uint64_t bytes = isImported(resource) ? 0 : outputBytesOf(use, resource);
+  if (isImported(resource))
+    expected = "a texture or buffer of this graph; imports come from the CPU";
+  else if (resource.samples > 1)
+    expected = "a texture with one sample per texel";
+  else if (bytes > kMaxOutputBytes)
+    expected = fmt::format("at most {} bytes; of a texture every channel of a texel counts 4", kMaxOutputBytes);
+  else
+    return true;
+  auto& d = model.diagnostics.error(Code::W86, output.ref.place,
+                                    fmt::format("output '{}' cannot read back '{}'", name, output.ref.text));
+  d.resource = model.graph.resourceNames[use.resource];
+  d.expected = expected;
+  if (bytes > 0) d.found = fmt::format("{} bytes", bytes);
+  d.hint = "read back a small level (x.mip[n]) or a buffer that a pass sums up into";
+  return false;
+}
+
 void resolveOutputs(Model& model) {
   for (Scope& scope : model.scopes)
     for (const OutputDesc& output : scope.desc->outputs) {
       const std::string name = scope.prefix + output.name;
       auto use = resolveFinal(model, scope, output.ref, fmt::format("output '{}' reads", name), name);
-      if (!use) continue;
+      if (!use || !checkOutput(model, output, name, *use)) continue;
       use->kind = Kind::copy;
       model.graph.outputs.push_back(*use);
       model.graph.outputNames.push_back(name);

@@ -49,6 +49,12 @@ void forEachSubresource(const FlatUse& use, const FlatResource& r, F&& f) {
 // each.
 std::uint64_t bytesOf(const FlatUse& use, const FlatResource& r);
 
+// What an output brings to the CPU: a buffer's bytes; of textures as many 32-bit numbers per texel as their
+// format has channels (depth-stencil: one). And the most that one may bring.
+constexpr std::uint64_t kMaxOutputBytes = 64 * 1024;
+std::uint32_t outputChannelsOf(const FlatResource& r);
+std::uint64_t outputBytesOf(const FlatUse& use, const FlatResource& r);
+
 // A use of all of `r`.
 inline FlatUse wholeUse(std::uint32_t index, const FlatResource& r, Kind kind, Access access) {
   FlatUse use;

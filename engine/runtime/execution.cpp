@@ -21,6 +21,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   device_.timers.beginFrame(static_cast<std::uint32_t>(passes_.size()));
   std::fill(ran_.begin(), ran_.end(), std::uint8_t{0});
   device_.imports.beginFrame(world, input);
+  readBack_.collect();
   publishFinished();
   refreshImports(diagnostics);
   resetHistories(diagnostics);
@@ -34,6 +35,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
     glMemoryBarrier(glBarriersOf(plan_->finalBarriers));
     ++report.barriers;
   }
+  readBack_.copy(*plan_, *pool_, framebuffers_, input.frame, diagnostics);
   report.passesRun = static_cast<std::uint32_t>(std::ranges::count(ran_, std::uint8_t{1}));
   report.passesSkipped = static_cast<std::uint32_t>(passes_.size()) - report.passesRun;
   ++framesRun_;

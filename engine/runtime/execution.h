@@ -20,6 +20,7 @@
 #include "engine/runtime/framebuffer_cache.h"
 #include "engine/runtime/imports.h"
 #include "engine/runtime/prepared_pass.h"
+#include "engine/runtime/read_back.h"
 #include "engine/runtime/resource_pool.h"
 
 namespace weft::runtime {
@@ -68,6 +69,13 @@ class Execution {
   gl::TextureRef texture(std::uint32_t resource, std::uint32_t history = 0);   // by its index in the graph; alive
   BufferRef buffer(std::string_view resource, std::uint64_t& offset);
   BufferRef buffer(std::uint32_t resource, std::uint64_t& offset, std::uint32_t history = 0);
+  // The graph's live "outputs" with the latest that has arrived, of a frame or a few ago; null: there is none of that name.
+  // They are renewed by frame(), or between frames by collectOutputs(), which never waits, and finishReadBack(), which does:
+  // then they are of the last frame.
+  std::span<const Output> outputs() const { return readBack_.outputs(); }
+  const Output* output(std::string_view name) const;
+  void collectOutputs() { readBack_.collect(); }
+  void finishReadBack() { readBack_.finish(); }
   // A tap into the frame: `look` is called right after `step` in every frame, run or kept, while what the step wrote is
   // still in its storage (later steps may put other resources there). It may read, copy and draw into textures of its own;
   // the plan and what runs stay the same. An empty function ends it; one tap at a time, none in a new execution.
@@ -112,6 +120,7 @@ class Execution {
   std::vector<std::uint8_t> rotated_;            // per resource, this frame
   std::vector<std::uint8_t> ran_;                // per step, this frame
   std::vector<std::uint64_t> resetState_;        // per history: hash of what resets it
+  ReadBack readBack_;
   FrameInput input_;
   const World* world_ = nullptr;
   std::uint64_t framesRun_ = 0;

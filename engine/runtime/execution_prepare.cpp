@@ -78,6 +78,7 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
     if (!passes_.back().usable) return false;
   }
   layoutUniforms(diagnostics);
+  if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
   if (before) carryOver(*before);
   return !diagnostics.hasErrors();
 }

@@ -67,6 +67,12 @@ gl::TextureRef Execution::presentedWhole() {
   return pool_->view(*plan_, all, (*pool_)[all.resource].copyOf(0), 0, ignored);
 }
 
+const Output* Execution::output(std::string_view name) const {
+  for (const Output& each : outputs())
+    if (each.name == name) return &each;
+  return nullptr;
+}
+
 bool Execution::ran(std::string_view pass) const {
   for (std::size_t step = 0; step < passes_.size(); ++step)
     if (passes_[step].context.spec->name == pass) return ran_[step] != 0;
