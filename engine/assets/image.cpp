@@ -120,7 +120,8 @@ std::optional<ImageF> loadEnvironment(const std::string& path, Diagnostics& diag
   return decodeEnvironment(*bytes, path, diagnostics);
 }
 
-std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
+                                        Diagnostics& diagnostics) {
   std::optional<ImageF> image = decodeImage(bytes, name, diagnostics);
   if (!image) return {};
   ImageF wide = widenToRgba(std::move(*image));
@@ -131,7 +132,9 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
 
 void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagnostics) {
   std::size_t undefined = 0, negative = 0, tooBright = 0;
-  for (float& value : image.texels) {
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    float& value = image.texels[i];
+    if (image.channels == 4 && i % 4 == 3) continue;
     if (value >= 0 && value <= kHalfMax) continue;
     if (std::isnan(value)) {
       ++undefined;
@@ -145,10 +148,12 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
     }
   }
   if (undefined + negative + tooBright == 0) return;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::size_t colours = image.texels.size() / channels * std::min<std::size_t>(channels, 3);
   base::Diagnostic& d =
       diagnostics.warning(Code::W153, placeOf(name),
-                          fmt::format("{} of {} values in '{}' are no radiance and were replaced",
-                                      undefined + negative + tooBright, image.texels.size(), name));
+                          fmt::format("{} of {} colour values are no radiance and were replaced",
+                                      undefined + negative + tooBright, colours));
   d.expected = fmt::format("numbers from 0 to {}", kHalfMax);
   d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite or above the range (now {})",
                         undefined, negative, tooBright, kHalfMax);

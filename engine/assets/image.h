@@ -47,7 +47,7 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, base::Di
 std::optional<ImageF> loadEnvironment(const std::string& path, base::Diagnostics& diagnostics);
 // The same for bytes in memory, as decodeImage.
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
-// The cleaning step alone: all channels of `image`, in place.
+// The cleaning step alone: the colour channels of `image`, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
 
 bool savePng8(const std::string& path, int width, int height, int channels,

@@ -116,6 +116,8 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   CHECK(environment->texels[6] == kHalfMax);
   REQUIRE(diagnostics.size() == 1);
   CHECK(diagnostics.items()[0].code == base::Code::W153);
+  CHECK(diagnostics.items()[0].message ==
+        "5 of 24 colour values are no radiance and were replaced");  // 4x2 of RGB
   CHECK_FALSE(diagnostics.hasErrors());
   CHECK(diagnostics.items()[0].found.find("1 not a number, 2 negative") != std::string::npos);
   CHECK(diagnostics.items()[0].found.find("2 infinite") != std::string::npos);
