@@ -10,7 +10,11 @@
 #if NEAR
 #ifdef HAS_TILES
 uniform sampler2D tiles;
-float searchRadius(ivec2 pixel) { return texelFetch(tiles, pixel / tile, 0).r; }
+float searchRadius(ivec2 pixel) {
+  vec4 corners = texelFetch(tiles, pixel / tile, 0);
+  vec2 within = (vec2(pixel % tile) + 0.5) / float(tile), side = mix(corners.xz, corners.yw, within.x);
+  return mix(side.x, side.y, within.y);
+}
 #else
 float searchRadius(ivec2 pixel) { return float(tile); }
 #endif

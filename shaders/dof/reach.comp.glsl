@@ -1,16 +1,24 @@
-// The largest disc before the focus in a tile and the eight around it: no other can reach into the tile.
+// How far to search for what is before the focus: the largest disc in a tile and the eight around it (no other can reach into
+// the tile), at the tile's corners that of the four tiles that meet there, so that interpolation between the corners is never
+// less and knows no tile borders.
 // read    tiles    from tiles; any sampler
-// write   reach    the same size
+// write   reach    the same size: the corners (0, 0), (1, 0), (0, 1) and (1, 1) of the tile; 0 where nothing reaches
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D tiles;
-layout(r16f) uniform writeonly image2D reach;
+layout(rgba16f) uniform writeonly image2D reach;
 
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy), last = textureSize(tiles, 0) - 1;
   if (any(greaterThan(at, last))) return;
-  float largest = 0.0;
-  for (int y = -1; y <= 1; ++y)
-    for (int x = -1; x <= 1; ++x) largest = max(largest, texelFetch(tiles, clamp(at + ivec2(x, y), ivec2(0), last), 0).r);
-  imageStore(reach, at, vec4(largest));
+  float own = 0.0;
+  vec4 corners = vec4(0.0);
+  for (int y = -2; y <= 2; ++y)
+    for (int x = -2; x <= 2; ++x) {
+      float disc = texelFetch(tiles, clamp(at + ivec2(x, y), ivec2(0), last), 0).r;
+      if (max(abs(x), abs(y)) < 2) own = max(own, disc);
+      bvec4 meets = bvec4(x < 2 && y < 2, x > -2 && y < 2, x < 2 && y > -2, x > -2 && y > -2);
+      corners = max(corners, disc * vec4(meets));
+    }
+  imageStore(reach, at, own > 0.0 ? corners : vec4(0.0));
 }

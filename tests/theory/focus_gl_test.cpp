@@ -1,5 +1,5 @@
-// Depth of field: the disc is the thin lens's; what is in focus stays to the bit; layers do not leak into each other; one
-// colour stays that colour; light is kept, and spread as wide as the disc says.
+// Depth of field: the disc is the thin lens's; what is in focus stays to the bit; layers do not leak into
+// each other; one colour stays that colour; light is kept, and spread as wide as the disc says.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,8 +18,9 @@ struct Lens {
   double focalLength = 200, aperture = 1.4, focus = 20, sensor = 24;  // mm, f-number, world units, mm
 };
 
-// Radius in pixels of the image of a point at `distance`: two similar triangles behind the lens. The lens equation gives where
-// the point and the plane in focus have their images; the cone to the point's image cuts the sensor in a disc.
+// Radius in pixels of the image of a point at `distance`: two similar triangles behind the lens. The lens
+// equation gives where the point and the plane in focus have their images; the cone to the point's image cuts
+// the sensor in a disc.
 double discRadius(const Lens& lens, double distance) {
   const double f = lens.focalLength / 1000;
   const auto imageOf = [&](double d) { return std::isinf(d) ? f : 1 / (1 / f - 1 / d); };
@@ -59,7 +60,8 @@ double largestChange(const Panels& panels) {
   double worst = 0;
   for (std::uint32_t y = 0; y < kHeight; ++y)
     for (std::uint32_t x = 0; x < kWidth; ++x)
-      for (int c = 0; c < 4; ++c) worst = std::max<double>(worst, std::abs(panels.after(x, y)[c] - panels.before(x, y)[c]));
+      for (int c = 0; c < 4; ++c)
+        worst = std::max<double>(worst, std::abs(panels.after(x, y)[c] - panels.before(x, y)[c]));
   return worst;
 }
 
@@ -84,8 +86,12 @@ const glm::vec3 kGrey{0.2f, 0.2f, 0.2f};
 
 }  // namespace
 
-TEST_CASE("focus: the disc's radius is the thin lens's, before the focus, behind it and at infinity, within 0.5 %") {
-  const Lens lenses[] = {{}, {.focalLength = 100, .aperture = 1.0, .focus = 6}, {.focalLength = 300, .aperture = 2, .focus = 12, .sensor = 36}};
+TEST_CASE(
+    "focus: the disc's radius is the thin lens's, before the focus, behind it and at infinity, within 0.5 "
+    "%") {
+  const Lens lenses[] = {{},
+                         {.focalLength = 100, .aperture = 1.0, .focus = 6},
+                         {.focalLength = 300, .aperture = 2, .focus = 12, .sensor = 36}};
   for (const Lens& lens : lenses)
     for (const double distance : {4.0, 8.0, 30.0, 100.0}) {
       Lab lab(scene({{.center = {0, 0, 20 - distance}, .radius = static_cast<float>(distance / 10)}}, lens));
@@ -96,23 +102,28 @@ TEST_CASE("focus: the disc's radius is the thin lens's, before the focus, behind
       CAPTURE(distance);
       REQUIRE(expected > 0.6);
       // Behind the focus as a share of the largest, 32; before it in pixels of the half size.
-      const double found = 0.9 * distance < lens.focus ? 2 * near.at(kWidth / 4, kHeight / 4)[0] : 32 * far.at(kWidth / 4, kHeight / 4)[3];
+      const double found = 0.9 * distance < lens.focus ? 2 * near.at(kWidth / 4, kHeight / 4)[0]
+                                                       : 32 * far.at(kWidth / 4, kHeight / 4)[3];
       CHECK(found == doctest::Approx(expected).epsilon(0.005));
-      CHECK(32 * far.at(2, 2)[3] == doctest::Approx(std::min(discRadius(lens, INFINITY), 31.0)).epsilon(0.005));
+      CHECK(32 * far.at(2, 2)[3] ==
+            doctest::Approx(std::min(discRadius(lens, INFINITY), 31.0)).epsilon(0.005));
     }
 }
 
 TEST_CASE("focus: defocus of what is in focus is the identity, bit for bit") {
-  // The sky with the focus so far away that its disc is nothing, and in the middle something in the plane in focus.
+  // The sky with the focus so far away that its disc is nothing, and in the middle something in the plane in
+  // focus.
   const Lens far{.focalLength = 50, .aperture = 8, .focus = 5000};
-  CHECK(largestChange(panelsOf(scene({{.center = {0, 0, -3000}, .radius = 300, .albedo = kGrey}}, far))) == 0);
+  CHECK(largestChange(panelsOf(scene({{.center = {0, 0, -3000}, .radius = 300, .albedo = kGrey}}, far))) ==
+        0);
 }
 
 TEST_CASE("focus: what is in focus does not leak into the blurred sky around it, nor the sky into it") {
   const Lens lens{.focalLength = 300, .focus = 19.5};
   REQUIRE(discRadius(lens, INFINITY) > 3);
   const Panels panels = panelsOf(scene({{.center = {0, 0, 0}, .radius = 1, .albedo = kGrey},
-                                        {.center = {4, 1, 0}, .radius = 1, .albedo = {0.9f, 0.1f, 0.1f}}}, lens));
+                                        {.center = {4, 1, 0}, .radius = 1, .albedo = {0.9f, 0.1f, 0.1f}}},
+                                       lens));
   MESSAGE("largest change: ", largestChange(panels));
   CHECK(largestChange(panels) < 4e-3);
 }
@@ -136,27 +147,82 @@ TEST_CASE("focus: what is before the focus covers the sharp sky as far as its di
   }
 }
 
+TEST_CASE(
+    "focus: a larger disc elsewhere shows no tiles in what is before the focus: neighbours differ as the "
+    "disc says") {
+  // Tiles of 128 pixels; the disc of the left ball has a radius of 91, of the right one 127: not all tiles
+  // know it.
+  constexpr std::uint32_t kWide = 768, kHigh = 256;
+  const Lens lens{.focalLength = 200, .aperture = 0.7, .focus = 40};
+  for (const double x : {-2.6, -2.3, -2.0}) {
+    Setup setup = scene({{.center = {x, 0, 16}, .radius = 0.9f, .albedo = kGrey},
+                         {.center = {1, 0, 18}, .radius = 0.3f, .albedo = kGrey}},
+                        lens);
+    setup.width = kWide;
+    setup.height = kHigh;
+    setup.sets.push_back({"largest_bokeh", "128"});
+    Lab lab(setup);
+    lab.frame(0);
+    const Picture panels = lab.read("panels"), discs = lab.read("post.discs");
+    CHECK(lab.complaints() == "");
+    double step = 0, left = 0, right = 0;
+    std::uint32_t at = 0, row = 0;
+    for (std::uint32_t y = 1; y < kHigh; ++y)
+      for (std::uint32_t px = 1; px < kWide; ++px) {
+        const double here = panels.at(kWide + px, y)[1],
+                     change = std::max(std::abs(here - panels.at(kWide + px - 1, y)[1]),
+                                       std::abs(here - panels.at(kWide + px, y - 1)[1]));
+        (px < kWide / 2 ? left : right) =
+            std::max<double>(px < kWide / 2 ? left : right, discs.at(px / 2, y / 2)[0]);
+        if (change > step) step = change, at = px, row = y;
+      }
+    CAPTURE(x);
+    MESSAGE("discs ", left, ", ", right, "; largest step ", step, " at ", at, ", ", row);
+    CHECK(step < 0.012);  // a disc of 90 pixels at a straight edge: 0.006
+    // What is searched is no less than any disc that reaches the tile, and the same on both sides of a tile
+    // border.
+    const Picture tiles = lab.read("post.near_tiles"), reach = lab.read("post.near_reach");
+    REQUIRE(reach.width == 6);
+    for (std::uint32_t ty = 0; ty < 2; ++ty)
+      for (std::uint32_t tx = 0; tx < 6; ++tx) {
+        float around = 0;
+        for (std::uint32_t y = 0; y < 2; ++y)
+          for (std::uint32_t n = std::max(tx, 1u) - 1; n < std::min(tx + 2, 6u); ++n)
+            around = std::max(around, tiles.at(n, y)[0]);
+        for (int c = 0; c < 4; ++c) CHECK(reach.at(tx, ty)[c] >= around);
+        if (tx == 0 || reach.at(tx - 1, ty)[0] == 0 || reach.at(tx, ty)[0] == 0) continue;
+        CHECK(reach.at(tx, ty)[0] == reach.at(tx - 1, ty)[1]);
+        CHECK(reach.at(tx, ty)[2] == reach.at(tx - 1, ty)[3]);
+      }
+  }
+}
+
 TEST_CASE("focus: one colour stays that colour") {
   const Lens lens{.aperture = 0.7};
   const Panels panels = panelsOf(scene({{.center = {0, 0, 14}, .radius = 1},
                                         {.center = {-3, 2, 0}, .radius = 1},
-                                        {.center = {6, -3, -30}, .radius = 5}}, lens));
+                                        {.center = {6, -3, -30}, .radius = 5}},
+                                       lens));
   CHECK(largestChange(panels) < 4e-3);
 }
 
-TEST_CASE("focus: before and behind, light is kept within 2 % and spreads as a disc of the thin lens's radius") {
+TEST_CASE(
+    "focus: before and behind, light is kept within 2 % and spreads as a disc of the thin lens's radius") {
   struct Case {
     Lens lens;
     Ball ball;
   };
-  const Case cases[] = {{{.focalLength = 150, .aperture = 1.4, .focus = 40}, {.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
-                        {{.focalLength = 100, .aperture = 0.7, .focus = 5}, {.center = {0, 0, -10}, .radius = 4, .albedo = kGrey}}};
+  const Case cases[] = {{{.focalLength = 150, .aperture = 1.4, .focus = 40},
+                         {.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
+                        {{.focalLength = 100, .aperture = 0.7, .focus = 5},
+                         {.center = {0, 0, -10}, .radius = 4, .albedo = kGrey}}};
   for (const Case& c : cases) {
     const Panels panels = panelsOf(scene({c.ball}, c.lens, "4"));
     const Dark sharp = darkOf(panels, false), blurred = darkOf(panels, true);
     const double radius = discRadius(c.lens, 20.0 - c.ball.center.z - 0.5 * c.ball.radius);
     CAPTURE(radius);
-    MESSAGE("light kept: ", blurred.mass / sharp.mass, ", variance ", blurred.variance - sharp.variance, " of ", radius * radius / 4);
+    MESSAGE("light kept: ", blurred.mass / sharp.mass, ", variance ", blurred.variance - sharp.variance,
+            " of ", radius * radius / 4);
     REQUIRE(radius > 4);
     CHECK(blurred.mass == doctest::Approx(sharp.mass).epsilon(0.02));
     CHECK(blurred.variance - sharp.variance == doctest::Approx(radius * radius / 4).epsilon(0.25));
@@ -164,33 +230,45 @@ TEST_CASE("focus: before and behind, light is kept within 2 % and spreads as a d
 }
 
 TEST_CASE("focus: blades make a polygon of the disc, and the light stays") {
-  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}}, {.focalLength = 150, .focus = 40}, "4");
+  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
+                      {.focalLength = 150, .focus = 40}, "4");
   setup.sets.push_back({"blades", "5"});
   const Panels panels = panelsOf(setup);
   CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.03));
 }
 
 TEST_CASE("focus: without dof_reach there is still a blurred picture, and GL has nothing to say") {
-  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}}, {.focalLength = 150, .focus = 40}, "4");
+  Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
+                      {.focalLength = 150, .focus = 40}, "4");
   setup.disables = {"post.dof_reach"};
   const Panels panels = panelsOf(setup);
   CHECK(darkOf(panels, true).variance > darkOf(panels, false).variance + 10);
   CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.05));
 }
 
-TEST_CASE("focus: a point of light before and behind the focus is a disc without hole, dots or ring, of the lens's radius") {
+TEST_CASE(
+    "focus: a point of light before and behind the focus is a disc without hole, dots or ring, of the lens's "
+    "radius") {
   constexpr std::uint32_t kWide = 384, kHigh = 384;
   struct Disc {
     double light = 0, radius = 0, least = 1e9, greatest = 0, mean = 0;
   };
   const auto discOf = [&](double coc, bool before, int x, int y) {
-    // A lens for which the plane, 10 before or 40 behind a focus at 20, has that disc: f^2 / (N (s - f)) |1 - s / d| on a sensor of 24 mm.
+    // A lens for which the plane, 10 before or 40 behind a focus at 20, has that disc: f^2 / (N (s - f)) |1 -
+    // s / d| on a sensor of 24 mm.
     const double distance = before ? 12 : 60, focus = 20, f = 0.95 * std::sqrt(coc / 120);
     const double aperture = f * f / (focus - f) * std::abs(1 - focus / distance) / (2 * coc * 0.024 / kHigh);
     Setup setup{.graph = "tests/theory/impulse.json", .width = kWide, .height = kHigh};
-    setup.sets = {{"dof", "true"}, {"bloom", "false"}, {"focal_length", std::to_string(1000 * f)}, {"aperture", std::to_string(aperture)},
-                  {"focus_distance", "20"}, {"largest_bokeh", "128"}, {"plane.distance", std::to_string(distance)},
-                  {"plane.background", "0"}, {"plane.value", "4000"}, {"plane.side", "2"},
+    setup.sets = {{"dof", "true"},
+                  {"bloom", "false"},
+                  {"focal_length", std::to_string(1000 * f)},
+                  {"aperture", std::to_string(aperture)},
+                  {"focus_distance", "20"},
+                  {"largest_bokeh", "128"},
+                  {"plane.distance", std::to_string(distance)},
+                  {"plane.background", "0"},
+                  {"plane.value", "4000"},
+                  {"plane.side", "2"},
                   {"plane.at", "[" + std::to_string(x) + ", " + std::to_string(y) + "]"}};
     Lab lab(setup);
     lab.frame(0);
@@ -198,7 +276,9 @@ TEST_CASE("focus: a point of light before and behind the focus is a disc without
     CHECK(lab.complaints() == "");
     Disc disc;
     double r2 = 0, cx = 0, cy = 0;
-    const auto value = [&](std::uint32_t px, std::uint32_t py) { return static_cast<double>(panels.at(kWide + px, py)[1]); };
+    const auto value = [&](std::uint32_t px, std::uint32_t py) {
+      return static_cast<double>(panels.at(kWide + px, py)[1]);
+    };
     for (std::uint32_t py = 0; py < kHigh; ++py)
       for (std::uint32_t px = 0; px < kWide; ++px) {
         disc.light += value(px, py);
@@ -228,7 +308,8 @@ TEST_CASE("focus: a point of light before and behind the focus is a disc without
       const Disc disc = discOf(coc, before, 190, 186);
       CAPTURE(before);
       CAPTURE(coc);
-      MESSAGE("light ", disc.light, ", radius ", disc.radius, ", least ", disc.least / disc.mean, ", greatest ", disc.greatest / disc.mean);
+      MESSAGE("light ", disc.light, ", radius ", disc.radius, ", least ", disc.least / disc.mean,
+              ", greatest ", disc.greatest / disc.mean);
       // Within 0.8 of the radius. Discs of a few pixels are domes, because of the half size.
       CHECK(disc.light == doctest::Approx(1).epsilon(0.01));
       CHECK(disc.radius == doctest::Approx(coc).epsilon(0.06));
