@@ -1,6 +1,7 @@
 #include "app/live_graph.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -16,6 +17,8 @@ namespace {
 // Editors and version control write several files, or one in several steps: wait until nothing was written
 // for so long.
 constexpr double kQuietSeconds = 0.03;
+// The same for a file that went away: some programs write it anew only a while later.
+constexpr double kGoneSeconds = 0.3;
 
 // Whether `diagnostic` says that the graph does not take a setting: it has no place in a file, and names it.
 bool isAbout(const base::Diagnostic& diagnostic, const std::string& source) {
@@ -120,8 +123,13 @@ void LiveGraph::watch() {
 bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
   const std::vector<std::string> changed = watcher_.poll();
   if (!changed.empty()) {
+    const auto gone = [](const std::string& file) {
+      std::error_code ignored;
+      return !std::filesystem::exists(file, ignored);
+    };
     pending_ = true;
     changedAt_ = now;
+    quiet_ = std::ranges::any_of(changed, gone) ? kGoneSeconds : kQuietSeconds;
   }
   for (const std::string& file : changed) {
     sceneStale_ |= std::ranges::find(sceneFiles_, file) != sceneFiles_.end() || file == scenePath_;
@@ -131,7 +139,7 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
     else
       graphStale_ = true;
   }
-  if (!pending_ || now - changedAt_ < kQuietSeconds) return false;
+  if (!pending_ || now - changedAt_ < quiet_) return false;
   pending_ = false;
   if (!changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
   if (!std::exchange(graphStale_, false)) return false;
@@ -207,14 +215,16 @@ bool LiveGraph::resetParameter(const std::string& name, base::Diagnostics& diagn
 }
 
 bool LiveGraph::isChanged(const std::string& parameter) const {
-  return std::ranges::any_of(settings_.sets, [&](const auto& set) { return graph::hasSuffix(parameter, set.first); });
+  return std::ranges::any_of(settings_.sets,
+                             [&](const auto& set) { return graph::hasSuffix(parameter, set.first); });
 }
 
 bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics) {
   ++changes_;
   if (!renderer_.desc()) return false;
   const graph::Registry registry = runtime::makeRegistry(renderer_.device().passTypes, world_.facts());
-  const auto plan = graph::planWriteBack(*renderer_.desc(), renderer_.presets(), registry, settings_, diagnostics);
+  const auto plan =
+      graph::planWriteBack(*renderer_.desc(), renderer_.presets(), registry, settings_, diagnostics);
   if (!plan || !graph::saveWriteBack(*plan, diagnostics)) return false;
   for (const graph::WriteBack::File& file : plan->files) files.push_back(file.path);
   settings_ = plan->rest;

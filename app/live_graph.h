@@ -84,7 +84,7 @@ class LiveGraph {
   base::FileWatcher watcher_;
   bool sceneStale_ = false, graphStale_ = false, pending_ = false, good_ = false, environmentGood_ = true;
   std::string changedEnvironment_;  // to be loaded again, or empty
-  double changedAt_ = 0;
+  double changedAt_ = 0, quiet_ = 0;  // seconds
   std::uint64_t switches_ = 0, changes_ = 0;
 };
 

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // IN_CREATE: links and folders; a file that is made and written ends with IN_CLOSE_WRITE.
-constexpr std::uint32_t kEvents =
-    IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
+constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE | IN_MOVED_FROM |
+                                  IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
 
 std::string absoluteOf(const std::string& path) {
   std::error_code ec;
@@ -58,7 +58,8 @@ void FileWatcher::arm() {
     const std::string absolute = absoluteOf(file);
     armFile(absolute, file);
     std::error_code ec;
-    if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute) armFile(real.string(), file);
+    if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute)
+      armFile(real.string(), file);
   }
   for (const auto& [watch, names] : before)
     if (!folders_.contains(watch)) ::inotify_rm_watch(descriptor_, watch);

@@ -1,7 +1,7 @@
-// Says which of a set of files were written, replaced or made since it was asked last, by inotify on their folders: editors
+// Says which of a set of files were written, replaced, made or removed since it was asked last, by inotify on their folders: editors
 // replace files by renaming, so a watch on the file itself would look at the old one. Files, and folders on the way to
 // them, need not exist yet. Asking costs one read() when nothing happened; no file is looked at.
-// Does not: report deletions (what was loaded stays good), read files, start threads, or wait for a save to be complete.
+// Does not: say which of these it was, read files, start threads, or wait for a save to be complete.
 #pragma once
 
 #include <map>

@@ -61,6 +61,19 @@ def session(weft, compare, folder, report):
         edit(folder / "scenes/spheres.json", r'"spacing": [\d.]+', '"spacing": 3.5')
         apart = changes("a changed scene", white)
 
+        graph, said = folder / "graphs/studio.json", len(live.said())
+        kept = graph.read_text()
+        graph.unlink()
+        report.check(live.until(lambda: "error[W001]" in live.said()[said:] and "studio.json" in live.said()[said:]),
+                     f"nobody says that the graph is gone\n{live.said()}")
+        same = live.shot()
+        report.check(same and same.read_bytes() == apart.read_bytes(), "without its file the picture changes")
+        save(graph, re.sub(r"^\{", "{ // is back", kept))
+        report.check(live.until(lambda: live.tool("getwindowname", live.window)[-1:] == ["graphs/studio.json"]),
+                     f"the title still says that files have errors: {live.tool('getwindowname', live.window)}")
+        same = live.shot()
+        report.check(same and same.read_bytes() == apart.read_bytes(), "back again, the picture is another one")
+
         live.key("space")  # no panel in the way
         live.tool("mousemove", "--window", live.window, 100, 90)
         live.shot()
@@ -84,6 +97,22 @@ def session(weft, compare, folder, report):
             live.process.wait()
 
 
+def closed_without_its_file(weft, folder, report):
+    live = Session(weft, folder)
+    try:
+        if not report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
+            return
+        (folder / "graphs/studio.json").unlink()
+        report.check(live.until(lambda: "error[W001]" in live.said()), f"nobody says that the graph is gone\n{live.said()}")
+        live.key("Escape")
+        live.until(lambda: not live.alive())
+        report.check(live.process.poll() == 1, f"closed without its file: exit code {live.process.poll()}")
+    finally:
+        if live.alive():
+            live.process.kill()
+            live.process.wait()
+
+
 def main():
     weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
     inside_display(report, weft, compare, __file__)
@@ -91,6 +120,7 @@ def main():
         folder = pathlib.Path(name)
         copy_of_tree(folder)
         session(weft, compare, folder, report)
+        closed_without_its_file(weft, folder, report)
     report.end()
 
 
