@@ -1,8 +1,14 @@
 #include "app/options.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
+
+#include "app/session.h"
+#include "engine/base/nearest.h"
 
 namespace weft::app {
 
@@ -36,6 +42,14 @@ std::string checkSet(const std::string& text) {
   return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
 }
 
+// A preset that is no file, by the name of a bundled one.
+std::string presetFile(const std::string& preset) {
+  std::error_code ignored;
+  const std::string bundled = dataFolder() + "/graphs/presets/" + preset + ".json";
+  const bool name = preset.find('/') == std::string::npos && !std::filesystem::exists(preset, ignored);
+  return name && std::filesystem::exists(bundled, ignored) ? bundled : preset;
+}
+
 struct Raw {
   std::string size = "1280x720", frames = "0";
   std::vector<std::string> sets;
@@ -50,7 +64,7 @@ void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
   command.add_option("--materials", options.materials, "material library for the scene's grid, instead of the one it names");
   command.add_option("--environment", options.environment, "environment map, .hdr or .exr; for view also a folder of them");
   command.add_option("--size", raw.size, "size of the screen in pixels")->check(CLI::Validator(checkSize, "WxH"));
-  command.add_option("--preset", options.presets, "lay an overlay file over the graph, see graphs/presets; repeatable");
+  command.add_option("--preset", options.presets, "lay an overlay over the graph: a file, or the name of one in graphs/presets; repeatable");
   command.add_option("--disable", options.disables, "disable a pass (any unique suffix of its name); repeatable");
   command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
       ->check(CLI::Validator(checkSet, "NAME=VALUE"));
@@ -128,6 +142,13 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 
+  std::vector<std::string> commands;
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {
+    fmt::print(stderr, "weft: unknown command '{}'; {}\n", argv[1], base::nearestHint(argv[1], commands));
+    exitCode = 2;
+    return std::nullopt;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -140,6 +161,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     parseNumber(raw.frames, options.firstFrame);
     options.lastFrame = options.firstFrame;
   }
+  for (std::string& preset : options.presets) preset = presetFile(preset);
   for (const std::string& set : raw.sets) {
     const std::size_t at = set.find('=');
     options.sets.emplace_back(set.substr(0, at), set.substr(at + 1));

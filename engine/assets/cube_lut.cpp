@@ -76,6 +76,8 @@ class Reader {
     if (key == "DOMAIN_MAX") return readTriple(words, 1, "DOMAIN_MAX", &lut_.domainMax);
     if (key == "LUT_1D_INPUT_RANGE" || key == "LUT_3D_INPUT_RANGE") return readRange(words);
     fail(words[0].column, fmt::format("unknown keyword '{}'", key));
+    // A file of another kind altogether is told once.
+    if (lut_.size == 0 && lut_.title.empty()) errors_ = kMaxMessages;
   }
 
   void readTitle(std::string_view line) {
@@ -89,7 +91,8 @@ class Reader {
 
   void readSize(const std::vector<Word>& words, int dimensions, int largest) {
     if (lut_.size != 0 && lut_.dimensions != dimensions)
-      return fail(words[0].column, "a 1D and a 3D table in one file; export the 3D table alone, or split the file");
+      return fail(words[0].column,
+                  "a 1D and a 3D table in one file; export the 3D table alone, or split the file");
     if (lut_.size != 0) return fail(words[0].column, "a second size");
     int size = 0;
     const std::string_view text = words.size() == 2 ? words[1].text : std::string_view();

@@ -19,7 +19,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j < width; ++j) {
       const bool same = lower(a[i - 1]) == lower(b[j - 1]);
       now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      const bool swapped =
+          i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
       if (swapped) now[j] = std::min(now[j], before[j - 2] + 1);
     }
     before.swap(last);
@@ -43,9 +44,20 @@ std::string nearestName(std::string_view name, std::span<const std::string> cand
 }
 
 std::string nearestHint(std::string_view name, std::span<const std::string> candidates) {
-  if (const std::string nearest = nearestName(name, candidates); !nearest.empty())
-    return fmt::format("did you mean '{}'?", nearest);
-  if (!candidates.empty() && candidates.size() <= 12) return fmt::format("known: {}", fmt::join(candidates, ", "));
+  if (const std::string nearest = nearestName(name, candidates); !nearest.empty()) {
+    // Others as near, at most two: "rgba16q" may be "rgba16" or "rgba16f".
+    std::string all = fmt::format("'{}'", nearest);
+    const std::size_t distance = editDistance(name, nearest);
+    int more = 0;
+    for (const std::string& candidate : candidates)
+      if (distance <= 2 && more < 2 && candidate != nearest && editDistance(name, candidate) == distance) {
+        all += fmt::format(" or '{}'", candidate);
+        ++more;
+      }
+    return fmt::format("did you mean {}?", all);
+  }
+  if (!candidates.empty() && candidates.size() <= 12)
+    return fmt::format("known: {}", fmt::join(candidates, ", "));
   return {};
 }
 

@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "engine/base/nearest.h"
 #include "engine/gl/shader_source.h"
 
 namespace weft::gl {
@@ -130,6 +131,13 @@ bool isOrnament(std::string_view text) {
          text == "Fragment info" || text == "Compute info" || text == "Link info";
 }
 
+// The name in Mesa's "`name' undeclared".
+std::string_view undeclaredIn(std::string_view message) {
+  constexpr std::string_view kEnd = "' undeclared";
+  if (!message.starts_with('`') || !message.ends_with(kEnd)) return {};
+  return message.substr(1, message.size() - 1 - kEnd.size());
+}
+
 }  // namespace
 
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
@@ -137,7 +145,21 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
   static const auto defines = std::make_shared<const std::string>("<defines>");
   std::size_t added = 0;
   base::Diagnostic pending;
+  // Mesa gives each overload that does not fit a line of its own, at the place of the call: they are counted,
+  // not told.
+  constexpr std::string_view kCandidates = "; candidates are:";
+  std::uint32_t candidates = 0, callLine = 0, callColumn = 0;
+  std::string only;
+  const std::vector<std::string> declared(source.declared.begin(), source.declared.end());
   const auto flush = [&] {
+    if (candidates > 0) {
+      pending.message.resize(pending.message.size() - kCandidates.size());
+      pending.expected = candidates == 1 ? only : fmt::format("one of its {} forms", candidates);
+      candidates = 0;
+    }
+    if (const std::string_view name = undeclaredIn(pending.message); !name.empty())
+      if (const std::string near = base::nearestName(name, declared); !near.empty())
+        pending.hint = fmt::format("did you mean '{}'?", near);
     if (!pending.message.empty()) {
       diagnostics.add(pending);
       ++added;
@@ -154,7 +176,15 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
       pending.message += fmt::format(" {}", raw);
       continue;
     }
+    if (line && line->placed && line->line == callLine && line->column == callColumn &&
+        pending.message.ends_with(kCandidates)) {
+      ++candidates;
+      only = trim(line->text);
+      continue;
+    }
     flush();
+    callLine = line ? line->line : 0;
+    callColumn = line ? line->column : 0;
     pending.code = code;
     pending.severity = line ? line->severity : base::Severity::error;
     pending.message = std::string(line ? line->text : raw);

@@ -23,6 +23,15 @@ std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names) {
   if (const std::string near = base::nearestName(wanted, names); !near.empty())
     return fmt::format("did you mean '{}'?", near);
+  // A suffix is whole parts between dots; part of a part may be what was meant.
+  std::string holding;
+  int many = 0;
+  for (const std::string& name : names)
+    if (wanted.size() >= 3 && name.find(wanted) != std::string::npos && many < 5) {
+      holding += fmt::format("{}'{}'", many ? ", " : "", name);
+      ++many;
+    }
+  if (many > 0) return fmt::format("names that hold it: {}", holding);
   std::vector<std::string> leaves;
   for (const std::string& name : names) leaves.push_back(name.substr(name.rfind('.') + 1));
   return base::nearestHint(wanted, leaves);

@@ -72,11 +72,14 @@ TEST_CASE("every mistake names its line") {
   CHECK(failureOf("TITLE no quotes\n").place.line == 1);
 }
 
-TEST_CASE("a file of rubbish gives a bounded list") {
+TEST_CASE("a file of another kind is told once, a table full of rubbish with a bounded list") {
   base::Diagnostics diagnostics;
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "rubbish\n";
   CHECK_FALSE(read(text, diagnostics));
+  CHECK(diagnostics.size() == 1);
+  diagnostics.clear();
+  CHECK_FALSE(read("LUT_3D_SIZE 2\n" + text, diagnostics));
   CHECK(diagnostics.size() <= 20);
-  CHECK(diagnostics.items()[1].place.line == 2);
+  CHECK(diagnostics.items()[1].place.line == 3);
 }

@@ -17,3 +17,8 @@ TEST_CASE("nearest name, or the list when nothing is near") {
   CHECK(nearestHint("glwo", names) == "did you mean 'glow'?");
   CHECK(nearestHint("velocity", names) == "known: scene, glow, ldr");
 }
+
+TEST_CASE("names that are as near are all offered") {
+  const std::vector<std::string> formats = {"rgba8", "rgba16", "rgba16f", "r8"};
+  CHECK(weft::base::nearestHint("rgba16q", formats) == "did you mean 'rgba16' or 'rgba16f'?");
+}

@@ -312,3 +312,22 @@ TEST_CASE("the broken shaders give the messages of docs/errors.md") {
     weft::gl::test::checkDocumented(diagnostics, code);
   }
 }
+
+TEST_CASE("overloads that do not fit are counted, an undeclared name gets the nearest declared one") {
+  TempFolder folder;
+  folder.write("a.frag.glsl", "uniform sampler2D skyy;\nvoid main() { textureSize(sky, 0); }\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("a.frag.glsl", diagnostics);
+  REQUIRE(source);
+  const std::string at = "0:" + std::to_string(kTextLine + 1);
+  const std::string log =
+      at + "(15): error: no matching function for call to `textureSize(error, int)'; candidates are:\n" + at +
+      "(15): error:    int textureSize(sampler1D, int)\n" + at +
+      "(15): error:    ivec2 textureSize(sampler2D, int)\n" + at + "(27): error: `sky' undeclared\n";
+  CHECK(mapLog(log, *source, Code::W104, diagnostics) == 2);
+  CHECK(diagnostics.items()[0].message == "no matching function for call to `textureSize(error, int)'");
+  CHECK(diagnostics.items()[0].expected == "one of its 2 forms");
+  CHECK(diagnostics.items()[0].place.line == 2);
+  CHECK(diagnostics.items()[1].hint == "did you mean 'skyy'?");
+}
