@@ -253,7 +253,7 @@ TEST_CASE(
   struct Disc {
     double light = 0, radius = 0, least = 1e9, greatest = 0, mean = 0;
   };
-  const auto discOf = [&](double coc, bool before, int x, int y) {
+  const auto discOf = [&](double coc, bool before, int x, int y, const char* largest = "128", int side = 2) {
     // A lens for which the plane, 10 before or 40 behind a focus at 20, has that disc: f^2 / (N (s - f)) |1 -
     // s / d| on a sensor of 24 mm.
     const double distance = before ? 12 : 60, focus = 20, f = 0.95 * std::sqrt(coc / 120);
@@ -264,11 +264,11 @@ TEST_CASE(
                   {"focal_length", std::to_string(1000 * f)},
                   {"aperture", std::to_string(aperture)},
                   {"focus_distance", "20"},
-                  {"largest_bokeh", "128"},
+                  {"largest_bokeh", largest},
                   {"plane.distance", std::to_string(distance)},
                   {"plane.background", "0"},
                   {"plane.value", "4000"},
-                  {"plane.side", "2"},
+                  {"plane.side", std::to_string(side)},
                   {"plane.at", "[" + std::to_string(x) + ", " + std::to_string(y) + "]"}};
     Lab lab(setup);
     lab.frame(0);
@@ -315,5 +315,14 @@ TEST_CASE(
       CHECK(disc.radius == doctest::Approx(coc).epsilon(0.06));
       CHECK(disc.least > 0.6 * disc.mean);
       CHECK(disc.greatest < (coc < 8 ? 1.65 : 1.4) * disc.mean);
+    }
+  // A highlight of a few pixels, with as many samples as the default has.
+  for (const int side : {4, 8, 12})
+    for (const double coc : {24.0, 30.0, 31.0}) {
+      const Disc disc = discOf(coc, true, 190, 186, "32", side);
+      CAPTURE(side);
+      CAPTURE(coc);
+      CHECK(disc.least > 0.8 * disc.mean);
+      CHECK(disc.greatest < 1.2 * disc.mean);
     }
 }
