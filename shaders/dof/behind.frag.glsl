@@ -18,7 +18,9 @@ out vec4 result;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec4 own = texelFetch(source, at, 0);
-  float blur = blurOf(cocRadius(texelFetch(depth, at, 0).r, infinity, focus, float(largest) - 1.0));
+  float radius = cocRadius(texelFetch(depth, at, 0).r, infinity, focus, float(largest) - 1.0);
+  // Small discs before the focus lie on the sharp picture: their surface runs on into the focus, and nothing else is behind it.
+  float blur = radius < 0.0 ? smoothstep(1.0, 4.0, -radius) : blurOf(radius);
   vec4 layer = textureLod(blurred, gl_FragCoord.xy * 0.5 / vec2(textureSize(blurred, 0)), 0.0);
   result = vec4(blur > 0.0 ? mix(finite(own.rgb), layer.rgb / max(layer.a, 1e-4), blur) : own.rgb, own.a);
 }

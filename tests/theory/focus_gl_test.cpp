@@ -197,6 +197,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("focus: a surface that runs from before the focus into it shows nothing of what is behind it") {
+  const Lens lens{.focalLength = 135, .aperture = 0.7, .focus = 6.5};
+  for (const float radius : {1.0f, 2.0f}) {
+    const Panels panels = panelsOf(scene({{.center = {0, 0, 13}, .radius = radius, .albedo = kGrey}}, lens));
+    const double silhouette = radius / std::sqrt(49 - radius * radius) * kHeight / 2 / std::tan(M_PI / 6);
+    double worst = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y)
+      for (std::uint32_t x = 0; x < kWidth; ++x)
+        if (std::hypot(x + 0.5 - kWidth / 2.0, y + 0.5 - kHeight / 2.0) < silhouette - 5)
+          worst = std::max<double>(worst, std::abs(panels.after(x, y)[1] - panels.before(x, y)[1]));
+    CAPTURE(radius);
+    MESSAGE("silhouette ", silhouette, ", largest change ", worst);
+    CHECK(worst < 0.02);
+  }
+}
+
 TEST_CASE("focus: one colour stays that colour") {
   const Lens lens{.aperture = 0.7};
   const Panels panels = panelsOf(scene({{.center = {0, 0, 14}, .radius = 1},
