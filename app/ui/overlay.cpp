@@ -4,6 +4,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <cfloat>
+
 namespace weft::app::ui {
 
 std::unique_ptr<Overlay> Overlay::create(GLFWwindow* window, float scale) {
@@ -58,7 +60,24 @@ void Overlay::end() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-bool Overlay::wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool Overlay::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
+void Overlay::hideMouse(bool hidden) {
+  hidden = hidden && !ImGui::IsAnyItemActive();
+  if (hidden == mouseHidden_) return;
+  ImVec2& mouse = ImGui::GetIO().MousePos;
+  if (hidden) {
+    mouse_[0] = mouse.x, mouse_[1] = mouse.y;
+    mouse = {-FLT_MAX, -FLT_MAX};
+  } else {
+    mouse = {mouse_[0], mouse_[1]};
+  }
+  mouseHidden_ = hidden;
+}
+
+bool Overlay::wantsMouse() const {
+  return ImGui::GetIO().WantCaptureMouse;
+}
+bool Overlay::wantsKeys() const {
+  return ImGui::GetIO().WantTextInput;
+}
 
 }  // namespace weft::app::ui

@@ -1,6 +1,7 @@
-// Dear ImGui over framebuffer 0 of a GLFW window. Installs its callbacks behind those that the window has, which go on being
-// called; they ask wantsMouse() and wantsKeys() whether an event is theirs. Draws with state of its own and puts back
-// what it found. Does not: know graphs (the panels do), write settings files, or touch the presented texture.
+// Dear ImGui over framebuffer 0 of a GLFW window. Installs its callbacks behind those that the window has,
+// which go on being called; they ask wantsMouse() and wantsKeys() whether an event is theirs. Draws with
+// state of its own and puts back what it found. Does not: know graphs (the panels do), write settings files,
+// or touch the presented texture.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,8 @@ namespace weft::app::ui {
 
 class Overlay {
  public:
-  // `window` must be current, have its callbacks, and outlive this. Null when there is no OpenGL loader for it.
+  // `window` must be current, have its callbacks, and outlive this. Null when there is no OpenGL loader for
+  // it.
   static std::unique_ptr<Overlay> create(GLFWwindow* window, float scale);
   ~Overlay();
   Overlay(const Overlay&) = delete;
@@ -20,6 +22,9 @@ class Overlay {
   // Panels are made between the two; end() draws them. Framebuffer 0 must be bound.
   void begin();
   void end();
+  // Between the two: panels made from here on do not see the mouse, unless it drags something; or see it
+  // again.
+  void hideMouse(bool hidden);
 
   // Sizes of text and widgets, 1 at 96 dots an inch. Between frames.
   void setScale(float scale);
@@ -31,6 +36,9 @@ class Overlay {
 
  private:
   Overlay() = default;
+
+  float mouse_[2] = {0, 0};  // while it is hidden
+  bool mouseHidden_ = false;
 };
 
 }  // namespace weft::app::ui

@@ -6,35 +6,25 @@
 #include <algorithm>
 
 #include "app/ui/loading.h"
+#include "app/ui/log_layout.h"
 
 namespace weft::app::ui {
 
-void Log::addPast(const base::Diagnostics& diagnostics) {
-  for (const base::Diagnostic& each : diagnostics.items()) {
-    const auto same = [&](const base::Diagnostic& old) {
-      return old.code == each.code && old.message == each.message;
-    };
-    if (std::ranges::none_of(past, same)) past.push_back(each);
-  }
-  if (past.size() > 100) past.erase(past.begin(), past.end() - 100);
-}
-
 namespace {
 
-float logHeight() {
-  const float screen = ImGui::GetIO().DisplaySize.y;
-  return std::max(64.0f, std::min(screen * 0.2f, ImGui::GetFontSize() * 9));
-}
-
-constexpr std::array<const char*, 6> kNames = {"parameters", "passes", "inspector", "profiler", "storage", "histogram"};
-constexpr std::array<const char*, 6> kTitles = {"Parameters", "Passes", "Texture inspector", "Frame profiler", "Storage", "Histogram"};
+constexpr std::array<const char*, 6> kNames = {"parameters", "passes",  "inspector",
+                                               "profiler",   "storage", "histogram"};
+constexpr std::array<const char*, 6> kTitles = {"Parameters",     "Passes",  "Texture inspector",
+                                                "Frame profiler", "Storage", "Histogram"};
 
 }  // namespace
 
 Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log)
     : live_(live), renderer_(renderer), log_(log), trace_(renderer.device().timers), inspector_(renderer) {}
 
-Panels::~Panels() { inspector_.release(); }
+Panels::~Panels() {
+  inspector_.release();
+}
 
 bool Panels::toggle(std::string_view panel) {
   for (std::size_t i = 0; i < kNames.size(); ++i)
@@ -48,7 +38,9 @@ bool Panels::toggle(std::string_view panel) {
   return false;
 }
 
-std::vector<std::string> Panels::names() { return {kNames.begin(), kNames.end()}; }
+std::vector<std::string> Panels::names() {
+  return {kNames.begin(), kNames.end()};
+}
 
 void Panels::beforeFrame(std::uint64_t frame) {
   frame_ = frame;
@@ -58,7 +50,8 @@ void Panels::beforeFrame(std::uint64_t frame) {
 
 void Panels::afterFrame(const runtime::FrameReport& report) {
   trace_.end(report);
-  if (visible && open_[kHistogram] && renderer_.execution()) histogram_.update(renderer_.execution()->presented());
+  if (visible && open_[kHistogram] && renderer_.execution())
+    histogram_.update(renderer_.execution()->presented());
 }
 
 void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnostics) {
@@ -86,14 +79,8 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
     if (open_[kHistogram]) ImGui::End();
     arrange_ = false;
   }
-  if (hasLog()) drawLog();
+  drawLog();
   drawLoading(live_.environment());
-}
-
-bool Panels::hasLog() const {
-  const auto isError = [](const base::Diagnostic& each) { return each.severity == base::Severity::error; };
-  const bool urgent = !log_.files.empty() || !log_.change.empty() || std::ranges::any_of(log_.environment, isError);
-  return urgent || (visible && (!log_.past.empty() || !log_.environment.empty()));
 }
 
 void Panels::drawMenu(base::Diagnostics& diagnostics) {
@@ -117,19 +104,22 @@ void Panels::drawMenu(base::Diagnostics& diagnostics) {
   }
   if (ImGui::BeginMenu("Measure")) {
     gl::PassTimers& timers = renderer_.device().timers;
-    if (ImGui::MenuItem("Each pass", "P", timers.enabled(), !trace_.recording())) timers.setEnabled(!timers.enabled());
-    if (ImGui::MenuItem(trace_.recording() ? "End the trace" : "Begin a trace", "F9")) toggleTrace(diagnostics);
+    if (ImGui::MenuItem("Each pass", "P", timers.enabled(), !trace_.recording()))
+      timers.setEnabled(!timers.enabled());
+    if (ImGui::MenuItem(trace_.recording() ? "End the trace" : "Begin a trace", "F9"))
+      toggleTrace(diagnostics);
     ImGui::EndMenu();
   }
   if (trace_.recording())
-    ImGui::TextColored({1, 0.5f, 0.4f, 1}, "tracing: %llu frames", static_cast<unsigned long long>(trace_.frames()));
+    ImGui::TextColored({1, 0.5f, 0.4f, 1}, "tracing: %llu frames",
+                       static_cast<unsigned long long>(trace_.frames()));
   else if (!said_.empty())
     ImGui::TextDisabled("%s", said_.c_str());
   ImGui::EndMainMenuBar();
 }
 
-// Columns: parameters and passes at the sides, others one below the other between them; where the window is narrow, the two
-// share the left side. Below all of it stands the log.
+// Columns: parameters and passes at the sides, others one below the other between them; where the window is
+// narrow, the two share the left side. Below all of it stands the log.
 void Panels::arrange() {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   if (screen.x != width_ || screen.y != height_) arrange_ = true;
@@ -143,7 +133,8 @@ void Panels::arrange() {
   for (const Panel panel : {kInspector, kProfiler, kStorage, kHistogram})
     if (open_[panel]) others.push_back(panel);
   // Where there is no room for all, the one opened last stays longest.
-  while (others.size() > 1 && height / static_cast<float>(others.size() + (open_[kInspector] ? 1 : 0)) < 10 * em) {
+  while (others.size() > 1 &&
+         height / static_cast<float>(others.size() + (open_[kInspector] ? 1 : 0)) < 10 * em) {
     const auto first = std::ranges::find_if(others, [&](Panel panel) { return panel != latest_; });
     open_[*first] = false;
     others.erase(first);
@@ -217,33 +208,11 @@ void Panels::drawSummary(const runtime::FrameReport& report) {
   const ImGuiIO& io = ImGui::GetIO();
   const graph::Settings& settings = live_.settings();
   ImGui::PushTextWrapPos(0);
-  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth, settings.screenHeight,
-              1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)), report.passesRun, report.passesSkipped);
+  ImGui::Text("%ux%u, %.1f ms a frame, %u passes run, %u skipped", settings.screenWidth,
+              settings.screenHeight, 1000.0 / std::max(1e-3, static_cast<double>(io.Framerate)),
+              report.passesRun, report.passesSkipped);
   ImGui::TextDisabled("%s", renderer_.graphPath().c_str());
   ImGui::PopTextWrapPos();
-}
-
-void Panels::drawLog() const {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const float height = logHeight();
-  ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
-  ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
-  ImGui::Begin("Log", nullptr,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
-  if (!live_.good())
-    ImGui::TextColored({1, 0.7f, 0.3f, 1}, "This is the last good picture; the files on disk have errors:");
-  for (const auto* list : {&log_.files, &log_.environment, &log_.change, &log_.past})
-    for (const base::Diagnostic& each : *list) {
-      const ImVec4 color = each.severity == base::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
-                           : each.severity == base::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
-                                                                      : ImVec4(0.7f, 0.7f, 0.7f, 1);
-      ImGui::PushStyleColor(ImGuiCol_Text, color);
-      ImGui::PushTextWrapPos(0);
-      ImGui::TextUnformatted(base::format(each).c_str());
-      ImGui::PopTextWrapPos();
-      ImGui::PopStyleColor();
-    }
-  ImGui::End();
 }
 
 }  // namespace weft::app::ui

@@ -1,6 +1,7 @@
-// The viewer's panels: parameters, passes, texture inspector, frame profiler, storage, histogram, log. Each is made
-// anew every frame from what it shows and keeps what a person chose in it; changes go straight into the LiveGraph.
-// Does not: know the window, or draw what the inspector shows (engine/runtime/inspector.h does).
+// The viewer's panels: parameters, passes, texture inspector, frame profiler, storage, histogram, log. Each
+// is made anew every frame from what it shows and keeps what a person chose in it; changes go straight into
+// the LiveGraph. Does not: know the window, or draw what the inspector shows (engine/runtime/inspector.h
+// does).
 #pragma once
 
 #include <array>
@@ -13,17 +14,11 @@
 #include "app/live_graph.h"
 #include "app/trace_recorder.h"
 #include "app/ui/inspector_panel.h"
+#include "app/ui/log.h"
 #include "engine/graph/explain.h"
 #include "engine/runtime/picture_histogram.h"
 
 namespace weft::app::ui {
-
-// What there is to say: about the files as they are, the environment last asked for, the last change made in the window, and what the driver or a
-// frame said, once each.
-struct Log {
-  std::vector<base::Diagnostic> files, environment, change, past;
-  void addPast(const base::Diagnostics& diagnostics);  // keeps the last hundred
-};
 
 class Panels {
  public:
@@ -52,6 +47,7 @@ class Panels {
   // Starts a trace in weft_<frame>.trace.json, or ends it.
   void toggleTrace(base::Diagnostics& diagnostics);
   TraceRecorder& tracer() { return trace_; }
+  bool tracing() const { return trace_.recording(); }
 
  private:
   enum Panel : std::size_t { kParameters, kPasses, kInspector, kProfiler, kStorage, kHistogram, kPanelCount };
@@ -65,8 +61,7 @@ class Panels {
   void drawProfiler(base::Diagnostics& diagnostics);
   void drawStorage();
   void drawHistogram(base::Diagnostics& diagnostics);
-  void drawLog() const;
-  bool hasLog() const;
+  void drawLog();
 
   LiveGraph& live_;
   runtime::Renderer& renderer_;

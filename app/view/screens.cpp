@@ -42,6 +42,7 @@ void drawHelp() {
   ImGui::SetNextWindowPos({(screen.x - size.x) / 2, (screen.y - size.y) / 2}, ImGuiCond_Always);
   ImGui::SetNextWindowSize(size, ImGuiCond_Always);
   ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(1);
   ImGui::Begin("Help", nullptr, kNotice | ImGuiWindowFlags_NoInputs);
   ImGui::SetWindowFontScale(fit.scale);
   for (int i = 0; i < count; ++i) {
@@ -52,6 +53,15 @@ void drawHelp() {
     ImGui::SetCursorPos({x + (keysWidth + gap) * fit.scale, y});
     ImGui::TextUnformatted(rows[static_cast<std::size_t>(i)]->does);
   }
+  ImGui::End();
+}
+
+void drawModes(const std::string& modes) {
+  if (modes.empty()) return;
+  ImGui::SetNextWindowPos({kMargin, kMargin}, ImGuiCond_Always);
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  ImGui::Begin("Modes", nullptr, kNotice | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextUnformatted(modes.c_str());
   ImGui::End();
 }
 

@@ -47,6 +47,7 @@ class Viewer {
   void waitForEvents();
   void update(gl::Size size);
   void showState();
+  std::string modes() const;  // that are on and that nothing else shows while the panels are hidden
   // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
   bool busy();
   bool mustDraw();

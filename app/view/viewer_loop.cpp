@@ -26,16 +26,16 @@ constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets 
 constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
 
 // What is wrong with the files or with a change made here is told, and does not count against the program.
-void tell(base::Diagnostics& diagnostics, std::vector<base::Diagnostic>& list) {
+void tell(base::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
   report(diagnostics);
-  list = diagnostics.items();
+  log.set(topic, diagnostics.items());
   diagnostics.clear();
 }
 
 }  // namespace
 
 int Viewer::run() {
-  tell(diagnostics_, log_.files);
+  tell(diagnostics_, log_, ui::Log::kFiles);
   if (!options_.record.empty()) toggleRecording();
   while (!glfwWindowShouldClose(window_)) {
     waitForEvents();
@@ -79,7 +79,8 @@ void Viewer::update(gl::Size size) {
     const auto scaled = [&](std::uint32_t pixels) {
       return static_cast<std::uint32_t>(std::clamp(std::lround(pixels * renderScale_), 1l, 16384l));
     };
-    if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_)) tell(diagnostics_, log_.change);
+    if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_))
+      tell(diagnostics_, log_, ui::Log::kChange);
   }
   bool looked = live_.poll(glfwGetTime(), diagnostics_);
   // The moment in which more may be written is waited out here, not behind another frame of what is out of
@@ -89,17 +90,17 @@ void Viewer::update(gl::Size size) {
     looked = live_.poll(glfwGetTime(), diagnostics_);
   }
   if (looked) {
-    tell(diagnostics_, log_.files);
+    tell(diagnostics_, log_, ui::Log::kFiles);
     restless_ = kRestlessAfterEvent;
   }
   if (live_.pollEnvironment(diagnostics_)) {
-    tell(diagnostics_, log_.environment);
+    tell(diagnostics_, log_, ui::Log::kEnvironment);
     rest_.disturb();
     restless_ = kRestlessAfterEvent;
   }
   const std::uint64_t changes = live_.changes();
   for (const std::string_view action : input_.takeActions()) actions_.run(action);
-  if (live_.changes() != changes) tell(diagnostics_, log_.change);
+  if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
   if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
   showState();
@@ -115,6 +116,17 @@ void Viewer::showState() {
   if (title == title_) return;
   title_ = title;
   glfwSetWindowTitle(window_, title_.c_str());
+}
+
+std::string Viewer::modes() const {
+  std::string text;
+  const auto add = [&](const std::string& mode) { text += (text.empty() ? "" : "  |  ") + mode; };
+  if (rig_.mode() == CameraRig::Mode::fly) add("flying (Esc lets go)");
+  if (recorder_.active()) add(fmt::format("recording, {} frames", recorder_.frames()));
+  if (panels_.tracing()) add("tracing");
+  if (idle_) add("idle");
+  if (renderScale_ != 1) add(fmt::format("render scale {}", renderScale_));
+  return text;
 }
 
 bool Viewer::busy() {
@@ -208,14 +220,17 @@ void Viewer::drawUi() {
   if (!overlay_) return;
   const std::uint64_t before = live_.changes();
   overlay_->begin();
+  overlay_->hideMouse(help_);  // no tooltip over the help
   if (live_.running())
     panels_.draw(report_, diagnostics_);
   else
-    drawWaiting(log_.files);
+    drawWaiting(log_.files());
+  overlay_->hideMouse(false);
+  if (!panels_.visible) drawModes(modes());
   if (help_) drawHelp();
   overlay_->end();
   if (panels_.wantsFrame()) rest_.disturb();
-  if (live_.changes() != before) tell(diagnostics_, log_.change);
+  if (live_.changes() != before) tell(diagnostics_, log_, ui::Log::kChange);
 }
 
 void Viewer::saveScreenshots() {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "app/ui/log.h"
 #include "app/view/actions.h"
 #include "app/view/frame_clock.h"
 #include "app/view/help_layout.h"
@@ -119,4 +120,37 @@ TEST_CASE("rest is several equal looks in a row, and ends with a disturbance") {
 }
 
 }  // namespace
+TEST_CASE(
+    "the log shows errors first, the newest on top, and forgets what was dismissed until it is said again") {
+  using app::ui::Log;
+  const auto said = [](base::Severity severity, const char* message) {
+    base::Diagnostic diagnostic;
+    diagnostic.severity = severity;
+    diagnostic.message = message;
+    return diagnostic;
+  };
+  const auto textOf = [](const Log& log, bool all) {
+    std::string text;
+    for (const base::Diagnostic* each : log.shown(all)) text += each->message + ' ';
+    return text;
+  };
+  using enum base::Severity;
+  Log log;
+  log.set(Log::kEnvironment, {said(warning, "hot")});
+  base::Diagnostics past;
+  past.add(said(error, "full"));
+  log.addPast(past);
+  log.set(Log::kFiles, {said(warning, "odd"), said(error, "broken")});
+  CHECK(textOf(log, true) == "broken full odd hot ");
+  CHECK(textOf(log, false) == "broken odd ");
+  log.set(Log::kChange, {said(error, "refused")});
+  CHECK(textOf(log, true) == "refused broken full odd hot ");
+  log.dismiss();
+  CHECK(textOf(log, true).empty());
+  log.addPast(past);  // once is enough
+  CHECK(textOf(log, true).empty());
+  log.set(Log::kFiles, {said(error, "broken")});
+  CHECK(textOf(log, true) == "broken ");
+}
+
 }  // namespace weft::app

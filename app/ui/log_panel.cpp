@@ -1,0 +1,48 @@
+// The log's window.
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/ui/log_layout.h"
+#include "app/ui/panels.h"
+
+namespace weft::app::ui {
+
+void Panels::drawLog() {
+  const std::vector<const base::Diagnostic*> shown = log_.shown(visible);
+  if (shown.empty()) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const char* const lastGood =
+      live_.good() ? nullptr : "This is the last good picture; the files on disk have errors:";
+  // The first error is to be read whole, message and fix.
+  float height = logHeight();
+  if (shown.front()->severity == base::Severity::error) {
+    const float wrap = std::max(1.0f, screen.x - 16 - 2 * style.WindowPadding.x - style.ScrollbarSize);
+    float wanted = ImGui::GetFrameHeight() + 2 * style.WindowPadding.y + style.ItemSpacing.y;
+    if (lastGood) wanted += ImGui::CalcTextSize(lastGood, nullptr, false, wrap).y + style.ItemSpacing.y;
+    wanted += ImGui::CalcTextSize(base::format(*shown.front()).c_str(), nullptr, false, wrap).y;
+    height = std::max(height, std::min(wanted, screen.y * 0.6f));
+  }
+  ImGui::SetNextWindowPos({8, screen.y - height - 8}, ImGuiCond_Always);
+  ImGui::SetNextWindowSize({screen.x - 16, height}, ImGuiCond_Always);
+  bool stays = true;
+  ImGui::Begin("Log", &stays,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+  ImGui::PushTextWrapPos(0);
+  if (lastGood) ImGui::TextColored({1, 0.7f, 0.3f, 1}, "%s", lastGood);
+  for (const base::Diagnostic* each : shown) {
+    const ImVec4 color = each->severity == base::Severity::error     ? ImVec4(1, 0.45f, 0.4f, 1)
+                         : each->severity == base::Severity::warning ? ImVec4(1, 0.85f, 0.4f, 1)
+                                                                     : ImVec4(0.7f, 0.7f, 0.7f, 1);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(base::format(*each).c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+  if (!stays) log_.dismiss();
+}
+
+}  // namespace weft::app::ui
