@@ -1,6 +1,7 @@
 #include "app/live_graph.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -19,6 +20,21 @@ namespace {
 constexpr double kQuietSeconds = 0.03;
 // The same for a file that went away: some programs write it anew only a while later.
 constexpr double kGoneSeconds = 0.3;
+
+// Not where the name goes on.
+void replaceAll(std::string& text, const std::string& what, const std::string& by) {
+  const auto goesOn = [&](std::size_t at) {
+    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
+  };
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos;) {
+    if (goesOn(at + what.size())) {
+      at += what.size();
+      continue;
+    }
+    text.replace(at, what.size(), by);
+    at += by.size();
+  }
+}
 
 // Whether `diagnostic` says that the graph does not take a setting: it has no place in a file, and names it.
 bool isAbout(const base::Diagnostic& diagnostic, const std::string& source) {
@@ -43,9 +59,30 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
     environment_.assume(options.environment);
 }
 
+void LiveGraph::tellOfHere(const base::Diagnostics& said, const graph::Settings& settings,
+                           base::Diagnostics& diagnostics) const {
+  for (base::Diagnostic each : said.items()) {
+    const auto rename = [&](const std::string& what, const std::string& by) {
+      for (std::string* text : {&each.message, &each.expected, &each.found, &each.hint})
+        replaceAll(*text, what, by);
+    };
+    for (const auto* sets : {&settings.sets, &lostSets_})
+      for (const auto& [name, value] : *sets)
+        if (setHere_.contains(name))
+          rename(graph::sourceOfSet(name, value), "the value " + value + " set here for " + name);
+    for (const auto* names : {&settings.disables, &lostDisables_})
+      for (const std::string& name : *names)
+        if (disabledHere_.contains(name))
+          rename(graph::sourceOfDisable(name), "switching off " + name + " here");
+    diagnostics.add(std::move(each));
+  }
+}
+
 bool LiveGraph::load(base::Diagnostics& diagnostics) {
   runtime::World world = world_;
-  good_ = tryScene(world, diagnostics) && tryGraph(world, diagnostics);
+  base::Diagnostics said;
+  good_ = tryScene(world, said) && tryGraph(world, said);
+  tellOfHere(said, settings_, diagnostics);
   if (good_) {
     world_ = std::move(world);
     sceneStale_ = false;
@@ -191,7 +228,10 @@ bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnost
 
 bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnostics) {
   ++changes_;
-  if (!renderer_.apply(settings, world_, diagnostics)) return false;
+  base::Diagnostics said;
+  const bool taken = renderer_.apply(settings, world_, said);
+  tellOfHere(said, settings, diagnostics);
+  if (!taken) return false;
   settings_ = std::move(settings);
   ++switches_;
   watch();
@@ -205,6 +245,7 @@ bool LiveGraph::setParameter(const std::string& name, const std::string& value,
   std::erase_if(settings.sets, same);
   std::erase_if(lostSets_, same);
   settings.sets.emplace_back(name, value);
+  setHere_.insert(name);
   return trySettings(std::move(settings), diagnostics);
 }
 
@@ -234,7 +275,10 @@ bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& di
 bool LiveGraph::setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
   std::erase(settings.disables, pass);
-  if (!enabled) settings.disables.push_back(pass);
+  if (!enabled) {
+    settings.disables.push_back(pass);
+    disabledHere_.insert(pass);
+  }
   return trySettings(std::move(settings), diagnostics);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,8 +50,8 @@ class LiveGraph {
   // What the files say again, instead of what setParameter said. False after errors.
   bool resetParameter(const std::string& name, base::Diagnostics& diagnostics);
   bool isChanged(const std::string& parameter) const;
-  // Writes changed parameters and disabled passes into the files they come from (engine/graph/write_back.h); `files` are
-  // those that were written. False after errors: nothing was.
+  // Writes changed parameters and disabled passes into the files they come from (engine/graph/write_back.h);
+  // `files` are those that were written. False after errors: nothing was.
   bool writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics);
 
   const runtime::World& world() const { return world_; }
@@ -70,6 +71,10 @@ class LiveGraph {
   bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
   void watch();
+  // Adds `said` to `diagnostics`, where it names a set or disable that was made here by that and not by an
+  // option.
+  void tellOfHere(const base::Diagnostics& said, const graph::Settings& settings,
+                  base::Diagnostics& diagnostics) const;
 
   runtime::Renderer& renderer_;
   runtime::World world_;
@@ -77,13 +82,14 @@ class LiveGraph {
   // What the graph as it is has no use for.
   std::vector<std::pair<std::string, std::string>> lostSets_;
   std::vector<std::string> lostDisables_;
+  std::set<std::string> setHere_, disabledHere_;  // names
   std::string scenePath_;
   scene::SceneChoice sceneChoice_;
   LiveEnvironment environment_;
   std::vector<std::string> sceneFiles_;
   base::FileWatcher watcher_;
   bool sceneStale_ = false, graphStale_ = false, pending_ = false, good_ = false, environmentGood_ = true;
-  std::string changedEnvironment_;  // to be loaded again, or empty
+  std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds
   std::uint64_t switches_ = 0, changes_ = 0;
 };
