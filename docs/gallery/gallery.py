@@ -15,11 +15,11 @@ import json
 import pathlib
 import re
 import shlex
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
+
+from png import read_png
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
@@ -80,33 +80,6 @@ def page():
     return "\n".join(out).rstrip() + "\n"
 
 
-def read_png(path):
-    """Bytes of the texels of an 8-bit PNG that is not interlaced, filters undone."""
-    data, at, packed = path.read_bytes(), 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        if kind == b"IHDR":
-            width, height, _, color = struct.unpack(">IIBB", body[:10])
-        packed += body if kind == b"IDAT" else b""
-        at += 12 + length
-    channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
-    raw, stride, before, out = zlib.decompress(packed), width * channels, bytearray(width * channels), bytearray()
-    for y in range(height):
-        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for x in range(stride):
-            a = row[x - channels] if x >= channels else 0
-            b, c = before[x], before[x - channels] if x >= channels else 0
-            if kind == 4:
-                p = a + b - c
-                near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-            else:
-                near = (0, a, b, (a + b) // 2)[kind]
-            row[x] = (row[x] + near) & 255
-        out, before = out + row, row
-    return out
-
-
 def all_pictures():
     pairs = {picture_of(entry, side) for entry in GALLERY["entries"] for side in ("off", "on")}
     return pairs | {picture_of(GALLERY["front"], "on")}
@@ -134,7 +107,7 @@ def check(weft):
                     if key not in made:
                         path = pathlib.Path(folder) / key
                         render([weft], entry, side, path, GALLERY["check_size"])
-                        made[key] = read_png(path)
+                        made[key] = read_png(path)[1]
                 off, on = (made[picture_of(entry, side)] for side in ("off", "on"))
                 changed = sum(a != b for a, b in zip(off, on)) / len(off)
                 equal = entry.get("equal", False)

@@ -6,13 +6,14 @@ Each preset passes `check`; renders from another working directory, so that its 
 picture without preset and from every other one; and is a picture: neither flat, nor mostly black or white.
 """
 import pathlib
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 
 TOP = pathlib.Path.cwd()
+sys.path.insert(0, str(TOP / "docs/gallery"))
+from png import read_png  # noqa: E402
+
 WEFT = pathlib.Path(sys.argv[1]).resolve()
 PRESETS = sorted((TOP / "graphs/presets").glob("*.json"))
 failures = []
@@ -25,34 +26,9 @@ def expect(what, held):
 
 
 def pixels_of(path):
-    """RGB bytes of an 8-bit PNG without interlacing."""
-    data, at, packed = path.read_bytes(), 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", body[:10])
-        elif kind == b"IDAT":
-            packed += body
-        at += 12 + length
-    channels = {2: 3, 6: 4}[color]
-    assert depth == 8
-    raw, stride, rows, before = zlib.decompress(packed), width * channels, [], bytes(width * channels)
-    for y in range(height):
-        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left, up = row[i - channels] if i >= channels else 0, before[i]
-            corner = before[i - channels] if i >= channels else 0
-            if kind == 4:
-                guess = left + up - corner
-                a, b, c = abs(guess - left), abs(guess - up), abs(guess - corner)
-                add = left if a <= b and a <= c else up if b <= c else corner
-            else:
-                add = (0, left, up, (left + up) // 2)[kind]
-            row[i] = (row[i] + add) & 255
-        rows.append(bytes(row))
-        before = bytes(row)
-    return bytes(row[i] for row in rows for i in range(stride) if i % channels < 3)
+    """RGB bytes of a PNG."""
+    channels, texels = read_png(path)
+    return bytes(value for i, value in enumerate(texels) if i % channels < 3)
 
 
 def difference(a, b):
