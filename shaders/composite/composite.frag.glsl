@@ -12,7 +12,7 @@
 //         bloom_strength  share of the bright part that its blur replaces, 0..1 [0.05]
 //         white           radiance, after exposure, that becomes white [8]
 //         threshold, knee what the bright part is, as in bloom/prefilter; both or none [0, 0: everything]
-//         fog             define: fog_color (radiance), fog_density, fog_falloff, fog_base, fog_sky; see fog.glsl
+//         fog             define: fog_color (radiance), fog_density, fog_falloff, fog_base, fog_layer, fog_sky; see fog.glsl
 //         curve           CURVE, see tone_curve.glsl
 //         aberration      define: aberration_px, how far red and blue part from green at the corners, in pixels
 //         white_balance   define: temperature, tint; see white_balance.glsl
@@ -96,6 +96,7 @@ layout(std140) uniform Parameters {
   float fog_density;
   float fog_falloff;
   float fog_base;
+  float fog_layer;
   float fog_sky;
 #endif
 #ifdef HAS_LUT
@@ -149,7 +150,7 @@ void main() {
 #endif
 #if FOG && defined(HAS_DEPTH)
   float far = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r;
-  c = mix(fog_color, c, fogTransmittance(uv, far, fog_density, fog_falloff, fog_base, fog_sky));
+  c = mix(fog_color, c, fogTransmittance(uv, far, fog_density, fog_falloff, fog_base, fog_layer, fog_sky));
 #endif
   c *= exp2(ev);
 #ifdef HAS_EXPOSURE

@@ -177,6 +177,23 @@ TEST_CASE("fog: Beer and Lambert's law along the ray, at every distance") {
   CHECK(render(with(sky, {{"fog_sky", "0"}}), 96, 64).at(48, 32) == doctest::Approx(2).epsilon(2e-3));
 }
 
+TEST_CASE("fog before the sky: a layer around the eye, thickest at the horizon, alike above and below") {
+  const double fog = 0.4, density = 0.03, layer = 8;
+  const Radiance picture = render({{"plane.background", "2"},
+                                   {"fog", "true"},
+                                   {"fog_density", "0.03"},
+                                   {"fog_layer", "8"},
+                                   {"fog_color", "[0.4, 0.4, 0.4]"}},
+                                  96, 64);
+  for (const std::uint32_t y : {0u, 8u, 20u, 29u, 31u, 34u, 45u, 63u}) {
+    const double half = std::tan(M_PI / 6), u = (70.5 / 96 * 2 - 1) * half * 1.5,
+                 v = ((y + 0.5) / 64 * 2 - 1) * half;
+    const double range = layer * std::sqrt(1 + u * u + v * v) / std::abs(v);
+    CAPTURE(y);
+    CHECK(picture.at(70, y) == doctest::Approx(fog + (2 - fog) * std::exp(-density * range)).epsilon(3e-3));
+  }
+}
+
 TEST_CASE("fog that thins out with height: the optical depth is the integral of the density along the ray") {
   const double density = 0.05, falloff = 0.2, base = -3, distance = 40;
   const Radiance picture = render({{"plane.background", "2"},
