@@ -42,12 +42,11 @@ std::string checkSet(const std::string& text) {
   return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
 }
 
-// A preset that is no file, by the name of a bundled one.
+// A preset that is no file is the name of a bundled one, also of one that is not there: the message has the nearest.
 std::string presetFile(const std::string& preset) {
   std::error_code ignored;
-  const std::string bundled = dataFolder() + "/graphs/presets/" + preset + ".json";
-  const bool name = preset.find('/') == std::string::npos && !std::filesystem::exists(preset, ignored);
-  return name && std::filesystem::exists(bundled, ignored) ? bundled : preset;
+  const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
+  return name && !std::filesystem::exists(preset, ignored) ? presetsFolder() + "/" + preset + ".json" : preset;
 }
 
 struct Raw {

@@ -18,6 +18,8 @@ std::string dataFolder() {
   return WEFT_DATA_INSTALLED;
 }
 
+std::string presetsFolder() { return dataFolder() + "/graphs/presets"; }
+
 runtime::WorldFacts factsWithoutWorld() {
   runtime::WorldFacts facts;
   for (const std::string& list : scene::drawListNames()) facts.lists.push_back({list, 0});

@@ -19,6 +19,9 @@ namespace weft::app {
 // The folder that holds graphs/, shaders/, materials/ and scenes/: beside the build, or where it was installed.
 std::string dataFolder();
 
+// The folder of the bundled presets, in it.
+std::string presetsFolder();
+
 graph::Settings settingsOf(const Options& options, bool software);
 
 // Path of the scene file: the one the options name, or the bundled one.

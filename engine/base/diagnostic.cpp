@@ -42,7 +42,8 @@ std::string format(const Diagnostic& d) {
   std::string out;
   if (d.place.file && !d.place.file->empty()) {
     out += *d.place.file;
-    if (d.place.line > 0) out += fmt::format(":{}:{}", d.place.line, d.place.column);
+    if (d.place.line > 0) out += fmt::format(":{}", d.place.line);
+    if (d.place.line > 0 && d.place.column > 0) out += fmt::format(":{}", d.place.column);
     out += ": ";
   }
   const char* severity = d.severity == Severity::error     ? "error"

@@ -35,7 +35,7 @@ struct Diagnostic {
   std::string hint{};      // the fix: "did you mean 'ldr'?"
 };
 
-// "file:line:column: error[W040]: message" followed by indented lines for pass, resource, expected, found and fix.
+// "file:line:column: error[W040]: message", without what is unknown of the place, followed by indented lines for pass, resource, expected, found and fix.
 std::string format(const Diagnostic& diagnostic);
 
 // "W040"

@@ -3,8 +3,8 @@
 
 #include <charconv>
 
-#include "engine/base/nearest.h"
 #include "engine/gl/shader_source.h"
+#include "engine/gl/shader_words.h"
 
 namespace weft::gl {
 
@@ -115,27 +115,10 @@ std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
   return 0;
 }
 
-// Line `number` (from 1) of a text.
-std::string_view lineOf(std::string_view text, std::uint32_t number) {
-  for (; number > 1; --number) {
-    const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos) return {};
-    text.remove_prefix(end + 1);
-  }
-  return text.substr(0, text.find('\n'));
-}
-
 // Headings and rules of NVIDIA's logs.
 bool isOrnament(std::string_view text) {
   return text.empty() || text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
          text == "Fragment info" || text == "Compute info" || text == "Link info";
-}
-
-// The name in Mesa's "`name' undeclared".
-std::string_view undeclaredIn(std::string_view message) {
-  constexpr std::string_view kEnd = "' undeclared";
-  if (!message.starts_with('`') || !message.ends_with(kEnd)) return {};
-  return message.substr(1, message.size() - 1 - kEnd.size());
 }
 
 }  // namespace
@@ -143,28 +126,22 @@ std::string_view undeclaredIn(std::string_view message) {
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
                    base::Diagnostics& diagnostics) {
   static const auto defines = std::make_shared<const std::string>("<defines>");
-  std::size_t added = 0;
-  base::Diagnostic pending;
+  std::vector<LogMessage> messages;
+  LogMessage message;
+  base::Diagnostic& pending = message.diagnostic;
   // Mesa gives each overload that does not fit a line of its own, at the place of the call: they are counted,
   // not told.
   constexpr std::string_view kCandidates = "; candidates are:";
   std::uint32_t candidates = 0, callLine = 0, callColumn = 0;
   std::string only;
-  const std::vector<std::string> declared(source.declared.begin(), source.declared.end());
   const auto flush = [&] {
     if (candidates > 0) {
       pending.message.resize(pending.message.size() - kCandidates.size());
       pending.expected = candidates == 1 ? only : fmt::format("one of its {} forms", candidates);
       candidates = 0;
     }
-    if (const std::string_view name = undeclaredIn(pending.message); !name.empty())
-      if (const std::string near = base::nearestName(name, declared); !near.empty())
-        pending.hint = fmt::format("did you mean '{}'?", near);
-    if (!pending.message.empty()) {
-      diagnostics.add(pending);
-      ++added;
-    }
-    pending = {};
+    if (!pending.message.empty()) messages.push_back(message);
+    message = {};
   };
   while (!log.empty()) {
     const std::size_t end = log.find('\n');
@@ -189,8 +166,9 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
     pending.severity = line ? line->severity : base::Severity::error;
     pending.message = std::string(line ? line->text : raw);
     if (line && line->placed && line->line >= kTextLine) {
-      const std::uint32_t textLine = line->line - kTextLine + 1;
-      pending.place = source.placeOf(textLine, trueColumn(lineOf(source.text, textLine), line->column));
+      message.textLine = line->line - kTextLine + 1;
+      pending.place =
+          source.placeOf(message.textLine, trueColumn(lineOf(source.text, message.textLine), line->column));
     } else if (line && line->placed) {
       pending.place = {defines, line->line, line->column};
     } else {
@@ -198,7 +176,12 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
     }
   }
   flush();
-  return added;
+  dropConsequences(messages);
+  for (LogMessage& known : messages) {
+    explainMessage(known, source);
+    diagnostics.add(std::move(known.diagnostic));
+  }
+  return messages.size();
 }
 
 }  // namespace weft::gl

@@ -29,6 +29,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   expandPasses(model, deferred);
   finishGraph(model, deferred);
   judgeMissing(model);
+  reportUnincluded(model);
   if (!own.hasErrors()) checkSlices(model);
   if (!own.hasErrors()) warnUnread(model);
   own.sortByPlace();

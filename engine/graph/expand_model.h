@@ -105,6 +105,19 @@ struct Scope {
   NameMap<Scope*> includes;
   NameMap<const PassDesc*> passes;
   std::string disabledBy;  // "--disable post"; empty: not disabled
+  bool broken = false;     // an include below it could not be read: names it does not know may be from there
+};
+
+// References `name.…` in a file that includes nothing under that name: one mistake, however many they are.
+struct Unincluded {
+  struct Use {
+    Place place;
+    std::string text;  // "pass 'skybox' reads the unknown resource 'ibl.brdf'"
+    std::string resource, pass;
+  };
+  Scope* scope = nullptr;
+  std::string name;
+  std::vector<Use> uses;  // of different places
 };
 
 // What --disable matched.
@@ -170,6 +183,7 @@ struct Model {
   std::vector<HistoryUse> historyUses{};     // their resource is the last one, known at the end
   std::vector<std::uint32_t> presentDeps{};  // uses that write what is presented
   std::vector<std::uint32_t> positionOf{};   // per pass of the FlatGraph
+  std::vector<Unincluded> unincluded{};      // reported at the end
   bool incomplete = false;                   // mistakes kept some writes out: what nobody writes is no news
   std::uint32_t position = 0;                // of the instance being expanded
   std::vector<std::string> evaluating{};     // what is being evaluated now, for the path of a cycle

@@ -53,7 +53,7 @@ std::optional<Value> Names::variable(std::string_view name) {
   const Variable found = findVariable(model_, scope_, name);
   switch (found.kind) {
     case Variable::Kind::none:
-      if (isUnread(scope_, name)) return Value{};
+      if (mayBeUnread(scope_, name)) return Value{};
       return std::nullopt;
     case Variable::Kind::parameter:
       return model_.parameters[found.index].value;
@@ -111,6 +111,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   if (index == kNone) {
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
     if (isUnread(scope_, resource) || scope_.resources.contains(resource)) return Value{};
+    if (isUnincluded(model_, scope_, resource, place, kAsksOf)) return Value{};
     return std::nullopt;
   }
   const std::string asked = model_.entities[index].name;

@@ -23,7 +23,10 @@ void buildScope(Model& model, Scope& scope);
 
 void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
   const IncludeDesc& include = *stanza.include;
-  if (!include.graph) return;  // the reader said why
+  if (!include.graph) {  // the reader said why
+    for (Scope* outer = &scope; outer; outer = outer->parent) outer->broken = true;
+    return;
+  }
   Scope& child = model.scopes.emplace_back();
   child.desc = include.graph.get();
   child.parent = &scope;
@@ -260,29 +263,13 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
   return names;
 }
 
-bool isUnread(const Scope& from, std::string_view name) {
-  const std::string_view leaf = name.substr(name.rfind('.') + 1);
-  const auto holds = [&](const Scope& scope) {
-    const auto& unread = scope.desc->unread;
-    return std::find(unread.begin(), unread.end(), leaf) != unread.end();
-  };
-  for (const Scope* scope = &from; scope; scope = scope->parent)
-    if (holds(*scope)) return true;
-  if (name.find('.') == std::string_view::npos) return false;
-  // A name into an include that could not be read, or that left the resource out.
-  const auto child = from.includes.find(name.substr(0, name.find('.')));
-  if (child != from.includes.end()) return isUnread(*child->second, name.substr(name.find('.') + 1));
-  for (const PassDesc& pass : from.desc->passes)
-    if (pass.include && !pass.include->graph && name.starts_with(pass.include->as + ".")) return true;
-  return false;
-}
-
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
                                  const Place& place, std::string_view user, const std::string& pass) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
   if (isUnread(scope, name)) return kNone;  // the reader reported its declaration
+  if (isUnincluded(model, scope, name, place, user, pass)) return kNone;
   // An input with nothing behind it was reported where it stands.
   if (!import && scope.resources.contains(name)) return kNone;
   if (import) {
@@ -394,7 +381,7 @@ bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed
   expr.check(names, model.diagnostics);
   for (const auto& [fact, name] : expr.facts()) {
     if (findEntity(model, scope, name, false) != kNone || implicitImport(model, name) != kNone) continue;
-    findEntityOrReport(model, scope, name, name.starts_with("@"), expr.place(), "an expression asks of");
+    findEntityOrReport(model, scope, name, name.starts_with("@"), expr.place(), kAsksOf);
   }
   return model.diagnostics.errorCount() == before;
 }

@@ -25,9 +25,18 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 // The same, and reports W040 or W043 with the nearest name at `place`.
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
                                  const Place& place, std::string_view user, const std::string& pass = {});
+// `user` of a name in size(name) and the like.
+constexpr const char* kAsksOf = "an expression asks of the";
 // True when the reader reported the declaration of this name and left it out: a use of it is no second
 // mistake.
 bool isUnread(const Scope& from, std::string_view name);
+// True when nothing is known of this variable because an include could not be read, which the reader reported.
+bool mayBeUnread(const Scope& from, std::string_view name);
+// True when `name` is dotted and this file includes nothing under its first part: kept for reportUnincluded.
+bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
+                  std::string_view user, const std::string& pass = {});
+// Reports them, each name once: W040, or a note when it is because of an include that could not be read.
+void reportUnincluded(Model& model);
 // The import type's entity with default arguments; kNone when there is no such type.
 std::uint32_t implicitImport(Model& model, std::string_view type);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/expand_scope.h"
 #include "engine/graph/read_context.h"
 #include "engine/graph/suffix.h"
 
@@ -16,7 +17,9 @@ std::string sourceOfSet(const std::string& name, const std::string& value) {
   return fmt::format("--set {}={}", name, value);
 }
 
-std::string sourceOfDisable(const std::string& name) { return "--disable " + name; }
+std::string sourceOfDisable(const std::string& name) {
+  return "--disable " + name;
+}
 
 }  // namespace weft::graph
 
@@ -90,6 +93,7 @@ bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
 // Where a value comes from, and which parameters it may mean: those of `prefix`, by the rest of their names.
 struct Origin {
   std::string source;  // as the person wrote it
+  const Scope& scope;
   std::string_view prefix = "";
   Place place = {};
   std::string pointer = {};
@@ -107,6 +111,7 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
     }
   const std::vector<std::size_t> found = suffixMatches(names, wanted);
   if (found.empty()) {
+    if (mayBeUnread(origin.scope, wanted)) return;
     auto& d = model.diagnostics.error(Code::W44, origin.place,
                                       fmt::format("{}: no parameter is called '{}'", origin.source, wanted));
     d.pointer = origin.pointer;
@@ -126,14 +131,14 @@ void applySets(Model& model) {
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
     for (const SetDesc& set : scope->desc->sets)
       applySet(model, set.name,
-               {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), scope->prefix, set.place,
-                set.pointer},
+               {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), *scope, scope->prefix,
+                set.place, set.pointer},
                [&](Type type) {
                  const bool path = type == Type::file && set.value.type == Value::Type::symbol;
                  return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
                });
   for (const auto& [name, text] : model.settings.sets)
-    applySet(model, name, {sourceOfSet(name, text)},
+    applySet(model, name, {sourceOfSet(name, text), model.scopes.front()},
              [&](Type type) { return parseValue(text, type); });
 }
 
@@ -179,6 +184,7 @@ void applyDisable(Model& model, const std::string& wanted) {
                                                    : fmt::format("set it with --set {}=VALUE", wanted);
     return;
   }
+  if (mayBeUnread(model.scopes.front(), declared)) return;
   auto& d = model.diagnostics.error(Code::W45, {}, fmt::format("{}: no pass is called '{}'", source, wanted));
   d.hint = suffixHint(declared, names);
 }

@@ -43,7 +43,12 @@ bool Renderer::load(const graph::Settings& settings, const World& world, base::D
   const auto desc = graph::readGraph(graphPath_, options_.presets, said);
   diagnostics.append(said);
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
-  return desc && !said.hasErrors() && switchTo(desc, settings, world, diagnostics);
+  if (!desc) return false;
+  if (!said.hasErrors()) return switchTo(desc, settings, world, diagnostics);
+  // For what else is wrong.
+  graph::expandGraph(*desc, makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles()), settings,
+                     diagnostics);
+  return false;
 }
 
 bool Renderer::apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {

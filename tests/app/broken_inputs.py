@@ -54,6 +54,8 @@ FILES = {
     "graph_and_shader.json": graph(shader="sky/no_such.frag.glsl").replace("rgba8", "rgba9"),
     "reserved_name.json": graph(write="ldrr").replace('"sky"', '"mip"'),
     "missing_include.json": graph(more=' }, { "include": "no_such.json"'),
+    "misspelt_include.json": graph(more=' }, { "include": "lihgt.json", "group": "g"').replace("@environment", "light.map"),
+    "light.json": '{ "passes": [] }',
     "own_include.json": graph(more=' }, { "include": "own_include.json"'),
     "unknown_key.json": graph(extra=', "formt": 1'),
     "unknown_resource.json": graph(write="ldrr"),
@@ -84,6 +86,7 @@ def rendered(graph_file, *more):
 
 # (arguments, exit code, codes, places): all errors there are, as their codes and places with a space between. `place` is a regular expression for what stands before the severity. Code None: wrong
 # usage, told by the parser of the command line, where the place is the name of the option.
+# A fifth element is text of the message.
 CASES = [
     (rendered("truncated.json"), 1, "W002", r"truncated\.json:5:41"),
     (rendered("empty.json"), 1, "W002", r"empty\.json:1:1"),
@@ -113,6 +116,12 @@ CASES = [
     (["check", "bad_shader.json"], 1, "W104", r"shaders/bad\.frag\.glsl:3:\d+"),
     (rendered("bad_include.json"), 1, "W101", r"shaders/include\.frag\.glsl:1:\d+"),
     (rendered("missing_include.json"), 1, "W001", r"missing_include\.json:6:\d+"),
+    (rendered("misspelt_include.json"), 1, "W001", r"misspelt_include\.json:6:\d+", "did you mean 'light.json'?"),
+    (rendered("misspelt_include.json"), 1, "W001", r"misspelt_include\.json:6:\d+",
+     "note[W040]: one reference to 'light.…' was not checked: nothing is included as 'light'"),
+    (rendered("misspelt_include.json", "--set", "gain=1", "--disable", "lamp"), 1, "W001", r"misspelt_include\.json:6:\d+"),
+    (rendered("no_such/graph.json"), 1, "W001", r"no_such/graph\.json", "there is no folder 'no_such'"),
+    (rendered(GLOW, "--preset", "cinemma"), 1, "W001", r".*/graphs/presets/cinemma\.json", "/graphs/presets/cinema.json'?"),
     (rendered("own_include.json"), 1, "W008", r"own_include\.json:6:\d+"),
     (rendered("unknown_key.json"), 1, "W004", r"unknown_key\.json:3:52"),
     (rendered("unknown_format.json"), 1, "W042", r"unknown_format\.json:3:25"),
@@ -168,12 +177,13 @@ def contents(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def check_case(report, weft, folder, arguments, code, expected, place):
+def check_case(report, weft, folder, arguments, code, expected, place, says=""):
     name = "weft " + " ".join(a.replace(str(TOP) + "/", "") for a in arguments)
     result = run(weft, *arguments, folder=folder)
     whole = f"{name}\n{result.out}{result.err}"
     report.check(result.code == code, f"exit code {result.code}, not {code}: {whole}")
     report.check(not CRASH.search(result.err + result.out), f"crash: {whole}")
+    report.check(says in result.err + result.out, f"does not say {says!r}: {whole}")
     if expected is None:
         report.check(re.search(place, result.err + result.out) and not result.diagnostics, f"does not name {place}: {whole}")
         return

@@ -8,7 +8,7 @@ import tempfile
 TOP = pathlib.Path(__file__).resolve().parents[2]
 SHARED = TOP.parent / "shared"
 REAL_HDR = SHARED / "data/hdr/spiaggia_di_mondello_1k.hdr"
-DIAGNOSTIC = re.compile(r"^(?:(?P<place>.*?)(?::(?P<line>\d+):(?P<column>\d+))?: )?(?P<severity>error|warning|note)\[(?P<code>W\d{3})\]: (?P<text>.*)$")
+DIAGNOSTIC = re.compile(r"^(?:(?P<place>.*?)(?::(?P<line>\d+)(?::(?P<column>\d+))?)?: )?(?P<severity>error|warning|note)\[(?P<code>W\d{3})\]: (?P<text>.*)$")
 
 
 class Run:

@@ -196,6 +196,10 @@ TEST_CASE("every code of shaders and GL has its section, and broken shaders give
       {GL_VERTEX_SHADER, loader.loadText(kTriangle, "<triangle>", diagnostics)},
       {GL_FRAGMENT_SHADER, loader.load("w104_undeclared.frag.glsl", diagnostics)}};
   CHECK_FALSE(Program::compile(undeclared, {}, {}, "undeclared", diagnostics));
+  const StageSource semicolon[] = {
+      {GL_VERTEX_SHADER, loader.loadText(kTriangle, "<triangle>", diagnostics)},
+      {GL_FRAGMENT_SHADER, loader.load("w104_semicolon.frag.glsl", diagnostics)}};
+  CHECK_FALSE(Program::compile(semicolon, {}, {}, "semicolon", diagnostics));
   const StageSource unlike[] = {{GL_VERTEX_SHADER, loader.load("w105_interface.vert.glsl", diagnostics)},
                                 {GL_FRAGMENT_SHADER, loader.load("w105_interface.frag.glsl", diagnostics)}};
   CHECK_FALSE(Program::compile(unlike, {}, {}, "unlike", diagnostics));
