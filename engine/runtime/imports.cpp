@@ -9,6 +9,8 @@ void Imports::beginFrame(const World& world, const FrameInput& input) {
   world_ = &world;
   input_ = input;
   ++frames_;
+  // What the last frame did not ask for goes: a focal length that is being turned makes a view per frame.
+  std::erase_if(views_, [](const CachedView& view) { return view.stale; });
   for (CachedView& view : views_) view.stale = true;
 }
 
@@ -139,19 +141,29 @@ BufferRef Imports::buffer(const graph::ImportSpec& import, const InstanceLayout&
 
 const scene::ViewData& Imports::view(const graph::ImportSpec* import, std::uint32_t width, std::uint32_t height) {
   std::uint32_t jitter = 0;
+  double focal = 0, sensor = 24;
   if (import)
-    for (const auto& [name, value] : import->request.arguments)
+    for (const auto& [name, value] : import->request.arguments) {
       if (name == "jitter") jitter = static_cast<std::uint32_t>(std::clamp(value.v[0], 0.0, 4294967295.0));
+      if (name == "focal_length") focal = value.v[0];
+      if (name == "sensor_height") sensor = std::clamp(value.v[0], 1e-3, 1e5);
+    }
+  const double fov = focal > 0 ? scene::fovOfLens(std::clamp(focal, 0.01 * sensor, 1e4 * sensor), sensor) : 0;
   CachedView* cached = nullptr;
   for (CachedView& each : views_)
-    if (each.jitter == jitter && each.width == width && each.height == height) cached = &each;
+    if (each.jitter == jitter && each.fovDegrees == fov && each.width == width && each.height == height)
+      cached = &each;
   if (!cached) {
-    views_.push_back({.jitter = jitter, .width = width, .height = height, .data = {}});
+    views_.push_back({.jitter = jitter, .width = width, .height = height, .fovDegrees = fov, .data = {}});
     cached = &views_.back();
   }
   if (cached->stale) {
-    cached->data = scene::makeView({.pose = input_.pose,
-                                    .previousPose = input_.previousPose,
+    const auto seen = [fov](scene::CameraPose pose) {
+      if (fov > 0) pose.fovDegrees = fov;
+      return pose;
+    };
+    cached->data = scene::makeView({.pose = seen(input_.pose),
+                                    .previousPose = seen(input_.previousPose),
                                     .viewport = {width, height},
                                     .jitter = scene::jitterAt(input_.frame, jitter),
                                     .frame = input_.frame,

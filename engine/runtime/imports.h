@@ -49,7 +49,7 @@ class Imports {
   BufferRef instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics);
   std::uint32_t countOf(scene::DrawList list) const;
 
-  // The camera with its jitter, for a screen of width x height pixels. Null import: the default camera.
+  // The camera with its jitter and lens, for a screen of width x height. Null import: the default camera.
   const scene::ViewData& view(const graph::ImportSpec* import, std::uint32_t width, std::uint32_t height);
 
   // Moves whenever what the import stands for changed.
@@ -71,6 +71,7 @@ class Imports {
   };
   struct CachedView {
     std::uint32_t jitter = 0, width = 0, height = 0;
+    double fovDegrees = 0;  // 0: the scene's
     bool stale = true;
     scene::ViewData data;
   };

@@ -106,6 +106,10 @@ ViewData makeView(const ViewRequest& request) {
   return data;
 }
 
+double fovOfLens(double focalLength, double sensorHeight) {
+  return 2 * std::atan(sensorHeight / (2 * focalLength)) / kRadiansPerDegree;
+}
+
 glm::vec2 jitterAt(std::uint32_t frame, std::uint32_t count) {
   if (count <= 1) return {0, 0};
   const std::uint32_t index = frame % count + 1;  // element 0 of the sequence is the corner

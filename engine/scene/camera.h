@@ -72,6 +72,10 @@ glm::dmat4 viewMatrix(
 glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane,
                             glm::dvec2 jitterNdc = {0, 0});
 
+// The angle of view, degrees, of a lens of this focal length before a sensor of this height, both in one unit
+// and over 0.
+double fovOfLens(double focalLength, double sensorHeight);
+
 // Offset of frame `frame` in [-0.5, 0.5) pixels: Halton (2, 3) with period `count`; zero when count is 0
 // or 1.
 glm::vec2 jitterAt(std::uint32_t frame, std::uint32_t count);

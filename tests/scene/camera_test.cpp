@@ -121,6 +121,12 @@ TEST_CASE("the previous matrices are those of the previous pose") {
   CHECK(v.previous_view_projection != v.view_projection);
 }
 
+TEST_CASE("the angle of view of a lens: 24 mm of sensor are 53 degrees at 24 mm, 16 at 85") {
+  CHECK(fovOfLens(24, 24) == doctest::Approx(53.1301024));
+  CHECK(fovOfLens(85, 24) == doctest::Approx(16.07138));
+  CHECK(fovOfLens(0.5, 1) == doctest::Approx(90));
+}
+
 TEST_CASE("jitter repeats after its period, is spread, and averages near zero") {
   CHECK(jitterAt(5, 0) == glm::vec2(0));
   CHECK(jitterAt(5, 1) == glm::vec2(0));

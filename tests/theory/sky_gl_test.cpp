@@ -136,3 +136,22 @@ TEST_CASE("no seam in the background at +-180 degrees, sharp or blurred, turned 
       CHECK(middle <= 1.5 * elsewhere + 0.004);
     }
 }
+
+TEST_CASE("a camera with a focal length is the camera of that angle of view, and 0 leaves the scene's") {
+  Setup setup = studio(0, 0, 0);
+  setup.balls = {{.center = {1, 0, 0}}, {.center = {-1, 1, 2}}};
+  Setup lens = setup;
+  lens.graph = "tests/theory/camera_lens.json";
+  for (const double focal : {18.0, 50.0, 85.0}) {
+    setup.camera.fovDegrees = 2 * std::atan(12 / focal) * 180 / 3.14159265358979323846;
+    lens.camera.fovDegrees = 77;
+    lens.sets = setup.sets;
+    lens.sets.emplace_back("focal_length", std::to_string(focal));
+    CAPTURE(focal);
+    CHECK(draw(lens).texels == draw(setup).texels);
+  }
+  lens.sets.back().second = "36";
+  lens.sets.emplace_back("sensor_height", "18");
+  setup.camera.fovDegrees = 2 * std::atan(9.0 / 36) * 180 / 3.14159265358979323846;
+  CHECK(draw(lens).texels == draw(setup).texels);
+}

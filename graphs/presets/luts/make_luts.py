@@ -57,15 +57,17 @@ def cinema(color):
 
 
 def warm_negative(color):
-    """A print from colour negative: open shadows with a little green, long warm highlights, milder colours."""
-    color = each(lambda c: mix(c, c ** 0.9, 0.6), saturate(color, 0.88))
-    color = split_tone(color, (-0.01, 0.015, 0.005), (0.045, 0.02, -0.035))
-    return tuple(low + (high - low) * c for c, low, high in zip(color, (0.03, 0.032, 0.04), (0.99, 0.975, 0.93)))
+    """A print from colour negative: open shadows that stay neutral, long highlights from orange to a pink white, milder colours."""
+    color = each(lambda c: mix(c, c ** 0.9, 0.5), saturate(color, 0.95))
+    color = split_tone(color, (0.005, -0.005, 0.005), (0.04, 0.0, -0.03))
+    return tuple(low + (high - low) * c for c, low, high in zip(color, (0.03, 0.028, 0.034), (0.99, 0.955, 0.92)))
 
 
 def slide(color):
-    """Reversal film: steep, deep blacks with a cool cast, strong colours."""
-    return split_tone(saturate(each(lambda c: s_curve(c ** 1.05, 0.8), color), 1.1), (-0.02, -0.005, 0.03), (0.012, 0.0, -0.008))
+    """Reversal film: steep from deep, cool blacks on, strong colours; a short shoulder keeps the highlights apart."""
+    color = each(lambda c: s_curve(c, 0.75), saturate(color, 1.15))
+    color = each(lambda c: c - 0.12 * clamp(c) ** 6, color)
+    return split_tone(color, (-0.02, -0.005, 0.03), (0.012, 0.0, -0.008))
 
 
 def black_and_white(color):
