@@ -1,7 +1,8 @@
 // Scene-referred to display-referred. The last pass that sees radiance; what follows works on encoded values. In this order:
 // aberration, bloom, fog, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift, gamma, gain),
 // sRGB encoding, table, grain, dither. Each is a variant of its own: what is off is not compiled. docs/effects.md has the details.
-// read    color   scene-referred radiance; `as linear` for ABERRATION, else any sampler (texels are fetched)
+// read    color   scene-referred radiance, the target's size, not `as linear`: one texel per pixel
+//         shifted?  the same `as linear`, for ABERRATION
 //         bloom?  scene-referred, any size; `as linear` unless its size is the target's: the blurred bright part
 //         depth?  reversed-Z, for FOG
 //         exposure?  buffer of exposure/adapt.comp.glsl: a factor beside `ev`; without it, or below 0, there is none
@@ -68,6 +69,9 @@
 #endif
 
 uniform sampler2D color;
+#ifdef HAS_SHIFTED
+uniform sampler2D shifted;
+#endif
 #ifdef HAS_BLOOM
 uniform sampler2D bloom;
 #endif
@@ -130,26 +134,26 @@ const float ev = 0.0, bloom_strength = 0.05, white = 8.0;
 #ifndef HAS_THRESHOLD
 const float threshold = 0.0, knee = 0.0;
 #endif
-in vec2 uv;
+noperspective in vec2 uv;
 out vec4 result;
 
 void main() {
-  vec3 c = texelFetch(color, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec3 c = textureLod(color, uv, 0.0).rgb;
+  vec2 size = vec2(textureSize(color, 0)), pixel = floor(uv * size) + 0.5;  // gl_FragCoord costs more than that in software
 #if ABERRATION || VIGNETTE
-  vec2 size = vec2(textureSize(color, 0));
-  vec2 from_centre = (gl_FragCoord.xy - 0.5 * size) / (0.5 * length(size));  // length 1 at the corners
+  vec2 from_centre = (pixel - 0.5 * size) / (0.5 * length(size));  // length 1 at the corners
 #endif
-#if ABERRATION
+#if ABERRATION && defined(HAS_SHIFTED)
   vec2 apart = from_centre * aberration_px / size;
-  c.r = textureLod(color, uv - apart, 0.0).r;
-  c.b = textureLod(color, uv + apart, 0.0).b;
+  c.r = textureLod(shifted, uv - apart, 0.0).r;
+  c.b = textureLod(shifted, uv + apart, 0.0).b;
 #endif
   c = finite(c);
 #ifdef HAS_BLOOM
   c += bloom_strength * (textureLod(bloom, uv, 0.0).rgb - brightPart(c, threshold, knee));
 #endif
 #if FOG && defined(HAS_DEPTH)
-  float far = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r;
+  float far = texelFetch(depth, ivec2(pixel), 0).r;
   c = mix(fog_color, c, fogTransmittance(uv, far, fog_density, fog_falloff, fog_base, fog_layer, fog_sky));
 #endif
   c *= exp2(ev);
@@ -175,11 +179,11 @@ void main() {
   c = clamp(mix(c, applyLut(lut, c), lut_strength), 0.0, 1.0);
 #endif
 #if GRAIN
-  c = addGrain(c, ivec2(gl_FragCoord.xy), frame, grain_strength);
+  c = addGrain(c, ivec2(pixel), frame, grain_strength);
 #endif
 #if DITHER
-  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  c += (noise - 0.5) / 255.0;
+  float noise = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+  c += (noise - 0.5) * (1.0 / 255.0);
 #endif
   result = vec4(c, 1.0);
 }

@@ -68,7 +68,7 @@ vec3 toneCurve(vec3 color, float white) {
 #else
   // The gain puts middle grey, 0.18, near 0.18 for whites around 4 to 10.
   const float gain = 3.0;
-  return hable(color * gain) / hable(vec3(white * gain)).r;
+  return hable(color * gain) * (1.0 / hable(vec3(white * gain)).r);
 #endif
 }
 

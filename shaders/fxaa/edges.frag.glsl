@@ -1,5 +1,5 @@
 // Where a display-referred picture has edges.
-// read    source   encoded picture; any sampler (texels are fetched)
+// read    source   encoded picture, the target's size, not `as linear`
 // write   edges    depth: 0 where the contrast to a neighbour is high, else 1
 // params  edge_threshold       contrast, relative to the brightest neighbour, from which on a pixel is an edge
 //         edge_threshold_min   the same, absolute: there are no edges in the dark
@@ -10,15 +10,16 @@ layout(std140) uniform Parameters {
   float edge_threshold;
   float edge_threshold_min;
 };
+noperspective in vec2 uv;
 
 void main() {
-  ivec2 last = textureSize(source, 0) - 1, at = min(ivec2(gl_FragCoord.xy), last);  // helpers beside the picture read its border
   // Of its four neighbours a pixel shares its 2x2 quad with two: a fine derivative is the difference to those, exactly.
-  float m = luma(texelFetch(source, at, 0).rgb);
-  ivec2 side = (ivec2(gl_FragCoord.xy) & 1) * 2 - 1;
-  float e = luma(texelFetch(source, ivec2(clamp(at.x + side.x, 0, last.x), at.y), 0).rgb);
-  float n = luma(texelFetch(source, ivec2(at.x, clamp(at.y + side.y, 0, last.y)), 0).rgb);
-  float w = m - float(side.x) * dFdxFine(m), s = m - float(side.y) * dFdyFine(m);
+  vec2 size = vec2(textureSize(source, 0));
+  vec2 side = mix(vec2(-1.0), vec2(1.0), greaterThan(fract(0.5 * uv * size), vec2(0.5))), beside = uv + side / size;
+  float m = luma(textureLod(source, uv, 0.0).rgb);
+  float e = luma(textureLod(source, vec2(beside.x, uv.y), 0.0).rgb);
+  float n = luma(textureLod(source, vec2(uv.x, beside.y), 0.0).rgb);
+  float w = m - side.x * dFdxFine(m), s = m - side.y * dFdyFine(m);
   float high = max(max(max(n, s), max(e, w)), m), low = min(min(min(n, s), min(e, w)), m);
   gl_FragDepth = high - low < max(edge_threshold_min, high * edge_threshold) ? 1.0 : 0.0;
 }
