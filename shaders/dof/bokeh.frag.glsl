@@ -1,11 +1,13 @@
 // One layer of the half-size picture, blurred by its discs but for what fill will add. Scene-referred; result premultiplied.
 // read    source   from split, with levels, `as linear`
+//         flat_source   instead of it: without levels, while every disc is below 5.86 pixels of the full picture and rings 2 or more
 //         discs    from split, with levels, `as linear`
 //         tiles?   from reach: how far anything before the focus reaches here (layer before the focus only); without
 //                  it every pixel is searched as far as a tile
 // write   result   NEAR 1: what lies before the focus and how much of the pixel it covers, as each disc reaches and is spread thin
 //                  NEAR 0: the mean of what is not before the focus within the pixel's own disc, of those whose discs reach;
-//                  behind something nearer the mean of what can be seen beside it. Alpha: how far it can be trusted.
+//                  behind something nearer the mean of what can be seen beside it. Alpha: how far it can be trusted;
+//                  0 where split says `idle`, by a depth test
 // params  rings    of samples around the middle one, 5, 10, 15 ... in each, so that each stands for the same area; small discs
 //                  take fewer, large ones coarser levels
 //         blades   of the aperture, for POLYGON
@@ -14,6 +16,12 @@
 // defines NEAR, 1 from near_bokeh; POLYGON
 #ifndef NEAR
 #define NEAR 0
+#endif
+#ifdef HAS_FLAT_SOURCE
+#define source flat_source
+#define COARSEST 0.0
+#else
+#define COARSEST 16.0
 #endif
 uniform sampler2D source, discs;
 layout(std140) uniform Parameters {
@@ -47,21 +55,21 @@ float reaches(float disc, float across) { return clamp(disc - across + 0.65, 0.0
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec2 to_uv = 1.0 / vec2(textureSize(source, 0));
+  vec2 to_uv = 1.0 / vec2(textureSize(discs, 0));
 #if NEAR
   float radius = searchRadius(pixel);
   bool idle = radius <= 0.0;
 #else
-  vec4 own = texelFetch(source, pixel, 0);
+    vec4 own = texelFetch(source, pixel, 0);
   bool hidden = own.a <= 0.0;
   float radius = searchRadius(own.a, pixel, discs, largest);
   float trust = hidden ? 1.0 : max(blurOf(2.0 * radius), 1e-3);
-  bool idle = !hidden && radius <= 0.25;
+  bool idle = radius <= kLeastRadius;
 #endif
   // A level whose texels are as large as the gaps between the samples.
   int outermost = clamp(int(ceil(0.7 * radius - 0.2)), 0, rings);
   float samples = samplesTo(outermost);
-  float level = max(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0), texel = exp2(level);
+  float level = clamp(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0, COARSEST), texel = exp2(level);
   float shared_variance = 4.0 * fillVariance(radius) + 1.7 + 0.667 * texel * texel;
   float span = sqrt(max(radius * radius - shared_variance, 0.25)) + 0.5;
   vec3 sum = vec3(0.0);
@@ -82,7 +90,7 @@ void main() {
 #endif
       direction = vec2(direction.x * turn.x - direction.y * turn.y, direction.x * turn.y + direction.y * turn.x);
       at = (gl_FragCoord.xy + at) * to_uv;
-      vec4 c = textureLod(source, at, level);
+            vec4 c = textureLod(source, at, level);
 #if NEAR
       float disc = textureLod(discs, at, level).r / max(c.a, 1e-4);
       float blur = blurOf(2.0 * disc);
@@ -92,7 +100,7 @@ void main() {
       for (int k = 0; k <= outermost; ++k) sharing += max(5.0 * float(k), 1.0) * reaches(disc, ringRadius(k, span, samples));
       share *= blur * reaches(disc, across) / sharing;
 #else
-      float disc = behindRadius(c.a, largest), blur = blurOf(2.0 * disc);
+      float disc = behindRadius(c.a, largest), blur = clamp(2.0 * disc - 0.5, 0.0, 1.0);
       disc = sqrt(max(disc * disc - shared_variance, 0.25));
       share *= hidden ? 1.0 : blur * reaches(disc, across);
       share /= max(hidden ? c.a : c.a * (disc * disc + 1.0 / 12.0), 1e-7);

@@ -10,6 +10,14 @@ float cocRadius(float depth, float infinity, float focus, float largest) {
   return clamp(infinity * (1.0 - focus * depth / near_plane), -largest, largest);
 }
 
+// The reversed-Z depth whose radius is `radius`, at least that of the sky: depth tests against it leave out what is less blurred.
+float cocDepth(float radius, float infinity, float focus) {
+  return max(near_plane / focus * (1.0 - radius / max(infinity, 1e-6)), 0.0);
+}
+
+// Radius in pixels of the half size up to which nothing is blurred.
+const float kLeastRadius = 0.25;
+
 // How much a radius in pixels of the full picture counts as blur: what is below half a pixel is left sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
 

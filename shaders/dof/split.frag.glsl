@@ -4,6 +4,7 @@
 // write   near    radiance of what is before the focus, premultiplied, and 1; or nothing, 0
 //         disc    radius of its disc in pixels of the half size; 0: nothing there
 //         far     the rest, premultiplied: see behindAlpha; 0 where something nearer hides all of it
+//         idle    depth: 0 where bokeh has anything to do for `far`, else 1
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
 //         largest   limit of the radius, pixels of the full picture
@@ -26,9 +27,10 @@ void main() {
   float before_weight = 0.0, behind_weight = 0.0;
   int before_count = 0;
   bool first_before = false;
+  vec4 depths = textureGather(depth, vec2(first + 1) / vec2(last + 1)).wzxy;
   for (int i = 0; i < 4; ++i) {
     ivec2 at = min(first + ivec2(i & 1, i >> 1), last);
-    float radius = cocRadius(texelFetch(depth, at, 0).r, infinity, focus, float(largest) - 1.0), blur = blurOf(radius);
+    float radius = cocRadius(depths[i], infinity, focus, float(largest) - 1.0), blur = blurOf(radius);
     vec4 c = vec4(finite(texelFetch(color, at, 0).rgb), abs(radius) * 0.5);
     bool nearer = radius < -0.5;
     float w = nearer ? blur : 0.0;
@@ -48,4 +50,5 @@ void main() {
   behind /= max(behind_weight, 1e-6);
   float alpha = behind_weight > 0.0 ? behindAlpha(behind.a, largest) : 0.0;
   far = vec4(behind.rgb * alpha, alpha);
+  gl_FragDepth = (alpha > 0.0 ? behind.a : disc) > kLeastRadius ? 0.0 : 1.0;
 }
