@@ -22,7 +22,7 @@ float fastAtan(float y, float x) {
 // The direction need not be normalised.
 vec2 equirectUv(vec3 direction) {
   float u = fastAtan(direction.z, direction.x) * (0.5 / kPi) + 0.5;
-  float v = 0.5 - fastAtan(direction.y, length(direction.xz)) / kPi;
+  float v = 0.5 - fastAtan(direction.y, length(direction.xz)) * (1.0 / kPi);
   return vec2(u, v);
 }
 

@@ -8,7 +8,6 @@
 // Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
 // its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
 // the test and the write of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
-#include "common/view.glsl"
 #include "shading.glsl"
 
 flat in vec4 sphere;
@@ -18,6 +17,13 @@ flat in vec2 edge;
 flat in vec4 albedo_roughness;
 flat in vec4 motion_metallic;
 flat in vec3 lobe;
+flat in vec4 per_pixel;
+flat in float near_distance;
+flat in mat3 to_world;
+#ifdef HAS_VELOCITY
+flat in mat3 before_turn;
+flat in vec3 before_eye;
+#endif
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -38,46 +44,44 @@ float halfPlane(float inside, vec2 normal) {
 void main() {
   vec3 c = sphere.xyz;
   float r = sphere.w, r2 = r * r, d2 = dot(c, c);
-  vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;
-  vec2 offset = (gl_FragCoord.xy - anchor_pixel) / focal;
+  vec2 offset = (gl_FragCoord.xy - anchor_pixel) * per_pixel.xy;
   vec3 v = vec3(anchor.xy + offset, -1.0);          // the ray; its parameter is the distance along the view axis
   vec3 w = anchor.z > 0.0 ? vec3(offset, 0.0) : v;  // c x w = c x v, without cancellation for distant spheres
   vec3 cw = cross(c, w);
-  float vv = dot(v, v), cv = dot(c, v);
+  float vv = dot(v, v), cv = dot(c, v), per_length = inversesqrt(vv), per_vv = per_length * per_length;
   float q = dot(cw, cw) - r2 * vv;                  // the silhouette's conic: negative inside
 
   // Signed distance in pixels along the conic's gradient.
-  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) / focal;
+  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) * per_pixel.xy;
   float steep = length(slope);
-  vec3 across = vec3(slope / (max(steep, 1e-30) * focal), 0.0);
+  vec2 outwards = slope * (1.0 / max(steep, 1e-30));
+  vec3 across = vec3(outwards * per_pixel.xy, 0.0);
   vec3 c_across = cross(c, across);
   float curve = dot(c_across, c_across) - r2 * dot(across, across);
   float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
   bool inside_sphere = d2 <= r2;
-  float coverage = inside_sphere ? 1.0 : edge.y * halfPlane(-outside - edge.x, abs(slope) / max(steep, 1e-30));
+  float coverage = inside_sphere ? 1.0 : edge.y * halfPlane(-outside - edge.x, abs(outwards));
 
   // The nearer hit, or the farther one when the nearer is in front of the near plane: then the inside is seen.
   float root = sqrt(max(-q, 0.0));
-  float side = (cv - root) / vv >= near_plane ? -1.0 : 1.0;
-  float t = (cv + side * root) / vv;
-  if (coverage <= 0.0 || t < near_plane) discard;
+  float side = (cv - root) * per_vv >= near_distance ? -1.0 : 1.0;
+  float t = (cv + side * root) * per_vv;
+  if (coverage <= 0.0 || t < near_distance) discard;
 
   // From the centre to the hit: the ray's foot is (c x v) x v / v.v away from it.
-  vec3 out_of = (cross(cw, v) + side * root * v) / vv;
+  vec3 out_of = (cross(cw, v) + side * root * v) * per_vv;
   vec3 normal_view = normalize(out_of) * -side;
-  float nv = clamp(root / (r * sqrt(vv)), 0.0, 1.0);
-  mat3 to_world = transpose(mat3(view));
+  float nv = clamp(root * per_length / r, 0.0, 1.0);
 #ifdef HAS_RADIANCE
-  vec3 mirror = to_world * (v * inversesqrt(vv) + 2.0 * nv * normal_view);
+  vec3 mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
   Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
   radiance = vec4(shade(surface, to_world * normal_view, mirror, nv, lobe) * coverage, coverage);
 #endif
 #ifdef HAS_VELOCITY
-  vec3 hit = eye + to_world * (v * t);
-  vec4 before = previous_view_projection * vec4(hit - motion_metallic.xyz, 1.0);
-  velocity = gl_FragCoord.xy / viewport - (before.xy / max(before.w, 1e-3) * 0.5 + 0.5);
+  vec3 before = before_turn * (v * t) + before_eye;
+  velocity = gl_FragCoord.xy * per_pixel.zw - (before.xy / max(before.z, 1e-3) * 0.5 + 0.5);
 #endif
 #ifdef HAS_DEPTH
-  gl_FragDepth = near_plane / t;
+  gl_FragDepth = near_distance / t;
 #endif
 }

@@ -21,6 +21,14 @@ flat out vec2 edge;         // shift of the silhouette in pixels and factor of t
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
 flat out vec3 lobe;             // see shading.glsl
+// What the fragments need of the view: in software an input costs less than a member of a block.
+flat out vec4 per_pixel;        // slope, screen UV
+flat out float near_distance;
+flat out mat3 to_world;
+#ifdef HAS_VELOCITY
+flat out mat3 before_turn;      // x, y and w in last frame's clip space of a direction in view space,
+flat out vec3 before_eye;       // and of the eye as the moving sphere saw it
+#endif
 
 // Slopes x / -z between the two tangents from the eye to the circle at (x, z = distance in front).
 vec2 slopeBounds(float x, float z, float r) {
@@ -57,6 +65,14 @@ void main() {
   lobe = lobeOf(self.roughness, pixelAngle() * max(z, 0.0) / r);
 
   vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
+  per_pixel = vec4(1.0 / focal, 1.0 / viewport);
+  near_distance = near_plane;
+  to_world = transpose(mat3(view));
+#ifdef HAS_VELOCITY
+  mat4 before = previous_view_projection;
+  before_turn = mat3(before[0].xyw, before[1].xyw, before[2].xyw) * to_world;
+  before_eye = (before * vec4(eye - motion_metallic.xyz, 1.0)).xyw;
+#endif
   bool in_front = z > r * 1.0001;
   anchor = in_front ? vec3(c.xy / z, 1.0) : vec3(0.0);
   anchor_pixel = ((anchor.xy * vec2(projection[0].x, projection[1].y) - projection[2].xy) * 0.5 + 0.5) * viewport;

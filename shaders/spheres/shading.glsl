@@ -44,7 +44,8 @@ struct Surface {
   float roughness;
 };
 
-// What of the maps a sphere reads: x level of the environment, y level of the specular map, z weight of the latter. `bend`:
+// What of the maps a sphere reads: x level of the environment, y level of the specular map, z weight of the latter; at weight 1
+// the environment's last level, whose lookup is cheapest where branches save nothing. `bend`:
 // radians its normals span in a pixel where they face the eye. In the plane of incidence the cone of reflected directions is
 // 2 bend / nv wide, across it 2 bend nv; half of their product, which is constant on the sphere, counts, since the sampler's
 // filter is two texels wide (that half is also what differs least from supersampling, measured).
@@ -64,7 +65,8 @@ vec3 lobeOf(float roughness, float bend) {
 #else
   float sharp = max(log2(size.y / float(textureSize(specular, 0).y)), 0.0);
 #endif
-  return vec3(sharp, max(level, 1.0), min(levelOfRoughness(roughness, levels), 1.0));
+  float weight = min(levelOfRoughness(roughness, levels), 1.0);
+  return vec3(weight < 1.0 ? sharp : float(textureQueryLevels(environment) - 1), max(level, 1.0), weight);
 #else
   return vec3(0.0, level, 1.0);
 #endif
