@@ -51,6 +51,7 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
   out["programs"] = {{"hits", programs.hits},
                      {"misses", programs.misses},
                      {"evictions", programs.evictions},
+                     {"revivals", programs.revivals},
                      {"compilations", programs.compilations},
                      {"binary_loads", programs.binaryLoads},
                      {"binary_rejects", programs.binaryRejects}};

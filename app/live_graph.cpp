@@ -15,8 +15,8 @@ namespace weft::app {
 
 namespace {
 
-// Editors and version control write several files, or one in several steps: wait until nothing was written
-// for so long.
+// Editors and version control write several files, or one in several steps: what is wrong may be so no longer
+// when nothing was written for so long.
 constexpr double kQuietSeconds = 0.03;
 // The same for a file that went away: some programs write it anew only a while later.
 constexpr double kGoneSeconds = 0.3;
@@ -79,20 +79,26 @@ void LiveGraph::tellOfHere(const base::Diagnostics& said, const graph::Settings&
 }
 
 bool LiveGraph::load(base::Diagnostics& diagnostics) {
+  graphStale_ = false;
+  good_ = tryLoad(Attempt::final, diagnostics);
+  return good_;
+}
+
+bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
   runtime::World world = world_;
   base::Diagnostics said;
-  good_ = tryScene(world, said) && tryGraph(world, said);
-  tellOfHere(said, settings_, diagnostics);
-  if (good_) {
+  const bool good = tryScene(world, said) && tryGraph(attempt, world, said);
+  if (good || attempt == Attempt::final) tellOfHere(said, settings_, diagnostics);
+  if (good) {
     world_ = std::move(world);
     sceneStale_ = false;
     ++switches_;
   }
   watch();
-  return good_;
+  return good;
 }
 
-bool LiveGraph::tryGraph(const runtime::World& world, base::Diagnostics& diagnostics) {
+bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics) {
   graph::Settings wanted = settings_;
   wanted.sets.insert(wanted.sets.end(), lostSets_.begin(), lostSets_.end());
   wanted.disables.insert(wanted.disables.end(), lostDisables_.begin(), lostDisables_.end());
@@ -104,6 +110,7 @@ bool LiveGraph::tryGraph(const runtime::World& world, base::Diagnostics& diagnos
     lostDisables_.clear();
     return true;
   }
+  if (attempt == Attempt::early) return false;
   std::vector<std::pair<std::string, std::string>> sets;
   std::vector<std::string> disables;
   base::Diagnostics warnings;
@@ -157,16 +164,16 @@ void LiveGraph::watch() {
   watcher_.watch(files);
 }
 
-bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
+bool LiveGraph::wantsLoad(double now) {
   const std::vector<std::string> changed = watcher_.poll();
   if (!changed.empty()) {
     const auto gone = [](const std::string& file) {
       std::error_code ignored;
       return !std::filesystem::exists(file, ignored);
     };
-    pending_ = true;
     changedAt_ = now;
-    quiet_ = std::ranges::any_of(changed, gone) ? kGoneSeconds : kQuietSeconds;
+    untried_ = std::ranges::none_of(changed, gone);
+    quiet_ = untried_ ? kQuietSeconds : kGoneSeconds;
   }
   for (const std::string& file : changed) {
     sceneStale_ |= std::ranges::find(sceneFiles_, file) != sceneFiles_.end() || file == scenePath_;
@@ -176,11 +183,22 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
     else
       graphStale_ = true;
   }
-  if (!pending_ || now - changedAt_ < quiet_) return false;
-  pending_ = false;
-  if (!changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
-  if (!std::exchange(graphStale_, false)) return false;
-  load(diagnostics);
+  return graphStale_ && (untried_ || now - changedAt_ >= quiet_);
+}
+
+bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
+  const bool wants = wantsLoad(now);
+  const bool quiet = now - changedAt_ >= quiet_;
+  if (quiet && !changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
+  if (!wants) return false;
+  untried_ = false;
+  if (quiet) {
+    load(diagnostics);
+    return true;
+  }
+  if (!tryLoad(Attempt::early, diagnostics)) return false;
+  good_ = true;
+  graphStale_ = false;
   return true;
 }
 

@@ -30,11 +30,15 @@ class LiveGraph {
   // A set or disable that the graph does not take any more is left out with a warning, and comes back when it
   // does; only the first time, when there is nothing to keep running, is it an error.
   bool load(base::Diagnostics& diagnostics);
-  // Loads when watched files changed and have been quiet for a moment. `now` in seconds. True when it looked
-  // at the disk.
+  // Loads when watched files changed: at once when they are good as they are, else when they have been quiet
+  // for a moment, as more may come. `now` in seconds. True when something came of it that is to be told.
   bool poll(double now, base::Diagnostics& diagnostics);
   // Files changed, and poll() has not loaded them yet.
-  bool pending() const { return pending_; }
+  bool pending() const { return graphStale_ || !changedEnvironment_.empty(); }
+  // They did, and poll() would load them now. Looks, and costs one system call when there is nothing new.
+  bool wantsLoad(double now);
+  // For whoever wants to sleep until a watched file changes: readable then. -1: nothing is ever reported.
+  int watchDescriptor() const { return watcher_.descriptor(); }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);
@@ -66,8 +70,11 @@ class LiveGraph {
   std::uint64_t changes() const { return changes_; }
 
  private:
+  // What a load that is not `final` finds wrong may come right by the next file that is saved: settings stay.
+  enum class Attempt { early, final };
+  bool tryLoad(Attempt attempt, base::Diagnostics& diagnostics);
   bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
-  bool tryGraph(const runtime::World& world, base::Diagnostics& diagnostics);
+  bool tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics);
   bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
   void watch();
@@ -88,7 +95,8 @@ class LiveGraph {
   LiveEnvironment environment_;
   std::vector<std::string> sceneFiles_;
   base::FileWatcher watcher_;
-  bool sceneStale_ = false, graphStale_ = false, pending_ = false, good_ = false, environmentGood_ = true;
+  bool sceneStale_ = false, graphStale_ = false, good_ = false, environmentGood_ = true;
+  bool untried_ = false;              // as the files are since the last change
   std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds
   std::uint64_t switches_ = 0, changes_ = 0;

@@ -13,6 +13,7 @@
 #include "app/ui/panels.h"
 #include "app/view/actions.h"
 #include "app/view/camera_rig.h"
+#include "app/view/file_alarm.h"
 #include "app/view/frame_clock.h"
 #include "app/view/picture_rest.h"
 #include "app/view/recorder.h"
@@ -51,7 +52,9 @@ class Viewer {
   // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
   bool busy();
   bool mustDraw();
+  // May end without a picture, when files change meanwhile.
   void frame(gl::Size size);
+  void show(gl::Size size);
   void moveCamera(const FrameClock::Tick& tick);
   void judgeRest();
   // The last picture again, for the panels over it.
@@ -67,6 +70,7 @@ class Viewer {
   LiveGraph& live_;
   Actions actions_;
   WindowInput input_;
+  FileAlarm alarm_;
   std::unique_ptr<ui::Overlay> overlay_;  // null with --no-ui
   ui::Log log_;
   ui::Panels panels_;
@@ -86,6 +90,7 @@ class Viewer {
   int restless_ = 0;                         // redraws that the panels still want
   float uiScale_ = 1;
   double renderScale_ = 1;
+  bool dropped_ = false;  // the last frame was not shown
   bool vsync_ = true, idle_ = false, help_ = false, minimised_ = false;
   bool broken_ = false;  // the driver or an output complained
 };

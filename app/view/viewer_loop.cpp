@@ -20,7 +20,8 @@ namespace weft::app {
 
 namespace {
 
-constexpr double kLookAtFiles = 0.05;  // seconds between looks at the watched files while nothing is drawn
+constexpr double kLookAround = 0.25;   // seconds between looks at everything while nothing is drawn
+constexpr double kLookAtFiles = 0.02;  // the same while files that changed are to settle
 constexpr std::chrono::milliseconds kWaitForWrites{5};
 constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets frames in between
 constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
@@ -63,7 +64,7 @@ int Viewer::run() {
 void Viewer::waitForEvents() {
   const bool nothingToDo = restless_ == 0 && idle_ && live_.running() && rest_.resting() && !busy();
   if (minimised_ || nothingToDo || !live_.running())
-    glfwWaitEventsTimeout(kLookAtFiles);
+    glfwWaitEventsTimeout(live_.pending() ? kLookAtFiles : kLookAround);
   else
     glfwPollEvents();
 }
@@ -158,21 +159,36 @@ void Viewer::frame(gl::Size size) {
   in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
   in.cutGeneration = cuts_ = rig_.cuts();
   in.headless = !options_.record.empty();  // as `weft render` makes the same frames
+  // Not shown, when files change meanwhile: at most every second frame, so that a picture comes whatever
+  // happens.
+  const bool mayDrop = !std::exchange(dropped_, false) && !recorder_.active() && screenshot_.empty() &&
+                       frame_ + 1 != options_.maxFrames;
+  if (mayDrop) in.obsolete = [this] { return live_.wantsLoad(glfwGetTime()); };
   panels_.beforeFrame(frame_);
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   panels_.afterFrame(report_);
   previousPose_ = in.pose;
+  ++frame_;
+  dropped_ = !report_.whole || (mayDrop && live_.wantsLoad(glfwGetTime()));
+  if (!dropped_) {
+    show(size);
+  } else {
+    rest_.disturb();  // another is due
+    tellFrame();
+  }
+}
+
+void Viewer::show(gl::Size size) {
   recorder_.add(renderer_, diagnostics_);
   if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
-  if (idle_) judgeRest();
   renderer_.present(size.width, size.height);
-  ++frame_;
   if (frame_ == options_.maxFrames && !options_.screenshot.empty())
     savePresented(renderer_, options_.screenshot, diagnostics_);
   saveScreenshots();
   tellFrame();
   drawUi();
   session_.context->swapBuffers();
+  if (idle_) judgeRest();
 }
 
 void Viewer::moveCamera(const FrameClock::Tick& tick) {

@@ -20,6 +20,8 @@ class FileWatcher {
 
   // False when the system gives no inotify instance: nothing will ever be reported.
   bool works() const { return descriptor_ >= 0; }
+  // Readable while poll() has something to look at; -1 when it never has. Not to be read.
+  int descriptor() const { return descriptor_; }
 
   // Replaces the set. Names that were watched before keep what has happened to them and was not asked for yet.
   void watch(const std::vector<std::string>& files);

@@ -17,6 +17,7 @@ namespace {
 using base::Diagnostics;
 
 constexpr std::size_t kMostFailures = 256;
+constexpr std::size_t kMostEvicted = 256;  // above it, those that nobody holds are forgotten
 constexpr std::size_t kKeyLength = 32;
 
 // What stands before the binary in its file. The checksum keeps damaged bytes away from the driver.
@@ -91,6 +92,7 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
     return nullptr;
   }
   ++stats_.misses;
+  if (auto held = revive(key)) return remember(key, std::move(held));
   const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
   std::optional<Program> program = loadBinary(key, compute, request.label);
   if (!program) {
@@ -106,20 +108,37 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
     }
     storeBinary(key, compute, *program);
   }
-  auto variant = std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages)});
+  return remember(key, std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages)}));
+}
+
+std::shared_ptr<const Variant> ProgramCache::remember(std::string key,
+                                                      std::shared_ptr<const Variant> variant) {
   order_.push_front({key, variant});
-  index_.emplace(key, order_.begin());
+  index_.emplace(std::move(key), order_.begin());
   while (order_.size() > options_.capacity) {
     ++stats_.evictions;
+    if (evicted_.size() >= kMostEvicted)
+      std::erase_if(evicted_, [](const auto& each) { return each.second.expired(); });
+    evicted_.insert_or_assign(order_.back().key, order_.back().variant);
     index_.erase(order_.back().key);
     order_.pop_back();
   }
   return variant;
 }
 
+std::shared_ptr<const Variant> ProgramCache::revive(const std::string& key) {
+  const auto found = evicted_.find(key);
+  if (found == evicted_.end()) return nullptr;
+  std::shared_ptr<const Variant> held = found->second.lock();
+  evicted_.erase(found);
+  stats_.revivals += held ? 1 : 0;
+  return held;
+}
+
 void ProgramCache::clear() {
   index_.clear();
   order_.clear();
+  evicted_.clear();
   failures_.clear();
 }
 

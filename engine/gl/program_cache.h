@@ -1,8 +1,10 @@
 // Variants by (source text, defines, outputs, stages, driver, backend): in memory the most recently used
-// ones, on disk all of them as program binaries. A broken, foreign or rejected binary is a miss and is
-// written anew. A variant that does not compile gives its diagnostics and null, and the caller keeps the
-// program it has; the failure is remembered until the sources change, so that asking again compiles nothing.
-// Does not: compile in the background, delete old binaries, or watch files (SourceLoader looks at times).
+// ones and, beyond them, those that somebody still holds (a graph of more programs than the cache has room
+// for loses none when it is loaded again), on disk all of them as program binaries. A broken, foreign or
+// rejected binary is a miss and is written anew. A variant that does not compile gives its diagnostics and
+// null, and the caller keeps the program it has; the failure is remembered until the sources change, so that
+// asking again compiles nothing. Does not: compile in the background, delete old binaries, or watch files
+// (SourceLoader looks at times).
 #pragma once
 
 #include <cstdint>
@@ -49,6 +51,7 @@ struct ProgramCacheStats {
   std::uint64_t compilations = 0;  // from source, failed ones included
   std::uint64_t failures = 0;      // of those
   std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0;
+  std::uint64_t revivals = 0;  // misses for a variant that had been evicted and was still held elsewhere
 };
 
 class ProgramCache {
@@ -73,6 +76,8 @@ class ProgramCache {
     std::string key;
     std::shared_ptr<const Variant> variant;
   };
+  std::shared_ptr<const Variant> remember(std::string key, std::shared_ptr<const Variant> variant);
+  std::shared_ptr<const Variant> revive(const std::string& key);
   std::optional<Program> loadBinary(const std::string& key, bool compute, std::string_view label);
   void storeBinary(const std::string& key, bool compute, const Program& program);
   std::string pathOf(const std::string& key) const;
@@ -83,6 +88,7 @@ class ProgramCache {
   ProgramCacheStats stats_;
   std::list<Entry> order_;  // most recently used first
   std::unordered_map<std::string, std::list<Entry>::iterator> index_;
+  std::unordered_map<std::string, std::weak_ptr<const Variant>> evicted_;
   std::unordered_map<std::string, base::Diagnostics> failures_;
 };
 

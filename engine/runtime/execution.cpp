@@ -35,7 +35,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
     glMemoryBarrier(glBarriersOf(plan_->finalBarriers));
     ++report.barriers;
   }
-  readBack_.copy(*plan_, *pool_, framebuffers_, input.frame, diagnostics);
+  if (report.whole) readBack_.copy(*plan_, *pool_, framebuffers_, input.frame, diagnostics);
   report.passesRun = static_cast<std::uint32_t>(std::ranges::count(ran_, std::uint8_t{1}));
   report.passesSkipped = static_cast<std::uint32_t>(passes_.size()) - report.passesRun;
   ++framesRun_;
@@ -62,7 +62,10 @@ void Execution::runDecided(FrameReport& report, base::Diagnostics& diagnostics) 
     gl::uploadBuffer(uniforms_.id(), 0, uniformBytes_);
     uniformsDirty_ = false;
   }
+  // Before any step: a pass that reads x@-1 may stand before the one that writes x.
   std::fill(rotated_.begin(), rotated_.end(), std::uint8_t{0});
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    if (cadence_->runs(step)) rotateWritten(passes_[step]);
   for (std::size_t step = 0; step < passes_.size(); ++step) {
     const graph::Step& planned = plan_->steps[step];
     if (planned.barriers) {
@@ -75,14 +78,16 @@ void Execution::runDecided(FrameReport& report, base::Diagnostics& diagnostics) 
       glMemoryBarrier(bits);
       ++report.barriers;
     }
-    if (!cadence_->runs(step)) {
+    report.whole = report.whole && !(input_.obsolete && input_.obsolete());
+    const bool leftOut = !report.whole && !lasting_[step];
+    if (!cadence_->runs(step) || leftOut) {
       if (planned.barriersAfterClears) glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
-      if (step == tapStep_) tap_();
+      if (step == tapStep_ && report.whole) tap_();
       continue;
     }
     ran_[step] = 1;
     runStep(step, diagnostics);
-    if (step == tapStep_) tap_();
+    if (step == tapStep_ && report.whole) tap_();
   }
   cadence_->endFrame(own_, generationsBefore_, generations_);
 }
@@ -186,7 +191,8 @@ void Execution::refreshOwnHashes() {
   }
 }
 
-// The first running writer of a resource in a frame turns its history by one and publishes; a spread job's do neither.
+// What the first running writer of a resource in a frame does to it: turns its history by one and publishes. A spread
+// job's does neither.
 void Execution::rotateWritten(const PreparedPass& pass) {
   for (const std::uint32_t r : pass.written) {
     if ((*pool_)[r].job != kNone) continue;

@@ -47,6 +47,7 @@ struct Device {
 
 struct FrameReport {
   std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
+  bool whole = true;   // false: FrameInput::obsolete said so, and what is presented is nothing to show
 };
 
 class Execution {
@@ -119,6 +120,7 @@ class Execution {
   std::vector<std::uint64_t> own_;               // per step
   std::vector<std::uint8_t> rotated_;            // per resource, this frame
   std::vector<std::uint8_t> ran_;                // per step, this frame
+  std::vector<std::uint8_t> lasting_;            // per step: runs in an obsolete frame too
   std::vector<std::uint64_t> resetState_;        // per history: hash of what resets it
   ReadBack readBack_;
   FrameInput input_;

@@ -4,6 +4,7 @@
 
 #include "engine/runtime/execution.h"
 #include "engine/runtime/formats.h"
+#include "engine/runtime/lasting.h"
 
 namespace weft::runtime {
 
@@ -59,6 +60,7 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   cadence_ = std::make_unique<FrameCadence>(*plan_);
   own_.assign(plan_->steps.size(), 0);
   ran_.assign(plan_->steps.size(), 0);
+  lasting_ = findLastingSteps(*plan_);
   resetState_.assign(plan_->graph->histories.size(), 0);
   PrepareContext context{.plan = *plan_,
                          .types = device_.passTypes,

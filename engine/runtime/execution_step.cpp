@@ -14,7 +14,6 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
   PreparedPass& pass = passes_[step];
   const gl::DebugGroup group(device_.context.debugLog(), pass.context.spec->name);
   device_.timers.begin(static_cast<std::uint32_t>(step));
-  rotateWritten(pass);
   const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
   if (!pass.clears.empty() && cadence_->slices(step).begins()) {
     openMasks();

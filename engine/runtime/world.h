@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,9 @@ struct FrameInput {
   scene::CameraPose pose, previousPose;
   std::uint64_t cutGeneration = 0;            // changes when the camera jumps
   bool headless = true;                       // publications of the first frame count as infinitely old
+  // Asked between passes; may be empty. Once true, nobody will look at this frame: passes that serve its picture alone
+  // are left out. What persists is what it is after a whole frame.
+  std::function<bool()> obsolete{};
 };
 
 // Frame `frame` of the world's default camera at `fps` steps per second.

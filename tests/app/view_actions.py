@@ -219,7 +219,7 @@ def lose_a_tweak(weft, folder, screen, report):
             waits.append(1e3 * (time.monotonic() - start))
         if waits:
             print(f"from a save to the screen, 320x180, one pass: {sorted(waits)[len(waits) // 2]:.0f} ms in the median of "
-                  f"{len(waits)}, {max(waits):.0f} ms at most, 30 ms of them waiting for further writes (looked at every 50 ms)")
+                  f"{len(waits)}, {max(waits):.0f} ms at most (looked at every 50 ms)")
         live.tool("mousemove", "--window", live.window, 160, 90)
         close(live, report)
     finally:

@@ -98,5 +98,5 @@ def inside_display(report, weft, compare, script):
         report.end()
     with tempfile.TemporaryDirectory(prefix="weft_screen_") as screen:
         xvfb = ["xvfb-run", "-a", "-s", f"-screen 0 1280x1024x24 -noreset -fbdir {screen}"]
-        command = [*xvfb, sys.executable, script, weft, compare, "--inside"]
+        command = [*xvfb, sys.executable, script, weft, compare, *sys.argv[3:], "--inside"]
         sys.exit(subprocess.run(command, env={**os.environ, "WEFT_SCREEN": screen}).returncode)

@@ -93,6 +93,23 @@ TEST_CASE_FIXTURE(Fixture, "the least recently used variant goes first, and coun
   CHECK(diagnostics.empty());
 }
 
+TEST_CASE_FIXTURE(Fixture, "what somebody holds is not made again, however many are in use") {
+  ProgramCache cache(context().device(), loader, {.capacity = 2, .folder = ""});
+  std::vector<std::shared_ptr<const Variant>> held;
+  for (int n = 0; n < 4; ++n) held.push_back(cache.get(variantOf(n), diagnostics));
+  for (int n = 0; n < 4; ++n)
+    CHECK(cache.get(variantOf(n), diagnostics) == held[static_cast<std::size_t>(n)]);
+  CHECK(cache.size() == 2);
+  CHECK(cache.stats().compilations == 4);
+  CHECK(cache.stats().misses == 8);
+  CHECK(cache.stats().revivals == 4);
+  CHECK(cache.stats().evictions == 6);
+  held.clear();
+  REQUIRE(cache.get(variantOf(0), diagnostics));  // went with the last who held it
+  CHECK(cache.stats().compilations == 5);
+  CHECK(cache.stats().revivals == 4);
+}
+
 TEST_CASE_FIXTURE(Fixture, "the default holds 32") {
   ProgramCache cache(context().device(), loader, {});
   for (int n = 0; n < 33; ++n) REQUIRE(cache.get(variantOf(n), diagnostics));

@@ -43,6 +43,18 @@ TEST_CASE("history: it survives a new plan, and a reset gives the first value ag
   CHECK(stage.value() == 10);
 }
 
+TEST_CASE("history: a pass before the writer reads the frame before, as one after it does") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/obsolete.json", 8, 8, kScene);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  float step = 0;  // step = 2 * step of the frame before + 1
+  for (std::uint32_t frame = 0; frame < 5; ++frame) {
+    step = 2 * step + 1;
+    stage.run(frame);
+    CHECK(stage.value() == 10 * step + 0.5f);
+  }
+}
+
 TEST_CASE("history: two frames back") {
   const CleanScope clean;
   Stage stage("tests/runtime/graphs/fibonacci.json", 8, 8, kScene);
