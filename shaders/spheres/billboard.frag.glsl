@@ -44,7 +44,7 @@ float halfPlane(float inside, vec2 normal) {
 void main() {
   vec3 c = sphere.xyz;
   float r = sphere.w, r2 = r * r, d2 = dot(c, c);
-  vec2 offset = (gl_FragCoord.xy - anchor_pixel) * per_pixel.xy;
+  vec2 pixels = gl_FragCoord.xy - anchor_pixel, offset = pixels * per_pixel.xy;
   vec3 v = vec3(anchor.xy + offset, -1.0);          // the ray; its parameter is the distance along the view axis
   vec3 w = anchor.z > 0.0 ? vec3(offset, 0.0) : v;  // c x w = c x v, without cancellation for distant spheres
   vec3 cw = cross(c, w);
@@ -60,7 +60,13 @@ void main() {
   float curve = dot(c_across, c_across) - r2 * dot(across, across);
   float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
   bool inside_sphere = d2 <= r2;
-  float coverage = inside_sphere ? 1.0 : edge.y * halfPlane(-outside - edge.x, abs(outwards));
+  float coverage = inside_sphere ? 1.0 : halfPlane(-outside - edge.x, abs(outwards));
+
+  // Small ones only; a branch would cost every pixel, a loop does not.
+  for (int i = 0; i < (edge.y > 0.0 ? 1 : 0); ++i) {
+    vec2 lengths = clamp(0.5 * (edge.y + 1.0) - abs(pixels), 0.0, min(edge.y, 1.0));
+    coverage = mix(lengths.x * lengths.y, coverage, clamp(edge.y * inversesqrt(kPi) - 0.8, 0.0, 1.0));
+  }
 
   // The nearer hit, or the farther one when the nearer is in front of the near plane: then the inside is seen.
   float root = sqrt(max(-q, 0.0));

@@ -17,7 +17,7 @@ layout(std430) readonly buffer order { uvec2 order_element[]; };
 flat out vec4 sphere;       // centre in view space, radius
 flat out vec3 anchor;       // slope that pixel offsets count from; z is 1 when it is the centre's, 0 when it is the axis
 flat out vec2 anchor_pixel;
-flat out vec2 edge;         // shift of the silhouette in pixels and factor of the coverage, see below
+flat out vec2 edge;         // shift of the silhouette in pixels; side of the square for a small sphere, else 0: see below
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
 flat out vec3 lobe;             // see shading.glsl
@@ -41,13 +41,12 @@ vec2 slopeBounds(float x, float z, float r) {
 
 // The coverage ramp, one pixel wide, adds pi/12 square pixels to any convex shape (Steiner's formula: the variance of a
 // unit box is 1/12). The silhouette is moved inwards by the shift that takes exactly that away again, a root of
-// pi s^2 - L s + pi/12 = 0 with L the perimeter. Below 1/sqrt(3) pixel no such silhouette is left: a cone of radius 1 with the
-// right volume stands for it.
+// pi s^2 - L s + pi/12 = 0 with L the perimeter. On a small sphere that holds only in the mean over all places within a pixel,
+// so there a square of the same area takes over: what it covers of each pixel adds up to its area wherever it lies.
 vec2 edgeOf(float major, float minor) {
   float radius = sqrt(major * minor);
-  if (radius < 0.57735027) return vec2(radius - 0.5, 3.0 * radius * radius);
   float perimeter = kPi * (3.0 * (major + minor) - sqrt((3.0 * major + minor) * (major + 3.0 * minor)));  // Ramanujan
-  return vec2(kPi / 6.0 / (perimeter + sqrt(max(perimeter * perimeter - kPi * kPi / 3.0, 0.0))), 1.0);
+  return vec2(kPi / 6.0 / (perimeter + sqrt(max(perimeter * perimeter - kPi * kPi / 3.0, 0.0))), radius < 1.8 ? radius * sqrt(kPi) : 0.0);
 }
 
 void main() {
@@ -76,7 +75,7 @@ void main() {
   bool in_front = z > r * 1.0001;
   anchor = in_front ? vec3(c.xy / z, 1.0) : vec3(0.0);
   anchor_pixel = ((anchor.xy * vec2(projection[0].x, projection[1].y) - projection[2].xy) * 0.5 + 0.5) * viewport;
-  edge = vec2(0.0, 1.0);
+  edge = vec2(0.0);
   float d2 = dot(c, c), r2 = r * r;
   if (in_front) {
     float f = sqrt(focal.x * focal.y), depth2 = z * z - r2;

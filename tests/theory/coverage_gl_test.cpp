@@ -68,6 +68,42 @@ TEST_CASE("coverage: alpha sums to the projected area within 0.2 %") {
   MESSAGE("worst relative error ", worst);
 }
 
+TEST_CASE("coverage: small spheres keep their area wherever in a pixel they lie") {
+  // 20 x 20 spheres of one size, 16.08 pixels apart, far away before a narrow view.
+  const double pixel = 2 * 200 * std::tan(std::numbers::pi / 72) / kHeight;
+  for (const double radius :
+       {0.05, 0.2, 0.4, 0.577, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5, 1.65, 1.79, 1.81, 2.0}) {
+    std::vector<Ball> balls;
+    for (int i = 0; i < 400; ++i)
+      balls.push_back({.center = {(i % 20 - 9.5) * 16.08 * pixel, (i / 20 - 9.5) * 16.08 * pixel, -200},
+                       .radius = static_cast<float>(radius * pixel)});
+    Lab lab(scene(std::move(balls), 5));
+    lab.frame();
+    const Picture picture = lab.read("hdr");
+    double worst = 0, mean = 0;
+    float greatest = 0;
+    for (int i = 0; i < 400; ++i) {
+      const int x0 = static_cast<int>(kWidth / 2 + (i % 20 - 9.5) * 16.08) - 7,
+                y0 = static_cast<int>(kHeight / 2 + (i / 20 - 9.5) * 16.08) - 7;
+      double alpha = 0;
+      for (int y = y0; y < y0 + 15; ++y)
+        for (int x = x0; x < x0 + 15; ++x) {
+          const float here = picture.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))[3];
+          greatest = std::max(greatest, here);
+          alpha += here;
+        }
+      const double share = alpha / (std::numbers::pi * radius * radius);
+      worst = std::max(worst, std::abs(share - 1));
+      mean += share / 400;
+    }
+    CAPTURE(radius);
+    MESSAGE("radius ", radius, ": mean ", mean, ", worst ", worst);
+    CHECK(worst < (radius <= 0.8 ? 0.002 : 0.015));
+    CHECK(mean == doctest::Approx(1).epsilon(0.002));
+    CHECK(greatest <= 1);
+  }
+}
+
 TEST_CASE("coverage: two spheres side by side, each with its own area") {
   const Ball left{.center = {-3, 0, -12}}, right{.center = {3, 1, -15}, .radius = 1.5f};
   Lab lab(scene({left, right}, 60));
