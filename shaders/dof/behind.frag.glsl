@@ -1,33 +1,35 @@
 // What is out of focus, at full size: the blurred layer that is not before the focus, where before.frag.glsl covers it too. Scene-referred.
 // Drawn at a depth (behind.vert.glsl), so that what is in focus costs a depth test and stays bit for bit.
-// read    source   radiance: own texel of what `result` modifies, with "feedback"
-//         depth    reversed-Z; any sampler
+// read    source   radiance, nearest: own texel of what `result` modifies, with "feedback"
+//         depth    reversed-Z, nearest
 //         blurred  from fill, `as linear`
 // modify  result   radiance; alpha stays
 //         tested   the same depth, with "depth_test": "greater", or "less" for NEAR, and "depth_write": false
-// params  infinity, focus, largest   as in split
+// params  infinity, focus   as in split
 //         tile     as in bokeh, for NEAR
 // defines NEAR, 1 from near_behind
 #ifndef NEAR
 #define NEAR 0
 #endif
 #include "common/finite.glsl"
+#include "coc.glsl"
 #include "behind.glsl"
 
 uniform sampler2D source, depth, blurred;
+noperspective in vec2 at, at_half;  // uv of the full picture and of the half size
+flat in vec2 lens;                  // radius at depth 0, and how much it falls to depth 1
 out vec4 result;
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 own = texelFetch(source, at, 0);
-  float radius = cocRadius(texelFetch(depth, at, 0).r, infinity, focus, float(largest) - 1.0);
+  vec4 own = textureLod(source, at, 0.0);
+  float radius = lens.x - lens.y * textureLod(depth, at, 0.0).r;
 #if NEAR
   // Small discs before the focus lie on the sharp picture: their surface runs on into the focus, and nothing else is behind it.
   float blur = smoothstep(kNearStart, 4.0, -radius);
 #else
   float blur = blurOf(radius);
 #endif
-  vec4 layer = textureLod(blurred, gl_FragCoord.xy * 0.5 / vec2(textureSize(blurred, 0)), 0.0);
+  vec4 layer = textureLod(blurred, at_half, 0.0);
   blur = layer.a > 0.0 ? blur : 0.0;
   result = vec4(blur > 0.0 ? mix(finite(own.rgb), layer.rgb / max(layer.a, 1e-4), blur) : own.rgb, own.a);
 }

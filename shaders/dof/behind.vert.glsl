@@ -1,8 +1,17 @@
 // A triangle over the picture at the depth from which on the sharp picture is not enough.
-#define NEAR 0
-#include "behind.glsl"
+#include "coc.glsl"
+
+uniform sampler2D blurred;
+layout(std140) uniform Parameters {
+  float infinity;
+  float focus;
+};
+noperspective out vec2 at, at_half;
+flat out vec2 lens;
 
 void main() {
-  vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
-  gl_Position = vec4(corner * 2.0 - 1.0, cocDepth(0.5, infinity, focus), 1.0);
+  at = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
+  at_half = at * viewport * 0.5 / vec2(textureSize(blurred, 0));
+  lens = vec2(infinity, infinity * focus / near_plane);
+  gl_Position = vec4(at * 2.0 - 1.0, cocDepth(0.5, infinity, focus), 1.0);
 }

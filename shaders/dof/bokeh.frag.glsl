@@ -72,6 +72,7 @@ void main() {
   float level = clamp(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0, COARSEST), texel = exp2(level);
   float shared_variance = 4.0 * fillVariance(radius) + 1.7 + 0.667 * texel * texel;
   float span = sqrt(max(radius * radius - shared_variance, 0.25)) + 0.5;
+  float radius_of_alpha = behindRadius(1.0, largest);
   vec3 sum = vec3(0.0);
   float weights = 0.0, area = 0.0;
   if (idle) outermost = -1;
@@ -100,7 +101,7 @@ void main() {
       for (int k = 0; k <= outermost; ++k) sharing += max(5.0 * float(k), 1.0) * reaches(disc, ringRadius(k, span, samples));
       share *= blur * reaches(disc, across) / sharing;
 #else
-      float disc = behindRadius(c.a, largest), blur = clamp(2.0 * disc - 0.5, 0.0, 1.0);
+      float disc = c.a * radius_of_alpha, blur = clamp(2.0 * disc - 0.5, 0.0, 1.0);
       disc = sqrt(max(disc * disc - shared_variance, 0.25));
       share *= hidden ? 1.0 : blur * reaches(disc, across);
       share /= max(hidden ? c.a : c.a * (disc * disc + 1.0 / 12.0), 1e-7);

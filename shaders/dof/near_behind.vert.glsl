@@ -1,9 +1,21 @@
 // The tiles that near_behind.frag.glsl works on, at the depth from which on something behind can show; parameters as there.
-#define NEAR 1
 #include "behind.glsl"
+#include "coc.glsl"
 #include "work.glsl"
+
+uniform sampler2D blurred;
+layout(std140) uniform Parameters {
+  float infinity;
+  float focus;
+  int tile;
+};
+noperspective out vec2 at, at_half;
+flat out vec2 lens;
 
 void main() {
   gl_Position = workCorner(tile, 2);
+  at = gl_Position.xy * 0.5 + 0.5;
+  at_half = at * viewport * 0.5 / vec2(textureSize(blurred, 0));
+  lens = vec2(infinity, infinity * focus / near_plane);
   gl_Position.z = min(cocDepth(-kNearStart, infinity, focus), 1.0);
 }

@@ -1,5 +1,5 @@
 // The picture at half size in two layers, so that what is before the focus and what is not never mix. Scene-referred.
-// read    color   radiance; both by any sampler (texels are fetched)
+// read    color   radiance; both nearest
 //         depth   reversed-Z; the sky, 0, is infinitely far
 // write   near    radiance of what is before the focus, premultiplied, and 1; or nothing, 0
 //         disc    radius of its disc in pixels of the half size; 0: nothing there
@@ -22,16 +22,16 @@ out float disc;
 out vec4 far;
 
 void main() {
-  ivec2 last = textureSize(color, 0) - 1, first = ivec2(gl_FragCoord.xy) * 2;
+  vec2 texel = 1.0 / vec2(textureSize(color, 0)), middle = gl_FragCoord.xy * 2.0 * texel;
   vec4 before = vec4(0.0), behind = vec4(0.0);
   float before_weight = 0.0, behind_weight = 0.0;
   int before_count = 0;
   bool first_before = false;
-  vec4 depths = textureGather(depth, vec2(first + 1) / vec2(last + 1)).wzxy;
+  vec4 depths = textureGather(depth, middle).wzxy;
   for (int i = 0; i < 4; ++i) {
-    ivec2 at = min(first + ivec2(i & 1, i >> 1), last);
+    vec2 at = middle + (vec2(i & 1, i >> 1) - 0.5) * texel;
     float radius = cocRadius(depths[i], infinity, focus, float(largest) - 1.0), blur = blurOf(radius);
-    vec4 c = vec4(finite(texelFetch(color, at, 0).rgb), abs(radius) * 0.5);
+    vec4 c = vec4(finite(textureLod(color, at, 0.0).rgb), abs(radius) * 0.5);
     bool nearer = radius < -0.5;
     float w = nearer ? blur : 0.0;
     before += c * w;
