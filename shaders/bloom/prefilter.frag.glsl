@@ -1,6 +1,6 @@
 // First step of the bloom pyramid: what is bright enough, at half the size. Scene-referred. One texel that is not a number
 // stays one texel.
-// read    source   full size; any sampler (texels are fetched)
+// read    source   full size, nearest
 // write   result   half size
 // params  threshold  luminance-like level (largest channel) where bloom begins; 0 lets everything through unchanged
 //         knee       width of the soft start as a fraction of the threshold, 0..1; 0 is a hard edge [0.5]
@@ -26,10 +26,10 @@ const float knee = 0.5;
 out vec4 result;
 
 void main() {
-  ivec2 last = textureSize(source, 0) - 1;
-  ivec2 a = min(ivec2(gl_FragCoord.xy) * 2, last), b = min(a + 1, last);
-  vec3 c[4] = vec3[4](texelFetch(source, a, 0).rgb, texelFetch(source, ivec2(b.x, a.y), 0).rgb,
-                      texelFetch(source, ivec2(a.x, b.y), 0).rgb, texelFetch(source, b, 0).rgb);
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), middle = gl_FragCoord.xy * 2.0 * texel;
+  vec2 a = middle - 0.5 * texel, b = middle + 0.5 * texel;
+  vec3 c[4] = vec3[4](textureLod(source, a, 0.0).rgb, textureLod(source, vec2(b.x, a.y), 0.0).rgb,
+                      textureLod(source, vec2(a.x, b.y), 0.0).rgb, textureLod(source, b, 0.0).rgb);
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < 4; ++i) {
