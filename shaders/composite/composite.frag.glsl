@@ -5,7 +5,7 @@
 //         shifted?  the same `as linear`, for ABERRATION
 //         bloom?  scene-referred, any size; `as linear` unless its size is the target's: the blurred bright part
 //         depth?  reversed-Z, for FOG
-//         exposure?  buffer of exposure/adapt.comp.glsl: a factor beside `ev`; without it, or below 0, there is none
+//         exposure?  buffer of exposure/adapt.comp.glsl, `as uniform`: a factor beside `ev`; without it, or below 0, there is none
 //         lut?    3D table on encoded values, `as linear`; see lut.glsl. With it the parameter lut_strength, 0..1
 // write   result  display-referred, sRGB encoded
 // params  all three, or none for the values in brackets:
@@ -79,7 +79,7 @@ uniform sampler2D bloom;
 uniform sampler2D depth;
 #endif
 #ifdef HAS_EXPOSURE
-layout(std430) readonly buffer exposure { vec4 adapted; };
+layout(std140) uniform exposure { vec4 adapted; };  // in software a storage block costs three tenths of a copy
 #endif
 #ifdef HAS_LUT
 uniform sampler3D lut;
