@@ -41,9 +41,12 @@ void checkShaders(const Options& options, const graph::Plan& plan, base::Diagnos
   for (const graph::Step& step : plan.steps) {
     const graph::PassType type = device.passTypes.find(plan.graph->specs[step.pass].type)->reflect();
     if (type.shader == graph::ShaderShape::none) continue;
-    const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
-    if (const auto variant = device.programs.get(request, diagnostics))
-      runtime::checkProgram(plan, step.pass, *variant, diagnostics);
+    const std::uint32_t combinations = 1u << runtime::conditionCount(plan.graph->specs[step.pass]);
+    for (std::uint32_t conditions = 0; conditions < combinations; ++conditions) {
+      const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
+      const auto variant = device.programs.get(request, diagnostics);
+      if (!variant || !runtime::checkProgram(plan, step.pass, *variant, diagnostics)) break;
+    }
   }
 }
 

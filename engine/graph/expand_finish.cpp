@@ -141,7 +141,7 @@ void foldUniforms(Model& model, const std::vector<DeferredUniform>& deferred) {
     Names names(model, *uniform.scope);
     names.indices = uniform.indices;
     model.graph.specs[uniform.pass].uniforms[uniform.uniform].dynamic =
-        uniform.desc->value.fold(names, model.diagnostics);
+        uniform.expr->fold(names, model.diagnostics);
   }
 }
 

@@ -172,7 +172,7 @@ class PassWalk {
                                  kNone, index, work.whole});
     if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
-    std::vector<std::pair<std::uint32_t, const PassParameterDesc*>> deferred;
+    std::vector<std::pair<std::uint32_t, const Expr*>> deferred;
     fillSpec(context, *desc_, slots, ignored, deferred);
   }
 
@@ -276,7 +276,7 @@ class PassWalk {
     addCadence(context, names, flat);
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     PassSpec spec;
-    std::vector<std::pair<std::uint32_t, const PassParameterDesc*>> dynamic;
+    std::vector<std::pair<std::uint32_t, const Expr*>> dynamic;
     if (stanzaGood_) fillSpec(context, *desc_, slots, spec, dynamic);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     spec.name = context.pass;
@@ -317,8 +317,8 @@ class PassWalk {
         checkAccumulation(context, slots[i], slot.firstUse);
       emitWrites(slots[i], slot, pass);
     }
-    for (const auto& [uniform, desc] : dynamic)
-      deferred_.push_back({pass, uniform, desc, scope_, names.indices});
+    for (const auto& [uniform, expr] : dynamic)
+      deferred_.push_back({pass, uniform, expr, scope_, names.indices});
     graph_.passes.push_back(flat);
     graph_.passNames.push_back(context.pass);
     graph_.specs.push_back(std::move(spec));

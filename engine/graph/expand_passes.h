@@ -8,10 +8,10 @@ namespace weft::graph::expansion {
 
 constexpr std::uint32_t kMaxInstances = 1'000'000;
 
-// A uniform that contains age(): folded when every resource has its last version.
+// A uniform or define that contains age(): folded when every resource has its last version.
 struct DeferredUniform {
   std::uint32_t pass = 0, uniform = 0;
-  const PassParameterDesc* desc = nullptr;
+  const Expr* expr = nullptr;
   Scope* scope = nullptr;
   std::vector<Names::Index> indices;
 };

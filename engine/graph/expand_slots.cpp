@@ -248,7 +248,11 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
 
 bool checkHistory(const SlotContext& context, const RefDesc& ref, const Entity& entity) {
   const auto depth = static_cast<int>(entity.depth);
-  if (ref.history <= depth && entity.kind != ResourceDesc::Kind::import) return true;
+  bool kept = ref.history <= depth && entity.kind != ResourceDesc::Kind::import;
+  if (entity.import != kNone && ref.history == 1)
+    for (const ImportType& type : context.model.registry.imports)
+      kept |= type.before && type.name == context.model.graph.imports[entity.import].request.type;
+  if (kept) return true;
   auto& d = report(
       context, Code::W54, ref.place,
       fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name),

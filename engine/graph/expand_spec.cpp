@@ -33,11 +33,11 @@ class SpecFiller {
         slots_(slots),
         spec_(spec) {}
 
-  bool run(std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
+  bool run(std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
     const std::size_t before = model_.diagnostics.errorCount();
     for (const NamedExpr& state : desc_.state) addState(state);
     checkDepthState();
-    for (const NamedExpr& define : desc_.defines) addDefine(define.name, define.name, define.expr);
+    for (const NamedExpr& define : desc_.defines) addDefine(define, deferred);
     for (const PassParameterDesc& parameter : desc_.parameters) addParameter(parameter, deferred);
     checkDefineNames();
     if (context_.type->shader == ShaderShape::compute) addThreads();
@@ -205,7 +205,18 @@ class SpecFiller {
     d.found = toText(value);
   }
 
-  void addDefine(const std::string& name, const std::string& from, const Expr& expr) {
+  void addDefine(const NamedExpr& define, std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
+    const std::string& name = define.name;
+    const Expr& expr = define.expr;
+    if (isDynamic(model_, names_.scope(), expr)) {
+      deferred.emplace_back(static_cast<std::uint32_t>(spec_.uniforms.size()), &expr);
+      UniformSpec condition;
+      condition.name = name;
+      condition.place = expr.place();
+      condition.define = true;
+      spec_.uniforms.push_back(std::move(condition));
+      return;
+    }
     const std::size_t before = model_.diagnostics.errorCount();
     const Value value = expr.evaluate(names_, model_.diagnostics);
     if (model_.diagnostics.errorCount() > before) return;
@@ -215,11 +226,11 @@ class SpecFiller {
         choices = names_.choicesOf(variable);
         if (std::find(choices.begin(), choices.end(), value.symbol) != choices.end()) break;
       }
-    emitDefine(name, value, choices, expr.place(), from);
+    emitDefine(name, value, choices, expr.place(), name);
   }
 
   void addParameter(const PassParameterDesc& desc,
-                    std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
+                    std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
     UniformSpec uniform;
     uniform.name = desc.name;
     uniform.place = desc.place;
@@ -240,7 +251,7 @@ class SpecFiller {
       }
       uniform.value = parameter->value;
     } else if (isDynamic(model_, names_.scope(), desc.value)) {
-      deferred.emplace_back(static_cast<std::uint32_t>(spec_.uniforms.size()), &desc);
+      deferred.emplace_back(static_cast<std::uint32_t>(spec_.uniforms.size()), &desc.value);
       spec_.uniforms.push_back(std::move(uniform));
       return;
     } else {
@@ -262,6 +273,8 @@ class SpecFiller {
   void checkDefineNames() {
     std::vector<std::string_view> all;
     for (const DefineSpec& define : spec_.defines) all.push_back(define.name);
+    for (const UniformSpec& uniform : spec_.uniforms)
+      if (uniform.define) all.push_back(uniform.name);
     std::sort(all.begin(), all.end());
     if (const auto twice = std::adjacent_find(all.begin(), all.end()); twice != all.end())
       error(Code::W49, desc_.namePlace, fmt::format("defines '{}' twice", *twice)).hint =
@@ -394,7 +407,7 @@ std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassD
 }
 
 bool fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
-              PassSpec& spec, std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred) {
+              PassSpec& spec, std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
   return SpecFiller(context, desc, slots, spec).run(deferred);
 }
 

@@ -10,7 +10,7 @@ namespace weft::graph::expansion {
 // `deferred` gets the indices of uniforms whose expression contains age(): they are folded when all versions
 // are known.
 bool fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
-              PassSpec& spec, std::vector<std::pair<std::uint32_t, const PassParameterDesc*>>& deferred);
+              PassSpec& spec, std::vector<std::pair<std::uint32_t, const Expr*>>& deferred);
 
 // The import a view names; kNone means the default camera. nullopt after a report.
 std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spec);

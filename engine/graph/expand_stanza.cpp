@@ -149,7 +149,10 @@ void checkExpressions(const Stanza& stanza) {
     for (const Expr* expr : {&range.first, &range.last, &range.step}) structural(*expr);
   for (const SlotDesc& slot : desc.slots) checkReference(stanza, slot.ref);
   if (desc.view) checkReference(stanza, *desc.view);
-  for (const NamedExpr& define : desc.defines) structural(define.expr);
+  for (const NamedExpr& define : desc.defines) {
+    checkExpr(model, scope, define.expr, true);
+    if (!isDynamic(model, scope, define.expr)) markStructural(model, scope, define.expr);
+  }
   for (const NamedExpr& state : desc.state) structural(state.expr);
   for (const Expr* expr : {&desc.slices, &desc.threads, &desc.instances}) structural(*expr);
   for (const Expr& argument : desc.geometryArguments) structural(argument);

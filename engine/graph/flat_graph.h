@@ -78,6 +78,7 @@ struct UniformSpec {
   Expr dynamic;                   // folded; age keys are FlatResource indices
   std::string path;               // full name of the parameter behind it ("post.composite.vignette"), or empty
   Place place;
+  bool define = false;            // dynamic, and no uniform but #define name 0 or 1: chooses the variant of a frame
 };
 
 struct DefineSpec {

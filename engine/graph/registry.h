@@ -50,6 +50,7 @@ struct ImportType {
   std::string doc;
   std::vector<ImportArgument> arguments;
   bool instances = false;  // of buffers: rows of a draw list, laid out as the reading shader's block says
+  bool before = false;     // of textures: name@-1 is there, what was shown before
 };
 
 // An import with its arguments evaluated. Two requests with equal type and arguments are one import.

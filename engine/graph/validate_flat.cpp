@@ -52,7 +52,7 @@ class Validator {
     const std::uint32_t planes = planesOf(r) == 2 ? 3 : 1;
     return use.mips > 0 && use.layers > 0 && use.mip + use.mips <= r.mips &&
            use.layer + use.layers <= r.layers && use.planes != 0 && (use.planes & ~planes) == 0 &&
-           use.history <= r.history && (use.history == 0 || use.access == Access::read);
+           use.history <= (isImported(r) ? 1 : r.history) && (use.history == 0 || use.access == Access::read);
   }
 
   std::string nameOf(std::uint32_t resource) const {

@@ -53,6 +53,13 @@ std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics
 
 bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
   if (currentMap_ == map) return true;
+  if (!black_) {
+    auto black = gl::Texture::create({.format = GL_RGBA16F}, "@environment, none", diagnostics);
+    if (!black) return false;
+    const std::uint16_t texel[4] = {0, 0, 0, 0x3c00};
+    gl::uploadTexture(black->ref(), 0, 0, GL_RGBA, GL_HALF_FLOAT, std::as_bytes(std::span(texel)));
+    black_ = std::move(*black);
+  }
   gl::Texture next;
   if (incoming_.map == map && !incoming_.stream) {
     next = std::move(incoming_.texture);
@@ -64,15 +71,15 @@ bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
     next = std::move(*texture);
   }
   if (incoming_.map == map) incoming_ = {};
-  if (keep_) before_ = std::move(current_);
-  current_ = std::move(next);
+  current_ = std::make_shared<const gl::Texture>(std::move(next));
   currentMap_ = map;
   return true;
 }
 
-void EnvironmentTextures::keepBefore(bool keep) {
-  keep_ = keep;
-  if (!keep) before_ = {};
+void EnvironmentTextures::publish() {
+  before_ = std::move(shown_);
+  shown_ = current_;
+  ++publications_;
 }
 
 }  // namespace weft::runtime

@@ -1,7 +1,7 @@
-// The environment on the GPU: the one in use, the one being sent beside it, and on request the one in use
-// before. A new one is sent in portions, one per frame, and taken into use whole: with all its levels, and
-// when the GPU has them. At most three textures exist at once. Does not: decode files (assets::Loader does),
-// or decide when to switch.
+// The environment on the GPU: the newest, which lighting is made of; the one shown, which is the newest of the
+// last publish(); the one shown before, while somebody fades from it; and one being sent beside them. A new one
+// is sent in portions, one per frame, and taken into use whole: with all its levels, and when the GPU has them.
+// Does not: decode files (assets::Loader does), or decide when to switch or to publish.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +28,19 @@ class EnvironmentTextures {
   std::optional<float> send(const Map& map, base::Diagnostics& diagnostics);
   void stopSending() { incoming_ = {}; }
 
-  // Makes `map` the one in use: the texture that was sent, or one uploaded here and now. False after errors,
-  // and the one in use stays. Cheap when it is in use already.
+  // Makes `map` the newest: the texture that was sent, or one uploaded here and now. False after errors, and
+  // the newest stays. Cheap when it is the newest already.
   bool use(const Map& map, base::Diagnostics& diagnostics);
-  gl::TextureRef current() const { return current_ ? current_.ref() : gl::TextureRef{}; }
+  gl::TextureRef current() const { return current_ ? current_->ref() : gl::TextureRef{}; }
 
-  // Whether use() keeps the texture it replaces, until the next one or keepBefore(false). Off at first.
-  void keepBefore(bool keep);
-  gl::TextureRef before() const { return before_ ? before_.ref() : gl::TextureRef{}; }
+  // The newest is shown from now on, and what was shown is before(); they may be the same.
+  void publish();
+  bool isPublished() const { return current_ == shown_; }
+  std::uint64_t publications() const { return publications_; }
+  // Black, one texel, when there is none.
+  gl::TextureRef shown() const { return shown_ ? shown_->ref() : black(); }
+  gl::TextureRef before() const { return before_ ? before_->ref() : black(); }
+  void releaseBefore() { before_ = nullptr; }
 
  private:
   struct Incoming {
@@ -45,9 +50,12 @@ class EnvironmentTextures {
     gl::Fence levels;  // behind the making of the levels, once all rows are sent
   };
   Incoming incoming_;
+  gl::TextureRef black() const { return black_ ? black_.ref() : gl::TextureRef{}; }
+
   Map currentMap_;
-  gl::Texture current_, before_;
-  bool keep_ = false;
+  std::shared_ptr<const gl::Texture> current_, shown_, before_;
+  gl::Texture black_;
+  std::uint64_t publications_ = 0;
 };
 
 }  // namespace weft::runtime

@@ -22,14 +22,18 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   std::fill(ran_.begin(), ran_.end(), std::uint8_t{0});
   device_.imports.beginFrame(world, input);
   readBack_.collect();
+  std::fill(publishing_.begin(), publishing_.end(), std::uint8_t{0});
   publishFinished();
   refreshImports(diagnostics);
   resetHistories(diagnostics);
-  refreshUniforms();
+  choosePasses(false, diagnostics);
+  refreshUniforms(false);
   refreshOwnHashes();
   if (input.headless) finishSlices(report, diagnostics);
   cadence_->decide(own_, generations_);
+  followWhole(diagnostics);
   runDecided(report, diagnostics);
+  releaseImports();
   device_.timers.endFrame();
   if (plan_->finalBarriers) {
     glMemoryBarrier(glBarriersOf(plan_->finalBarriers));
@@ -49,9 +53,12 @@ void Execution::finishSlices(FrameReport& report, base::Diagnostics& diagnostics
   for (std::size_t round = 0; round < plan_->jobs.spread.size() && cadence_->decideAhead(own_, generations_); ++round) {
     runDecided(report, diagnostics);
     publishFinished();
+    viewImports(diagnostics);
     any = true;
   }
-  if (any) refreshUniforms();  // ages
+  if (!any) return;
+  choosePasses(false, diagnostics);  // ages
+  refreshUniforms(false);
 }
 
 // Barriers are issued of skipped steps too, see plan.h.
@@ -98,6 +105,7 @@ void Execution::publishFinished() {
     if (!cadence_->isFinished(job)) continue;
     for (std::uint32_t r = 0; r < generations_.size(); ++r)
       if ((*pool_)[r].job == job) publish(r);
+    publishImports(job);
     cadence_->markPublished(job);
   }
 }
@@ -117,9 +125,14 @@ void Execution::refreshImports(base::Diagnostics& diagnostics) {
     const graph::FlatResource& desc = graph.resources[r];
     if (desc.import == kNone) continue;
     const graph::ImportSpec& import = graph.imports[desc.import];
-    if (desc.kind == graph::ResourceKind::imported_texture) (*pool_)[r].imported = device_.imports.texture(import, diagnostics);
+    if (desc.kind == graph::ResourceKind::imported_texture) {
+      GpuResource& mine = (*pool_)[r];
+      mine.imported = device_.imports.texture(import, diagnostics);
+      if (mine.maker == kNone && !device_.imports.isPublished(import)) device_.imports.publish(import);
+    }
     generations_[r] = device_.imports.generation(import);
   }
+  viewImports(diagnostics);
 }
 
 void Execution::resetHistories(base::Diagnostics& diagnostics) {
@@ -142,20 +155,24 @@ void Execution::resetHistories(base::Diagnostics& diagnostics) {
   }
 }
 
-void Execution::refreshUniforms() {
+// Seconds since a resource was published. Not published yet: about to be. A headless run publishes everything before
+// its frame 0.
+double Execution::ageOf(std::uint32_t r) const {
+  const GpuResource& resource = (*pool_)[r];
+  if (resource.publications == 0 || publishing_[r])
+    return input_.headless && framesRun_ == 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  return std::max(0.0, input_.time - resource.publishedAt);
+}
+
+void Execution::refreshUniforms(bool alwaysOnly) {
   const graph::FlatGraph& graph = *plan_->graph;
   for (std::size_t step = 0; step < passes_.size(); ++step) {
     PreparedPass& pass = passes_[step];
     if (!pass.usable) continue;
     const bool timeless = graph.passes[plan_->steps[step].pass].cadence != graph::Cadence::always;
+    if (alwaysOnly && timeless) continue;
     for (const DynamicUniform& uniform : pass.dynamics) {
-      const graph::Value value = uniform.expr.evaluateFolded([this](std::uint32_t key) {
-        const GpuResource& resource = (*pool_)[key];
-        // Not published yet: about to be. A headless run publishes everything before its frame 0.
-        if (resource.publications == 0)
-          return input_.headless && framesRun_ == 0 ? std::numeric_limits<double>::infinity() : 0.0;
-        return std::max(0.0, input_.time - resource.publishedAt);
-      });
+      const graph::Value value = uniform.expr.evaluateFolded([this](std::uint32_t key) { return ageOf(key); });
       std::byte* at = uniformBytes_.data() + pass.parametersOffset;
       std::byte before[32];
       std::memcpy(before, at + uniform.member.offset, 16);
@@ -186,6 +203,10 @@ void Execution::refreshOwnHashes() {
     mix(pass.parametersOffset, pass.parametersBlock);
     mix(pass.viewOffset, pass.viewBlock);
     for (const std::uint32_t resource : pass.written) own = base::hashCombine(own, (*pool_)[resource].serial + ((*pool_)[resource].resets << 40));
+    // An import that is shown later than it changes.
+    for (const std::uint32_t resource : pass.read)
+      if (const std::uint32_t maker = (*pool_)[resource].maker; maker != kNone && maker != pass.job)
+        own = base::hashCombine(own, device_.imports.publications(plan_->graph->imports[plan_->graph->resources[resource].import]));
     for (const std::uint32_t axis : pass.context.spec->threads) own = base::hashCombine(own, axis);
     own_[step] = own;
   }

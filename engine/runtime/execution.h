@@ -90,7 +90,16 @@ class Execution {
   void layoutUniforms(base::Diagnostics& diagnostics);
   void carryOver(Execution& before);
   void refreshImports(base::Diagnostics& diagnostics);
-  void refreshUniforms();
+  void viewImports(base::Diagnostics& diagnostics);
+  void publishImports(std::uint32_t job);
+  void releaseImports();
+  double ageOf(std::uint32_t resource) const;
+  void choosePasses(bool alwaysOnly, base::Diagnostics& diagnostics);
+  bool choosePass(std::size_t step, std::uint32_t conditions, base::Diagnostics& diagnostics);
+  void followWhole(base::Diagnostics& diagnostics);
+  PrepareContext prepareContext(base::Diagnostics& diagnostics);
+  void findMakers();
+  void refreshUniforms(bool alwaysOnly);
   void refreshOwnHashes();
   void resetHistories(base::Diagnostics& diagnostics);
   void finishSlices(FrameReport& report, base::Diagnostics& diagnostics);
@@ -107,7 +116,13 @@ class Execution {
   Device& device_;
   std::shared_ptr<const graph::Plan> plan_;
   std::unique_ptr<ResourcePool> pool_;
-  std::vector<PreparedPass> passes_;             // per step
+  std::vector<PreparedPass> passes_;             // per step, of the variant whose conditions hold
+  struct Parked {
+    std::size_t step = 0;
+    PreparedPass pass;
+  };
+  std::vector<Parked> parked_;                   // variants that ran under other conditions
+  std::vector<std::uint8_t> publishing_;         // per resource: a pass that is not `always` publishes it in this frame
   std::unique_ptr<FrameCadence> cadence_;
   FramebufferCache framebuffers_;
   std::vector<gl::Attachment> attachmentScratch_;

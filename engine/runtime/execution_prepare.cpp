@@ -44,7 +44,9 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
     const graph::PassType reflected = type->reflect();
     variants.emplace_back();
     if (reflected.shader == graph::ShaderShape::none) continue;
-    variants.back() = device_.programs.get(programRequestOf(*plan_->graph, *plan_, step.pass, reflected), problems);
+    const std::uint32_t settled = settledConditionsOf(plan_->graph->specs[step.pass]);
+    variants.back() =
+        device_.programs.get(programRequestOf(*plan_->graph, *plan_, step.pass, reflected, settled), problems);
     if (variants.back()) checkProgram(*plan_, step.pass, *variants.back(), problems);
   }
   diagnostics.append(problems);
@@ -61,20 +63,13 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   own_.assign(plan_->steps.size(), 0);
   ran_.assign(plan_->steps.size(), 0);
   lasting_ = findLastingSteps(*plan_);
+  publishing_.assign(resources, 0);
   resetState_.assign(plan_->graph->histories.size(), 0);
-  PrepareContext context{.plan = *plan_,
-                         .types = device_.passTypes,
-                         .variant = nullptr,
-                         .pool = *pool_,
-                         .geometries = device_.geometries,
-                         .samplerOf = [](void* owner, const graph::Sampler& sampler, bool mipmapped,
-                                         graph::Compare compare) {
-                           return static_cast<Device*>(owner)->sampler(sampler, mipmapped, compare);
-                         },
-                         .samplerOwner = &device_,
-                         .diagnostics = diagnostics};
+  findMakers();
+  PrepareContext context = prepareContext(diagnostics);
   for (std::size_t step = 0; step < plan_->steps.size(); ++step) {
     context.variant = variants[step];
+    context.conditions = settledConditionsOf(plan_->graph->specs[plan_->steps[step].pass]);
     passes_.push_back(preparePass(context, step));
     std::copy_n(device_.context.device().limits.computeGroups, 3, passes_.back().context.maxGroups);
     if (!passes_.back().usable) return false;
@@ -83,6 +78,20 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
   if (before) carryOver(*before);
   return !diagnostics.hasErrors();
+}
+
+PrepareContext Execution::prepareContext(base::Diagnostics& diagnostics) {
+  return {.plan = *plan_,
+          .types = device_.passTypes,
+          .variant = nullptr,
+          .pool = *pool_,
+          .geometries = device_.geometries,
+          .samplerOf = [](void* owner, const graph::Sampler& sampler, bool mipmapped,
+                          graph::Compare compare) {
+            return static_cast<Device*>(owner)->sampler(sampler, mipmapped, compare);
+          },
+          .samplerOwner = &device_,
+          .diagnostics = diagnostics};
 }
 
 void Execution::layoutUniforms(base::Diagnostics& diagnostics) {
@@ -94,15 +103,22 @@ void Execution::layoutUniforms(base::Diagnostics& diagnostics) {
     if (block) total += (block->bytes + alignment - 1) / alignment * alignment;
     return at;
   };
-  for (PreparedPass& pass : passes_) {
-    pass.parametersOffset = place(pass.parametersBlock);
-    pass.viewOffset = place(pass.viewBlock);
-    pass.sliceOffset = place(pass.sliceBlock);
+  std::vector<PreparedPass*> all;
+  for (PreparedPass& pass : passes_) all.push_back(&pass);
+  for (Parked& parked : parked_) all.push_back(&parked.pass);
+  for (PreparedPass* pass : all) {
+    pass->parametersOffset = place(pass->parametersBlock);
+    pass->viewOffset = place(pass->viewBlock);
+    pass->sliceOffset = place(pass->sliceBlock);
   }
   uniformBytes_.assign(total, std::byte{0});
-  for (PreparedPass& pass : passes_) {
+  uniformsDirty_ = true;
+  for (PreparedPass* each : all) {
+    PreparedPass& pass = *each;
+    pass.dynamics.clear();
     if (!pass.parametersBlock) continue;
     for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) {
+      if (uniform.define) continue;
       const gl::BlockMember* member = pass.parametersBlock->find(uniform.name);
       if (!member) continue;
       if (uniform.dynamic.present()) pass.dynamics.push_back({*member, uniform.dynamic});

@@ -87,14 +87,14 @@ void Execution::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   if (pass.variant) glUseProgram(pass.variant->program.id());
   for (const TextureBinding& binding : pass.textures) {
     const GpuResource& resource = (*pool_)[binding.resource];
-    const GLuint texture = binding.views.empty() ? resource.imported.id
+    const GLuint texture = binding.views.empty() ? resource.importedFor(binding.history, pass.job)
                                                  : binding.views[resource.copyOf(binding.history, pass.job)];
     glBindTextureUnit(binding.unit, texture);
     glBindSampler(binding.unit, binding.sampler);
   }
   for (const ImageBinding& binding : pass.images) {
     const GpuResource& resource = (*pool_)[binding.resource];
-    const GLuint texture = binding.views.empty() ? resource.imported.id
+    const GLuint texture = binding.views.empty() ? resource.importedFor(binding.history, pass.job)
                                                  : binding.views[resource.copyOf(binding.history, pass.job)];
     glBindImageTexture(binding.unit, texture, 0, binding.layered, 0, binding.access, binding.format);
   }
@@ -125,7 +125,7 @@ void Execution::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   for (const FixedBinding& binding : pass.fixed) {
     const GpuResource& resource = (*pool_)[binding.resource];
     passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
-    const GLuint view = binding.views.empty() ? resource.imported.id
+    const GLuint view = binding.views.empty() ? resource.importedFor(binding.history, pass.job)
                                               : binding.views[resource.copyOf(binding.history, pass.job)];
     bound.name = view;
     if (!pass.framebuffers) continue;

@@ -52,6 +52,18 @@ gl::TextureRef Imports::texture(const graph::ImportSpec& import, base::Diagnosti
   return environments_.current();
 }
 
+gl::TextureRef Imports::shown(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+  return hasBefore(import) ? environments_.shown() : texture(import, diagnostics);
+}
+
+gl::TextureRef Imports::before(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+  return hasBefore(import) ? environments_.before() : texture(import, diagnostics);
+}
+
+void Imports::publish(const graph::ImportSpec& import) {
+  if (hasBefore(import)) environments_.publish();
+}
+
 const std::vector<scene::Instance>& Imports::instancesOf(scene::DrawList list) {
   CpuInstances& cpu = cpu_[static_cast<std::size_t>(list)];
   const std::uint64_t wanted = listGeneration(list);

@@ -33,10 +33,21 @@ class Imports {
 
   // The environment, or the fallback when none is loaded; id 0 when there is neither.
   gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
-  // Sending the next environment beside the one in use, and keeping the one before it. An import read by a sliced group is
-  // published with the group: while the group works on the new environment, the passes that show it read
-  // environments().before(), which is there after keepBefore(true).
+  // For sending the next environment beside the one in use.
   EnvironmentTextures& environments() { return environments_; }
+  // What `name` and `name@-1` are to passes that do not take part in making anything of it: an environment is shown from
+  // publish() on, other imports at once. After texture().
+  gl::TextureRef shown(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
+  gl::TextureRef before(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
+  void publish(const graph::ImportSpec& import);
+  bool isPublished(const graph::ImportSpec& import) const { return !hasBefore(import) || environments_.isPublished(); }
+  std::uint64_t publications(const graph::ImportSpec& import) const {
+    return hasBefore(import) ? environments_.publications() : 0;
+  }
+  // Nobody fades from what was shown before.
+  void releaseBefore(const graph::ImportSpec& import) {
+    if (hasBefore(import)) environments_.releaseBefore();
+  }
   // Used while the world has no environment: a texture made by a graph of its own. Not owned.
   void setEnvironmentFallback(gl::TextureRef texture, std::uint64_t generation);
 
@@ -95,6 +106,9 @@ class Imports {
     std::uint64_t generation = 0;
     bool stale = true;
   };
+  bool hasBefore(const graph::ImportSpec& import) const {
+    return import.request.type == "environment" && world_->environment();
+  }
   gl::TextureRef lut(const std::string& file, base::Diagnostics& diagnostics);
   LutFiles lutFiles_;
   std::vector<Lut> luts_;

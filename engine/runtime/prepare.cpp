@@ -59,11 +59,13 @@ class Preparer {
 
   bool takeProgram(const graph::PassType& type) {
     out_.variant = c_.variant;
+    out_.conditions = c_.conditions;
+    out_.conditional = conditionCount(spec_) > 0;
     if (!out_.variant) return false;
     out_.programHash = base::kHashSeed;
     for (const gl::StageSource& stage : out_.variant->stages)
       out_.programHash = base::hashCombine(out_.programHash, stage.source->hash);
-    for (const gl::Define& define : programRequestOf(graph_, c_.plan, step_.pass, type).defines)
+    for (const gl::Define& define : programRequestOf(graph_, c_.plan, step_.pass, type, c_.conditions).defines)
       out_.programHash = base::hashBytes(define.name + "=" + define.value, out_.programHash);
     const gl::Reflection& reflection = out_.variant->program.reflection();
     out_.parametersBlock = reflection.findUniformBlock("Parameters");

@@ -5,6 +5,7 @@
 #include <glad/gl.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -97,6 +98,8 @@ struct PreparedPass {
   std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
+  bool conditional = false;                       // has dynamic defines
+  std::uint32_t conditions = 0;                   // of its variant, see conditionsOf
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
 
@@ -105,6 +108,7 @@ struct PrepareContext {
   const graph::Plan& plan;
   const passes::PassRegistry& types;
   std::shared_ptr<const gl::Variant> variant;   // of the pass to prepare; null for types without a shader
+  std::uint32_t conditions = 0;                 // of that variant
   ResourcePool& pool;
   Geometries& geometries;
   GLuint (*samplerOf)(void* owner, const graph::Sampler& sampler, bool mipmapped, graph::Compare compare) = nullptr;
@@ -115,9 +119,15 @@ struct PrepareContext {
 // Fills everything but the uniform offsets. Reports what does not fit; `usable` says whether the pass can run.
 PreparedPass preparePass(PrepareContext& context, std::size_t step);
 
-// The stages, defines and outputs of a pass's variant: what `check` compiles without running anything.
+// Which of the pass's dynamic defines hold, one bit each, when resources were published `ageOf(resource)` seconds ago.
+std::uint32_t conditionsOf(const graph::PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf);
+// The same long after everything was published; and how many bits there are.
+std::uint32_t settledConditionsOf(const graph::PassSpec& spec);
+std::uint32_t conditionCount(const graph::PassSpec& spec);
+
+// The stages, defines and outputs of a pass's variant under `conditions`: what `check` compiles without running anything.
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan, std::uint32_t pass,
-                                    const graph::PassType& type);
+                                    const graph::PassType& type, std::uint32_t conditions);
 
 // Whether a buffer use reads the rows of a draw list, whose layout is the shader's.
 bool isInstanceTable(const graph::FlatGraph& graph, const graph::FlatUse& use);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/base/nearest.h"
 #include "engine/gl/objects.h"
@@ -189,6 +190,7 @@ class Checker {
   void checkParameters() {
     const gl::Block* block = reflection_.findUniformBlock("Parameters");
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
+      if (uniform.define) continue;
       const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
       if (!member) {
         if (variant_.mentions(uniform.name)) continue;
@@ -289,8 +291,23 @@ bool isInstanceTable(const FlatGraph& graph, const FlatUse& use) {
   return import != graph::kNone && graph.imports[import].instances;
 }
 
+std::uint32_t conditionsOf(const PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf) {
+  std::uint32_t conditions = 0, bit = 0;
+  for (const graph::UniformSpec& uniform : spec.uniforms)
+    if (uniform.define) conditions |= (uniform.dynamic.evaluateFolded(ageOf).truth() ? 1u : 0u) << bit++;
+  return conditions;
+}
+
+std::uint32_t settledConditionsOf(const PassSpec& spec) {
+  return conditionsOf(spec, [](std::uint32_t) { return std::numeric_limits<double>::infinity(); });
+}
+
+std::uint32_t conditionCount(const PassSpec& spec) {
+  return static_cast<std::uint32_t>(std::ranges::count_if(spec.uniforms, &graph::UniformSpec::define));
+}
+
 gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,
-                                    const graph::PassType& type) {
+                                    const graph::PassType& type, std::uint32_t conditions) {
   const PassSpec& spec = graph.specs[pass];
   gl::ProgramRequest request;
   request.label = spec.name;
@@ -315,7 +332,11 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
     request.defines.push_back({"HAS_" + upper(slot.name), "1"});
     if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
   }
-  for (const graph::UniformSpec& uniform : spec.uniforms) request.defines.push_back({"HAS_" + upper(uniform.name), "1"});
+  std::uint32_t bit = 0;
+  for (const graph::UniformSpec& uniform : spec.uniforms) {
+    if (uniform.define) request.defines.push_back({uniform.name, (conditions >> bit++ & 1u) != 0 ? "1" : "0"});
+    else request.defines.push_back({"HAS_" + upper(uniform.name), "1"});
+  }
   for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
   return request;
 }

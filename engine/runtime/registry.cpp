@@ -19,8 +19,10 @@ std::vector<graph::ImportType> importTypes() {
   return {
       {.name = "environment",
        .kind = ImportKind::texture,
-       .doc = "The loaded environment, equirectangular RGBA16F with a full mip chain, row 0 at +Y.",
-       .arguments = {}},
+       .doc = "The loaded environment, equirectangular RGBA16F with a full mip chain, row 0 at +Y. `@-1`: the one "
+              "shown before.",
+       .arguments = {},
+       .before = true},
       {.name = "spheres",
        .kind = ImportKind::buffer,
        .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",

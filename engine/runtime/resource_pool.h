@@ -53,7 +53,8 @@ struct PersistentBuffer {
 // Where a resource of the graph lives and how fresh it is.
 struct GpuResource {
   PhysicalTexture* texture = nullptr;          // own textures
-  gl::TextureRef imported;                     // imported textures
+  gl::TextureRef imported, shown, before;      // imported textures: the newest; as others than `maker` see it; @-1
+  std::uint32_t maker = graph::kNone;          // of an import: the job that makes something of it and publishes it
   std::vector<GLuint> buffers;                 // per copy
   std::uint64_t offset = 0, bytes = 0;         // range within the buffer
   std::uint32_t copies = 1, current = 0;       // current: the latest publication
@@ -63,6 +64,10 @@ struct GpuResource {
   std::uint64_t publications = 0;
   double publishedAt = -std::numeric_limits<double>::infinity();
   bool fresh = true;                           // storage was made for this plan: contents undefined
+  GLuint importedFor(std::uint32_t history, std::uint32_t reader) const {
+    if (history > 0) return before.id;
+    return maker != graph::kNone && maker == reader ? imported.id : shown.id;
+  }
   // As passes of `reader`, a job or kNone, see it.
   std::uint32_t copyOf(std::uint32_t history, std::uint32_t reader = graph::kNone) const {
     const std::uint32_t newest = current + (job != graph::kNone && job == reader ? 1 : 0);
