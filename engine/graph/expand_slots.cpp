@@ -323,6 +323,9 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
         !finishUse(checked, leaf, ref, slot.access, candidate))
       return work;
     const Entity& entity = model.entities[candidate.entity];
+    // An import that is not there has shown nothing before either: one of the other alternatives has.
+    const bool last = &leaf == &leaves.back();
+    if (ref.history > 0 && !last && entity.kind == ResourceDesc::Kind::import && !entity.exists) continue;
     if (ref.history > 0 && !checkHistory(context, ref, entity)) return work;
     if (!*holds) {
       candidate.state = slot.access == Access::read && !ref.optional ? State::missing : State::absent;

@@ -175,6 +175,14 @@ void checkCadence(const Stanza& stanza) {
       d.found = parameter.value.text();
       d.hint = "age() belongs into passes that are \"update\": \"always\"";
     }
+  for (const NamedExpr& define : desc.defines)
+    if (isDynamic(stanza.model, stanza.scope, define.expr)) {
+      auto& d =
+          stanza.error(Code::W78, define.expr.place(),
+                       fmt::format("sees time in define '{}', but does not run in every frame", define.name));
+      d.found = define.expr.text();
+      d.hint = "age() belongs into passes that are \"update\": \"always\"";
+    }
 }
 
 }  // namespace
