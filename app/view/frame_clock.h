@@ -1,21 +1,26 @@
-// The time that frames see. Runs with the wall clock, stands still while nothing is drawn, and advances by a
-// fixed step per frame while a recording is on, however long the frames take. Does not: read a clock.
+// The time that frames see. Runs with the wall clock, stands still while nothing is drawn, skips most of what
+// a frame takes that did more than its picture, and advances by a fixed step per frame while a recording is
+// on, however long the frames take. Does not: read a clock.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 namespace weft::app {
 
 class FrameClock {
  public:
+  static constexpr double kWorkStep = 0.05;  // seconds
+
   struct Tick {
     double time = 0, delta = 0;  // seconds since the start, since the frame before
   };
 
   // The next frame, at `wall` seconds of any clock.
   Tick tick(double wall) {
-    const double passed = started_ ? std::max(0.0, wall - wall_) : 0.0;
+    double passed = started_ ? std::max(0.0, wall - wall_) : 0.0;
+    if (std::exchange(worked_, false)) passed = std::min(passed, kWorkStep);
     started_ = true;
     wall_ = wall;
     if (fps_ > 0) {
@@ -32,6 +37,9 @@ class FrameClock {
     wall_ = wall;
     started_ = true;
   }
+  // The last frame did work that is not done in every frame: what it took counts for kWorkStep at most, so
+  // that a fade that begins there is seen.
+  void worked() { worked_ = true; }
   // From the next frame on: fixed steps, the first of them now (before any frame: at 0). With 0, the wall
   // clock again.
   void fix(double fps) {
@@ -46,7 +54,7 @@ class FrameClock {
   Tick last_;
   double wall_ = 0, base_ = 0, fps_ = 0;
   std::uint32_t frames_ = 0;
-  bool started_ = false;
+  bool started_ = false, worked_ = false;
 };
 
 }  // namespace weft::app

@@ -158,7 +158,9 @@ void Viewer::frame(gl::Size size) {
   in.pose = rig_.pose();
   in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
   in.cutGeneration = cuts_ = rig_.cuts();
-  in.headless = !options_.record.empty();  // as `weft render` makes the same frames
+  // As `weft render` makes the same frames; the first of a window that waited is finished, and does not fade
+  // in.
+  in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
   // Not shown, when files change meanwhile: at most every second frame, so that a picture comes whatever
   // happens.
   const bool mayDrop = !std::exchange(dropped_, false) && !recorder_.active() && screenshot_.empty() &&
@@ -167,6 +169,7 @@ void Viewer::frame(gl::Size size) {
   panels_.beforeFrame(frame_);
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   panels_.afterFrame(report_);
+  if (report_.slowRun > 0) clock_.worked();
   previousPose_ = in.pose;
   ++frame_;
   dropped_ = !report_.whole || (mayDrop && live_.wantsLoad(glfwGetTime()));
@@ -209,11 +212,7 @@ void Viewer::moveCamera(const FrameClock::Tick& tick) {
 
 void Viewer::judgeRest() {
   // Passes that run only when something changed: the picture may follow later (slices, a load in steps).
-  const graph::Plan& plan = renderer_.execution()->plan();
-  for (const graph::Step& step : plan.steps)
-    if (plan.graph->passes[step.pass].cadence != graph::Cadence::always &&
-        renderer_.execution()->ran(plan.graph->passNames[step.pass]))
-      rest_.disturb();
+  if (report_.slowRun > 0) rest_.disturb();
   const double now = glfwGetTime();
   if (!rest_.wantsLook(now)) return;
   const auto image = renderer_.readPresented8();

@@ -68,7 +68,8 @@ bool checkOutput(Model& model, const OutputDesc& output, const std::string& name
   else if (resource.samples > 1)
     expected = "a texture with one sample per texel";
   else if (bytes > kMaxOutputBytes)
-    expected = fmt::format("at most {} bytes; of a texture every channel of a texel counts 4", kMaxOutputBytes);
+    expected =
+        fmt::format("at most {} bytes; of a texture every channel of a texel counts 4", kMaxOutputBytes);
   else
     return true;
   auto& d = model.diagnostics.error(Code::W86, output.ref.place,
@@ -136,6 +137,18 @@ void resolveHistories(Model& model) {
   }
 }
 
+// What is in the place of an import that is not there: whoever fades to the import later fades from that.
+void nameStandIns(Model& model) {
+  for (const Entity& list : model.entities)
+    for (const std::uint32_t candidate : list.candidates) {
+      const std::uint32_t import = candidate == kNone ? kNone : model.entities[candidate].import;
+      if (import == kNone || !model.graph.imports[import].before) continue;
+      for (const std::uint32_t other : list.candidates)
+        if (other != kNone && model.entities[other].kind == ResourceDesc::Kind::texture)
+          model.graph.imports[import].standIns.push_back(model.entities[other].name);
+    }
+}
+
 void foldUniforms(Model& model, const std::vector<DeferredUniform>& deferred) {
   for (const DeferredUniform& uniform : deferred) {
     Names names(model, *uniform.scope);
@@ -153,6 +166,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   resolveOutputs(model);
   foldUniforms(model, deferred);
   resolveHistories(model);
+  nameStandIns(model);
   for (const Parameter& parameter : model.parameters)
     model.graph.parameters.push_back(
         {*parameter.desc, parameter.path, parameter.value, parameter.structural});

@@ -335,7 +335,7 @@ std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind,
   for (std::uint32_t i = 0; i < imports.size(); ++i)
     if (imports[i].request == request) return i;
   const ImportType* type = findImportType(model.registry, request.type);
-  imports.push_back({std::move(request), kind, name, type && type->instances});
+  imports.push_back({std::move(request), kind, name, type && type->instances, type && type->before, {}});
   model.importResource.push_back(kNone);
   return static_cast<std::uint32_t>(imports.size() - 1);
 }

@@ -248,20 +248,18 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
 
 bool checkHistory(const SlotContext& context, const RefDesc& ref, const Entity& entity) {
   const auto depth = static_cast<int>(entity.depth);
-  bool kept = ref.history <= depth && entity.kind != ResourceDesc::Kind::import;
-  if (entity.import != kNone && ref.history == 1)
-    for (const ImportType& type : context.model.registry.imports)
-      kept |= type.before && type.name == context.model.graph.imports[entity.import].request.type;
-  if (kept) return true;
+  const bool import = entity.kind == ResourceDesc::Kind::import;
+  if (import ? ref.history == 1 && context.model.graph.imports[entity.import].before : ref.history <= depth)
+    return true;
   auto& d = report(
       context, Code::W54, ref.place,
       fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name),
       entity.name);
-  d.expected = entity.kind == ResourceDesc::Kind::import ? "an import has no history"
-               : depth == 0                              ? "no history is declared"
-                                                         : fmt::format("@-1 to @-{}", depth);
-  if (entity.kind != ResourceDesc::Kind::import)
-    d.hint = fmt::format("declare \"history\": {} on '{}'", ref.history, entity.name);
+  d.expected = import && context.model.graph.imports[entity.import].before ? "@-1, what was shown before"
+               : import                                                    ? "this import has no history"
+               : depth == 0                                                ? "no history is declared"
+                            : fmt::format("@-1 to @-{}", depth);
+  if (!import) d.hint = fmt::format("declare \"history\": {} on '{}'", ref.history, entity.name);
   return false;
 }
 

@@ -123,6 +123,8 @@ struct ImportSpec {
   ImportKind kind = ImportKind::texture;
   std::string name;               // resource name in the graph, or "@environment"
   bool instances = false;         // as ImportType::instances
+  bool before = false;            // as ImportType::before
+  std::vector<std::string> standIns;  // names of own textures that a list of alternatives offers in its place
 };
 
 struct ParameterSpec {

@@ -40,6 +40,7 @@ FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
   slices_.resize(steps);
   run_.assign(steps, 0);
   wants_.assign(steps, 0);
+  held_.assign(steps, 0);
   written_.assign(resources, 0);
   blocked_.assign(resources, 0);
   alwaysWritten_.assign(resources, 0);
@@ -52,6 +53,10 @@ FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
     if (jobOf_[s] != kNone) jobs_[jobOf_[s]].steps.push_back(s);
   }
   for (std::size_t j = 0; j < jobs_.size(); ++j) jobs_[j].spread = plan.jobs.spread[j] != 0;
+}
+
+bool FrameCadence::isHeld(std::uint32_t job) const {
+  return std::ranges::any_of(jobs_[job].steps, [this](std::uint32_t step) { return held_[step] != 0; });
 }
 
 // A use of what the step's own spread job writes.
@@ -80,7 +85,7 @@ bool FrameCadence::wants(std::size_t step, const std::vector<std::uint64_t>& own
   const Cadence cadence = passOf(plan_, step).cadence;
   if (cadence == Cadence::always) return true;
   // Under way, any change of what was seen makes the rest of it another picture, also for `once`.
-  if (jobOf_[step] != kNone && jobs_[jobOf_[step]].active)
+  if (jobOf_[step] != kNone && (jobs_[jobOf_[step]].active || jobs_[jobOf_[step]].finished))
     return differs(step, latches_[step], true, own, generations);
   return differs(step, memories_[step], cadence == Cadence::on_change, own, generations);
 }
@@ -101,13 +106,13 @@ bool FrameCadence::sweep(bool ahead) {
       continue;
     }
     Job* job = jobOf_[s] == kNone ? nullptr : &jobs_[jobOf_[s]];
-    bool woken = false, blocked = false;
+    bool woken = false, blocked = held_[s] != 0 && !(job && job->spread);
     forEachUse(plan_, s, [&](const FlatUse& use, std::size_t) {
       if (use.access != Access::read || use.history > 0 || isInside(s, use.resource)) return;
       woken |= written_[use.resource] != 0;
       blocked |= blocked_[use.resource] != 0;
     });
-    if (cadence == Cadence::once && !(job && job->active)) woken = false;
+    if (cadence == Cadence::once && !(job && (job->active || job->finished))) woken = false;
     bool want = wants_[s] || woken;
     if (job) {
       if ((want && !job->wants) || (blocked && !job->blocked)) again = true;
@@ -137,11 +142,12 @@ void FrameCadence::settle(const std::vector<std::uint64_t>& own,
     if (!job.spread) continue;
     for (const std::uint32_t s : job.steps) run_[s] = 0;
     if (job.blocked) {
-      job.active = false;
+      job.active = job.finished = false;
       continue;
     }
     if (job.wants || (ahead && job.active)) {  // from the start: nothing that is half done is kept
       job.active = job.started = true;
+      job.finished = false;
       job.at = job.slice = 0;
     }
     if (job.active) takeTurn(job, ahead);
@@ -174,7 +180,8 @@ bool FrameCadence::decideAhead(const std::vector<std::uint64_t>& own,
                                const std::vector<std::uint64_t>& generations) {
   if (plan_.jobs.ofResource.empty()) return false;
   settle(own, generations, true);
-  if (std::ranges::any_of(jobs_, [](const Job& job) { return job.spread && job.finished; })) return true;
+  for (std::uint32_t job = 0; job < jobs_.size(); ++job)
+    if (jobs_[job].spread && jobs_[job].finished && !isHeld(job)) return true;
   std::fill(run_.begin(), run_.end(), std::uint8_t{0});
   return false;
 }

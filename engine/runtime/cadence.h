@@ -2,9 +2,10 @@
 // run on what they write now; `on_change` ones whose inputs, parameters, program or storage changed since
 // they last ran. Passes of one job (plan.h) run all or none. A spread job does one slice of one pass per
 // frame, starts again when something it saw changes, and is published by the owner at the start of the frame
-// after its last slice. A pass that is not `always` waits while something it reads was never published. Works
-// on hashes and generation counters only. Does not: know GL, or keep anything across plans by itself; the
-// owner carries PassMemory over by pass name. decide() allocates nothing.
+// after its last slice. A pass that is not `always` waits while something it reads was never published, or
+// while the owner holds it, so that it publishes nothing. Works on hashes and generation counters only. Does
+// not: know GL, or keep anything across plans by itself; the owner carries PassMemory over by pass name.
+// decide() allocates nothing.
 #pragma once
 
 #include <cstdint>
@@ -49,11 +50,17 @@ class FrameCadence {
 
   // Spread jobs whose last slice has run wait here until the owner publishes them: turns their resources,
   // moves their generations, and says so.
+  // Between the two it counts as under way.
   bool isFinished(std::uint32_t job) const { return jobs_[job].finished; }
   void markPublished(std::uint32_t job);
   // For a plan that takes over storage: what the job writes holds a publication.
   void restorePublished(std::uint32_t job) { jobs_[job].published = true; }
   bool isPublished(std::uint32_t job) const { return jobs_[job].published; }
+
+  // Per step, the owner's to change: one that is not `always` and held does not run; nor does its job, unless
+  // that is spread: then the owner is to leave it finished.
+  std::vector<std::uint8_t>& held() { return held_; }
+  bool isHeld(std::uint32_t job) const;
 
   std::vector<PassMemory>& memories() { return memories_; }
 
@@ -83,7 +90,7 @@ class FrameCadence {
   std::vector<std::uint32_t> jobOf_;  // per step, kNone
   std::vector<Job> jobs_;
   std::vector<SliceRange> slices_;
-  std::vector<std::uint8_t> run_, wants_;  // per step
+  std::vector<std::uint8_t> run_, wants_, held_;  // per step
   std::vector<std::uint8_t> written_,
       blocked_;  // per resource, within decide(): a running step writes it; it is not there
   std::vector<std::uint8_t> alwaysWritten_;  // per resource

@@ -35,6 +35,11 @@ class EnvironmentTextures {
 
   // The newest is shown from now on, and what was shown is before(); they may be the same.
   void publish();
+  // Until publish(), something else is shown(), and before(): black when empty.
+  void adopt(gl::Texture shown, gl::Texture before) {
+    shown_ = std::make_shared<const gl::Texture>(std::move(shown));
+    before_ = before ? std::make_shared<const gl::Texture>(std::move(before)) : nullptr;
+  }
   bool isPublished() const { return current_ == shown_; }
   std::uint64_t publications() const { return publications_; }
   // Black, one texel, when there is none.

@@ -23,10 +23,12 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   device_.imports.beginFrame(world, input);
   readBack_.collect();
   std::fill(publishing_.begin(), publishing_.end(), std::uint8_t{0});
-  publishFinished();
-  refreshImports(diagnostics);
-  resetHistories(diagnostics);
   choosePasses(false, diagnostics);
+  holdFading();
+  bool turned = publishFinished();
+  refreshImports(diagnostics);
+  turned |= resetHistories(diagnostics);
+  if (turned) choosePasses(false, diagnostics);
   refreshUniforms(false);
   refreshOwnHashes();
   if (input.headless) finishSlices(report, diagnostics);
@@ -41,6 +43,8 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   }
   if (report.whole) readBack_.copy(*plan_, *pool_, framebuffers_, input.frame, diagnostics);
   report.passesRun = static_cast<std::uint32_t>(std::ranges::count(ran_, std::uint8_t{1}));
+  for (std::size_t step = 0; step < ran_.size(); ++step)
+    report.slowRun += ran_[step] && plan_->graph->passes[plan_->steps[step].pass].cadence != graph::Cadence::always;
   report.passesSkipped = static_cast<std::uint32_t>(passes_.size()) - report.passesRun;
   ++framesRun_;
   return report;
@@ -100,14 +104,17 @@ void Execution::runDecided(FrameReport& report, base::Diagnostics& diagnostics) 
 }
 
 // What spread jobs finished in the frame before becomes what everybody sees.
-void Execution::publishFinished() {
+bool Execution::publishFinished() {
+  bool any = false;
   for (std::uint32_t job = 0; job < plan_->jobs.spread.size(); ++job) {
-    if (!cadence_->isFinished(job)) continue;
+    if (!cadence_->isFinished(job) || cadence_->isHeld(job)) continue;
     for (std::uint32_t r = 0; r < generations_.size(); ++r)
       if ((*pool_)[r].job == job) publish(r);
     publishImports(job);
     cadence_->markPublished(job);
+    any = true;
   }
+  return any;
 }
 
 void Execution::publish(std::uint32_t resource) {
@@ -135,7 +142,8 @@ void Execution::refreshImports(base::Diagnostics& diagnostics) {
   viewImports(diagnostics);
 }
 
-void Execution::resetHistories(base::Diagnostics& diagnostics) {
+bool Execution::resetHistories(base::Diagnostics& diagnostics) {
+  bool any = false;
   const graph::FlatGraph& graph = *plan_->graph;
   for (std::size_t h = 0; h < graph.histories.size(); ++h) {
     const graph::HistorySpec& history = graph.histories[h];
@@ -148,11 +156,13 @@ void Execution::resetHistories(base::Diagnostics& diagnostics) {
     const bool changed = framesRun_ > 0 && state != resetState_[h];
     resetState_[h] = state;
     if (!changed) continue;
+    any = true;
     GpuResource& resource = (*pool_)[history.resource];
     resource.publications = 0;
     ++resource.resets;
     pool_->fill(*plan_, history.resource, history.first, diagnostics);
   }
+  return any;
 }
 
 // Seconds since a resource was published. Not published yet: about to be. A headless run publishes everything before

@@ -48,6 +48,7 @@ struct Device {
 struct FrameReport {
   std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
   bool whole = true;   // false: FrameInput::obsolete said so, and what is presented is nothing to show
+  std::uint32_t slowRun = 0;  // of passesRun: those that are not `always`
 };
 
 class Execution {
@@ -96,16 +97,18 @@ class Execution {
   double ageOf(std::uint32_t resource) const;
   void choosePasses(bool alwaysOnly, base::Diagnostics& diagnostics);
   bool choosePass(std::size_t step, std::uint32_t conditions, base::Diagnostics& diagnostics);
+  void holdFading();
+  void adoptStandIns(Execution& before);
   void followWhole(base::Diagnostics& diagnostics);
   PrepareContext prepareContext(base::Diagnostics& diagnostics);
   void findMakers();
   void refreshUniforms(bool alwaysOnly);
   void refreshOwnHashes();
-  void resetHistories(base::Diagnostics& diagnostics);
+  bool resetHistories(base::Diagnostics& diagnostics);
   void finishSlices(FrameReport& report, base::Diagnostics& diagnostics);
   void refreshSlices();
   void runDecided(FrameReport& report, base::Diagnostics& diagnostics);
-  void publishFinished();
+  bool publishFinished();
   void publish(std::uint32_t resource);
   void runStep(std::size_t step, base::Diagnostics& diagnostics);
   void rotateWritten(const PreparedPass& pass);

@@ -59,6 +59,54 @@ void Execution::releaseImports() {
   }
 }
 
+// While a variant that age() chose for a time reads what a resource held before, the resource is not
+// published again: the picture would jump. What would publish it waits.
+void Execution::holdFading() {
+  std::vector<std::uint8_t>& held = cadence_->held();
+  std::fill(held.begin(), held.end(), std::uint8_t{0});
+  const graph::FlatGraph& graph = *plan_->graph;
+  const auto hold = [&](std::uint32_t r) {
+    const GpuResource& resource = (*pool_)[r];
+    const std::uint32_t import = graph.resources[r].import;
+    const bool shown =
+        import == kNone ? resource.publications > 0 : device_.imports.publications(graph.imports[import]) > 0;
+    if (!shown) return;
+    for (std::size_t step = 0; step < passes_.size(); ++step) {
+      const PreparedPass& pass = passes_[step];
+      if (graph.passes[plan_->steps[step].pass].cadence == Cadence::always) continue;
+      held[step] |= import == kNone ? std::ranges::find(pass.written, r) != pass.written.end()
+                                    : pass.job != kNone && pass.job == resource.maker;
+    }
+  };
+  for (const PreparedPass& pass : passes_) {
+    if (!pass.passing) continue;
+    for (const TextureBinding& binding : pass.textures)
+      if (binding.history > 0) hold(binding.resource);
+    for (const ImageBinding& binding : pass.images)
+      if (binding.history > 0) hold(binding.resource);
+    for (const BufferBinding& binding : pass.buffers)
+      if (binding.history > 0) hold(binding.resource);
+  }
+}
+
+// Where an import has taken the place of a texture that stood in for it: that texture is what was shown.
+void Execution::adoptStandIns(Execution& before) {
+  const graph::FlatGraph& graph = *plan_->graph;
+  for (const graph::FlatResource& mine : graph.resources) {
+    if (mine.kind != graph::ResourceKind::imported_texture) continue;
+    const graph::ImportSpec& import = graph.imports[mine.import];
+    for (const std::string& name : import.standIns) {
+      const std::uint32_t old = before.lastVersionOf(name);
+      if (old == kNone || lastVersionOf(name) != kNone) continue;
+      GpuResource& stoodIn = (*before.pool_)[old];
+      if (!stoodIn.texture || stoodIn.publications == 0) continue;
+      device_.imports.adopt(import, stoodIn.texture->take(stoodIn.copyOf(0)),
+                            stoodIn.copies > 1 ? stoodIn.texture->take(stoodIn.copyOf(1)) : gl::Texture{});
+      break;
+    }
+  }
+}
+
 // Passes that are not `always` and publish in this frame: what else the frame shows is of age 0 already.
 void Execution::followWhole(base::Diagnostics& diagnostics) {
   bool any = false;

@@ -161,6 +161,7 @@ void Execution::carryOver(Execution& before) {
       const auto& theirs = before.plan_->graph->resourceNames[before.plan_->graph->histories[o].resource];
       if (mine == theirs) resetState_[h] = before.resetState_[o];
     }
+  adoptStandIns(before);
 }
 
 }  // namespace weft::runtime

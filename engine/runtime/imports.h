@@ -44,6 +44,11 @@ class Imports {
   std::uint64_t publications(const graph::ImportSpec& import) const {
     return hasBefore(import) ? environments_.publications() : 0;
   }
+  // Textures of a graph's own that were in the import's place are what it shows and showed before (may be empty), until
+  // it is published.
+  void adopt(const graph::ImportSpec& import, gl::Texture shown, gl::Texture before) {
+    if (import.request.type == "environment") environments_.adopt(std::move(shown), std::move(before));
+  }
   // Nobody fades from what was shown before.
   void releaseBefore(const graph::ImportSpec& import) {
     if (hasBefore(import)) environments_.releaseBefore();

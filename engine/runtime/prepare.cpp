@@ -61,6 +61,7 @@ class Preparer {
     out_.variant = c_.variant;
     out_.conditions = c_.conditions;
     out_.conditional = conditionCount(spec_) > 0;
+    out_.passing = out_.conditional && c_.conditions != settledConditionsOf(spec_);
     if (!out_.variant) return false;
     out_.programHash = base::kHashSeed;
     for (const gl::StageSource& stage : out_.variant->stages)

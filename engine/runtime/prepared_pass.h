@@ -100,6 +100,7 @@ struct PreparedPass {
   std::uint64_t programHash = 0;
   bool conditional = false;                       // has dynamic defines
   std::uint32_t conditions = 0;                   // of its variant, see conditionsOf
+  bool passing = false;                           // that variant is not the one that time settles on
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
 

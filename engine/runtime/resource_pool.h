@@ -26,6 +26,8 @@ class PhysicalTexture {
   // The texture itself when the view would be all of it in its own format, else a cached view. Id 0 after an error.
   gl::TextureRef view(std::uint32_t copy, const gl::ViewDesc& desc, base::Diagnostics& diagnostics);
   bool fits(const graph::Storage& storage) const;
+  // Gives a copy away; it must not be used through here any more.
+  gl::Texture take(std::uint32_t copy) { return std::move(textures_[copy]); }
   std::uint64_t serial() const { return serial_; }
   std::uint32_t copies() const { return static_cast<std::uint32_t>(textures_.size()); }
 

@@ -22,6 +22,7 @@ def main():
         for graph in ("studio", "glow"):
             shot = pathlib.Path(name) / f"{graph}.png"
             done = run(weft, "view", f"graphs/{graph}.json", "--size", "640x360", "--max-frames", "5", "--screenshot", shot,
+                       "--wait-for-assets",
                        "--program-cache", "none", before=xvfb)
             report.check(done.code == 0, f"{graph}: exit code {done.code}\n{done.err}")
             report.check(not done.diagnostics, f"{graph}: {done.err}")

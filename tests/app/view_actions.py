@@ -48,7 +48,7 @@ def settles(live, wanted, report, what):
 
 
 def look_around(live, eyes, report):
-    first = live.shot()
+    first = live.settled()
     if not report.check(first, f"no first picture\n{live.said()}"):
         return
     described = eyes.describe(first)

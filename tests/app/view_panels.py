@@ -19,7 +19,7 @@ def panels(weft, folder, report, scale):
     try:
         if not report.check(live.open(), f"no window\n{live.said()}"):
             return
-        first = live.shot()
+        first = live.settled()
         if not report.check(first, f"no picture\n{live.said()}"):
             return
         for key in [*KEYS, "F2", "F3", "p", *KEYS, "F2", "F3"]:

@@ -77,11 +77,16 @@ TEST_CASE("time: the wall's, none while nothing is drawn, fixed steps while reco
   clock.skip(200);
   CHECK(clock.tick(200.25).time == doctest::Approx(0.75));
   CHECK(clock.tick(150).delta == 0);  // a wall clock that goes backwards
+  clock.worked();
+  CHECK(clock.tick(160).delta == FrameClock::kWorkStep);  // what only the frame before had to do
+  CHECK(clock.tick(160.5).delta == doctest::Approx(0.5));
+  clock.worked();
+  CHECK(clock.tick(160.51).delta == doctest::Approx(0.01));
   clock.fix(60);
   for (int frame = 1; frame <= 120; ++frame) {
     const FrameClock::Tick tick = clock.tick(1000.0 * frame);
     CHECK(tick.delta == 1 / 60.0);
-    CHECK(tick.time == doctest::Approx(0.75 + frame / 60.0));
+    CHECK(tick.time == doctest::Approx(1.31 + frame / 60.0));
   }
   clock.fix(0);
   CHECK(clock.tick(120000.5).delta == doctest::Approx(0.5));

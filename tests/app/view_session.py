@@ -27,7 +27,7 @@ def session(weft, compare, folder, report):
     try:
         if not report.check(live.open(), f"no window\n{live.said()}"):
             return
-        first = live.shot()
+        first = live.settled()
         if not report.check(first, f"no first picture\n{live.said()}"):
             return
         size = describe(first)

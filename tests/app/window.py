@@ -67,6 +67,16 @@ class Session:
         found = self.until(look)
         return max(found) if found else None
 
+    def settled(self):
+        """The picture at rest: of two later frames that are alike. While an environment fades in, no two are."""
+        shots = [self.shot()]
+
+        def alike():
+            shots.append(self.shot())
+            return all(shots[-2:]) and shots[-1].read_bytes() == shots[-2].read_bytes()
+
+        return shots[-1] if self.until(alike) else None
+
 
 def edit(path, pattern, text):
     """As editors save: a file beside it, then a rename."""

@@ -70,6 +70,24 @@ TEST_CASE("kinds by default and by word") {
   CHECK(d.use("p", "depth").planes == 3);
 }
 
+TEST_CASE("what an import showed before, and what stands in for it") {
+  const std::string graph = R"J({ "resources": {
+      "sky": { "texture": "rgba16f", "size": 8, "history": 1 }, "environment": ["@environment", "sky"],
+      "out": { "texture": "rgba8", "size": 8 } },
+    "passes": [ { "name": "make", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "sky" } },
+      { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "out" },
+        "read": { "now": "environment", "before": "environment@-1", "own": "sky@-1" } } ], "present": "out" })J";
+  const Expanded with = expandText(graph);
+  CHECK(with.text() == "");
+  CHECK(with.useText("p", "before") == with.useText("p", "now") + " @-1");
+  REQUIRE(with.graph->imports.size() == 1);
+  CHECK(with.graph->imports[0].before);
+  CHECK(with.graph->imports[0].standIns == std::vector<std::string>{"sky"});
+  const Expanded without = expandText(graph, {}, testRegistry({.environment = false}));
+  CHECK(without.text() == "");
+  CHECK(without.useText("p", "before") == without.useText("p", "own"));
+}
+
 TEST_CASE("kinds and formats that do not fit") {
   const auto is = [](Code code, const std::string& pass) {
     const Expanded e = tryPass(pass);
@@ -105,7 +123,8 @@ TEST_CASE("kinds and formats that do not fit") {
   is(Code::W52, fullscreen(R"J("read": { "a": "arr[2]" })J"));
   is(Code::W52, fullscreen(R"J("read": { "a": "col.mip[2..1]" })J"));
   is(Code::W54, fullscreen(R"J("read": { "a": "col@-1" })J"));
-  is(Code::W54, fullscreen(R"J("read": { "a": "@environment@-1" })J"));
+  is(Code::W54, fullscreen(R"J("read": { "a": "@environment@-2" })J"));
+  is(Code::W54, fullscreen(R"J("read": { "a": "lut@-1" })J"));
   is(Code::W55, compute(R"J("write": { "a": "@environment" })J"));
   is(Code::W55, compute(R"J("write": { "a": "col@-1" })J"));
   is(Code::W40, fullscreen(R"J("read": { "a": "coll" })J"));
@@ -190,23 +209,36 @@ TEST_CASE("slices: what could never end, what another writes too, and types that
   const auto tryPasses = [](const std::string& passes) {
     return expandText(R"J({ "resources": {
         "a": { "texture": "rgba8", "size": 8, "mips": 2 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },
-      "passes": [)J" + passes + R"J(,
+      "passes": [)J" + passes +
+                      R"J(,
         { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "src": "b" }, "write": { "r": "c" } } ], "present": "c" })J");
   };
-  const std::string slow = R"J({ "name": "slow", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, )J";
+  const std::string slow =
+      R"J({ "name": "slow", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, )J";
   CHECK(tryPasses(slow + R"J("write": { "r": "b" } })J").text() == "");
-  CHECK(tryPasses(R"J({ "name": "fast", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "a.mip[0]" } }, )J" + slow +
-                  R"J("read": { "src": "a.mip[0]" }, "write": { "r": "b" } })J").of(Code::W77).pass == "slow");
-  const std::string group = R"J({ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "group": "g",
+  CHECK(
+      tryPasses(
+          R"J({ "name": "fast", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "a.mip[0]" } }, )J" +
+          slow + R"J("read": { "src": "a.mip[0]" }, "write": { "r": "b" } })J")
+          .of(Code::W77)
+          .pass == "slow");
+  const std::string group =
+      R"J({ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "group": "g",
         "write": { "r": "a.mip[0]" } },
       { "name": "between", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", GROUP "read": { "src": "a.mip[0]" }, "write": { "r": "c" } },
       { "name": "two", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "group": "g", "read": { "src": "c" }, "write": { "r": "b" } })J";
-  const auto with = [&](const std::string& in) { return std::string(group).replace(group.find("GROUP"), 5, in); };
+  const auto with = [&](const std::string& in) {
+    return std::string(group).replace(group.find("GROUP"), 5, in);
+  };
   CHECK(tryPasses(with("")).of(Code::W77).pass == "between");
   CHECK(tryPasses(with(R"J("group": "g",)J")).text() == "");
-  CHECK(tryPasses(R"J({ "name": "top", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "write": { "r": "a.mip[0]" } },
+  CHECK(
+      tryPasses(
+          R"J({ "name": "top", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "write": { "r": "a.mip[0]" } },
       { "name": "mips", "type": "mipmap", "update": "on_change", "slices": 3, "read": { "source": "a.mip[0]" }, "write": { "result": "a.mip[1]" } },
-      { "name": "use", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "src": "a" }, "write": { "r": "b" } })J").of(Code::W77).pass == "mips");
+      { "name": "use", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "src": "a" }, "write": { "r": "b" } })J")
+          .of(Code::W77)
+          .pass == "mips");
 }
 
 TEST_CASE("includes: prefixes, binds, inputs of the same name, names from outside") {

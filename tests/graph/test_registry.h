@@ -58,7 +58,7 @@ inline std::vector<ImportType> testImports() {
   grid.count = 3;
   grid.v = {21, 21, 3, 0};
   return {
-      {"environment", ImportKind::texture, "", {}},
+      {.name = "environment", .kind = ImportKind::texture, .doc = "", .arguments = {}, .before = true},
       {"camera", ImportKind::view, "", {argument("jitter", Value::number(0))}},
       {"cut", ImportKind::event, "", {}},
       {"spheres", ImportKind::buffer, "", {}},

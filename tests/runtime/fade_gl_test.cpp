@@ -31,6 +31,11 @@ struct Live {
     stage.world.setEnvironment(std::move(map));
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   }
+  void set(std::vector<std::pair<std::string, std::string>> sets) {
+    stage.settings.sets = {stage.settings.sets[0]};
+    stage.settings.sets.insert(stage.settings.sets.end(), sets.begin(), sets.end());
+    REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
+  }
   std::vector<float> frame() {
     runtime::FrameInput input = runtime::headlessFrame(stage.world, 0, 60);
     input.headless = headless;
@@ -43,11 +48,15 @@ struct Live {
   int count = 0;
 };
 
-std::vector<float> finished(std::shared_ptr<const assets::EnvironmentMap> map) {
+// Null: the stand-in.
+std::vector<float> finished(std::shared_ptr<const assets::EnvironmentMap> map, const char* elevation = "35") {
   Live live("false", true);
   live.use(std::move(map));
+  live.set({{"sun_elevation", elevation}});
   return live.frame();
 }
+
+constexpr float kHalves = 0.004f;  // blending of a few layers, each rounded
 
 // The greatest difference of `picture` from mix(from, to, part), with half floats' precision taken off.
 float farFrom(const std::vector<float>& picture, const std::vector<float>& from, const std::vector<float>& to,
@@ -64,7 +73,6 @@ float farFrom(const std::vector<float>& picture, const std::vector<float>& from,
 // Frames until the whole of `to`: first all `from`, then the fade, frame by frame. How many were wholly
 // `from`.
 int follow(Live& live, const std::vector<float>& from, const std::vector<float>& to) {
-  constexpr float kHalves = 0.004f;  // blending of a few layers, each rounded
   int waiting = 0;
   std::vector<float> picture = live.frame();
   for (; farFrom(picture, from, to, 0) < kHalves && waiting < 200; picture = live.frame()) ++waiting;
@@ -96,6 +104,98 @@ TEST_CASE("a first environment fades in from black, a later one from the one bef
     follow(live, seesB, seesC);
     CHECK(live.frame() == seesC);  // to the bit
   }
+}
+
+TEST_CASE("a map that takes the place of the computed sky fades in from it, sky and lighting together") {
+  const auto a = makeMap(64, 0x3800, 1);
+  const std::vector<float> stoodIn = finished(nullptr), seesA = finished(a);
+  const std::vector<float> black(seesA.size(), 0.0f);
+  for (const char* sliced : {"false", "true"}) {
+    CAPTURE(sliced);
+    const CleanScope clean;
+    Live live(sliced);
+    live.use(nullptr);
+    follow(live, black, stoodIn);
+    CHECK(live.frame() == stoodIn);
+    live.use(a);
+    follow(live, stoodIn, seesA);
+    CHECK(live.frame() == seesA);
+  }
+  const CleanScope clean;
+  Live live("false");  // the map comes while the sky fades in
+  live.use(nullptr);
+  for (int k = 0; k < 3; ++k) live.frame();
+  live.use(a);
+  for (int k = 3; k < 5; ++k)
+    CHECK(farFrom(live.frame(), black, stoodIn, static_cast<float>(k * kStep / 0.25)) < kHalves);
+  follow(live, stoodIn, seesA);
+  CHECK(live.frame() == seesA);
+}
+
+TEST_CASE("what comes during a fade waits for its end: no frame is further from the one before than a step") {
+  const auto a = makeMap(64, 0x3800, 1), b = makeMap(64, 0x3c00, 7), c = makeMap(128, 0x3400, 3);
+  const std::vector<float> seesA = finished(a), seesB = finished(b), seesC = finished(c);
+  for (const char* sliced : {"false", "true"}) {
+    CAPTURE(sliced);
+    const CleanScope clean;
+    Live live(sliced);
+    live.use(a);
+    while (live.frame() != seesA && live.count < 100) {
+    }
+    std::vector<float> last = live.frame();
+    REQUIRE(last == seesA);
+    live.use(b);
+    const auto onwards = [&] {
+      std::vector<float> next = live.frame();
+      float worst = 0;
+      for (std::size_t i = 0; i < next.size(); ++i) {
+        const float step = std::max(std::abs(seesA[i] - seesB[i]), std::abs(seesB[i] - seesC[i])) *
+                           static_cast<float>(kStep / 0.25);
+        worst = std::max(worst, (std::abs(next[i] - last[i]) - step) / std::max(1.0f, next[i]));
+      }
+      CHECK(worst < kHalves);
+      last = std::move(next);
+    };
+    while (farFrom(last, seesA, seesA, 0) < kHalves && live.count < 200) onwards();
+    live.use(c);
+    while (live.count < 300) onwards();
+    CHECK(last == seesC);
+  }
+}
+
+TEST_CASE(
+    "a parameter of the lighting changed during a fade, frame after frame: each look is faded to in turn") {
+  const CleanScope clean;
+  const std::vector<float> high = finished(nullptr), low = finished(nullptr, "10");
+  const std::vector<float> black(high.size(), 0.0f);
+  Live live("false");
+  live.use(nullptr);
+  live.frame();
+  for (int k = 1; k <= 4; ++k) {
+    live.set({{"sun_elevation", std::to_string(35 - 5 * k)}});
+    CHECK(farFrom(live.frame(), black, high, static_cast<float>(k * kStep / 0.25)) < kHalves);
+  }
+  live.set({{"sun_elevation", "10"}});
+  follow(live, high, low);
+  CHECK(live.frame() == low);
+}
+
+TEST_CASE(
+    "once a fade is over nothing of it is left: no texture, no other shader, and the next one compiles "
+    "nothing") {
+  const CleanScope clean;
+  const auto a = makeMap(64, 0x3800, 1), b = makeMap(64, 0x3c00, 7);
+  Live live("false");
+  live.use(a);
+  for (int k = 0; k < 20; ++k) live.frame();
+  const auto textures = gl::liveObjects().of(gl::ObjectKind::texture);
+  const auto compiled = live.stage.renderer().device().programs.stats().compilations;
+  live.use(b);
+  live.frame();
+  CHECK(gl::liveObjects().of(gl::ObjectKind::texture) == textures + 1);  // the map shown before
+  for (int k = 0; k < 20; ++k) live.frame();
+  CHECK(gl::liveObjects().of(gl::ObjectKind::texture) == textures);
+  CHECK(live.stage.renderer().device().programs.stats().compilations == compiled);
 }
 
 TEST_CASE(

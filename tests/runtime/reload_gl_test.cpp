@@ -159,9 +159,12 @@ TEST_CASE("reload: changed parameters rerun what they reach and keep the rest") 
   for (const char* again : {"ibl.daylight.daylight_sky", "ibl.daylight.daylight_mips", "ibl.irradiance_map", "ibl.specular_prefilter[1]"})
     CHECK_MESSAGE(stage.ran(again), again);
 
+  // What was made anew fades in for a quarter of a second of 60 frames, and only then is made again.
+  constexpr std::uint32_t kFade = 15;
+  for (std::uint32_t frame = 3; frame <= 2 + kFade; ++frame) stage.run(frame);
   stage.settings.sets = {};
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  stage.run(3);
+  for (std::uint32_t frame = 3 + kFade; frame <= 3 + 2 * kFade; ++frame) stage.run(frame);
   CHECK(stage.pixels() == first);
 }
 
