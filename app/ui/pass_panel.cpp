@@ -17,6 +17,11 @@ std::string disabledBy(const graph::DisabledPass& pass) {
   return pass.why.starts_with(kOption) ? pass.why.substr(std::strlen(kOption)) : std::string();
 }
 
+// "3/24" of a pass that is spread over frames, else nothing.
+std::string sliceText(const runtime::SliceRange& range) {
+  return range.of > 1 && range.count < range.of ? fmt::format("{}/{}", range.first + 1, range.of) : std::string();
+}
+
 void explain(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();
@@ -56,6 +61,7 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
         const std::uint32_t index = plan.steps[step].pass;
         const std::string& name = graph.passNames[index];
         const bool ran = execution.ran(name);
+        const std::string slice = ran ? sliceText(execution.slices(step)) : "";
         ImGui::PushID(row);
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
@@ -65,11 +71,11 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
         if (!ran) ImGui::PopStyleColor();
         const bool timed = profile && step < timers.results().size() && timers.results()[step].ran;
         explain(name + (timed ? fmt::format(": GPU {:.2f} ms, CPU {:.2f} ms", timers.results()[step].gpu, timers.results()[step].cpu) : "") + "\n" +
-                explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
+                (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") + explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
                 (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
         if (!narrow) {
           ImGui::TableNextColumn();
-          ran ? ImGui::TextUnformatted("ran") : ImGui::TextDisabled("kept");
+          ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str()) : ImGui::TextDisabled("kept");
         }
         if (timed) {
           ImGui::TableNextColumn();

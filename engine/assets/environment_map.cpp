@@ -17,6 +17,8 @@ namespace {
 
 // Between two looks at the observer: about a millisecond's work.
 constexpr std::size_t kTexelsPerPortion = std::size_t{1} << 17;
+// What comes without a size (a pipe) fills half of its part of the bar with so much, and never all of it.
+constexpr double kTypicalBytes = 1 << 20;
 
 // Empty when `goOn` gave up.
 std::optional<EnvironmentMap> convert(const ImageF& image, const std::function<bool(double)>& goOn) {
@@ -52,8 +54,9 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::
   {
     const auto bytes =
         base::readFile(path, diagnostics, base::Code::W150, {}, [&](std::uint64_t done, std::uint64_t total) {
-          return goOn(LoadStage::reading,
-                      total == 0 ? 0 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total)));
+          const double size =
+              total == 0 ? static_cast<double>(done) + kTypicalBytes : static_cast<double>(total);
+          return goOn(LoadStage::reading, std::min(1.0, static_cast<double>(done) / size));
         });
     if (!bytes || !goOn(LoadStage::decoding, 0)) return {};
     image = decodeEnvironment(*bytes, path, diagnostics);

@@ -79,13 +79,16 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
   const std::uint64_t total = ec ? 0 : size;
   std::string bytes;
   char chunk[65536];
-  std::size_t got = 0;
-  while ((got = std::fread(chunk, 1, sizeof chunk, file.get())) > 0) {
-    bytes.append(chunk, got);
+  // Not fread: a slow pipe is told of as it comes.
+  for (;;) {
+    const ssize_t got = ::read(fileno(file.get()), chunk, sizeof chunk);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return fail(std::strerror(errno), "");
+    if (got == 0) break;
+    bytes.append(chunk, static_cast<std::size_t>(got));
     if (goOn && !goOn(bytes.size(), total)) return std::nullopt;
     if (bytes.size() > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
   }
-  if (std::ferror(file.get())) return fail(std::strerror(errno), "");
   return bytes;
 }
 

@@ -84,6 +84,7 @@ class Execution {
   void tap(std::uint32_t step, std::function<void()> look);
   bool tapped() const { return tapStep_ != graph::kNone; }
   bool ran(std::string_view pass) const;   // in the last frame
+  SliceRange slices(std::size_t step) const { return cadence_->slices(step); }  // of a step that ran in it
 
  private:
   Execution(Device& device, std::shared_ptr<const graph::Plan> plan) : device_(device), plan_(std::move(plan)) {}

@@ -1,13 +1,16 @@
 #include "engine/assets/loader.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <semaphore>
 #include <sstream>
+#include <thread>
 
 #include "engine/assets/half.h"
 #include "tests/assets/temporary.h"
@@ -237,6 +240,36 @@ TEST_CASE("progress grows through the stages of a load and never falls within it
     before = now.done;
   }
   CHECK(result->map);
+}
+
+TEST_CASE("progress of a pipe, which has no size, begins with what came of it") {
+  const TemporaryFolder folder;
+  std::ostringstream whole;
+  whole << std::ifstream(writeHdr(folder, "a.hdr", 32, 16), std::ios::binary).rdbuf();
+  const std::string bytes = whole.str(), pipe = folder.at("pipe.hdr");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::binary_semaphore seen{0};
+  bool inTime = false;
+  std::jthread writer([&] {
+    std::ofstream out(pipe, std::ios::binary);
+    out << bytes.substr(0, bytes.size() / 2) << std::flush;
+    inTime = seen.try_acquire_for(std::chrono::seconds(60));  // else half of it would never be told of
+    out << bytes.substr(bytes.size() / 2);
+  });
+  double last = 0;
+  base::Diagnostics diagnostics;
+  const auto map = loadEnvironmentMap(pipe, diagnostics, [&](LoadStage stage, double done) {
+    if (stage != LoadStage::reading) return true;
+    CHECK(done >= last);
+    CHECK(done < 1);
+    if (last == 0 && done > 0) seen.release();
+    last = done;
+    return true;
+  });
+  writer.join();
+  CHECK(inTime);
+  REQUIRE_MESSAGE(map, diagnostics.text());
+  CHECK(map->width == 32);
 }
 
 TEST_CASE("an observer that gives up ends a load at every step, without a result or a complaint") {
