@@ -59,7 +59,11 @@ inline std::vector<ImportType> testImports() {
   grid.v = {21, 21, 3, 0};
   return {
       {.name = "environment", .kind = ImportKind::texture, .doc = "", .arguments = {}, .before = true},
-      {"camera", ImportKind::view, "", {argument("jitter", Value::number(0))}},
+      {"camera",
+       ImportKind::view,
+       "",
+       {argument("jitter", Value::number(0)), argument("focal_length", Value::number(0)),
+        argument("sensor_height", Value::number(24))}},
       {"cut", ImportKind::event, "", {}},
       {"spheres", ImportKind::buffer, "", {}},
       {"sun", ImportKind::view, "", {}},
