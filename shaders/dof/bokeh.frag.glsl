@@ -35,6 +35,8 @@ out vec4 result;
 
 // Directions of 18 degrees, and of a step around the n-th ring.
 const vec2 kStart = vec2(0.951056516, 0.309016994);
+// From the fourth ring on each begins elsewhere, by the golden angle: else the beginnings would make spokes.
+const vec2 kGolden = vec2(-0.737368878, 0.675490294);
 const vec2 kStep[9] = vec2[9](vec2(1.0, 0.0), vec2(0.309016994, 0.951056516), vec2(0.809016994, 0.587785252), vec2(0.913545458, 0.406736643),
                               vec2(0.951056516, 0.309016994), vec2(0.968583161, 0.248689887), vec2(0.978147601, 0.207911691),
                               vec2(0.983930, 0.178557), vec2(0.987688341, 0.156434465));
@@ -50,8 +52,9 @@ float outline(vec2 direction) {
 float samplesTo(int ring) { return 1.0 + 2.5 * float(ring * (ring + 1)); }
 float ringRadius(int ring, float span, float samples) { return ring == 0 ? 0.0 : span * sqrt((1.0 + 2.5 * float(ring * ring)) / samples); }
 
-// Does a disc reach so far? The outermost ring of a disc of this size counts nearly whole, so that small discs are flatter.
-float reaches(float disc, float across) { return clamp(disc - across + 0.65, 0.0, 1.0); }
+// Does a disc reach so far? Gradually over the gap between two rings, of which there are `per_ring` to a texel: else discs would jump from
+// ring to ring where the searched radius changes. The outermost ring of a disc of this size counts nearly whole, so that small discs are flatter.
+float reaches(float disc, float across, float per_ring) { return clamp((disc - across) * per_ring + 0.65, 0.0, 1.0); }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -72,14 +75,19 @@ void main() {
   float level = clamp(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0, COARSEST), texel = exp2(level);
   float shared_variance = 4.0 * fillVariance(radius) + 1.7 + 0.667 * texel * texel;
   float span = sqrt(max(radius * radius - shared_variance, 0.25)) + 0.5;
+#if NEAR
+  float per_ring = min(sqrt(samples / 2.5) / span, 1.0);
+#endif
   float radius_of_alpha = behindRadius(1.0, largest);
   vec3 sum = vec3(0.0);
   float weights = 0.0, area = 0.0;
+  vec2 start = kStart;
   if (idle) outermost = -1;
   for (int ring = 0; ring <= outermost; ++ring) {
     int count = max(5 * ring, 1);
     float across = ringRadius(ring, span, samples);
-    vec2 direction = kStart, turn = kStep[ring];
+    vec2 direction = start, turn = kStep[ring];
+    if (ring > 2) start = vec2(start.x * kGolden.x - start.y * kGolden.y, start.x * kGolden.y + start.y * kGolden.x);
     for (int i = 0; i < count; ++i) {
       vec2 at = across * direction;
       float share = 1.0;
@@ -98,12 +106,12 @@ void main() {
       disc = sqrt(max(disc * disc - shared_variance, 0.25));
       // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
       float sharing = 0.0;
-      for (int k = 0; k <= outermost; ++k) sharing += max(5.0 * float(k), 1.0) * reaches(disc, ringRadius(k, span, samples));
-      share *= blur * reaches(disc, across) / sharing;
+      for (int k = 0; k <= outermost; ++k) sharing += max(5.0 * float(k), 1.0) * reaches(disc, ringRadius(k, span, samples), per_ring);
+      share *= blur * reaches(disc, across, per_ring) / sharing;
 #else
       float disc = c.a * radius_of_alpha, blur = clamp(2.0 * disc - 0.5, 0.0, 1.0);
       disc = sqrt(max(disc * disc - shared_variance, 0.25));
-      share *= hidden ? 1.0 : blur * reaches(disc, across);
+      share *= hidden ? 1.0 : blur * reaches(disc, across, 1.0);
       share /= max(hidden ? c.a : c.a * (disc * disc + 1.0 / 12.0), 1e-7);
 #endif
       sum += share * c.rgb;

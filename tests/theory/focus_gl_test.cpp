@@ -197,6 +197,48 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "focus: a disc before the focus beside a much larger one is even within 10 %, and as wide as by itself "
+    "within 7 %") {
+  constexpr std::uint32_t kWide = 768, kHigh = 256;
+  const Lens lens{.focalLength = 200, .aperture = 0.7, .focus = 40};
+  // Discs of 40 pixels around x = 120 and of 127 around x = 300, whose tile is the next but one.
+  const Ball small{.center = {-7.66, 0, 13.57}, .radius = 0.35f, .albedo = kGrey},
+      large{.center = {-0.833, 0, 17.8}, .radius = 0.12f, .albedo = kGrey};
+  double radii[2];
+  for (const bool beside : {false, true}) {
+    Setup setup = scene(beside ? std::vector{small, large} : std::vector{small}, lens);
+    setup.width = kWide;
+    setup.height = kHigh;
+    setup.sets.push_back({"largest_bokeh", "128"});
+    Lab lab(setup);
+    lab.frame(0);
+    const Picture panels = lab.read("panels");
+    CHECK(lab.complaints() == "");
+    double mass = 0, r2 = 0, least = 1, greatest = 0, mean = 0;
+    int count = 0;
+    for (std::uint32_t y = 64; y < 192; ++y)
+      for (std::uint32_t x = 56; x < 170; ++x) {
+        const double dark = 1 - panels.at(kWide + x, y)[1], dx = x - 119.5, dy = y - 127.5,
+                     d2 = dx * dx + dy * dy;
+        mass += dark;
+        r2 += dark * d2;
+        if (d2 > 22 * 22) continue;
+        least = std::min(least, dark);
+        greatest = std::max(greatest, dark);
+        mean += dark;
+        ++count;
+      }
+    mean /= count;
+    radii[beside] = std::sqrt(2 * r2 / mass);
+    CAPTURE(beside);
+    MESSAGE("radius ", radii[beside], ", least ", least / mean, ", greatest ", greatest / mean);
+    CHECK(least > 0.9 * mean);
+    CHECK(greatest < 1.1 * mean);
+  }
+  CHECK(radii[1] == doctest::Approx(radii[0]).epsilon(0.07));
+}
+
 TEST_CASE("focus: a surface that runs from before the focus into it shows nothing of what is behind it") {
   const Lens lens{.focalLength = 135, .aperture = 0.7, .focus = 6.5};
   for (const float radius : {1.0f, 2.0f}) {
