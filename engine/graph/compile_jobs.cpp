@@ -1,8 +1,9 @@
 // Jobs: live passes that are not `always` and run all or none, publishing together. Passes of one group are
 // one job, and so are the writers of a resource that is built jointly: one with history, one that somebody
 // modifies, one of a group or in slices. A job with a pass in more than one slice is spread over frames; what
-// it writes has one copy more.
+// it writes has one copy more and turns as a whole, so everybody who writes that is of the job too.
 #include <algorithm>
+#include <utility>
 
 #include "engine/graph/compile_steps.h"
 
@@ -13,6 +14,42 @@ namespace {
 std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i) {
   while (parents[i] != i) i = parents[i] = parents[parents[i]];
   return i;
+}
+
+using Lists = std::vector<std::vector<std::uint32_t>>;
+
+// Joins to each pass in slices all that a spread job draws in: who is joined already, and who writes what one
+// of those writes. Everybody is visited once.
+template <class EachWrite, class Join>
+void drawIn(const FlatGraph& graph, const std::vector<std::uint32_t>& members,
+            std::vector<std::uint32_t>& parents, const EachWrite& eachWrite, const Join& join) {
+  const auto sliced = [&](std::uint32_t p) { return graph.passes[p].slices > 1; };
+  if (std::ranges::none_of(members, sliced)) return;
+  Lists joined(graph.passes.size()), writers(graph.resources.size());
+  for (const std::uint32_t p : members) {
+    joined[rootOf(parents, p)].push_back(p);
+    eachWrite(p, [&](const FlatUse& use) { writers[use.resource].push_back(p); });
+  }
+  std::vector<std::uint32_t> rootBefore(graph.passes.size());
+  for (const std::uint32_t p : members) rootBefore[p] = rootOf(parents, p);
+  std::vector<std::uint8_t> seen(graph.passes.size(), 0);
+  for (const std::uint32_t start : members) {
+    if (!sliced(start) || seen[start] != 0) continue;
+    std::vector<std::uint32_t> open;
+    const auto take = [&](std::vector<std::uint32_t>& list) {
+      for (const std::uint32_t p : list)
+        if (std::exchange(seen[p], std::uint8_t{1}) == 0) open.push_back(p);
+      list.clear();
+    };
+    take(joined[rootBefore[start]]);
+    for (std::uint32_t first = start; !open.empty();) {
+      const std::uint32_t p = open.back();
+      open.pop_back();
+      join(first, p);
+      take(joined[rootBefore[p]]);
+      eachWrite(p, [&](const FlatUse& use) { take(writers[use.resource]); });
+    }
+  }
 }
 
 }  // namespace
@@ -58,6 +95,7 @@ Jobs formJobs(const FlatGraph& graph, const std::function<bool(std::uint32_t pas
       if (joint[use.resource] != 0) join(firstWriter[use.resource], p);
     });
   }
+  drawIn(graph, members, parents, eachWrite, join);
 
   std::vector<std::uint32_t> size(graph.passes.size(), 0), jobOfRoot(graph.passes.size(), kNone);
   for (const std::uint32_t p : members) ++size[rootOf(parents, p)];

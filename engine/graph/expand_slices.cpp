@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/graph/plan.h"
 
 namespace weft::graph::expansion {
@@ -22,7 +24,15 @@ base::Diagnostic& fail(Model& model, std::uint32_t pass, std::uint32_t resource,
   return d;
 }
 
-// Follows what `job` writes through passes that are not of it: where it comes back to the job, neither could ever end.
+// W76 says the same of what the pass modifies, unless that is version zero.
+bool isToldAlready(const Model& model, std::uint32_t pass) {
+  return std::ranges::any_of(model.diagnostics.items(), [&](const base::Diagnostic& each) {
+    return each.code == Code::W76 && each.pass == model.graph.passNames[pass];
+  });
+}
+
+// Follows what `job` writes through passes that are not of it: where it comes back to the job, neither could
+// ever end.
 void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job) {
   const FlatGraph& graph = model.graph;
   std::vector<std::uint32_t> from(graph.resources.size(), kNone);  // the pass outside that last touched it
@@ -32,7 +42,8 @@ void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job) {
         if (use.access != Access::read || use.history > 0 || from[use.resource] == kNone) return;
         const std::uint32_t between = from[use.resource];
         fail(model, between, use.resource,
-             fmt::format("pass '{}' stands between slices: it reads what they write and pass '{}' reads what it writes",
+             fmt::format("pass '{}' stands between slices: it reads what they write and pass '{}' reads what "
+                         "it writes",
                          graph.passNames[between], graph.passNames[p]))
             .hint = "give it the same \"group\"";
         from[use.resource] = kNone;
@@ -64,10 +75,12 @@ void checkSlices(Model& model) {
     eachUse(graph, p, [&](const FlatUse& use) {
       if (use.access == Access::read) return;
       alwaysWriter[use.resource] = p;
-      if (jobs.spreadWriterOf(use.resource) == kNone || use.access == Access::modify) return;  // modify is W76
-      fail(model, p, use.resource,
-           fmt::format("pass '{}' runs in every frame and writes '{}', which others write over several frames",
-                       graph.passNames[p], graph.resourceNames[use.resource]))
+      if (jobs.spreadWriterOf(use.resource) == kNone) return;
+      if (use.access == Access::modify && isToldAlready(model, p)) return;
+      fail(
+          model, p, use.resource,
+          fmt::format("pass '{}' runs in every frame and writes '{}', which others write over several frames",
+                      graph.passNames[p], graph.resourceNames[use.resource]))
           .hint = "write a resource of its own, or remove \"slices\"";
     });
   }
@@ -75,12 +88,14 @@ void checkSlices(Model& model) {
     const std::uint32_t job = jobs.jobOf(p);
     if (job == kNone || jobs.spread[job] == 0) continue;
     eachUse(graph, p, [&](const FlatUse& use) {
-      const std::uint32_t writer = use.access == Access::read && use.history == 0 ? alwaysWriter[use.resource] : kNone;
+      const std::uint32_t writer =
+          use.access == Access::read && use.history == 0 ? alwaysWriter[use.resource] : kNone;
       if (writer == kNone || jobs.spreadWriterOf(use.resource) != kNone) return;
       fail(model, p, use.resource,
            fmt::format("pass '{}' is spread over frames and reads '{}', which pass '{}' makes anew in each",
                        graph.passNames[p], graph.resourceNames[use.resource], graph.passNames[writer]))
-          .hint = fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]);
+          .hint =
+          fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]);
     });
   }
   for (std::uint32_t job = 0; job < jobs.spread.size(); ++job)

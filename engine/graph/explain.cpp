@@ -170,9 +170,17 @@ bool Explainer::touchesSameMemory(const Touch& a, std::int64_t frameA, const Tou
     return plan_.bufferOffsetOf[ra] < plan_.bufferOffsetOf[rb] + std::max<std::uint64_t>(1, y.bytes) &&
            plan_.bufferOffsetOf[rb] < plan_.bufferOffsetOf[ra] + std::max<std::uint64_t>(1, x.bytes);
   if (ra == rb) {
-    if (plan_.jobs.spreadWriterOf(ra) == kNone &&
-        ((frameA - a.use.history) - (frameB - b.use.history)) % (x.history + 1) != 0)
-      return false;
+    const std::uint32_t job = plan_.jobs.spreadWriterOf(ra);
+    if (job == kNone) {
+      if (((frameA - a.use.history) - (frameB - b.use.history)) % (x.history + 1) != 0) return false;
+    } else {  // it may publish at the start of any frame from A's on, or of none
+      const auto age = [&](const Touch& touch) {
+        const bool inside = touch.pass != kNone && plan_.jobs.jobOf(touch.pass) == job;
+        return touch.use.history + (inside ? 0 : 1);
+      };
+      const std::int64_t copies = plan_.copiesOf(ra), turns = (age(b) - age(a) + copies) % copies;
+      if (turns > frameB - frameA) return false;
+    }
   } else if (plan_.storageOf[ra] == kNone || plan_.storageOf[ra] != plan_.storageOf[rb]) {
     return false;
   }
@@ -218,7 +226,8 @@ std::vector<BarrierReason> Explainer::whyBarriers() const {
     return after ? plan_.steps[step].barriersAfterClears : plan_.steps[step].barriers;
   };
   std::int64_t deepest = 0;
-  for (const FlatResource& r : graph_.resources) deepest = std::max<std::int64_t>(deepest, r.history);
+  for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
+    deepest = std::max<std::int64_t>(deepest, plan_.copiesOf(r) - 1);
   const std::int64_t circle = 2 * (std::int64_t{end} + 1);
 
   // Forward from the barrier for what comes behind it, backward for what it waits for, both up to the next

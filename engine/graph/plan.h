@@ -63,7 +63,7 @@ struct Storage {
 // Passes that run all or none and publish together (compile_jobs.cpp says which). A job that is spread runs
 // one slice of one pass per frame and writes a copy that nobody else sees; once all of it is there, its
 // resources publish at the start of the next frame. Its passes read what the job writes from that copy, all
-// others from the latest publication.
+// others from the latest publication, and none of them writes it.
 struct Jobs {
   std::vector<std::uint32_t> ofPass;  // per pass; kNone: alone, always or culled. Empty: there are no jobs
   std::vector<std::uint8_t> spread;   // per job

@@ -174,6 +174,50 @@ TEST_CASE("a history is waited for where it was published") {
   CHECK(oracle::judgeBarriers(plan, 1).complaint == "");
 }
 
+TEST_CASE(
+    "what a spread job stores is waited for by its own passes in the frame, by others from the frame "
+    "before") {
+  FlatBuilder b = emptyGraph();
+  const auto a = b.texture("a"), sum = b.texture("sum"), shown = b.texture("shown");
+  b.pass("slow", Cadence::on_change).write(a, Kind::image);
+  b.graph.passes.back().slices = 4;
+  b.graph.passes.back().group = 0;
+  b.pass("rides", Cadence::on_change).read(a).write(sum, Kind::image);
+  b.graph.passes.back().group = 0;
+  b.pass("show").read(sum).write(shown).present(shown);
+  const Plan plan = b.compiled();
+  REQUIRE(plan.jobs.spreadWriterOf(a) != kNone);
+  REQUIRE(plan.jobs.spreadWriterOf(sum) == plan.jobs.spreadWriterOf(a));
+  // Each waits for stores of the frame before, of which there is none too many: `show` looks at another copy
+  // of `sum` than `rides` stores to. What `rides` samples was stored in this frame.
+  CHECK(plan.steps[0].barriers == kBarrierImage);
+  CHECK(plan.steps[1].barriers == kBarrierTexture);
+  CHECK(plan.steps[2].barriers == 0);
+  const oracle::Verdict verdict = oracle::judgeBarriers(plan, 1);
+  CHECK(verdict.complaint == "");
+  CHECK(verdict.bits == 2);
+}
+
+TEST_CASE("who writes what a spread job writes is of the job") {
+  FlatBuilder b = emptyGraph();
+  const auto a = b.texture("a"), mips = b.texture("mips", Format::rgba8, 64, 3), last = b.texture("last"),
+             shown = b.texture("shown");
+  b.pass("slow", Cadence::on_change).write(a);
+  b.graph.passes.back().slices = 4;
+  b.graph.passes.back().group = 0;
+  b.pass("rides", Cadence::on_change).mip(mips, 0, Kind::color, Access::write);
+  b.graph.passes.back().group = 0;
+  b.pass("one", Cadence::on_change).mip(mips, 1, Kind::color, Access::write);
+  b.pass("two", Cadence::once).mip(mips, 2, Kind::color, Access::write).write(last);
+  b.pass("free", Cadence::once).write(shown);
+  b.pass("show").read(a).read(mips).read(last).modify(shown).present(shown);
+  const Plan plan = b.compiled();
+  for (const std::uint32_t p : {0u, 1u, 2u, 3u}) CHECK(plan.jobs.jobOf(p) == 0);
+  CHECK(plan.jobs.jobOf(4) == kNone);
+  for (const std::uint32_t r : {a, mips, last}) CHECK(plan.copiesOf(r) == 2);
+  CHECK(plan.copiesOf(shown) == 1);
+}
+
 TEST_CASE("barriers stand whether or not a pass runs") {
   FlatBuilder b = emptyGraph();
   const auto lut = b.texture("lut"), a = b.texture("a"), shown = b.texture("shown");

@@ -222,6 +222,17 @@ TEST_CASE("slices: what could never end, what another writes too, and types that
           slow + R"J("read": { "src": "a.mip[0]" }, "write": { "r": "b" } })J")
           .of(Code::W77)
           .pass == "slow");
+  const auto jointly = [](const std::string& passes) {
+    return expandText(
+        R"J({ "resources": { "b": { "texture": "rgba8", "size": 8, "clear": 0 } }, "passes": [)J" + passes +
+        R"J( ], "present": "b" })J");
+  };
+  const std::string fast =
+      R"J({ "name": "fast", "type": "fullscreen", "shader": "a.frag.glsl", "modify": { "r": "b" } })J";
+  CHECK(jointly(fast + ", " + slow + R"J("modify": { "r": "b" } })J").of(Code::W77).pass == "fast");
+  const auto after = jointly(slow + R"J("modify": { "r": "b" } }, )J" + fast);
+  CHECK(after.of(Code::W76).pass == "fast");
+  CHECK(after.text().find("W077") == std::string::npos);
   const std::string group =
       R"J({ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl", "update": "on_change", "slices": 2, "group": "g",
         "write": { "r": "a.mip[0]" } },

@@ -29,14 +29,12 @@ std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std
 struct Verdict {
   std::string complaint;  // "" when there is no hazard under any schedule and no bit is to spare
   std::size_t bits = 0;   // of the plan
-  std::size_t byCadenceOnly =
-      0;                     // bits that can be dropped while everything runs, but not under some cadence
-  std::size_t bySpread = 0;  // of plans with spread jobs, whose copies the compiler takes for one: bits that
-                             // can be dropped while everything runs and publishes
+  // Bits that can be dropped while everything runs and publishes, but not under some cadence.
+  std::size_t byCadenceOnly = 0;
 };
 
-// A bit is to spare when dropping it leaves no hazard under any of the schedules; a complaint unless a job is
-// spread.
+// A bit is to spare when dropping it leaves no hazard under any of the schedules, nor under many more of
+// them.
 Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples = 64);
 
 // All single bits of the plan: each entry is the plan with one of them dropped.

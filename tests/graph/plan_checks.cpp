@@ -75,6 +75,7 @@ std::string checkLiveness(const Plan& plan) {
 }
 
 // What a pass in slices writes, or any pass that must publish with it: by closure, one pass after the other.
+// All that write what is written so belong to it.
 static std::vector<char> spreadResources(const Plan& plan) {
   const FlatGraph& graph = *plan.graph;
   const auto writes = [&](std::uint32_t p, std::uint32_t r) {
@@ -87,17 +88,7 @@ static std::vector<char> spreadResources(const Plan& plan) {
   const auto together = [&](std::uint32_t p, std::uint32_t q) {
     if (graph.passes[p].group != kNone && graph.passes[p].group == graph.passes[q].group) return true;
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
-      if (!writes(p, r) || !writes(q, r)) continue;
-      bool joint = graph.resources[r].history > 0;
-      for (std::uint32_t w = 0; w < graph.passes.size(); ++w) {
-        if (plan.stepOf[w] == kNone || !writes(w, r)) continue;
-        const FlatPass& pass = graph.passes[w];
-        joint = joint || (pass.cadence != Cadence::always && (pass.group != kNone || pass.slices != 1));
-        for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
-          joint = joint || (plan.attached[u] != 0 && graph.uses[u].resource == r &&
-                            graph.uses[u].access == Access::modify);
-      }
-      if (joint) return true;
+      if (writes(p, r) && writes(q, r)) return true;
     }
     return false;
   };

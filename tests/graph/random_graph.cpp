@@ -180,6 +180,25 @@ class Generator {
       if (chance(10)) b_.output(r);
     }
     if (!shown.empty()) b_.present(shown[pick(shown.size())]);
+    while (slices_ && joinAlwaysWriters()) {
+    }
+  }
+
+  // What a spread job writes is no other's to write (W77): who does joins the job. False: nobody does any
+  // more.
+  bool joinAlwaysWriters() {
+    const auto every = [](std::uint32_t) { return true; };
+    const Jobs jobs = formJobs(b_.graph, every, every);
+    bool any = false;
+    for (FlatPass& pass : b_.graph.passes)
+      for (std::uint32_t u = pass.firstUse;
+           pass.cadence == Cadence::always && u < pass.firstUse + pass.useCount; ++u)
+        if (b_.graph.uses[u].access != Access::read &&
+            jobs.spreadWriterOf(b_.graph.uses[u].resource) != kNone) {
+          pass.cadence = Cadence::on_change;
+          any = true;
+        }
+    return any;
   }
 
   std::mt19937_64 random_;
