@@ -63,7 +63,7 @@ void main() {
   float radius = searchRadius(pixel);
   bool idle = radius <= 0.0;
 #else
-    vec4 own = texelFetch(source, pixel, 0);
+  vec4 own = texelFetch(source, pixel, 0);
   bool hidden = own.a <= 0.0;
   float radius = searchRadius(own.a, pixel, discs, largest);
   float trust = hidden ? 1.0 : max(blurOf(2.0 * radius), 1e-3);
@@ -79,6 +79,7 @@ void main() {
   float per_ring = min(sqrt(samples / 2.5) / span, 1.0);
 #endif
   float radius_of_alpha = behindRadius(1.0, largest);
+  vec2 middle = gl_FragCoord.xy * to_uv;
   vec3 sum = vec3(0.0);
   float weights = 0.0, area = 0.0;
   vec2 start = kStart;
@@ -86,6 +87,10 @@ void main() {
   for (int ring = 0; ring <= outermost; ++ring) {
     int count = max(5 * ring, 1);
     float across = ringRadius(ring, span, samples);
+#if !NEAR
+    // reaches() for a gap of 1, of squares: their difference is that of the lengths times 2 `across`, about.
+    float per_difference = ring == 0 ? 4.0 : 0.5 / across;
+#endif
     vec2 direction = start, turn = kStep[ring];
     if (ring > 2) start = vec2(start.x * kGolden.x - start.y * kGolden.y, start.x * kGolden.y + start.y * kGolden.x);
     for (int i = 0; i < count; ++i) {
@@ -98,8 +103,8 @@ void main() {
       area += share;
 #endif
       direction = vec2(direction.x * turn.x - direction.y * turn.y, direction.x * turn.y + direction.y * turn.x);
-      at = (gl_FragCoord.xy + at) * to_uv;
-            vec4 c = textureLod(source, at, level);
+      at = middle + at * to_uv;
+      vec4 c = textureLod(source, at, level);
 #if NEAR
       float disc = textureLod(discs, at, level).r / max(c.a, 1e-4);
       float blur = blurOf(2.0 * disc);
@@ -110,9 +115,9 @@ void main() {
       share *= blur * reaches(disc, across, per_ring) / sharing;
 #else
       float disc = c.a * radius_of_alpha, blur = clamp(2.0 * disc - 0.5, 0.0, 1.0);
-      disc = sqrt(max(disc * disc - shared_variance, 0.25));
-      share *= hidden ? 1.0 : blur * reaches(disc, across, 1.0);
-      share /= max(hidden ? c.a : c.a * (disc * disc + 1.0 / 12.0), 1e-7);
+      float square = max(disc * disc - shared_variance, 0.25);
+      share *= hidden ? 1.0 : blur * clamp((square - across * across) * per_difference + 0.65, 0.0, 1.0);
+      share /= max(hidden ? c.a : c.a * (square + 1.0 / 12.0), 1e-7);
 #endif
       sum += share * c.rgb;
       weights += share * c.a;
