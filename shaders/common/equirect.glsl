@@ -38,12 +38,18 @@ float equirectLevel(float base_width, float angle) {
   return max(log2(angle * base_width * (0.5 / kPi)), 0.0);
 }
 
-// Linear lookup at a level; `height` is the height of level 0. u may lie outside 0..1: subtracting part of a turn moves the
-// map's content by it about +Y, from +X towards +Z.
-vec4 sampleEquirect(sampler2D map, vec2 map_uv, float level, float height) {
+// What a lookup at `level` of a map needs whose level 0 is `height` texels high: the level, and how close v may come to the poles.
+vec2 equirectLookup(float level, float height) {
   float texels = uintBitsToFloat(uint(127 + int(ceil(level))) << 23);  // exp2 of a whole number: a texel of the coarser level
-  float half_texel = 0.5 * texels / height;
-  return textureLod(map, vec2(map_uv.x, clamp(map_uv.y, half_texel, 1.0 - half_texel)), level);
+  return vec2(level, 0.5 * texels / height);
+}
+
+// Linear lookup. u may lie outside 0..1: subtracting part of a turn moves the map's content by it about +Y, from +X towards +Z.
+vec4 sampleEquirect(sampler2D map, vec2 map_uv, vec2 lookup) {
+  return textureLod(map, vec2(map_uv.x, clamp(map_uv.y, lookup.y, 1.0 - lookup.y)), lookup.x);
+}
+vec4 sampleEquirect(sampler2D map, vec2 map_uv, float level, float height) {
+  return sampleEquirect(map, map_uv, equirectLookup(level, height));
 }
 
 #endif
