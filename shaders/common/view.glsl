@@ -32,11 +32,4 @@ vec3 viewRay(vec2 target_uv) {
 // Radians that one pixel covers at the centre of the view.
 float pixelAngle() { return 2.0 / (projection[1].y * viewport.y); }
 
-// Motion of a point at infinity, in screen UV per frame.
-vec2 skyVelocity(vec2 target_uv, vec3 direction) {
-  vec3 before = mat3(previous_view_projection[0].xyw, previous_view_projection[1].xyw, previous_view_projection[2].xyw) *
-                direction;
-  return target_uv - (before.xy / max(before.z, 1e-3) * 0.5 + 0.5);
-}
-
 #endif
