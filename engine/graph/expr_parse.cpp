@@ -1,15 +1,14 @@
-// The grammar of docs/graph-format.md: a lexer with one token of lookahead and precedence climbing. Stops at
+// The grammar of docs/graph-format.md: one token of lookahead and precedence climbing. Stops at
 // the first error of an expression; recursion is bounded by kMaxNesting and the height of the tree by
 // kMaxParsedHeight.
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <utility>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expr_node.h"
+#include "engine/graph/expr_token.h"
 #include "engine/graph/names.h"
 
 namespace weft::graph {
@@ -19,14 +18,6 @@ namespace {
 constexpr int kMaxNesting = 64;
 constexpr int kMaxParsedHeight =
     kMaxExprHeight - 1;  // leaves one level for the list that Expr::listOf puts around it
-
-struct Token {
-  enum class Kind : std::uint8_t { end, number, identifier, punctuation, bad };
-  Kind kind = Kind::end;
-  std::size_t begin = 0;
-  std::string_view text;
-  double number = 0;
-};
 
 struct Function {
   const char* name;
@@ -97,51 +88,10 @@ class Parser {
                 expected);
   }
 
-  // ---- lexer ----
+  // ---- tokens ----
 
-  Token scan(std::size_t from) const {
-    while (from < text_.size() && isSpace(text_[from])) ++from;
-    Token token;
-    token.begin = from;
-    if (from >= text_.size()) return token;
-    const char c = text_[from];
-    std::size_t end = from + 1;
-    if (isDigit(c)) {
-      end = endOfNumber(from);
-      token.kind = Token::Kind::number;
-      const auto result = std::from_chars(text_.data() + from, text_.data() + end, token.number);
-      if (result.ec != std::errc() || !std::isfinite(token.number)) token.kind = Token::Kind::bad;
-    } else if (isIdentStart(c)) {
-      while (end < text_.size() && isIdentChar(text_[end])) ++end;
-      token.kind = Token::Kind::identifier;
-    } else {
-      token.kind = Token::Kind::punctuation;
-      const std::string_view two = text_.substr(from, 2);
-      if (two == "||" || two == "&&" || two == "==" || two == "!=" || two == "<=" || two == ">=") ++end;
-      // A whole UTF-8 sequence, so that messages never cut a character in half.
-      while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0) == 0x80) ++end;
-    }
-    token.text = text_.substr(from, end - from);
-    return token;
-  }
-
-  std::size_t endOfNumber(std::size_t at) const {
-    const auto digits = [&](std::size_t i) {
-      while (i < text_.size() && isDigit(text_[i])) ++i;
-      return i;
-    };
-    at = digits(at);
-    if (at + 1 < text_.size() && text_[at] == '.' && isDigit(text_[at + 1])) at = digits(at + 1);
-    if (at < text_.size() && (text_[at] == 'e' || text_[at] == 'E')) {
-      std::size_t exponent = at + 1;
-      if (exponent < text_.size() && (text_[exponent] == '+' || text_[exponent] == '-')) ++exponent;
-      if (exponent < text_.size() && isDigit(text_[exponent])) at = digits(exponent);
-    }
-    return at;
-  }
-
-  void advance() { token_ = scan(token_.begin + token_.text.size()); }
-  Token peek() const { return scan(token_.begin + token_.text.size()); }
+  void advance() { token_ = peek(); }
+  Token peek() const { return scanToken(text_, token_.begin + token_.text.size()); }
   bool at(std::string_view punctuation) const {
     return token_.kind == Token::Kind::punctuation && token_.text == punctuation;
   }

@@ -1,9 +1,9 @@
 // Overlays: files that extend others, presets, and what of them reaches into included files.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "tests/graph/expand_support.h"
+#include "tests/graph/test_folder.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -15,11 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // A folder of files for the time of a test, with a graph to lay overlays over.
-class Folder {
+class Folder : public TestFolder {
  public:
-  Folder() : path_(fs::path(WEFT_BINARY_DIR) / "overlay_test_files") {
-    fs::remove_all(path_);
-    fs::create_directories(path_ / "parts");
+  Folder() : TestFolder("overlay_test_files") {
     write("base.json", R"({
   "name": "base",
   "parameters": { "gain": { "default": 1.0, "min": 0, "max": 8, "label": "Gain" }, "soft": { "default": true } },
@@ -50,23 +48,11 @@ class Folder {
       "write": { "result": "glow" } } ]
 })");
   }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return file(name);
-  }
   // An overlay over base.json with these keys beside "extends".
   std::string over(const std::string& keys) const {
     return write("over.json",
                  "{ \"extends\": \"base.json\"" + std::string(keys.empty() ? "" : ", ") + keys + " }");
   }
-
- private:
-  fs::path path_;
 };
 
 Expanded expandFile(const std::string& path, const std::vector<std::string>& presets = {},

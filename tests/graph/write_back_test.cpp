@@ -10,6 +10,7 @@
 
 #include "engine/base/json_edit.h"
 #include "tests/graph/expand_support.h"
+#include "tests/graph/test_folder.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -26,26 +27,12 @@ std::string contents(const std::string& path) {
   return out.str();
 }
 
-class Folder {
+class Folder : public TestFolder {
  public:
-  Folder() : path_(fs::path(WEFT_BINARY_DIR) / "write_back_test_files") {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return file(name);
-  }
+  Folder() : TestFolder("write_back_test_files") {}
   std::string copy(const std::string& name) const {
     return write(name, contents(std::string(WEFT_SOURCE_DIR) + "/graphs/" + name));
   }
-
- private:
-  fs::path path_;
 };
 
 std::shared_ptr<const FlatGraph> load(const std::string& path, const Settings& settings,

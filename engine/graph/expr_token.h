@@ -1,0 +1,24 @@
+// The words of an expression: numbers, identifiers, operators. Private to engine/graph/expr*.cpp. Does not:
+// know keywords, or report; what is no token of the language comes as one of kind `bad` or as punctuation
+// that no grammar accepts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace weft::graph {
+
+struct Token {
+  enum class Kind : std::uint8_t { end, number, identifier, punctuation, bad };
+  Kind kind = Kind::end;
+  std::size_t begin = 0;
+  std::string_view text;
+  double number = 0;
+};
+
+// The token at or after `from`, spaces left out; of kind `end` behind the last. A number that a double cannot
+// hold is `bad`. Never cuts a UTF-8 sequence in half.
+Token scanToken(std::string_view text, std::size_t from);
+
+}  // namespace weft::graph
