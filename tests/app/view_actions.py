@@ -27,9 +27,7 @@ class Eyes:
 
 
 def close(live, report, code=0, left=True):
-    live.key("Escape")
-    live.until(lambda: not live.alive())
-    report.check(live.process.poll() == code, f"exit code {live.process.poll()}, not {code}\n{live.said()}")
+    live.leave(report, code)
     report.check("W120" not in live.said(), live.said())
     if left:
         report.check('"gl_objects_left": "none"' in live.said(), f"objects are left\n{live.said()[-1500:]}")
@@ -172,9 +170,7 @@ def start_broken(weft, folder, eyes, report):
             report.check(shot and eyes.describe(shot)[3] > 5, f"{part}: no picture after the fix\n{live.said()}")
             close(live, report)
         finally:
-            if live.alive():
-                live.process.kill()
-                live.process.wait()
+            live.stop()
     save(graph, whole.replace("{", "{{", 1))
     live = Session(weft, folder, "--stats", graph="graphs/glow.json")
     try:
@@ -184,9 +180,7 @@ def start_broken(weft, folder, eyes, report):
         close(live, report, code=1)
     finally:
         save(graph, whole)
-        if live.alive():
-            live.process.kill()
-            live.process.wait()
+        live.stop()
 
 
 def lose_a_tweak(weft, folder, screen, report):
@@ -224,9 +218,7 @@ def lose_a_tweak(weft, folder, screen, report):
         close(live, report)
     finally:
         save(graph, whole)
-        if live.alive():
-            live.process.kill()
-            live.process.wait()
+        live.stop()
 
 
 TWEAKED = """{
@@ -269,9 +261,7 @@ def main():
             record(live, report)
             close(live, report, code=1)  # the full disk
         finally:
-            if live.alive():
-                live.process.kill()
-                live.process.wait()
+            live.stop()
         start_broken(weft, folder, eyes, report)
         lose_a_tweak(weft, folder, screen, report)
     report.end()

@@ -74,14 +74,10 @@ def main():
             report.check(back, "idle mode sleeps before the fade is over")
             end = rests()
             report.check(end and end.read_bytes() == dark.read_bytes(), "idle mode does not sleep after a fade")
-            live.key("Escape")
-            live.until(lambda: not live.alive())
-            report.check(live.process.poll() == 0, f"exit code {live.process.poll()}\n{live.said()}")
+            live.leave(report)
             report.check('"gl_objects_left": "none"' in live.said() and "W120" not in live.said(), live.said())
         finally:
-            if live.alive():
-                live.process.kill()
-                live.process.wait()
+            live.stop()
     report.end()
 
 

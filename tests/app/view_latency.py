@@ -130,15 +130,11 @@ def main():
             report.check(live.open() and live.shot(), f"no picture\n{live.said()}")
             live.tool("mousemove", 1270, 1010)  # the display draws its cursor into the picture
             measure(live, Band(screen, arguments.size), folder, arguments.saves, report)
-            live.key("Escape")
-            live.until(lambda: not live.alive())
-            report.check(live.process.poll() == 0, f"exit code {live.process.poll()}\n{live.said()}")
+            live.leave(report)
             made = compilations(live) - at_start
             report.check(made == arguments.saves, f"{made} programs compiled for {arguments.saves} saves of one shader")
         finally:
-            if live.alive():
-                live.process.kill()
-                live.process.wait()
+            live.stop()
     report.end()
 
 

@@ -40,9 +40,7 @@ def main():
                 if live.alive():
                     samples.append(resident(live.process))
         finally:
-            if live.alive():
-                live.process.kill()
-            live.process.wait()
+            live.stop()
         frames = re.search(r'"frames": (\d+)', live.said())
         report.check(live.process.returncode == 0, f"exit code {live.process.returncode}\n{live.said()}")
         report.check(frames and int(frames.group(1)) == FRAMES, f"frames: {frames}\n{live.said()}")

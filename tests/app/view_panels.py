@@ -31,9 +31,7 @@ def panels(weft, folder, report, scale):
         live.shot()
         live.key("F9")
         traces = live.until(lambda: list(folder.glob("weft_*.trace.json")))
-        live.key("Escape")
-        live.until(lambda: not live.alive())
-        report.check(live.process.poll() == 0, f"exit code {live.process.poll()}\n{live.said()}")
+        live.leave(report)
         report.check(not live.said(), live.said())
         for path in [folder / "session.json", *(traces or [])]:
             events = json.loads(path.read_text())["traceEvents"]
@@ -42,9 +40,7 @@ def panels(weft, folder, report, scale):
                          f"{path.name}: {len(frames)} frames")
         report.check(traces, "F9 wrote no trace")
     finally:
-        if live.alive():
-            live.process.kill()
-            live.process.wait()
+        live.stop()
 
 
 def write_back(weft, folder, report):
@@ -61,13 +57,9 @@ def write_back(weft, folder, report):
         expected = re.sub(r'("curve": *\{ "default": )"filmic"', r'\g<1>"aces"', expected)
         changed = [a for a, b in zip(after.splitlines(), expected.splitlines()) if a != b]
         report.check(len(changed) == 1 and "fxaa" in changed[0] and "false" in changed[0], f"other lines changed: {changed}")
-        live.key("Escape")
-        live.until(lambda: not live.alive())
-        report.check(live.process.poll() == 0, f"exit code {live.process.poll()}\n{live.said()}")
+        live.leave(report)
     finally:
-        if live.alive():
-            live.process.kill()
-            live.process.wait()
+        live.stop()
     post.write_text(before)
 
 

@@ -87,14 +87,10 @@ def session(weft, compare, folder, report):
         resized = live.until(lambda: (s := live.shot()) and describe(s)[:2] == (500, 260) and s)
         report.check(resized and resized != turned, f"a picture of 500x260 never comes\n{live.said()}")
         live.tool("mousemove", "--window", live.window, 160, 90)
-        live.key("Escape")
-        live.until(lambda: not live.alive())
-        report.check(live.process.poll() == 0, f"Escape: exit code {live.process.poll()}")
+        live.leave(report)
         report.check("W120" not in live.said(), live.said())
     finally:
-        if live.alive():
-            live.process.kill()
-            live.process.wait()
+        live.stop()
 
 
 def closed_without_its_file(weft, folder, report):
@@ -104,13 +100,9 @@ def closed_without_its_file(weft, folder, report):
             return
         (folder / "graphs/studio.json").unlink()
         report.check(live.until(lambda: "error[W001]" in live.said()), f"nobody says that the graph is gone\n{live.said()}")
-        live.key("Escape")
-        live.until(lambda: not live.alive())
-        report.check(live.process.poll() == 1, f"closed without its file: exit code {live.process.poll()}")
+        live.leave(report, 1)
     finally:
-        if live.alive():
-            live.process.kill()
-            live.process.wait()
+        live.stop()
 
 
 def main():

@@ -41,6 +41,18 @@ class Session:
             time.sleep(0.05)
         return None
 
+    def leave(self, report, code=0):
+        """Closes the window as a person does; it is to end with `code`."""
+        self.key("Escape")
+        self.until(lambda: not self.alive())
+        report.check(self.process.poll() == code, f"exit code {self.process.poll()}, not {code}\n{self.said()}")
+
+    def stop(self):
+        """For a finally: whatever happened."""
+        if self.alive():
+            self.process.kill()
+            self.process.wait()
+
     def tool(self, *arguments):
         return subprocess.run(["xdotool", *map(str, arguments)], capture_output=True, text=True).stdout.split()
 
