@@ -48,8 +48,7 @@ float outline(vec2 direction) {
 }
 #endif
 
-// The rings from the middle to `ring` hold this many samples if each stands for one; and the n-th is this far out.
-float samplesTo(int ring) { return 1.0 + 2.5 * float(ring * (ring + 1)); }
+// The n-th ring is this far out.
 float ringRadius(int ring, float span, float samples) { return ring == 0 ? 0.0 : span * sqrt((1.0 + 2.5 * float(ring * ring)) / samples); }
 
 // Does a disc reach so far? Gradually over the gap between two rings, of which there are `per_ring` to a texel: else discs would jump from
@@ -70,10 +69,15 @@ void main() {
   bool idle = radius <= kLeastRadius;
 #endif
   // A level whose texels are as large as the gaps between the samples.
-  int outermost = clamp(int(ceil(0.7 * radius - 0.2)), 0, rings);
+  int outermost = ringsFor(radius, rings);
   float samples = samplesTo(outermost);
   float level = clamp(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0, COARSEST), texel = exp2(level);
-  float shared_variance = 4.0 * fillVariance(radius) + 1.7 + 0.667 * texel * texel;
+#if NEAR
+  float stride = fillStride(radius * inversesqrt(samples));
+#else
+  const float stride = 1.0;
+#endif
+  float shared_variance = 4.0 * stride * stride * fillVariance(radius) + 1.7 + 0.667 * texel * texel;
   float span = sqrt(max(radius * radius - shared_variance, 0.25)) + 0.5;
 #if NEAR
   float per_ring = min(sqrt(samples / 2.5) / span, 1.0);

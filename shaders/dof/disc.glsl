@@ -1,4 +1,4 @@
-// How far a pixel's layer is searched and how its blur is shared between the samples over a disc (bokeh) and the 3 x 3 texels
+// How far a pixel's layer is searched and how its blur is shared between the samples over a disc (bokeh) and the nine places
 // around each pixel that close the gaps (fill; Jimenez, "Next generation post processing in Call of Duty", SIGGRAPH 2014). The disc's
 // variance is radius^2 / 4 per axis, of which the fill and linear sampling take their part.
 #ifndef DOF_DISC_GLSL
@@ -25,8 +25,17 @@ float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
 }
 #endif
 
+// The rings from the middle to `ring` hold this many samples if each stands for one; small discs take fewer rings.
+float samplesTo(int ring) { return 1.0 + 2.5 * float(ring * (ring + 1)); }
+int ringsFor(float radius, int rings) { return clamp(int(ceil(0.7 * radius - 0.2)), 0, rings); }
+float samplesFor(float radius, int rings) { return samplesTo(ringsFor(radius, rings)); }
+
 // Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them.
 float fillVariance(float radius) { return clamp(0.62 * radius - 1.829, 0.0, 2.0 / 3.0); }
+
+// How far apart, in texels, the nine lookups of the fill lie, for a gap between samples before the focus: wide enough that highlights of a
+// few texels are no dots, and no wider, as it softens discs. (Behind the focus they lie a texel apart.)
+float fillStride(float gap) { return max(0.6 * gap, 1.0); }
 
 // Weight of the neighbours along an axis in the fill, 0..1.
 float fillWeight(float radius) {

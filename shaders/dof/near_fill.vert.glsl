@@ -2,6 +2,7 @@
 layout(std140) uniform Parameters {
   int tile;
   int largest;
+  int rings;
 };
 #include "work.glsl"
 

@@ -383,4 +383,11 @@ TEST_CASE(
       CHECK(disc.least > 0.8 * disc.mean);
       CHECK(disc.greatest < 1.2 * disc.mean);
     }
+  // A point of two, wherever it lies on the texels of the half size.
+  for (const int at : {186, 187, 188, 189}) {
+    const Disc disc = discOf(31, true, at, 183 + 3 * at % 4, "32");
+    CAPTURE(at);
+    CHECK(disc.least > 0.8 * disc.mean);
+    CHECK(disc.greatest < 1.2 * disc.mean);
+  }
 }
