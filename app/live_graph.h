@@ -42,6 +42,8 @@ class LiveGraph {
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);
+  // After a frame: what the GPU has is not kept here.
+  void dropUploaded() { renderer_.dropUploaded(world_); }
   // Asks for the next (1) or previous (-1) environment of the folder.
   void stepEnvironment(int by);
   // The size of the screen. False when it is what it was.

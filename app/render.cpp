@@ -64,6 +64,7 @@ int runRender(const Options& options) {
     recorder->begin(session->renderer.execution()->plan(), frame);
     last = session->renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
     recorder->end(last);
+    session->renderer.dropUploaded(*world);
     session->context->debugLog().drain(diagnostics);
     if (frame == 0) {
       glFinish();

@@ -169,6 +169,7 @@ void Viewer::frame(gl::Size size) {
   panels_.beforeFrame(frame_);
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   panels_.afterFrame(report_);
+  live_.dropUploaded();
   if (report_.slowRun > 0) clock_.worked();
   previousPose_ = in.pose;
   ++frame_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <exception>
 #include <span>
@@ -45,6 +46,11 @@ std::optional<EnvironmentMap> convert(const ImageF& image, const std::function<b
 }
 
 }  // namespace
+
+std::uint64_t newEnvironmentId() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::Diagnostics& diagnostics,
                                                  const LoadObserver& observer) try {

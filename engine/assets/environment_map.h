@@ -14,10 +14,15 @@
 
 namespace weft::assets {
 
+// Never the same twice.
+std::uint64_t newEnvironmentId();
+
 // Row 0 is +Y; alpha is 1; every value is finite and not negative.
 struct EnvironmentMap {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint16_t> texels{};  // width * height * 4 binary16
+  std::vector<std::uint16_t>
+      texels{};  // width * height * 4 binary16; empty in what stands for a map that a GPU has
+  std::uint64_t id = newEnvironmentId();  // of the picture: a copy, with or without texels, has the same
 };
 
 enum class LoadStage : std::uint8_t { idle, waiting, reading, decoding, converting };

@@ -1,6 +1,7 @@
 #include "engine/runtime/environment_texture.h"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 #include <utility>
 
@@ -9,6 +10,9 @@
 namespace weft::runtime {
 
 namespace {
+
+// Of a transfer: sending the rows; that and making the levels. The rest is the GPU.
+constexpr float kShareOfRows = 0.7f, kShareOfTransfer = 0.99f;
 
 // Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
 std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) {
@@ -43,16 +47,23 @@ std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics
   if (incoming_.stream) {
     incoming_.stream->advance(bytesOf(*map));
     const float sent = static_cast<float>(incoming_.stream->rows()) / static_cast<float>(map->height);
-    if (!incoming_.stream->sentAll()) return sent * 0.99f;
-    glGenerateTextureMipmap(incoming_.texture.id());
-    incoming_.levels = gl::Fence::insert();
+    if (!incoming_.stream->sentAll()) return sent * kShareOfRows;
+    incoming_.levels.emplace(incoming_.texture.ref(), kLevelTexelsPerFrame);
     incoming_.stream.reset();
+    return kShareOfRows;
   }
-  return incoming_.levels.isSignalled() ? 1.0f : 0.99f;
+  if (!incoming_.last) {
+    if (!incoming_.levels->advance(diagnostics)) return std::nullopt;
+    if (!incoming_.levels->madeAll())
+      return kShareOfRows + (kShareOfTransfer - kShareOfRows) * incoming_.levels->done();
+    incoming_.last = gl::Fence::insert();
+  }
+  return incoming_.last.isSignalled() ? 1.0f : kShareOfTransfer;
 }
 
 bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
-  if (currentMap_ == map) return true;
+  if (isNewest(*map)) return true;
+  assert(!map->texels.empty() && "dropped before they were used here");
   if (!black_) {
     auto black = gl::Texture::create({.format = GL_RGBA16F}, "@environment, none", diagnostics);
     if (!black) return false;
@@ -61,7 +72,7 @@ bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
     black_ = std::move(*black);
   }
   gl::Texture next;
-  if (incoming_.map == map && !incoming_.stream) {
+  if (incoming_.map == map && incoming_.last) {
     next = std::move(incoming_.texture);
   } else {
     auto texture = makeTexture(*map, diagnostics);
@@ -72,7 +83,7 @@ bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
   }
   if (incoming_.map == map) incoming_ = {};
   current_ = std::make_shared<const gl::Texture>(std::move(next));
-  currentMap_ = map;
+  currentId_ = map->id;
   return true;
 }
 

@@ -35,6 +35,7 @@ class Imports {
   gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
   // For sending the next environment beside the one in use.
   EnvironmentTextures& environments() { return environments_; }
+  const EnvironmentTextures& environments() const { return environments_; }
   // What `name` and `name@-1` are to passes that do not take part in making anything of it: an environment is shown from
   // publish() on, other imports at once. After texture().
   gl::TextureRef shown(const graph::ImportSpec& import, base::Diagnostics& diagnostics);

@@ -121,6 +121,11 @@ FrameReport Renderer::frame(const World& world, const FrameInput& input, base::D
   return execution_->frame(world, input, diagnostics);
 }
 
+void Renderer::dropUploaded(World& world) const {
+  const auto& map = world.environment();
+  if (map && device_.imports.environments().isNewest(*map)) world.dropEnvironmentTexels();
+}
+
 void Renderer::blackOut() {
   const graph::FlatGraph& graph = *execution_->plan().graph;
   const gl::TextureRef texture = execution_->presented();

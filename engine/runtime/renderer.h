@@ -37,6 +37,9 @@ class Renderer {
   // Runs nothing and presents black while the graph reads an environment that is still on its way (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
+  // After frame(): frees what the world holds and the GPU has. Only when nobody else renders that world.
+  void dropUploaded(World& world) const;
+
   Execution* execution() { return execution_.get(); }
   // What runs, as it was read; null before the first load().
   const graph::GraphDesc* desc() const { return desc_.get(); }

@@ -1,4 +1,6 @@
 // Environments sent beside the one in use, and a graph whose first environment is still on its way.
+#include <bit>
+
 #include "tests/runtime/stage.h"
 
 using namespace weft;
@@ -44,9 +46,14 @@ TEST_CASE("an environment that was sent in portions is the one uploaded at once,
   const CleanScope scope;
   base::Diagnostics diagnostics;
   EnvironmentTextures sent, direct;
-  for (const auto& map : {makeMap(2048, 1024, 1), makeMap(37, 19, 2), makeMap(1, 1, 3)}) {
+  for (const auto& map : {makeMap(2048, 1024, 1), makeMap(37, 19, 2), makeMap(1, 1, 3), makeMap(1500, 750, 4),
+                          makeMap(1501, 751, 5)}) {  // no powers of two
     const int calls = sendAll(sent, map, diagnostics);
-    CHECK(static_cast<std::size_t>(calls) >= map->texels.size() * 2 / EnvironmentTextures::kBytesPerFrame);
+    const std::size_t texels = map->texels.size() / 4, below = texels / 4;  // of the largest level below
+    const bool halves = std::has_single_bit(map->width);
+    CHECK(static_cast<std::size_t>(calls) >=
+          texels * 8 / EnvironmentTextures::kBytesPerFrame +
+              (halves ? below / EnvironmentTextures::kLevelTexelsPerFrame : 0));
     REQUIRE(sent.use(map, diagnostics));
     REQUIRE(direct.use(map, diagnostics));
     CHECK(sent.current().desc == direct.current().desc);
@@ -103,6 +110,32 @@ TEST_CASE("the environment in use stays as it is while another is sent, dropped,
   CHECK(alive() == 3);
   textures.releaseBefore();
   CHECK(alive() == 2);
+}
+
+TEST_CASE("an environment that the GPU has is not kept on the CPU, and stays through changes of the graph") {
+  const CleanScope scope;
+  Stage stage("tests/runtime/graphs/fade.json", 32, 18);
+  stage.world.setEnvironment(makeMap(64, 32, 1));
+  CHECK(stage.world.facts().environmentWidth == 64);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.renderer().dropUploaded(stage.world);
+  CHECK_FALSE(stage.world.environment()->texels.empty());  // no frame has sent it
+  stage.run(0);
+  const auto picture = stage.renderer().readPresentedFloat()->texels;
+  stage.renderer().dropUploaded(stage.world);
+  CHECK(stage.world.environment()->texels.empty());
+  CHECK(stage.world.dropEnvironmentTexels() == 0);
+  CHECK(stage.world.facts().environmentWidth == 64);
+  stage.run(1);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(2);
+  CHECK(stage.renderer().readPresentedFloat()->texels == picture);
+  for (const char* name : {"ibl.irradiance_map", "ibl.luminance_rows"}) CHECK_FALSE(stage.ran(name));
+  stage.world.setEnvironment(makeMap(64, 32, 9));
+  REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
+  for (std::uint32_t frame = 3; frame < 25; ++frame) stage.run(frame);
+  CHECK(stage.renderer().readPresentedFloat()->texels != picture);
+  CHECK(stage.world.dropEnvironmentTexels() == 64 * 32 * 8);
 }
 
 TEST_CASE("a map that the GPU cannot hold is refused, and the one in use stays") {
