@@ -9,6 +9,8 @@ namespace weft::app {
 int runRender(const Options& options);
 int runView(const Options& options);
 int runCheck(const Options& options);
+int runParams(const Options& options);
+int runPresets(const Options& options);
 int runDot(const Options& options);
 int runPlan(const Options& options);
 int runBench(const Options& options);

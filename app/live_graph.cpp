@@ -1,5 +1,7 @@
 #include "app/live_graph.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -36,10 +38,14 @@ void replaceAll(std::string& text, const std::string& what, const std::string& b
   }
 }
 
-// Whether `diagnostic` says that the graph does not take a setting: it has no place in a file, and names it.
+// Whether `diagnostic` is at a setting.
+bool isAt(const base::Diagnostic& diagnostic, const std::string& source) {
+  return diagnostic.place.file && *diagnostic.place.file == *graph::placeOfSetting(source).file;
+}
+
+// Whether it says that the graph does not take it.
 bool isAbout(const base::Diagnostic& diagnostic, const std::string& source) {
-  return diagnostic.severity == base::Severity::error && !diagnostic.place.file &&
-         diagnostic.message.find(source) != std::string::npos;
+  return diagnostic.severity == base::Severity::error && isAt(diagnostic, source);
 }
 
 }  // namespace
@@ -63,6 +69,10 @@ void LiveGraph::tellOfHere(const base::Diagnostics& said, const graph::Settings&
                            base::Diagnostics& diagnostics) const {
   for (base::Diagnostic each : said.items()) {
     const auto rename = [&](const std::string& what, const std::string& by) {
+      if (isAt(each, what)) {
+        each.place = {};
+        each.message = fmt::format("{}: {}", by, each.message);
+      }
       for (std::string* text : {&each.message, &each.expected, &each.found, &each.hint})
         replaceAll(*text, what, by);
     };

@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
   if (!options) return exitCode;
 
   static constexpr std::pair<const char*, int (*)(const Options&)> kCommands[] = {
-      {"render", runRender}, {"view", runView},   {"check", runCheck},   {"dot", runDot},
-      {"plan", runPlan},     {"bench", runBench}, {"schema", runSchema}, {"types", runTypes},
+      {"render", runRender}, {"view", runView},       {"check", runCheck}, {"params", runParams}, {"presets", runPresets},
+      {"dot", runDot},       {"plan", runPlan},       {"bench", runBench}, {"schema", runSchema}, {"types", runTypes},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return run(*options);

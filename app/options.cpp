@@ -49,6 +49,23 @@ std::string presetFile(const std::string& preset) {
   return name && !std::filesystem::exists(preset, ignored) ? presetsFolder() + "/" + preset + ".json" : preset;
 }
 
+// Whether there was one.
+bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  bool told = false;
+  for (int i = 2; i < argc; ++i) {
+    const std::string argument = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!argument.starts_with("--") || std::ranges::find(names, argument) != names.end()) continue;
+    const std::string near = base::nearestName(argument, names);
+    fmt::print(stderr, "weft {}: unknown option '{}'; {}\n", command.get_name(), argument,
+               near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near));
+    told = true;
+  }
+  return told;
+}
+
 struct Raw {
   std::string size = "1280x720", frames = "0";
   std::vector<std::string> sets;
@@ -85,6 +102,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   Raw raw;
   CLI::App app("Weft: a frame is a JSON file", "weft");
   app.require_subcommand(1);
+  const auto asJson = [&options] { options.format = "json"; };
   app.set_version_flag("--version", "weft 0.1.0");
 
   CLI::App* render = app.add_subcommand("render", "render frames of a graph to image files, without a display");
@@ -95,7 +113,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")->check(CLI::Validator(checkFrames, "A:B"));
   render->add_option("--fps", options.fps, "frames per second of the clock")->check(CLI::Range(1.0, 1000.0));
   render->add_flag(kWaitForAssets, options.waitForAssets, "the first frame waits for everything it needs; always so without a window");
-  render->add_flag("--quiet", options.quiet, "no progress bar");
+  render->add_flag("--quiet", options.quiet, "no progress bar and no notes");
 
   CLI::App* view = app.add_subcommand("view", "open a window and run a graph in it");
   addGraphOptions(*view, options, raw);
@@ -118,6 +136,13 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   CLI::App* check = app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");
   addGraphOptions(*check, options, raw);
   check->add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
+
+  CLI::App* params = app.add_subcommand("params", "list the parameters of a graph: name, type, value, range, label");
+  addGraphOptions(*params, options, raw);
+  params->add_flag_callback("--json", asJson, "as JSON");
+
+  CLI::App* presets = app.add_subcommand("presets", "list the bundled presets, for --preset");
+  presets->add_flag_callback("--json", asJson, "as JSON");
 
   CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
   addGraphOptions(*dot, options, raw);
@@ -150,6 +175,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty() || !tellUnknownOption(*chosen.front(), argc, argv)) app.exit(error);
+    exitCode = 2;
+    return std::nullopt;
   } catch (const CLI::ParseError& error) {
     exitCode = app.exit(error) == 0 ? 0 : 2;
     return std::nullopt;

@@ -10,7 +10,7 @@
 namespace weft::app {
 
 struct Options {
-  std::string command;                       // "render", "view", "check", "dot", "plan", "bench", "schema", "types"
+  std::string command;                       // "render", "view", "check", "dot", "plan", "params", "presets", "bench", …
   std::string graph;                         // path of the graph file
   std::string scene, environment;            // empty: the bundled spheres, no environment
   std::string camera, materials;             // of the scene; empty: its first camera, the materials it names
@@ -25,7 +25,7 @@ struct Options {
   std::string cacheFolder;                   // program binaries; empty: the user's cache folder, "none": none
   bool stats = false, profile = false, quiet = false;
   bool shaders = true;                       // check: compile every shader too
-  std::string format = "text";               // plan: text or json
+  std::string format = "text";               // plan, params, presets: text or json
   bool explain = false;                      // plan: say why
   std::vector<std::string> workloads;        // bench
   std::string frameGraph;                    // bench --frame

@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/device_session.h"
 #include "app/output_files.h"
+#include "app/progress.h"
 #include "app/session.h"
 #include "app/trace_recorder.h"
 
@@ -20,13 +21,9 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void showProgress(std::uint32_t done, std::uint32_t total, double seconds) {
-  const int width = 40;
-  const int filled = static_cast<int>(std::uint64_t{done} * width / total);
-  const double rest = done ? seconds / done * (total - done) : 0;
-  fmt::print(stderr, "\r[{}{}] {}/{} frames, {:.1f} s left ", std::string(static_cast<std::size_t>(filled), '#'),
-             std::string(static_cast<std::size_t>(width - filled), '.'), done, total, rest);
-  if (done == total) std::fputc('\n', stderr);
+void showProgress(const Progress& progress) {
+  fmt::print(stderr, "\r{}\033[K", progressText(progress));
+  if (progress.done == progress.total) std::fputc('\n', stderr);
   std::fflush(stderr);
 }
 
@@ -43,7 +40,12 @@ int runRender(const Options& options) {
     return report(diagnostics);
   }
   auto session = openDevice(options, diagnostics);
-  if (!session) return report(diagnostics) ? 3 : 3;
+  if (!session) {
+    // The graph's own mistakes are no matter of the machine.
+    makePlan(options, world->facts(), true, diagnostics);
+    report(diagnostics);
+    return 3;
+  }
   if (!session->renderer.load(settingsOf(options, session->context->device().software), *world, diagnostics))
     return report(diagnostics);
   if (session->renderer.execution()->presented().id == 0) {
@@ -53,24 +55,27 @@ int runRender(const Options& options) {
   }
   const double prepared = now();
   double firstFrame = 0;
-  const bool progress = options.lastFrame > 0 && !options.quiet;  // frames before the first one written run too
+  // Frames before the first one written run too when it may look back at them.
+  const std::uint32_t begin = session->renderer.execution()->remembers(*world) ? 0 : options.firstFrame;
+  const std::uint32_t total = options.lastFrame - begin + 1;
+  const bool progress = total > 1 && !options.quiet;
   session->renderer.device().timers.setEnabled(options.profile);
   auto recorder = std::make_unique<TraceRecorder>(session->renderer.device().timers);
   if (!options.trace.empty() && !recorder->start(options.trace, diagnostics)) return report(diagnostics);
   runtime::FrameReport last;
-  // Every frame from 0 runs, so that frame N with history does not depend on where the range starts.
-  for (std::uint32_t frame = 0; frame <= options.lastFrame; ++frame) {
+  // So that frame N does not depend on where the range starts.
+  for (std::uint32_t frame = begin; frame <= options.lastFrame; ++frame) {
     const double before = now();
     recorder->begin(session->renderer.execution()->plan(), frame);
     last = session->renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
     recorder->end(last);
     session->renderer.dropUploaded(*world);
     session->context->debugLog().drain(diagnostics);
-    if (frame == 0) {
+    if (frame == begin) {
       glFinish();
       firstFrame = now() - before;
     }
-    if (progress) showProgress(frame + 1, options.lastFrame + 1, now() - prepared);
+    if (progress) showProgress({.done = frame - begin + 1, .total = total, .lead = options.firstFrame - begin, .seconds = now() - prepared});
     if (frame < options.firstFrame) continue;
     if (diagnostics.hasErrors() || !savePresented(session->renderer, *outputNameOf(options.output, frame), diagnostics)) return report(diagnostics);
   }
@@ -81,13 +86,14 @@ int runRender(const Options& options) {
     auto stats = statsOf(*session, {{"setup_ms", (prepared - start) * 1e3},
                                     {"first_frame_ms", firstFrame * 1e3},
                                     {"total_ms", (now() - start) * 1e3},
+                                    {"frames_run", total},
                                     {"passes_run_last_frame", last.passesRun},
                                     {"passes_skipped_last_frame", last.passesSkipped},
                                     {"barriers_last_frame", last.barriers}});
     stats["gl_objects_left"] = closeDevice(std::move(session));
     print(stats);
   }
-  return report(diagnostics);
+  return report(diagnostics, !options.quiet);
 }
 
 }  // namespace weft::app

@@ -72,9 +72,10 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
   return std::make_shared<const graph::Plan>(graph::compile(flat));
 }
 
-int report(base::Diagnostics& diagnostics) {
+int report(base::Diagnostics& diagnostics, bool notes) {
   diagnostics.sortByPlace();
-  std::fputs(diagnostics.text().c_str(), stderr);
+  for (const base::Diagnostic& d : diagnostics.items())
+    if (notes || d.severity != base::Severity::note) std::fputs((base::format(d) + "\n").c_str(), stderr);
   return diagnostics.hasErrors() ? 1 : 0;
 }
 

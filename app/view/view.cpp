@@ -22,7 +22,7 @@ bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
   for (const std::string& file : {options.graph, scenePathOf(options)})
     if (!std::filesystem::is_regular_file(file, ignored)) return false;
   return std::ranges::none_of(diagnostics.items(), [](const base::Diagnostic& each) {
-    return each.severity == base::Severity::error && !each.place.file;
+    return each.severity == base::Severity::error && (!each.place.file || graph::isSetting(each.place));
   });
 }
 
@@ -36,6 +36,9 @@ int runView(const Options& options) {
   if (diagnostics.hasErrors()) return report(diagnostics);
   auto session = openDevice(options, diagnostics);
   if (!session) {
+    // What is wrong with the files is no matter of the machine.
+    const auto world = loadWorld(files, diagnostics);
+    makePlan(files, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
     report(diagnostics);
     return 3;
   }

@@ -151,9 +151,11 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
   const auto channels = static_cast<std::size_t>(image.channels);
   const std::size_t colours = image.texels.size() / channels * std::min<std::size_t>(channels, 3);
   base::Diagnostic& d =
-      diagnostics.warning(Code::W153, placeOf(name),
-                          fmt::format("{} of {} colour values are no radiance and were replaced",
-                                      undefined + negative + tooBright, colours));
+      diagnostics.add({.severity = undefined + negative > 0 ? base::Severity::warning : base::Severity::note,
+                       .code = Code::W153,
+                       .message = fmt::format("{} of {} colour values are no radiance and were replaced",
+                                              undefined + negative + tooBright, colours),
+                       .place = placeOf(name)});
   d.expected = fmt::format("numbers from 0 to {}", kHalfMax);
   d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite or above the range (now {})",
                         undefined, negative, tooBright, kHalfMax);

@@ -1,6 +1,6 @@
 // Pictures as CPU data: decoding, saving, cleaning an environment map. Row 0 is the top row, as in the files.
 // Every failure is a Diagnostic: W150 (cannot be read), W151 (unknown kind of file), W152 (empty or too
-// large), W153 (warning: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never
+// large), W153 (warning, or note when none was worse than too bright: texels were replaced), W180 (cannot be written). Nothing throws, corrupt bytes never
 // crash. Thread safe: no state is shared between calls. Does not: know GL, build mips, convert colour spaces
 // other than sRGB.
 #pragma once
@@ -43,7 +43,7 @@ std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& nam
 std::optional<Image8> loadImage8(const std::string& path, int channels, base::Diagnostics& diagnostics);
 
 // loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite and beyond 65504
-// become 65504. Adds one W153 warning with the counts when anything was replaced.
+// become 65504. Adds one W153 with the counts when anything was replaced.
 std::optional<ImageF> loadEnvironment(const std::string& path, base::Diagnostics& diagnostics);
 // The same for bytes in memory, as decodeImage.
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);

@@ -39,6 +39,25 @@ MaterialPreset readPreset(const JsonValue& value, std::size_t index, Diagnostics
   return preset;
 }
 
+// One habit, such as bytes for albedo, makes every material wrong: the first values show it.
+constexpr std::size_t kOutOfRangeTold = 12;
+
+void appendCapped(const Diagnostics& said, Diagnostics& diagnostics) {
+  std::size_t outOfRange = 0;
+  base::Place last;
+  for (const base::Diagnostic& d : said.items())
+    if (d.code != Code::W155 || ++outOfRange <= kOutOfRangeTold) {
+      diagnostics.add(d);
+      last = d.place;
+    }
+  if (outOfRange > kOutOfRangeTold)
+    diagnostics.add(
+        {.severity = base::Severity::note,
+         .code = Code::W155,
+         .message = fmt::format("and {} more values out of range in this file", outOfRange - kOutOfRangeTold),
+         .place = last});
+}
+
 }  // namespace
 
 const MaterialPreset* MaterialLibrary::find(std::string_view name) const {
@@ -56,18 +75,18 @@ std::vector<std::string> MaterialLibrary::names() const {
 
 std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const std::string& name,
                                                    Diagnostics& diagnostics) {
-  const std::size_t errorsBefore = diagnostics.errorCount();
   const auto root = base::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
   if (!root || !base::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
+  Diagnostics said;
   MaterialLibrary library;
   std::unordered_map<std::string, base::Place> places;
   for (std::size_t i = 0; i < root->items.size(); ++i) {
     const JsonValue& value = root->items[i];
-    MaterialPreset preset = readPreset(value, i, diagnostics);
+    MaterialPreset preset = readPreset(value, i, said);
     const auto [before, fresh] = places.try_emplace(preset.name, value.place);
     if (!fresh && !preset.name.empty()) {
       base::Diagnostic& d =
-          diagnostics.error(Code::W156, value.place, fmt::format("a second material '{}'", preset.name));
+          said.error(Code::W156, value.place, fmt::format("a second material '{}'", preset.name));
       d.pointer = value.pointer;
       d.hint = fmt::format("rename one; the first stands in line {}", before->second.line);
     }
@@ -76,7 +95,8 @@ std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const 
       library.categories.push_back(preset.category);
     library.materials.push_back(std::move(preset));
   }
-  if (diagnostics.errorCount() > errorsBefore) return {};
+  appendCapped(said, diagnostics);
+  if (said.hasErrors()) return {};
   return library;
 }
 

@@ -97,7 +97,8 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
     diagnostics
         .error(Code::W180, {std::make_shared<const std::string>(path), 0, 0},
                fmt::format("cannot write '{}': {}", path, reason))
-        .hint = "name a file in an existing folder that can be written to";
+        .hint = reason == std::strerror(ENOSPC) ? "free some space, or name a file on another disk"
+                                                : "name a file in an existing folder that can be written to";
     return false;
   };
   std::error_code ec;
@@ -106,7 +107,9 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
   const auto canonical = std::filesystem::canonical(path, ec);
   const std::string target = ec ? path : canonical.string();
   const auto before = std::filesystem::status(target, ec);
-  const std::string temporary = fmt::format("{}.{}.tmp", target, ::getpid());
+  // A device or a pipe is written to, not replaced.
+  const bool special = std::filesystem::exists(before) && !std::filesystem::is_regular_file(before);
+  const std::string temporary = special ? target : fmt::format("{}.{}.tmp", target, ::getpid());
   FilePtr file(std::fopen(temporary.c_str(), "wb"));
   if (!file) return fail(std::strerror(errno));
   const bool written =
@@ -117,10 +120,10 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
   if (written && std::filesystem::is_regular_file(before))
     std::filesystem::permissions(temporary, before.permissions(), ec);
   ec.clear();
-  if (written) std::filesystem::rename(temporary, target, ec);
+  if (written && !special) std::filesystem::rename(temporary, target, ec);
   if (!written || ec) {
     std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
+    if (!special) std::filesystem::remove(temporary, ignored);
     return fail(written ? ec.message() : std::strerror(error));
   }
   return true;

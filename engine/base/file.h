@@ -24,7 +24,7 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
                                     const Place& place, const ReadProgress& goOn);
 
 // Writes through a temporary file beside `path` and renames it, so that a failure never leaves half a file. A file
-// that is there keeps its permissions, a link goes on leading to it.
+// that is there keeps its permissions, a link goes on leading to it, a device is written to as it is.
 // Reports Code::W180 and returns false when it cannot.
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics);
 

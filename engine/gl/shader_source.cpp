@@ -222,6 +222,19 @@ std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key)
   return found->second.source;
 }
 
+namespace {
+
+// Those that differ in stage and ending only, else those of nearly that name.
+std::string hintForShader(const std::string& path, const std::vector<std::string>& known) {
+  const std::string stem = path.substr(0, path.find('.', path.rfind('/') + 1)) + ".";
+  std::string same;
+  for (const std::string& each : known)
+    if (each.starts_with(stem)) same += fmt::format("{}'{}'", same.empty() ? "" : " or ", each);
+  return same.empty() ? base::nearestHint(path, known) : fmt::format("did you mean {}?", same);
+}
+
+}  // namespace
+
 std::optional<std::string> SourceLoader::locate(const std::string& path) const {
   std::error_code ec;
   if (leavesFolder(path)) return std::nullopt;
@@ -248,7 +261,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
         roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
     error.hint = leavesFolder(path) ? "a shader's path stays below these folders: put the file into a folder "
                                       "shaders/ beside the graph"
-                                    : base::nearestHint(path, listShaders(roots_));
+                                    : hintForShader(path, listShaders(roots_));
     return nullptr;
   }
   if (auto source = answer(*where)) return source;

@@ -31,7 +31,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   judgeMissing(model);
   reportUnincluded(model);
   if (!own.hasErrors()) checkSlices(model);
-  if (!own.hasErrors()) warnUnread(model);
+  if (!own.hasErrors() && !diagnostics.hasErrors()) warnUnread(model);
   own.sortByPlace();
   diagnostics.append(own);
   if (diagnostics.hasErrors()) return nullptr;

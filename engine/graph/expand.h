@@ -23,9 +23,12 @@ struct Settings {
   std::vector<std::string> disables;  // --disable NAME; any unique suffix, all its repeats
 };
 
-// How diagnostics about an entry of Settings::sets or ::disables call it: as on the command line.
+// How diagnostics call an entry of Settings::sets or ::disables: as on the command line.
 std::string sourceOfSet(const std::string& name, const std::string& value);
 std::string sourceOfDisable(const std::string& name);
+// The place of diagnostics about one: the "file" is "command line: --set bloom=yes", without a line.
+Place placeOfSetting(const std::string& source);
+bool isSetting(const Place& place);
 
 // The expanded graph, or null after errors. Warnings leave a graph. `diagnostics` may hold errors of the
 // reader already: then everything is checked as far as it goes, and null is returned.

@@ -193,7 +193,7 @@ class Judge {
       judgeDisabled(missing, *writers.disabledEarlier, thing, subject);
     } else if (writers.enabledLater && slot) {
       judgeLater(missing, *writers.enabledLater, thing, subject);
-    } else if (writers.self) {
+    } else if (writers.self && !model_.incomplete) {
       if (auto* d =
               report(missing, Code::W59,
                      fmt::format("{} {} {}, which nothing wrote before", subject, verb(missing), thing)))

@@ -7,6 +7,7 @@
 #include "engine/graph/expand_resources.h"
 #include "engine/graph/expand_scope.h"
 #include "engine/graph/expand_versions.h"
+#include "engine/graph/expr_node.h"
 
 namespace weft::graph::expansion {
 
@@ -238,6 +239,7 @@ std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absen
   auto& d = names.model().diagnostics.error(Code::W51, expr.place(), fmt::format("{} is no condition", what));
   d.expected = "true, false or a number";
   d.found = toText(value);
+  d.hint = hintForWord(names, value);
   return std::nullopt;
 }
 
@@ -251,6 +253,7 @@ std::optional<double> evaluateNumber(Names& names, const Expr& expr, double abse
       fmt::format("{} is {}", what, value.isNumeric() ? "not finite" : wordFor(value)));
   d.expected = "a number";
   d.found = toText(value);
+  d.hint = hintForWord(names, value);
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/expr_node.h"
 
 namespace weft::graph::expansion {
 
@@ -55,6 +56,7 @@ bool evaluateSize(Model& model, Names& names, Entity& entity) {
                                       fmt::format("the size of '{}' is no size", entity.name));
     d.expected = "a number, or a list of 2 or 3 numbers";
     d.found = toText(value);
+    d.hint = hintForWord(names, value);
     d.resource = entity.name;
     return false;
   }

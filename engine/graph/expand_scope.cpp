@@ -12,6 +12,8 @@ namespace weft::graph::expansion {
 
 namespace {
 
+const std::vector<std::string> kSelectors{"mip", "layer", "face", "stencil"};
+
 std::uint32_t addParameter(Model& model, const ParameterDesc& desc, std::string path) {
   const auto index = static_cast<std::uint32_t>(model.parameters.size());
   model.parametersByLeaf[desc.name].push_back(index);
@@ -123,7 +125,8 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
                                   fmt::format("include '{}' binds '{}' to", scope.stanza->include->as, name));
     } else {
       target = findEntity(model, *scope.parent, name, false);
-      if (target == kNone) {
+      // One of the includer's own that has nothing behind it was reported there.
+      if (target == kNone && !scope.parent->resources.contains(name)) {
         auto& d = model.diagnostics.error(Code::W74, scope.stanza->place,
                                           fmt::format("include '{}' leaves the input '{}' without a resource",
                                                       scope.stanza->include->as, name));
@@ -264,7 +267,8 @@ std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
 }
 
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
-                                 const Place& place, std::string_view user, const std::string& pass) {
+                                 const Place& place, std::string_view user, const std::string& pass,
+                                 std::string_view slot) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
@@ -287,6 +291,13 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
   d.resource = std::string(name);
   d.pass = pass;
   d.hint = base::nearestHint(name, resourceNames(model, scope));
+  if (const std::size_t dot = name.find('.');
+      dot != std::string_view::npos && scope.resources.contains(name.substr(0, dot)))
+    if (const std::string near = base::nearestName(name.substr(dot + 1), kSelectors); !near.empty())
+      d.hint =
+          fmt::format("did you mean '{}.{}{}'?", name.substr(0, dot), near, near == "stencil" ? "" : "[…]");
+  if (!slot.empty() && scope.resources.contains(slot))
+    d.hint = fmt::format("a slot comes first, then its resource: \"{}\": \"{}\"", name, slot);
   if (findImportType(model.registry, name)) d.hint = fmt::format("did you mean the import '@{}'?", name);
   for (Scope* outer = scope.parent; outer; outer = outer->parent)
     if (outer->resources.contains(name)) {

@@ -22,15 +22,17 @@ void buildScopes(Model& model);
 // The entity a name stands for, with inputs followed; kNone when there is none (nothing is reported) or when
 // an input has nothing behind it (reported once).
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
-// The same, and reports W040 or W043 with the nearest name at `place`.
+// The same, and reports W040 or W043 with the nearest name at `place`. `slot`: the one it is for, if any.
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
-                                 const Place& place, std::string_view user, const std::string& pass = {});
+                                 const Place& place, std::string_view user, const std::string& pass = {},
+                                 std::string_view slot = {});
 // `user` of a name in size(name) and the like.
 constexpr const char* kAsksOf = "an expression asks of the";
 // True when the reader reported the declaration of this name and left it out: a use of it is no second
 // mistake.
 bool isUnread(const Scope& from, std::string_view name);
-// True when nothing is known of this variable because an include could not be read, which the reader reported.
+// True when nothing is known of this variable because an include could not be read, which the reader
+// reported.
 bool mayBeUnread(const Scope& from, std::string_view name);
 // True when `name` is dotted and this file includes nothing under its first part: kept for reportUnincluded.
 bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,

@@ -13,12 +13,26 @@
 
 namespace weft::graph {
 
+namespace {
+
+constexpr std::string_view kCommandLine = "command line: ";
+
+}  // namespace
+
 std::string sourceOfSet(const std::string& name, const std::string& value) {
   return fmt::format("--set {}={}", name, value);
 }
 
 std::string sourceOfDisable(const std::string& name) {
   return "--disable " + name;
+}
+
+bool isSetting(const Place& place) {
+  return place.file && place.file->starts_with(kCommandLine);
+}
+
+Place placeOfSetting(const std::string& source) {
+  return {std::make_shared<const std::string>(std::string(kCommandLine) + source), 0, 0};
 }
 
 }  // namespace weft::graph
@@ -72,19 +86,72 @@ std::string joined(const std::vector<std::string>& names) {
   return all;
 }
 
+// "a number from 0 to 8", "a whole number up to 6", "a number".
 std::string rangeText(const ParameterDesc& desc) {
-  if (desc.min && desc.max) return fmt::format("a number from {} to {}", *desc.min, *desc.max);
-  return desc.min ? fmt::format("a number from {}", *desc.min) : fmt::format("a number up to {}", *desc.max);
+  std::string text = desc.type == Type::integer ? "a whole number" : "a number";
+  if (desc.min) text += fmt::format(" from {}", *desc.min);
+  if (desc.max) text += fmt::format("{} {}", desc.min ? " to" : " up to", *desc.max);
+  return text;
+}
+
+std::string listText(const ParameterDesc& desc, int count) {
+  const std::string range = desc.min || desc.max ? ", each " + rangeText(desc) : "";
+  return fmt::format("a list of {} numbers{}, such as {}", count, range, toText(desc.initial));
+}
+
+int componentsOf(Type type) {
+  return type == Type::vec2 ? 2 : type == Type::vec3 ? 3 : type == Type::vec4 ? 4 : 0;
+}
+
+std::string expectedOf(const ParameterDesc& desc) {
+  switch (desc.type) {
+    case Type::boolean:
+      return "true or false";
+    case Type::integer:
+    case Type::number:
+      return rangeText(desc);
+    case Type::choice:
+      return "one of " + joined(desc.choices);
+    case Type::file:
+      return "the path of a file";
+    default:
+      return listText(desc, componentsOf(desc.type));
+  }
+}
+
+// The value that was probably meant, as it is written for --set; "" when nobody can say.
+std::string meantBy(const ParameterDesc& desc, const Value& value) {
+  const std::string text = value.type == Value::Type::symbol ? value.symbol : toText(value);
+  if (desc.type == Type::boolean) {
+    for (const char* word : {"1", "yes", "on", "True", "TRUE", "enable", "enabled"})
+      if (text == word) return "true";
+    for (const char* word : {"0", "no", "off", "False", "FALSE", "disable", "disabled", "none"})
+      if (text == word) return "false";
+    return base::nearestName(text, std::vector<std::string>{"true", "false"});
+  }
+  if (desc.type == Type::choice) return base::nearestName(text, desc.choices);
+  if (const int count = componentsOf(desc.type); count > 0) {
+    const Value list = parseValue("[" + text + "]", desc.type);
+    return list.type == Value::Type::list && list.count == count ? toText(list) : "";
+  }
+  if (desc.type == Type::integer && value.type == Value::Type::number)
+    return fmt::format("{}", std::llround(value.v[0]));
+  // A comma for a point, a unit behind it.
+  std::string number = text;
+  std::ranges::replace(number, ',', '.');
+  if (const std::size_t end = number.find_first_not_of("+-.0123456789"); end != std::string::npos && end > 0)
+    number.resize(end);
+  const auto meant = parseNumber(number);
+  return meant && (desc.type == Type::number || *meant == std::floor(*meant)) ? number : "";
 }
 
 bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
-                     const std::vector<std::size_t>& found, const std::string& source,
-                     std::string_view wanted, std::string_view noun, const Place& place = {}) {
+                     const std::vector<std::size_t>& found, std::string_view wanted, std::string_view noun,
+                     const Place& place) {
   if (found.size() == 1) return false;
   std::string all;
   for (const std::size_t i : found) all += (all.empty() ? "" : ", ") + names[i];
-  auto& d = model.diagnostics.error(Code::W46, place,
-                                    fmt::format("{}: '{}' may mean several {}", source, wanted, noun));
+  auto& d = model.diagnostics.error(Code::W46, place, fmt::format("'{}' may mean several {}", wanted, noun));
   d.found = all;
   d.hint = fmt::format("write more of the name, such as '{}'", names[found[0]]);
   return true;
@@ -92,7 +159,6 @@ bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
 
 // Where a value comes from, and which parameters it may mean: those of `prefix`, by the rest of their names.
 struct Origin {
-  std::string source;  // as the person wrote it
   const Scope& scope;
   std::string_view prefix = "";
   Place place = {};
@@ -112,17 +178,16 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
   const std::vector<std::size_t> found = suffixMatches(names, wanted);
   if (found.empty()) {
     if (mayBeUnread(origin.scope, wanted)) return;
-    auto& d = model.diagnostics.error(Code::W44, origin.place,
-                                      fmt::format("{}: no parameter is called '{}'", origin.source, wanted));
+    auto& d =
+        model.diagnostics.error(Code::W44, origin.place, fmt::format("no parameter is called '{}'", wanted));
     d.pointer = origin.pointer;
     d.hint = suffixHint(wanted, names);
     return;
   }
-  if (reportUnlessOne(model, names, found, origin.source, wanted, "parameters", origin.place)) return;
+  if (reportUnlessOne(model, names, found, wanted, "parameters", origin.place)) return;
   Parameter& parameter = model.parameters[parameters[found[0]]];
   Value value = valueFor(parameter.desc->type);
-  if (checkParameterValue(model, parameter, value, origin.place, origin.source))
-    parameter.value = std::move(value);
+  if (checkParameterValue(model, parameter, value, origin.place)) parameter.value = std::move(value);
 }
 
 // What files say first, the innermost first, so that an including file has the last word; then the command
@@ -130,20 +195,18 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
 void applySets(Model& model) {
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
     for (const SetDesc& set : scope->desc->sets)
-      applySet(model, set.name,
-               {fmt::format("\"set\" {} to {}", set.name, toText(set.value)), *scope, scope->prefix,
-                set.place, set.pointer},
-               [&](Type type) {
-                 const bool path = type == Type::file && set.value.type == Value::Type::symbol;
-                 return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
-               });
+      applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer}, [&](Type type) {
+        const bool path = type == Type::file && set.value.type == Value::Type::symbol;
+        return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
+      });
   for (const auto& [name, text] : model.settings.sets)
-    applySet(model, name, {sourceOfSet(name, text), model.scopes.front()},
+    applySet(model, name, {model.scopes.front(), "", placeOfSetting(sourceOfSet(name, text))},
              [&](Type type) { return parseValue(text, type); });
 }
 
 void applyDisable(Model& model, const std::string& wanted) {
   const std::string source = sourceOfDisable(wanted);
+  const Place place = placeOfSetting(source);
   const std::string declared = wanted.substr(0, wanted.find('['));
   struct Candidate {
     Scope* scope;      // an include
@@ -164,7 +227,7 @@ void applyDisable(Model& model, const std::string& wanted) {
   }
   const std::vector<std::size_t> found = suffixMatches(names, declared);
   if (!found.empty()) {
-    if (reportUnlessOne(model, names, found, source, wanted, "passes")) return;
+    if (reportUnlessOne(model, names, found, wanted, "passes", place)) return;
     const Candidate& match = candidates[found[0]];
     if (match.scope) {
       match.scope->disabledBy = source;
@@ -177,70 +240,50 @@ void applyDisable(Model& model, const std::string& wanted) {
   std::vector<std::string> parameters;
   for (const Parameter& parameter : model.parameters) parameters.push_back(parameter.path);
   if (const auto named = suffixMatches(parameters, wanted); !named.empty()) {
-    auto& d = model.diagnostics.error(
-        Code::W84, {}, fmt::format("{}: '{}' is a parameter, not a pass", source, parameters[named[0]]));
+    auto& d = model.diagnostics.error(Code::W84, place,
+                                      fmt::format("'{}' is a parameter, not a pass", parameters[named[0]]));
     const Parameter& parameter = model.parameters[named[0]];
     d.hint = parameter.desc->type == Type::boolean ? fmt::format("--set {}=false", wanted)
                                                    : fmt::format("set it with --set {}=VALUE", wanted);
     return;
   }
   if (mayBeUnread(model.scopes.front(), declared)) return;
-  auto& d = model.diagnostics.error(Code::W45, {}, fmt::format("{}: no pass is called '{}'", source, wanted));
+  auto& d = model.diagnostics.error(Code::W45, place, fmt::format("no pass is called '{}'", wanted));
   d.hint = suffixHint(declared, names);
 }
 
 }  // namespace
 
-bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
-                         const std::string& source) {
+bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place) {
   const ParameterDesc& desc = *parameter.desc;
-  const auto wrongType = [&](std::string expected) {
+  const auto refuse = [&](Code code, const char* why) {
     auto& d = model.diagnostics.error(
-        Code::W47, place, fmt::format("parameter '{}': {} is of the wrong type", parameter.path, source));
-    d.expected = std::move(expected);
-    d.found = toText(value);
-    if (!desc.choices.empty() && value.type == Value::Type::symbol)
-      d.hint = base::nearestHint(value.symbol, desc.choices);
-    return false;
+        code, place, fmt::format("parameter '{}': {} is {}", parameter.path, toText(value), why));
+    d.expected = expectedOf(desc);
+    if (desc.place.file)
+      d.expected += fmt::format(", as {}:{}:{} says", *desc.place.file, desc.place.line, desc.place.column);
+    return &d;
   };
-  const auto listOf = [&](int n) { return value.type == Value::Type::list && value.count == n; };
-  switch (desc.type) {
-    case Type::boolean:
-      if (value.type != Value::Type::boolean) return wrongType("true or false");
-      break;
-    case Type::integer:
-      if (value.type != Value::Type::number || value.v[0] != std::floor(value.v[0]))
-        return wrongType("a whole number");
-      break;
-    case Type::number:
-      if (value.type != Value::Type::number) return wrongType("a number");
-      break;
-    case Type::vec2:
-      if (!listOf(2)) return wrongType("a list of 2 numbers");
-      break;
-    case Type::vec3:
-      if (!listOf(3)) return wrongType("a list of 3 numbers");
-      break;
-    case Type::vec4:
-      if (!listOf(4)) return wrongType("a list of 4 numbers");
-      break;
-    case Type::choice:
-      if (value.type != Value::Type::symbol ||
-          std::find(desc.choices.begin(), desc.choices.end(), value.symbol) == desc.choices.end())
-        return wrongType("one of " + joined(desc.choices));
-      break;
-    case Type::file:
-      if (value.type != Value::Type::symbol) return wrongType("the path of a file");
-      break;
+  const bool number = value.type == Value::Type::number, word = value.type == Value::Type::symbol;
+  const int components = componentsOf(desc.type);
+  const bool fits = desc.type == Type::boolean   ? value.type == Value::Type::boolean
+                    : desc.type == Type::integer ? number && value.v[0] == std::floor(value.v[0])
+                    : desc.type == Type::number  ? number
+                    : desc.type == Type::choice
+                        ? word && std::ranges::find(desc.choices, value.symbol) != desc.choices.end()
+                    : desc.type == Type::file ? word
+                                              : value.type == Value::Type::list && value.count == components;
+  if (!fits) {
+    auto* d = refuse(Code::W47, desc.type == Type::choice ? "none of its choices" : "of the wrong type");
+    if (const std::string meant = meantBy(desc, value); !meant.empty())
+      d->hint = fmt::format("did you mean '{}'?", meant);
+    return false;
   }
   for (std::size_t i = 0; i < value.count; ++i)
     if (value.type != Value::Type::boolean &&
         (!std::isfinite(value.v[i]) || (desc.min && value.v[i] < *desc.min) ||
          (desc.max && value.v[i] > *desc.max))) {
-      auto& d = model.diagnostics.error(
-          Code::W48, place, fmt::format("parameter '{}': {} is out of its range", parameter.path, source));
-      d.expected = rangeText(desc);
-      d.found = toText(value);
+      refuse(Code::W48, "out of its range");
       return false;
     }
   return true;
@@ -249,7 +292,8 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
 void applySettings(Model& model) {
   const auto badScreen = [](std::uint32_t x) { return x < 1 || x > 16384; };
   if (badScreen(model.settings.screenWidth) || badScreen(model.settings.screenHeight)) {
-    auto& d = model.diagnostics.error(Code::W48, {}, "the screen's size is out of its range");
+    auto& d =
+        model.diagnostics.error(Code::W48, placeOfSetting("--size"), "the screen's size is out of its range");
     d.expected = "1 to 16384 pixels a side";
     d.found = fmt::format("{}x{}", model.settings.screenWidth, model.settings.screenHeight);
   }

@@ -287,7 +287,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
                                      slot.access == Access::read    ? "reads"
                                      : slot.access == Access::write ? "writes"
                                                                     : "modifies"),
-                         context.pass);
+                         context.pass, slot.name);
   if (found == kNone) return work;
   if (slot.access == Access::read) mention(model, found, ref.history > 0 ? kNone : model.position);
   if (slot.access != Access::read && !isWritable(context, slot, found)) return work;

@@ -8,6 +8,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand_checks.h"
+#include "engine/graph/expr_node.h"
 
 namespace weft::graph::expansion {
 
@@ -272,7 +273,8 @@ class SpecFiller {
       d.found = toText(uniform.value);
       const bool choice = parameter && parameter->desc->type == ParameterDesc::Type::choice;
       d.hint = choice ? "a choice becomes a define: put it under \"defines\", or give it \"define\": true"
-                      : "a path can be an argument of an import only";
+                      : hintForWord(names_, uniform.value);
+      if (d.hint.empty()) d.hint = "a path can be an argument of an import only";
       return;
     }
     spec_.uniforms.push_back(std::move(uniform));

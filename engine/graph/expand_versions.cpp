@@ -34,6 +34,7 @@ std::uint32_t addResource(Model& model, std::uint32_t index, std::uint32_t eleme
   ++e.count;
   model.graph.resources.push_back(entity.shape);
   model.graph.resourceNames.push_back(flatName(entity, element, e.count));
+  model.graph.resourcePlaces.push_back(entity.desc ? entity.desc->place : Place{});
   // Only the first FlatResource has a version zero; the others begin with a write that covers them.
   if (e.count > 1) model.graph.resources.back().hasClear = false;
   if (model.graph.resources.back().hasClear) model.graph.clears.push_back({resource, entity.clear});

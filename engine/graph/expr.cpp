@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/base/nearest.h"
+#include "engine/base/nearest.h"
 #include "engine/graph/expr_node.h"
 
 namespace weft::graph {
@@ -250,6 +252,18 @@ std::vector<std::pair<Fact, std::string>> Expr::facts() const {
 
 bool Expr::isConstant() const {
   return root_ && root_->op == ExprOp::constant;
+}
+
+std::string hintForWord(EvalScope& scope, const Value& value) {
+  if (value.type != Value::Type::symbol) return {};
+  const std::vector<std::string> variables = scope.candidates(EvalScope::NameKind::variable);
+  if (std::ranges::find(variables, value.symbol) != variables.end())
+    return fmt::format("write '${}' for the parameter", value.symbol);
+  const std::vector<std::string> builtins = scope.candidates(EvalScope::NameKind::builtin);
+  if (const std::string near = base::nearestName(value.symbol, builtins); !near.empty())
+    return fmt::format("did you mean '{}'?", near);
+  const std::string near = base::nearestName(value.symbol, variables);
+  return near.empty() ? std::string() : fmt::format("did you mean '${}'?", near);
 }
 
 }  // namespace weft::graph

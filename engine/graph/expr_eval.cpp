@@ -148,14 +148,7 @@ class Evaluator {
                    node.name, EvalScope::NameKind::fact_argument, "");
   }
 
-  // A word where a number belongs is most often a parameter that lost its $.
-  std::string hintFor(const Value& operand) {
-    if (operand.type != Value::Type::symbol || !scope_) return {};
-    const std::vector<std::string> names = scope_->candidates(EvalScope::NameKind::variable);
-    return std::find(names.begin(), names.end(), operand.symbol) != names.end()
-               ? fmt::format("write '${}' for the parameter", operand.symbol)
-               : std::string();
-  }
+  std::string hintFor(const Value& operand) { return scope_ ? hintForWord(*scope_, operand) : std::string(); }
 
   Value misfit(const ExprNode& blamed, std::string message, std::string expected, const Value& operand) {
     if (base::Diagnostic* d = error(Code::W23, blamed, std::move(message))) {

@@ -73,6 +73,10 @@ struct OpInfo {
 // "+" and 5 for add; the function's name for calls.
 OpInfo infoOf(ExprOp op);
 
+// What a word was probably meant for where a number or a condition belongs: a parameter that lost its $, a
+// misspelt `screen`. "" when it is no word, or nothing is near.
+std::string hintForWord(EvalScope& scope, const Value& value);
+
 // "size", "mips", "count", "has", "age".
 const char* nameOf(Fact fact);
 

@@ -159,8 +159,9 @@ struct FlatGraph {
   std::vector<FlatResource> resources;
   FlatUse present;                      // resource kNone: nothing is presented
   std::vector<FlatUse> outputs;         // read-backs; keep nothing alive
-  // names, parallel to passes and resources
+  // names and places, parallel to passes and resources
   std::vector<std::string> passNames, resourceNames;
+  std::vector<Place> resourcePlaces;    // of their declarations; empty for neutral graphs
   // the executor's
   std::vector<PassSpec> specs;          // parallel to passes, or empty for neutral graphs
   std::vector<SlotSpec> slots;

@@ -7,6 +7,7 @@ namespace {
 constexpr KeySpec kGraph[] = {
     {"$schema", R"({"type":"string"})", "where editors find this schema; ignored"},
     {"name", R"({"type":"string"})", "name of the graph; the file's name when absent"},
+    {"description", R"({"type":"string"})", "a line about the graph or preset, for people"},
     {"extends", R"({"type":"string"})", "path of the graph this file changes, from this file's folder"},
     {"set",
      R"({"type":"object","additionalProperties":{"anyOf":[{"type":["number","boolean","string"]},{"type":"array","items":{"type":"number"},"minItems":2,"maxItems":4}]}})",

@@ -116,7 +116,7 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
     source.changed = below->changed;
     if (source.root.is(Type::object)) {
       source.root.place = root.place;
-      eraseMember(source.root, "name");  // of the base
+      for (const char* own : {"name", "description"}) eraseMember(source.root, own);  // of the base
       applyOverlay(*this, root, false, source, diagnostics_);
     }
   }

@@ -56,7 +56,8 @@ class Applier {
     for (const JsonMember& member : overlay.members) {
       const JsonValue& value = member.value;
       const bool section = member.key == "parameters" || member.key == "let" || member.key == "resources";
-      if (member.key == "extends" || member.key == "passes" || (preset && member.key == "name")) continue;
+      if (member.key == "extends" || member.key == "passes" || (preset && (member.key == "name" || member.key == "description")))
+        continue;
       if (member.key == "set") {
         if (expect(value, Type::object, "\"set\"", "an object of values by parameter"))
           target_.sets.insert(target_.sets.end(), value.members.begin(), value.members.end());

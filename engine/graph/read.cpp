@@ -67,6 +67,7 @@ class GraphReader {
     context.checkKeys(root, kGraphKeys, "a graph");
     context.text(root.find("$schema"), "\"$schema\"");
     graph->name = context.text(root.find("name"), "\"name\"");
+    context.text(root.find("description"), "\"description\"");
     if (graph->name.empty()) graph->name = std::filesystem::path(source.path).stem().string();
     readVariables(context, root, *graph);
     for (const JsonMember& member : membersOf(context, root, "resources")) {

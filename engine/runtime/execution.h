@@ -60,6 +60,10 @@ class Execution {
 
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
+  // Whether a frame may differ by which frames ran before it: a live history, or something kept that was made of what moves.
+  // If not, headless frame n may be the first to run.
+  bool remembers(const World& world) const;
+
   const graph::Plan& plan() const { return *plan_; }
   // What is presented: level and layer of a texture; id 0 when the graph presents nothing.
   gl::TextureRef presented();

@@ -27,6 +27,27 @@ GLuint Device::sampler(const graph::Sampler& sampler, bool mipmapped, graph::Com
   return samplers_.back().object.id();
 }
 
+namespace {
+
+// What the device refuses has no place of its own: `place` gives it that of what asked for it.
+template <class Place>
+void appendWithPlaces(const base::Diagnostics& said, const Place& place, base::Diagnostics& diagnostics) {
+  for (base::Diagnostic each : said.items()) {
+    if (!each.place.file) place(each);
+    diagnostics.add(std::move(each));
+  }
+}
+
+// `label` of storage: the names of all that share it, "a | b". The declaration of the first; no place for a graph
+// that has none.
+base::Place placeOfResource(const graph::FlatGraph& graph, const std::string& label) {
+  const auto named = std::ranges::find(graph.resourceNames, label.substr(0, label.find(" | ")));
+  const auto at = static_cast<std::size_t>(named - graph.resourceNames.begin());
+  return at < graph.resourcePlaces.size() ? graph.resourcePlaces[at] : base::Place{};
+}
+
+}  // namespace
+
 std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<const graph::Plan> plan, Execution* before,
                                              base::Diagnostics& diagnostics) {
   std::unique_ptr<Execution> made(new Execution(device, std::move(plan)));
@@ -52,7 +73,9 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   diagnostics.append(problems);
   if (problems.hasErrors()) return false;
 
-  pool_ = ResourcePool::create(*plan_, before ? before->pool_.get() : nullptr, diagnostics);
+  base::Diagnostics refused;
+  pool_ = ResourcePool::create(*plan_, before ? before->pool_.get() : nullptr, refused);
+  appendWithPlaces(refused, [&](base::Diagnostic& d) { d.place = placeOfResource(*plan_->graph, d.resource); }, diagnostics);
   if (!pool_) return false;
   const std::size_t resources = plan_->graph->resources.size();
   nextGeneration_ = before ? before->nextGeneration_ : 1;
@@ -66,11 +89,18 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   publishing_.assign(resources, 0);
   resetState_.assign(plan_->graph->histories.size(), 0);
   findMakers();
-  PrepareContext context = prepareContext(diagnostics);
+  PrepareContext context = prepareContext(refused);
   for (std::size_t step = 0; step < plan_->steps.size(); ++step) {
     context.variant = variants[step];
     context.conditions = settledConditionsOf(plan_->graph->specs[plan_->steps[step].pass]);
+    refused.clear();
     passes_.push_back(preparePass(context, step));
+    const graph::PassSpec& spec = plan_->graph->specs[plan_->steps[step].pass];
+    const auto placePass = [&](base::Diagnostic& d) {
+      d.place = spec.place;
+      d.pass = spec.name;
+    };
+    appendWithPlaces(refused, placePass, diagnostics);
     std::copy_n(device_.context.device().limits.computeGroups, 3, passes_.back().context.maxGroups);
     if (!passes_.back().usable) return false;
   }

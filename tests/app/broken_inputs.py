@@ -5,6 +5,7 @@ AddressSanitizer and UBSan, whose reports are failures too.
 
     broken_inputs.py WEFT [--sanitized]
 """
+import os
 import pathlib
 import re
 import struct
@@ -12,7 +13,7 @@ import sys
 
 from program import TOP, Report, run, temporary_folder
 
-GLOW = str(TOP / "graphs/glow.json")
+GLOW, STUDIO = str(TOP / "graphs/glow.json"), str(TOP / "graphs/studio.json")
 CRASH = re.compile(r"AddressSanitizer|LeakSanitizer|runtime error:|terminate called|Assertion|Segmentation|Aborted|what\(\):|^\s*#\d+ 0x", re.M)
 
 
@@ -74,6 +75,14 @@ FILES = {
     "huge.exr": b"\x76\x2f\x31\x01\x02\x00\x00\x00" + b"dataWindow\x00box2i\x00" + struct.pack("<i4i", 16, 0, 0, 2**31 - 1, 2**31 - 1) + b"\x00",
     "picture.gif": b"GIF89a",
     "truncated_workload.json": '{ "textures": [',
+    "short.cube": "LUT_3D_SIZE 2\n0 0 0\n1 1 1\n",
+    "sun.hdr": b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes([128, 128, 128, 160]) + bytes([128, 128, 128, 128]) * 7,
+    "no_dollar.json": graph(more=', "enabled": "fog"').replace('"resources"', '"parameters": { "fog": { "default": true } }, "resources"', 1),
+    "scren.json": graph(size='"scren/2"'),
+    "swapped.json": graph().replace('"radiance": "ldr"', '"ldr": "radiance"'),
+    "unit.json": graph(size='"screen px"'),
+    "mips_word.json": graph(write="ldr.mips[0]"),
+    "stage.json": graph(shader="sky/sky.glsl"),
     "a_file": "not a folder",
 }
 
@@ -107,7 +116,7 @@ CASES = [
     (rendered("layers.json"), 1, "W048", r"layers\.json:3:62"),
     (rendered("history.json"), 1, "W048", r"history\.json:3:63"),
     (["check", "repeat.json", "--no-shaders"], 1, "W081", r"repeat\.json:\d+:\d+"),
-    (rendered("memory.json"), 1, "W116", ""),
+    (rendered("memory.json"), 1, "W116", r"memory\.json:3:5"),
     (rendered("missing_shader.json"), 1, "W100", r"missing_shader\.json:5:54"),
     (rendered("bad_shader.json"), 1, "W104", r"shaders/bad\.frag\.glsl:3:\d+"),
     # what is wrong with a graph does not hide its shaders, nor a bad name the rest of its pass
@@ -148,15 +157,27 @@ CASES = [
     (rendered(GLOW, "-o", "/proc/no/out.png"), 1, "W180", r"/proc/no/out\.png"),
     (rendered(GLOW, "-o", "shaders"), 1, "W180", "shaders"),
     (rendered(GLOW, "-o", "folder.png"), 1, "W180", r"folder\.png"),
+    (rendered(GLOW, "-o", "full.png"), 1, "W180", r"full\.png", "No space left on device"),
+    (rendered(GLOW, "-o", "full.exr"), 1, "W180", r"full\.exr", "free some space"),
     (rendered(GLOW, "-o", "out.jpg"), 1, "W180", r"out\.jpg"),
     (rendered(GLOW, "-o", "out.png", "--frames", "0:3"), 1, "W180", r"out\.png"),
     (rendered(GLOW, "-o", "out_%s.png", "--frames", "0:3"), 1, "W180", r"out_%s\.png"),
     (rendered(GLOW, "-o", "out_%d_%d.png", "--frames", "0:3"), 1, "W180", r"out_%d_%d\.png"),
-    (rendered(GLOW, "--set", "blom=false"), 1, "W044", ""),
-    (rendered(GLOW, "--set", "bloom=maybe"), 1, "W047", ""),
-    (rendered(GLOW, "--set", "threshold=99"), 1, "W048", ""),
-    (rendered(GLOW, "--disable", "compost"), 1, "W045", ""),
+    (rendered(GLOW, "--set", "blom=false"), 1, "W044", "command line: --set blom=false", "did you mean 'bloom'?"),
+    (rendered(GLOW, "--set", "bloom=maybe"), 1, "W047", "command line: --set bloom=maybe", "expected: true or false, as "),
+    (rendered(GLOW, "--set", "bloom=yes"), 1, "W047", "command line: --set bloom=yes", "did you mean 'true'?"),
+    (rendered(GLOW, "--set", "bloom=0"), 1, "W047", "command line: --set bloom=0", "did you mean 'false'?"),
+    (rendered(GLOW, "--set", "threshold=99"), 1, "W048", "command line: --set threshold=99", "a number from 0 to 8, as "),
+    (rendered(GLOW, "--set", "threshold=1,5"), 1, "W047", "command line: --set threshold=1,5", "did you mean '1.5'?"),
+    (rendered(GLOW, "--set", "threshold=2cd"), 1, "W047", "command line: --set threshold=2cd", "did you mean '2'?"),
+    (rendered(STUDIO, "--set", "subdivision=2.5"), 1, "W047", r"command line: --set subdivision=2\.5", "a whole number from 0 to 6, as "),
+    (rendered(STUDIO, "--set", "curve=fimlic"), 1, "W047", "command line: --set curve=fimlic", "did you mean 'filmic'?"),
+    (rendered(STUDIO, "--set", "lift=0,0,0"), 1, "W047", "command line: --set lift=0,0,0", "did you mean '[0, 0, 0]'?"),
+    (rendered(STUDIO, "--set", "lift=[0, 9, 0]"), 1, "W048", r"command line: --set lift=\[0, 9, 0\]", "a list of 3 numbers, each a number from -0.5 to 0.5"),
+    (rendered(GLOW, "--disable", "compost"), 1, "W045", "command line: --disable compost", "did you mean 'composite'?"),
+    (rendered(GLOW, "--disable", "bloom"), 1, "W084", "command line: --disable bloom", "--set bloom=false"),
     (rendered(GLOW, "--disable", "composite"), 1, "W060", r".*/glow\.json:\d+:\d+"),
+    (rendered(STUDIO, "--set", "lut=short.cube"), 1, "W154", r"short\.cube:3", "8 rows are needed"),
     (["bench", "--workload", "no_such.json"], 1, "W001", r"no_such\.json"),
     (["bench", "--workload", "truncated_workload.json"], 1, "W093", r"truncated_workload\.json:1:\d+"),
     (rendered(GLOW, "--backend", "vulkan"), 2, None, "--backend"),
@@ -166,6 +187,16 @@ CASES = [
     (rendered(GLOW, "--frames", "3:2"), 2, None, "--frames"),
     (rendered(GLOW, "--frames", "-1"), 2, None, "--frames"),
     (rendered(GLOW, "--set", "bloom"), 2, None, "--set"),
+    (rendered(GLOW, "--frame", "5"), 2, None, "--frame", "unknown option '--frame'; did you mean '--frames'?"),
+    (rendered(GLOW, "--sett=bloom=true"), 2, None, "--sett", "did you mean '--set'?"),
+    (rendered(GLOW, "--zzzzzzzz"), 2, None, "--zzzzzzzz", "--help lists what there is"),
+    # words that lost something, and no second message for what follows from the first
+    (["check", "no_dollar.json"], 1, "W051", r"no_dollar\.json:6:\d+", "write '$fog' for the parameter"),
+    (["check", "scren.json"], 1, "W023", r"scren\.json:3:\d+", "did you mean 'screen'?"),
+    (["check", "swapped.json"], 1, "W040", r"swapped\.json:6:\d+", '"radiance": "ldr"'),
+    (["check", "unit.json"], 1, "W020", r"unit\.json:3:\d+"),
+    (["check", "mips_word.json"], 1, "W040", r"mips_word\.json:6:\d+", "did you mean 'ldr.mip[…]'?"),
+    (["check", "stage.json"], 1, "W100", r"stage\.json:5:\d+", "did you mean 'sky/sky.frag.glsl'?"),
     (["render", GLOW], 2, None, "--output"),
     (["render"], 2, None, "graph is required"),
     (["paint", GLOW], 2, None, "paint|subcommand"),
@@ -199,6 +230,8 @@ def main():
     with temporary_folder() as name:
         folder = pathlib.Path(name)
         (folder / "folder.png").mkdir()
+        for full in ("full.png", "full.exr"):
+            (folder / full).symlink_to("/dev/full")
         (folder / "shaders").mkdir()
         for file, text in FILES.items():
             (folder / file).write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -206,6 +239,15 @@ def main():
         for case in CASES:
             check_case(report, weft, folder, *case)
             report.check(contents(folder) == before, f"{' '.join(case[0])}: wrote {sorted(set(contents(folder)) - set(before))}")
+        # Without a display the files are told too.
+        nowhere = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        view = run(weft, "view", "no_such.json", folder=folder, env=nowhere)
+        report.check(view.code == 3 and view.codes() == ["W001", "W110"], f"view without display: {view.code}\n{view.err}")
+        # A note is no trouble, and --quiet leaves it out.
+        sun = ["render", GLOW, "--environment", "sun.hdr", "--size", "64x36", "-o", "sun.png"]
+        loud, quiet = run(weft, *sun, folder=folder), run(weft, *sun, "--quiet", folder=folder)
+        report.check(loud.code == 0 and loud.codes("note") == ["W153"], f"sun.hdr: {loud.err}")
+        report.check(quiet.code == 0 and not quiet.err, f"--quiet: {quiet.err}")
         # The same folder and options do make a picture, so that what failed above failed for its own reason.
         (folder / "good.json").write_text(graph())
         good = run(weft, *rendered("good.json"), folder=folder)

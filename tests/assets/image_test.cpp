@@ -122,6 +122,17 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   CHECK(diagnostics.items()[0].found.find("1 not a number, 2 negative") != std::string::npos);
   CHECK(diagnostics.items()[0].found.find("2 infinite") != std::string::npos);
 
+  // A sun beyond the halves alone is no more than a note.
+  CHECK(diagnostics.items()[0].severity == base::Severity::warning);
+  diagnostics.clear();
+  image = makeRamp(4, 2, 3);
+  image.texels[4] = 1e6f;
+  REQUIRE(saveExr(folder.at("sun.exr"), image, diagnostics));
+  CHECK(loadEnvironment(folder.at("sun.exr"), diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == base::Code::W153);
+  CHECK(diagnostics.items()[0].severity == base::Severity::note);
+
   diagnostics.clear();
   REQUIRE(saveHdr(folder.at("clean.hdr"), makeRamp(16, 8, 3), diagnostics));
   CHECK(loadEnvironment(folder.at("clean.hdr"), diagnostics));

@@ -135,3 +135,16 @@ TEST_CASE("duplicate names are errors, and all problems come at once") {
   CHECK(diagnostics.contains(base::Code::W155));
   CHECK(diagnostics.contains(base::Code::W156));
 }
+
+TEST_CASE("a library whose values are all out of range is not told value by value") {
+  std::string text = "[";
+  for (int i = 0; i < 40; ++i)
+    text += (i ? ",\n" : "\n") + std::string("{\"name\": \"") + std::to_string(i) +
+            "\", \"albedo\": [255, 128, 0], \"metallic\": 0, \"roughness\": 0}";
+  base::Diagnostics diagnostics;
+  CHECK_FALSE(readMaterialLibrary(text + "]", "m.json", diagnostics));
+  CHECK(diagnostics.errorCount() == 12);
+  REQUIRE(diagnostics.size() == 13);
+  CHECK(diagnostics.items()[12].severity == base::Severity::note);
+  CHECK(diagnostics.items()[12].message == "and 68 more values out of range in this file");
+}

@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""`weft params` and `weft presets`: every parameter with its type, value, range and label, every bundled preset with a line.
+
+    lists.py WEFT
+"""
+import json
+import pathlib
+import sys
+
+from program import TOP, Report, run
+
+STUDIO = "graphs/studio.json"
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+
+    listed = run(weft, "params", STUDIO, "--json")
+    report.check(listed.code == 0 and not listed.err, f"params: {listed.code}\n{listed.err}")
+    parameters = {p["name"]: p for p in json.loads(listed.out)}
+    report.check(len(parameters) > 50, f"{len(parameters)} parameters")
+    bloom, exposure, curve = (parameters[f"post.{name}"] for name in ("bloom", "exposure", "curve"))
+    report.check(bloom["type"] == "bool" and bloom["default"] is True and bloom["label"], f"{bloom}")
+    report.check((exposure["type"], exposure["min"], exposure["max"]) == ("float", -10, 10), f"{exposure}")
+    report.check(curve["type"] == "choice" and "filmic" in curve["choices"] and curve["default"] in curve["choices"], f"{curve}")
+    # What is listed can be set, and changes nothing.
+    sets = []
+    for name, parameter in parameters.items():
+        value = parameter["value"]
+        if parameter["type"] != "file":
+            sets += ["--set", f"{name}={value if isinstance(value, str) else json.dumps(value)}"]
+    again = run(weft, "params", STUDIO, "--json", *sets)
+    report.check(again.out == listed.out, f"values set to what they are: {again.err}")
+
+    text = run(weft, "params", STUDIO, "--set", "exposure=1.5", "--preset", "plain")
+    rows = {line.split()[0]: line for line in text.out.splitlines()[1:]}
+    report.check(set(rows) == set(parameters), f"text and JSON differ: {set(rows) ^ set(parameters)}")
+    report.check(rows["post.exposure"].split()[1:6] == ["float", "1.5", "-10", "to", "10"], rows["post.exposure"])
+    report.check(rows["post.bloom"].split()[1:3] == ["bool", "false"], rows["post.bloom"])
+    report.check("linear | " in rows["post.curve"], rows["post.curve"])
+    broken = run(weft, "params", "tests/bad_graphs/w040_unknown_resource.json")
+    report.check(broken.code == 1 and broken.codes() == ["W040"], f"a broken graph: {broken.code}\n{broken.err}")
+    missing = run(weft, "params", "no_such.json")
+    report.check(missing.code == 1 and missing.codes() == ["W001"], f"no graph: {missing.code}\n{missing.err}")
+
+    files = sorted(p.stem for p in (TOP / "graphs/presets").glob("*.json"))
+    presets = json.loads(run(weft, "presets", "--json").out)
+    report.check([p["name"] for p in presets] == files, f"presets: {presets}")
+    report.check(all(p["title"] and 10 < len(p["description"]) < 140 for p in presets), f"presets: {presets}")
+    lines = run(weft, "presets").out.splitlines()
+    report.check([line.split()[0] for line in lines] == files, f"presets: {lines}")
+    report.check(all(p["description"] in line for p, line in zip(presets, lines)), f"presets: {lines}")
+    report.end()
+
+
+main()
