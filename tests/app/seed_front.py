@@ -6,11 +6,12 @@ edges, so pixels are not compared: see docs/seed_front.md.
 """
 import math
 import pathlib
-import struct
 import sys
-import zlib
 
-from program import SHARED, Report, run, temporary_folder
+from program import SHARED, TOP, Report, run, temporary_folder
+
+sys.path.insert(0, str(TOP / "docs/gallery"))
+from png import read_png  # noqa: E402
 
 REF = SHARED / "data/ref"
 WIDTH, HEIGHT = 1280, 720
@@ -19,43 +20,12 @@ PATCH = 44     # half the side of the patch that is aligned, 4 to 10 pixels beyo
 SHIFT = 4
 
 
-def read_png(path):
-    """Rows of RGB bytes of an 8-bit RGB or RGBA picture without interlacing."""
-    data = path.read_bytes()
-    at, packed, header = 8, b"", None
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
-            header = struct.unpack(">IIBBBBB", body)
-        if kind == b"IDAT":
-            packed += body
-        at += 12 + size
-    width, height, depth, color = header[:4]
-    assert depth == 8 and color in (2, 6)
-    n = 3 if color == 2 else 4
-    raw, stride = zlib.decompress(packed), width * n
-    rows, before = [], bytearray(stride)
-    for y in range(height):
-        kind = raw[y * (stride + 1)]
-        row = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        if kind == 1:
-            for i in range(n, stride):
-                row[i] = (row[i] + row[i - n]) & 255
-        elif kind == 2:
-            row = bytearray((a + b) & 255 for a, b in zip(row, before))
-        elif kind == 3:
-            for i in range(stride):
-                row[i] = (row[i] + ((row[i - n] if i >= n else 0) + before[i]) // 2) & 255
-        elif kind == 4:
-            for i in range(stride):
-                a, b, c = row[i - n] if i >= n else 0, before[i], before[i - n] if i >= n else 0
-                p = a + b - c
-                pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
-                row[i] = (row[i] + (a if pa <= pb and pa <= pc else b if pb <= pc else c)) & 255
-        rows.append(row)
-        before = row
-    return [[tuple(row[x * n:x * n + 3]) for x in range(width)] for row in rows]
+def rows_of(path):
+    """Rows of RGB bytes of a picture of WIDTH x HEIGHT."""
+    n, texels = read_png(path)
+    assert n >= 3 and len(texels) == WIDTH * HEIGHT * n
+    colors = list(zip(texels[0::n], texels[1::n], texels[2::n]))
+    return [colors[y * WIDTH:(y + 1) * WIDTH] for y in range(HEIGHT)]
 
 
 def centers():
@@ -132,8 +102,8 @@ def main():
         report.check(done.code == 0, f"render: exit code {done.code}\n{done.err}")
         if done.code:
             report.end()
-        ours = read_png(picture)
-    theirs = read_png(REF / "seed_front_720.png")
+        ours = rows_of(picture)
+    theirs = rows_of(REF / "seed_front_720.png")
 
     whole = [c for c in centers() if PATCH + SHIFT + 1 < c[3] < HEIGHT - PATCH - SHIFT - 2]
     report.check(len(whole) == 80, f"{len(whole)} spheres are whole in the picture, expected 80")
