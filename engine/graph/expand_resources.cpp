@@ -54,7 +54,7 @@ bool evaluateSize(Model& model, Names& names, Entity& entity) {
   } else if (value.type != Value::Type::list || value.count < 2 || value.count > 3) {
     auto& d = model.diagnostics.error(Code::W51, desc.size.place(),
                                       fmt::format("the size of '{}' is no size", entity.name));
-    d.expected = "a number, or a list of 2 or 3 numbers";
+    d.expected = "\"screen\", \"screen/2\", \"size(x)\", a number, or a list of 2 or 3 numbers";
     d.found = toText(value);
     d.hint = hintForWord(names, value);
     d.resource = entity.name;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 
 #include "engine/base/nearest.h"
 #include "engine/base/nearest.h"
@@ -263,7 +264,10 @@ std::string hintForWord(EvalScope& scope, const Value& value) {
   if (const std::string near = base::nearestName(value.symbol, builtins); !near.empty())
     return fmt::format("did you mean '{}'?", near);
   const std::string near = base::nearestName(value.symbol, variables);
-  return near.empty() ? std::string() : fmt::format("did you mean '${}'?", near);
+  if (!near.empty()) return fmt::format("did you mean '${}'?", near);
+  const bool bare = std::ranges::all_of(
+      value.symbol, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
+  return bare ? "a bare word is an index of \"repeat\" or 'screen'; a parameter begins with '$'" : "";
 }
 
 }  // namespace weft::graph

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""`./run` around a build that is pretended: silent when it is quick, how far it is on a terminal when it is not, the end of
+the log when it fails; then the program with its arguments. Needs no build of Weft.
+
+    run_script.py WEFT
+"""
+import os
+import pathlib
+import pty
+import shutil
+import subprocess
+
+from program import TOP, Report, temporary_folder
+
+CMAKE = """#!/usr/bin/env bash
+for i in 1 2 3 4; do echo "[$i/4] Building thing $i"; sleep "$PRETEND_SECONDS"; done
+[ -z "${PRETEND_FAILURE:-}" ] || { echo "thing.cpp:1: error: pretended"; exit 1; }
+"""
+WEFT = '#!/usr/bin/env bash\necho "weft got $*"\n'
+QUERY = "#!/usr/bin/env bash\necho installed\n"
+
+
+def program(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    path.chmod(0o755)
+
+
+def on_terminal(command, **options):
+    """What a terminal gets of standard error, and standard output apart."""
+    ours, theirs = pty.openpty()
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs, **options) as process:
+        os.close(theirs)
+        out, seen = process.stdout.read(), b""
+        while True:
+            try:
+                part = os.read(ours, 4096)
+            except OSError:  # nobody writes any more
+                break
+            if not part:
+                break
+            seen += part
+    os.close(ours)
+    return process.returncode, out.decode(), seen.decode()
+
+
+def main():
+    report = Report()
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        shutil.copy(TOP / "run", folder / "run")
+        program(folder / "bin/cmake", CMAKE)
+        program(folder / "bin/dpkg-query", QUERY)
+        program(folder / "build/app/weft", WEFT)
+        (folder / "build/build.ninja").write_text("")
+        environment = dict(os.environ, PATH=f"{folder / 'bin'}:{os.environ['PATH']}", WEFT_BUILD=str(folder / "build"))
+        command = ["bash", str(folder / "run"), "check", "a b.json"]
+
+        quick = subprocess.run(command, capture_output=True, text=True, env=dict(environment, PRETEND_SECONDS="0"), cwd=folder)
+        report.check((quick.returncode, quick.stdout, quick.stderr) == (0, "weft got check a b.json\n", ""), f"quick: {quick}")
+        slow = dict(environment, PRETEND_SECONDS="1")
+        code, out, seen = on_terminal(command, env=slow, cwd=folder)
+        report.check(code == 0 and out == "weft got check a b.json\n", f"slow: {code} {out}")
+        report.check("run: building, 2 of 4 (50 %)" in seen and "\n" not in seen, f"on a terminal: {seen!r}")
+        report.check(seen.endswith("\r\033[K"), f"the line is not taken away: {seen!r}")
+        plain = subprocess.run(command, capture_output=True, text=True, env=slow, cwd=folder)
+        report.check(plain.returncode == 0 and not plain.stderr, f"without a terminal, for four seconds: {plain}")
+        bad = subprocess.run(command, capture_output=True, text=True, cwd=folder,
+                             env=dict(environment, PRETEND_SECONDS="0", PRETEND_FAILURE="1"))
+        report.check(bad.returncode == 1 and "error: pretended" in bad.stderr and "the build failed" in bad.stderr and not bad.stdout,
+                     f"a build that fails: {bad}")
+    report.end()
+
+
+main()
