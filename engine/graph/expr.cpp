@@ -7,7 +7,6 @@
 #include <cctype>
 
 #include "engine/base/nearest.h"
-#include "engine/base/nearest.h"
 #include "engine/graph/expr_node.h"
 
 namespace weft::graph {
