@@ -62,8 +62,7 @@ void main() {
   bool inside_sphere = d2 <= r2;
   float coverage = inside_sphere ? 1.0 : halfPlane(-outside - edge.x, abs(outwards));
 
-  // Small ones only; a branch would cost every pixel, a loop does not.
-  for (int i = 0; i < (edge.y > 0.0 ? 1 : 0); ++i) {
+  if (edge.y > 0.0) {  // small ones only
     vec2 lengths = clamp(0.5 * (edge.y + 1.0) - abs(pixels), 0.0, min(edge.y, 1.0));
     coverage = mix(lengths.x * lengths.y, coverage, clamp(edge.y * inversesqrt(kPi) - 0.8, 0.0, 1.0));
   }
