@@ -166,8 +166,9 @@ bool Execution::resetHistories(base::Diagnostics& diagnostics) {
 }
 
 // Seconds since a resource was published. Not published yet: about to be. A headless run publishes everything before
-// its frame 0.
+// its frame 0. What no live pass writes is never published, and counts as old as that.
 double Execution::ageOf(std::uint32_t r) const {
+  if (!made_[r]) return std::numeric_limits<double>::infinity();
   const GpuResource& resource = (*pool_)[r];
   if (resource.publications == 0 || publishing_[r])
     return input_.headless && framesRun_ == 0 ? std::numeric_limits<double>::infinity() : 0.0;

@@ -143,6 +143,7 @@ class Execution {
   std::vector<std::uint64_t> own_;               // per step
   std::vector<std::uint8_t> rotated_;            // per resource, this frame
   std::vector<std::uint8_t> ran_;                // per step, this frame
+  std::vector<std::uint8_t> made_;               // per resource: the world's, or some step writes it
   std::vector<std::uint8_t> lasting_;            // per step: runs in an obsolete frame too
   std::vector<std::uint64_t> resetState_;        // per history: hash of what resets it
   ReadBack readBack_;

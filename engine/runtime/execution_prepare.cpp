@@ -104,6 +104,10 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
     std::copy_n(device_.context.device().limits.computeGroups, 3, passes_.back().context.maxGroups);
     if (!passes_.back().usable) return false;
   }
+  made_.resize(resources);
+  for (std::size_t r = 0; r < resources; ++r) made_[r] = plan_->graph->resources[r].import != graph::kNone;
+  for (const PreparedPass& pass : passes_)
+    for (const std::uint32_t r : pass.written) made_[r] = 1;
   layoutUniforms(diagnostics);
   if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
   if (before) carryOver(*before);

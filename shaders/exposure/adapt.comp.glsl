@@ -1,7 +1,9 @@
 // Exposure from the histogram, followed in time. One group of 256 threads.
 // read    histogram   of histogram.comp.glsl
 //         previous    the last frame's `exposure`; x below 0: there is none, so the target is taken at once
-// write   exposure    vec4: the factor for radiance, its target, the mean luminance, 0
+// write   exposure    vec4: the factor for radiance, its target, the mean luminance, seconds until it is whole (after black)
+// After black the target is taken at once and the factor rises to it within kOpening: what fades in is seen to fade in, instead of
+// being exposed for its dimmest frame.
 // params  key         the luminance that the mean is brought to
 //         low, high   share of the texels below which, and above which, they do not count, 0..1
 //         speed_up, speed_down  1 / s, when the scene has become brighter or darker than what is adapted to: stops left to
@@ -23,6 +25,7 @@ layout(std140) uniform Parameters {
   float min_ev;
   float max_ev;
 };
+const float kOpening = 0.25;  // s
 shared uint sums[kBins];
 shared vec2 parts[kBins];
 
@@ -51,15 +54,16 @@ void main() {
 
   float old = before.x;
   if (parts[0].x <= 0.0) {  // a black picture says nothing
-    adapted = old > 0.0 ? before : vec4(-1.0, -1.0, 0.0, 0.0);
+    adapted = old > 0.0 ? before : vec4(-1.0, -1.0, 0.0, kOpening);
     return;
   }
   float mean = parts[0].y / parts[0].x;
   float target = clamp(log2(key) - mean, min_ev, max_ev);
   float ev = target;
-  if (old > 0.0) {
+  float opening = max(before.w - delta_time, 0.0);
+  if (before.w <= 0.0 && old > 0.0) {
     float speed = target < log2(old) ? speed_up : speed_down;
     ev = mix(target, log2(old), exp(-speed * delta_time));
   }
-  adapted = vec4(exp2(ev), exp2(target), exp2(mean), 0.0);
+  adapted = vec4(exp2(ev) * max(1.0 - opening / kOpening, 1e-6), exp2(target), exp2(mean), opening);
 }

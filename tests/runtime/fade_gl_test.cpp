@@ -1,5 +1,6 @@
 // The environment and its lighting as a person sees them: the old ones, or a mix of both that grows with
 // time, from black at first. Never a new sky with old lighting.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/runtime/stage.h"
@@ -210,4 +211,21 @@ TEST_CASE(
   const graph::FlatGraph& graph = *live.stage.execution().plan().graph;
   for (const graph::PassSpec& spec : graph.specs)
     for (const graph::UniformSpec& uniform : spec.uniforms) CHECK(uniform.define == (uniform.name == "FADE"));
+}
+
+TEST_CASE("nothing waits for lighting that is not made: without its readers or its maker the sky is there") {
+  const auto a = makeMap(64, 0x3800, 1);
+  for (const char* disabled : {"spheres", "specular_prefilter"}) {
+    CAPTURE(disabled);
+    const CleanScope clean;
+    Live live("false"), still("false", true);
+    for (Live* each : {&live, &still}) {
+      each->stage.settings.disables = {disabled};
+      each->use(a);
+    }
+    for (int k = 0; k < 10; ++k) live.frame();
+    const std::vector<float> picture = live.frame();
+    CHECK(*std::ranges::max_element(picture) > 0);
+    CHECK(picture == still.frame());
+  }
 }

@@ -107,3 +107,27 @@ TEST_CASE("auto-exposure: a black picture changes nothing, and is no reason for 
   for (std::uint32_t x = 0; x < picture.width; ++x) CHECK(picture.at(x, 7)[0] == 0);
   CHECK(lab.complaints() == "");
 }
+
+TEST_CASE(
+    "auto-exposure: after black the exposure rises to its target within a quarter of a second, whatever the "
+    "scene does meanwhile") {
+  for (const double level : {0.02, 5.0}) {
+    CAPTURE(level);
+    Lab lab(setupOf(level, level, 0));  // frame 0 is black
+    lab.frame(0);
+    CHECK(adapted(lab) == -1);
+    double before = 0;
+    for (std::uint32_t frame = 1; frame <= 15; ++frame) {
+      lab.frame(frame);
+      const double factor = adapted(lab) * level / kKey;
+      CHECK(std::abs(factor - frame / 15.0) < 0.012);
+      CHECK(factor > before);
+      before = factor;
+    }
+    for (std::uint32_t frame = 16; frame <= 18; ++frame) {
+      lab.frame(frame);
+      CHECK(std::abs(adapted(lab) * level / kKey - 1) < 0.012);
+    }
+    CHECK(lab.complaints() == "");
+  }
+}
