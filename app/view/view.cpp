@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/live_environment.h"
+#include "app/output_files.h"
 #include "app/session.h"
 #include "app/view/viewer.h"
 
@@ -30,6 +31,7 @@ bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
 
 int runView(const Options& options) {
   base::Diagnostics diagnostics;
+  if (!options.screenshot.empty() && !checkOutput(options.screenshot, 0, false, diagnostics)) return report(diagnostics);
   Options files = options;
   if (!files.environment.empty())
     files.environment = firstEnvironment(options.environment, diagnostics).value_or("");

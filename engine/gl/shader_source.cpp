@@ -274,6 +274,9 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   IncludeExpander expander(roots_, found);
   expander.expandRoot(*where, folderOf(*where), *text);
   touch(expander.paths(), expander.missing());
+  if (text->find_first_not_of(" \t\r\n") == std::string::npos)
+    found.error(Code::W104, {std::make_shared<const std::string>(*where), 1, 1}, fmt::format("shader '{}' is empty", path)).hint =
+        "the least a shader can hold is 'void main() {}'";
   diagnostics.append(found);
   if (found.hasErrors()) return nullptr;
   Entry entry{expander.finish(), {own}};

@@ -14,6 +14,8 @@ def main():
     bare = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     without = run(weft, "view", "graphs/glow.json", "--max-frames", "1", "--program-cache", "none", env=bare)
     report.check(without.code == 3 and without.codes() == ["W110"], f"without a display: {without.code}\n{without.err}")
+    wrong = run(weft, "view", "graphs/glow.json", "--screenshot", "shot.jpg", env=bare)
+    report.check(wrong.code == 1 and wrong.codes() == ["W180"], f"--screenshot shot.jpg: {wrong.code}\n{wrong.err}")
     if not shutil.which("xvfb-run"):
         report.skip("xvfb-run is not installed")
         report.end()

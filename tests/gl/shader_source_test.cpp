@@ -132,6 +132,20 @@ TEST_CASE("a missing shader is reported at the one who named it, a directory as 
   CHECK(diagnostics.items()[1].message.find("directory") != std::string::npos);
 }
 
+TEST_CASE("an empty shader is told as that, where it is") {
+  TempFolder folder;
+  folder.write("empty.frag.glsl", " \n\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("empty.frag.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == Code::W104);
+  CHECK(diagnostics.items()[0].message == "shader 'empty.frag.glsl' is empty");
+  CHECK(diagnostics.items()[0].place.line == 1);
+  folder.write("empty.frag.glsl", "void main() {}\n");
+  CHECK(loader.load("empty.frag.glsl", diagnostics));
+}
+
 TEST_CASE("a shader's path stays below its folders") {
   TempFolder folder;
   folder.write("secret.glsl", "void main() {}\n");
