@@ -109,8 +109,8 @@ TEST_CASE("auto-exposure: a black picture changes nothing, and is no reason for 
 }
 
 TEST_CASE(
-    "auto-exposure: after black the exposure rises to its target within a quarter of a second, whatever the "
-    "scene does meanwhile") {
+    "auto-exposure: after black the exposure rises evenly to its target within a quarter of a second, and "
+    "stays there") {
   for (const double level : {0.02, 5.0}) {
     CAPTURE(level);
     Lab lab(setupOf(level, level, 0));  // frame 0 is black
