@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "app/session.h"
+#include "engine/base/limits.h"
 #include "engine/base/nearest.h"
 
 namespace weft::app {
@@ -35,6 +36,13 @@ std::string checkFrames(const std::string& text) {
   const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
                                                         : parsePair(text, ':', first, last) && first <= last;
   return good ? "" : "expected FRAME or FIRST:LAST with FIRST <= LAST, found '" + text + "'";
+}
+
+// Sets the limit, for this process.
+std::string takeLimit(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) return "expected NAME=VALUE, found '" + text + "'";
+  return base::setLimit(text.substr(0, at), text.substr(at + 1)).value_or("");
 }
 
 std::string checkSet(const std::string& text) {
@@ -68,7 +76,7 @@ bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
 
 struct Raw {
   std::string size = "1280x720", frames = "0";
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, limits;
 };
 
 constexpr const char* kWaitForAssets = "--wait-for-assets";
@@ -166,6 +174,9 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    command->add_option("--limit", raw.limits, "raise or lower a limit of docs/limits.md for this run; repeatable")
+        ->check(CLI::Validator(takeLimit, "NAME=VALUE"));
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) commands.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {

@@ -2,7 +2,7 @@
 // code, and tests/bad_graphs (or the room's tests) one failing input per code. A ctest holds the three together.
 //
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
-// W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs.
+// W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits.
 // Numbers are never reused; W010 (overlays are not supported yet) is retired. Does not hold the message texts: those
 // stand where the mistake is found.
 #pragma once
@@ -132,7 +132,17 @@ namespace weft::base {
   X(187, "shader uses what its pass does not name")                       \
   X(188, "graph presents nothing")                                        \
   X(195, "file changed since it was read")                                \
-  X(196, "change that cannot be written back")
+  X(196, "change that cannot be written back")                          \
+  /* limits and what may be opened */                                    \
+  X(200, "path outside the confined folders")                            \
+  X(201, "limit exceeded")                                               \
+  X(202, "textures larger than the memory limit")                        \
+  X(203, "shader larger than the driver survives")                       \
+  X(204, "shader that the driver did not survive")                       \
+  X(205, "files are polled")                                             \
+  X(206, "work groups beyond the limit of the device")                   \
+  X(207, "picture of values that are no colours")                        \
+  X(208, "further messages are left out")
 // clang-format on
 
 // A diagnostic code; the numeric value is what follows the W in "W040".

@@ -1,0 +1,71 @@
+#include "engine/base/limits.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+#include "engine/base/nearest.h"
+
+namespace weft::base {
+
+namespace {
+
+// By the order of the table.
+std::array kValues{
+#define WEFT_LIMIT_VALUE(name, value, what) std::uint64_t{value},
+    WEFT_LIMITS(WEFT_LIMIT_VALUE)
+#undef WEFT_LIMIT_VALUE
+};
+
+// "2G" is 2 << 30; nothing when it is no number or too large.
+std::optional<std::uint64_t> parseCount(std::string_view text) {
+  int shift = 0;
+  if (!text.empty()) {
+    const std::size_t unit = std::string_view("KMG").find(text.back());
+    if (unit != std::string_view::npos) {
+      shift = 10 * (static_cast<int>(unit) + 1);
+      text.remove_suffix(1);
+    }
+  }
+  std::uint64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  if (count == 0 || count > (~std::uint64_t{0} >> 1) >> shift) return std::nullopt;
+  return count << shift;
+}
+
+}  // namespace
+
+const std::vector<LimitInfo>& allLimits() {
+  static const std::vector<LimitInfo> kAll{
+#define WEFT_LIMIT_INFO(name, value, what) {Limit::name, #name, value, what},
+      WEFT_LIMITS(WEFT_LIMIT_INFO)
+#undef WEFT_LIMIT_INFO
+  };
+  return kAll;
+}
+
+std::uint64_t limitOf(Limit limit) { return kValues[static_cast<std::size_t>(limit)]; }
+
+std::string_view nameOf(Limit limit) { return allLimits()[static_cast<std::size_t>(limit)].name; }
+
+std::optional<std::string> setLimit(std::string_view name, std::string_view value) {
+  std::vector<std::string> names;
+  for (const LimitInfo& info : allLimits()) {
+    names.emplace_back(info.name);
+    if (info.name != name) continue;
+    const auto count = parseCount(value);
+    if (!count) return fmt::format("expected a whole number from 1, which may end in K, M or G, found '{}'", value);
+    kValues[static_cast<std::size_t>(info.limit)] = *count;
+    return std::nullopt;
+  }
+  const std::string hint = nearestHint(std::string(name), names);
+  return fmt::format("there is no limit '{}'; {}", name, hint.empty() ? "docs/limits.md lists them" : hint);
+}
+
+std::string hintToRaise(Limit limit) {
+  return fmt::format("raise it with --limit {}={}, if that is meant", nameOf(limit), 2 * limitOf(limit));
+}
+
+}  // namespace weft::base

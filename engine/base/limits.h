@@ -1,0 +1,64 @@
+// The limits that keep a hostile or mistaken file from filling the memory, the stack or the time of this process: one
+// table of names and defaults. A limit belongs to the process, like its stack size: it is set before anything is read
+// (`--limit NAME=VALUE` of the weft command) and never changes after that. docs/limits.md has a row for each, with the
+// message and the test that holds it. Does not hold limits of a format (16 levels, 8 attachments) or of a device.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::base {
+
+// X(name, default, what is counted)
+// clang-format off
+#define WEFT_LIMITS(X)                                                                          \
+  X(include_files,       1000,          "files that one graph includes, each use counted")      \
+  X(include_depth,       64,            "files that include each other in a row")               \
+  X(extends_depth,       64,            "overlays that extend each other in a row")             \
+  X(alternatives_depth,  64,            "alternatives that lead to alternatives in a row")      \
+  X(alternatives,        1000000,       "alternatives of one graph, looked at in all")          \
+  X(repeat_indices,      16,            "indices of one repeat")                                \
+  X(json_bytes,          64ull << 20,   "bytes of one JSON or .cube file")                      \
+  X(uses,                4000000,       "slots of all passes of one graph")                     \
+  X(texture_bytes,       4ull << 30,    "bytes of all textures and buffers of one plan")        \
+  X(diagnostics,         100,           "messages that are printed")                            \
+  X(shader_bytes,        1ull << 20,    "bytes of one shader with what it includes")            \
+  X(shader_tokens,       200000,        "tokens of one shader after its macros")                \
+  X(shader_depth,        250,           "brackets or operators nested in one expression")       \
+  X(shader_cases,        2000,          "cases of one switch")                                  \
+  X(shader_array,        16384,         "elements of one array in a shader, its blocks aside")  \
+  X(shader_seconds,      20,            "seconds that a shader compiles")                       \
+  X(shader_memory,       1ull << 30,    "bytes that a shader takes to compile")                 \
+  X(program_cache_bytes, 256ull << 20,  "bytes of the folder of program binaries")              \
+  X(frames,              1000000,       "frames of one command")
+// clang-format on
+
+enum class Limit : std::uint8_t {
+#define WEFT_LIMIT_ENUM(name, value, what) name,
+  WEFT_LIMITS(WEFT_LIMIT_ENUM)
+#undef WEFT_LIMIT_ENUM
+};
+
+struct LimitInfo {
+  Limit limit;
+  std::string_view name;
+  std::uint64_t initial;  // what it is unless set
+  std::string_view counts;
+};
+// In the order of the table.
+const std::vector<LimitInfo>& allLimits();
+
+std::uint64_t limitOf(Limit limit);
+std::string_view nameOf(Limit limit);
+
+// Sets one limit by name; 1 or more. The value is a whole number, or one with the suffix K, M or G (of 1024).
+// Returns what is wrong, as a sentence for the person who wrote it, or nothing.
+std::optional<std::string> setLimit(std::string_view name, std::string_view value);
+
+// "raise it with --limit include_files=2000": the fix of a message about a limit; twice the present value.
+std::string hintToRaise(Limit limit);
+
+}  // namespace weft::base
