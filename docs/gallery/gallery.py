@@ -3,6 +3,8 @@
 
     docs/gallery/gallery.py                 render everything anew with ./run and write the page
     docs/gallery/gallery.py NAME ...        only the pictures of these entries, then the page
+    docs/gallery/gallery.py --references FOLDER ...
+                                            as above; only with the reference files in FOLDER is the front view made anew
     docs/gallery/gallery.py --check WEFT    write nothing: the page must be the one that gallery.json makes, every picture
                                             must be there, every property must be a test, and every effect, rendered small,
                                             must change the picture
@@ -41,8 +43,17 @@ def picture_of(entry, side):
 
 
 def render(weft, entry, side, output, size=None):
-    line = [*weft, "render", *arguments(entry, side), "--quiet", "-o", str(output), "--size", size or entry.get("size", GALLERY["size"]),
-            "--environment", entry.get("environment", ENVIRONMENT)]
+    run_weft([*weft, "render", *arguments(entry, side), "--quiet", "-o", str(output), "--size", size or GALLERY["size"],
+              "--environment", ENVIRONMENT])
+
+
+def render_front(references):
+    front = GALLERY["front"]
+    run_weft([str(TOP / "run"), "render", GALLERY["all"], "--quiet", "-o", str(PICTURES / f"{front['name']}.png"), "--size", front["size"],
+              *(text for key in ("materials", "environment") for text in (f"--{key}", str(references / front[key])))])
+
+
+def run_weft(line):
     done = subprocess.run(line, cwd=TOP, capture_output=True, text=True)
     if done.returncode or "error[" in done.stderr:
         sys.exit(f"{' '.join(line)}\n{done.stderr}")
@@ -75,14 +86,13 @@ def page():
                 f"| ![off](images/gallery/{picture_of(entry, 'off')}) | ![on](images/gallery/{picture_of(entry, 'on')}) |", ""]
         out += [f"Held by `{entry['property'][0]}`: {case_of(entry)}.", ""]
     front = GALLERY["front"]
-    out += [f"## {front['effect']}", "", front["says"], "", f"| Weft | the model |", "|---|---|",
-            f"| ![Weft](images/gallery/{front['name']}.png) | ![the model]({front['model']}) |"]
+    out += [f"## {front['effect']}", "", front["says"], "", f"![front view](images/gallery/{front['name']}.png)"]
     return "\n".join(out).rstrip() + "\n"
 
 
 def all_pictures():
     pairs = {picture_of(entry, side) for entry in GALLERY["entries"] for side in ("off", "on")}
-    return pairs | {picture_of(GALLERY["front"], "on")}
+    return pairs | {f"{GALLERY['front']['name']}.png"}
 
 
 def check(weft):
@@ -96,25 +106,22 @@ def check(weft):
     for entry in GALLERY["entries"]:
         if not case_of(entry):
             problems.append(f"{entry['name']}: there is no test case {entry['property']}")
-    if not (TOP / ENVIRONMENT).exists():
-        print(f"skipped the pictures: {ENVIRONMENT} is not on this machine")
-    else:
-        with tempfile.TemporaryDirectory() as folder:
-            made = {}
-            for entry in GALLERY["entries"]:
-                for side in ("off", "on"):
-                    key = picture_of(entry, side)
-                    if key not in made:
-                        path = pathlib.Path(folder) / key
-                        render([weft], entry, side, path, GALLERY["check_size"])
-                        made[key] = read_png(path)[1]
-                off, on = (made[picture_of(entry, side)] for side in ("off", "on"))
-                changed = sum(a != b for a, b in zip(off, on)) / len(off)
-                equal = entry.get("equal", False)
-                if (changed > 0) == equal:
-                    problems.append(f"{entry['name']}: {changed:.2%} of the values differ, and {'none' if equal else 'some'} should")
-                if max(on) == min(on):
-                    problems.append(f"{entry['name']}: the picture is one flat value")
+    with tempfile.TemporaryDirectory() as folder:
+        made = {}
+        for entry in GALLERY["entries"]:
+            for side in ("off", "on"):
+                key = picture_of(entry, side)
+                if key not in made:
+                    path = pathlib.Path(folder) / key
+                    render([weft], entry, side, path, GALLERY["check_size"])
+                    made[key] = read_png(path)[1]
+            off, on = (made[picture_of(entry, side)] for side in ("off", "on"))
+            changed = sum(a != b for a, b in zip(off, on)) / len(off)
+            equal = entry.get("equal", False)
+            if (changed > 0) == equal:
+                problems.append(f"{entry['name']}: {changed:.2%} of the values differ, and {'none' if equal else 'some'} should")
+            if max(on) == min(on):
+                problems.append(f"{entry['name']}: the picture is one flat value")
     for problem in problems:
         print(problem)
     print(f"{len(GALLERY['entries'])} entries, {len(problems)} problems")
@@ -124,11 +131,14 @@ def check(weft):
 def main():
     if sys.argv[1:2] == ["--check"]:
         sys.exit(check(sys.argv[2]))
-    if not (TOP / ENVIRONMENT).exists():
-        sys.exit(f"{ENVIRONMENT} is needed: an equirectangular environment, see docs/gallery/gallery.json")
+    wanted, references = sys.argv[1:], None
+    if wanted[:1] == ["--references"]:
+        if len(wanted) < 2 or not pathlib.Path(wanted[1]).is_dir():
+            sys.exit("--references needs a folder that exists")
+        references, wanted = pathlib.Path(wanted[1]).resolve(), wanted[2:]
     PICTURES.mkdir(parents=True, exist_ok=True)
     known = [entry["name"] for entry in [*GALLERY["entries"], GALLERY["front"]]]
-    wanted = sys.argv[1:] or known
+    wanted = wanted or known
     unknown = set(wanted) - set(known)
     if unknown:
         sys.exit(f"no entry is called {', '.join(sorted(unknown))}")
@@ -142,10 +152,11 @@ def main():
                 print(f"docs/images/gallery/{name}")
     front = GALLERY["front"]
     if front["name"] in wanted:
-        if (TOP / front["environment"]).exists():
-            render([str(TOP / "run")], front, "on", PICTURES / picture_of(front, "on"))
+        if references:
+            render_front(references)
+            print(f"docs/images/gallery/{front['name']}.png")
         else:
-            print(f"skipped {front['name']}: {front['environment']} is not on this machine")
+            print(f"skipped: {front['name']} (its picture stays as it is: name its reference files with --references FOLDER)")
     names = all_pictures()
     for path in PICTURES.glob("*.png"):
         if path.name not in names:

@@ -15,9 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // The paper files in a folder of their own, with the overlays among them written out.
-std::optional<std::string> paperFolder() {
-  const fs::path paper = WEFT_SOURCE_DIR "/../shared/paper";
-  if (!fs::exists(paper / "studio.json")) return std::nullopt;
+std::string paperFolder() {
+  const fs::path paper = WEFT_SOURCE_DIR "/tests/graph/paper";
   const fs::path folder = fs::path(WEFT_BINARY_DIR) / "expand_paper";
   fs::create_directories(folder);
   for (const char* name : {"studio.json", "ibl.json", "post.json", "bloom.json", "deferred.json", "gi.json"})
@@ -58,14 +57,11 @@ struct Source {
 std::vector<Source> sources() {
   std::vector<Source> all;
   base::Diagnostics diagnostics;
-  if (const auto folder = paperFolder())
-    for (const std::string& name : kGraphs)
-      all.push_back({"paper/" + name, readGraph(*folder + "/" + name, diagnostics)});
-  else
-    MESSAGE("skipped: no ../shared/paper");
+  const std::string folder = paperFolder();
+  for (const std::string& name : kGraphs)
+    all.push_back({"paper/" + name, readGraph(folder + "/" + name, diagnostics)});
   for (const char* name : {"studio.json", "glow.json"})
-    if (const std::string path = std::string(WEFT_SOURCE_DIR "/graphs/") + name; fs::exists(path))
-      all.push_back({name, readGraph(path, diagnostics)});
+    all.push_back({name, readGraph(std::string(WEFT_SOURCE_DIR "/graphs/") + name, diagnostics)});
   for (const Source& source : all) REQUIRE_MESSAGE(source.desc, diagnostics.text());
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
   return all;

@@ -329,11 +329,7 @@ TEST_CASE("circles of extends and include end") {
 }
 
 TEST_CASE("the papers' overlays read and expand") {
-  const fs::path paper = WEFT_SOURCE_DIR "/../shared/paper";
-  if (!fs::exists(paper)) {
-    MESSAGE("skipped: no ../shared/paper");
-    return;
-  }
+  const fs::path paper = WEFT_SOURCE_DIR "/tests/graph/paper";
   const auto of = [&](const char* name) { return fine((paper / name).string()); };
   const Expanded dynres = of("dynres.json"), low = of("lowend.json"), temporal = of("temporal.json"),
                  gi = of("studio_gi.json");

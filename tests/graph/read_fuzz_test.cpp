@@ -19,8 +19,7 @@ namespace {
 
 std::vector<std::string> realGraphs() {
   std::vector<std::string> out;
-  for (const char* folder : {WEFT_SOURCE_DIR "/graphs", WEFT_SOURCE_DIR "/../shared/paper"}) {
-    if (!std::filesystem::is_directory(folder)) continue;
+  for (const char* folder : {WEFT_SOURCE_DIR "/graphs", WEFT_SOURCE_DIR "/tests/graph/paper"}) {
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
       if (entry.path().extension() == ".json") paths.push_back(entry.path());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <random>
 #include <string>
 
@@ -109,17 +108,12 @@ TEST_CASE(
 }
 
 TEST_CASE("specular anti-aliasing: less error on a photographed environment") {
-  const std::string path = WEFT_SOURCE_DIR "/../shared/data/hdr/spiaggia_di_mondello_1k.hdr";
-  if (!std::filesystem::exists(path)) {
-    MESSAGE("skipped: ", path, " is not there");
-    return;
-  }
   compare(
       [](std::uint32_t scale, bool aa, const char* mode) {
         Setup setup = mirrors(scale, aa, mode);
         weft::base::Diagnostics said;
         auto image = weft::assets::loadEnvironment(
-            WEFT_SOURCE_DIR "/../shared/data/hdr/spiaggia_di_mondello_1k.hdr", said);
+            WEFT_SOURCE_DIR "/scenes/environments/spiaggia_di_mondello_1k.hdr", said);
         REQUIRE(image);
         setup.environment = std::make_shared<const weft::assets::ImageF>(std::move(*image));
         return setup;
