@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "data_places.h"
 #include "engine/assets/loader.h"
 #include "engine/graph/read.h"
 #include "engine/scene/scene_file.h"

@@ -137,7 +137,7 @@ def validate(jobs):
 
 def main():
     if not shutil.which("glslangValidator"):
-        print("shaders_compile: skipped, glslangValidator is not installed")
+        print("skipped: glslangValidator is not installed")
         return 77
     graphs = [pathlib.Path(g).resolve() for g in sys.argv[2:]]
     if not graphs:

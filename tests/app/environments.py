@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Environments that load beside the frames. Headless: the picture depends neither on how long loading took nor on the number
-of threads. In a window: black until the first one is there, whole; keys go through the folder in the order of names; a
-damaged file keeps the picture and is reported; a file that changes on disk is taken up. Waits have generous limits, nothing is timed."""
+of threads. With --window: black until the first one is there, whole; keys go through the folder in the order of names; a
+damaged file keeps the picture and is reported; a file that changes on disk is taken up. Waits have generous limits, nothing is timed.
+
+    environments.py WEFT COMPARE [--window]
+"""
 import os
 import pathlib
 import shutil
@@ -162,7 +165,7 @@ def window(weft, compare, folder, report):
 
 def main():
     weft, compare, report = sys.argv[1], sys.argv[2], Report()
-    if len(sys.argv) > 3:  # inside the virtual display
+    if "--inside" in sys.argv:  # the virtual display
         with temporary_folder() as name:
             folder = pathlib.Path(name)
             top = pathlib.Path(__file__).resolve().parents[2]
@@ -170,12 +173,13 @@ def main():
                 shutil.copytree(top / part, folder / part)
             window(weft, compare, folder, report)
         report.end()
-    with temporary_folder() as name:
-        headless(weft, pathlib.Path(name), report)
+    if "--window" not in sys.argv:
+        with temporary_folder() as name:
+            headless(weft, pathlib.Path(name), report)
+        report.end()
     if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
         report.skip("xvfb-run or xdotool is not installed")
-        report.end()
-    inside = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", sys.executable, __file__, weft, compare, "window"],
+    inside = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", sys.executable, __file__, weft, compare, "--inside"],
                             capture_output=True, text=True)
     report.check(inside.returncode == 0, f"in a window:\n{inside.stdout}{inside.stderr}")
     report.end()

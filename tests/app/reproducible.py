@@ -23,9 +23,6 @@ def render(report, weft, label, output, *arguments):
 def has_backend(report, weft, backend, folder):
     result = run(weft, "render", "graphs/daylight.json", "--size", "8x8", "--backend", backend, "--program-cache", "none",
                  "-o", folder / "probe.png")
-    if result.code == 3 and result.codes() == ["W110"]:
-        report.skip(f"no {backend} context on this machine")
-        return False
     return report.check(result.code == 0, f"{backend}: {result.err}")
 
 
@@ -77,10 +74,7 @@ def main():
         folder = pathlib.Path(name)
         backends = [b for b in ("osmesa", "egl") if has_backend(report, weft, b, folder)]
         check_environment(report, weft, folder, "daylight", [], backends)
-        if REAL_HDR.exists():
-            check_environment(report, weft, folder, "real", ["--environment", REAL_HDR], backends)
-        else:
-            report.skip(f"{REAL_HDR} is not on this machine")
+        check_environment(report, weft, folder, "real", ["--environment", REAL_HDR], backends)
         check_frames(report, weft, folder)
     report.end()
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """`./run` around a build that is pretended: silent when it is quick, how far it is on a terminal when it is not, the end of
-the log when it fails; then the program with its arguments. Needs no build of Weft.
+the log when it fails; then the program with its arguments. And in a folder with spaces and quotes: what CMake is told has neither, and is
+that folder. Needs no build of Weft.
 
     run_script.py WEFT
 """
@@ -13,10 +14,12 @@ import subprocess
 from program import TOP, Report, temporary_folder
 
 CMAKE = """#!/usr/bin/env bash
+[ -z "${PRETEND_LOG:-}" ] || printf '%s\n' "$@" >>"$PRETEND_LOG"
 for i in 1 2 3 4; do echo "[$i/4] Building thing $i"; sleep "$PRETEND_SECONDS"; done
 [ -z "${PRETEND_FAILURE:-}" ] || { echo "thing.cpp:1: error: pretended"; exit 1; }
 """
 WEFT = '#!/usr/bin/env bash\necho "weft got $*"\n'
+ODD = """it's a "test" folder"""
 QUERY = "#!/usr/bin/env bash\necho installed\n"
 
 
@@ -44,11 +47,45 @@ def on_terminal(command, **options):
     return process.returncode, out.decode(), seen.decode()
 
 
+def links_to(folder):
+    return [path for path in pathlib.Path("/tmp").glob("weft_*") if path.is_symlink() and os.readlink(path).startswith(str(folder))]
+
+
+def odd_folder(report, folder, environment):
+    """Without WEFT_BUILD, so that the build is inside."""
+    top = folder / ODD
+    for name in ("run", "cmake/plain_path.sh"):
+        (top / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(TOP / name, top / name)
+    program(top / "build/release/app/weft", WEFT)
+    log = folder / "told"
+    environment = {key: value for key, value in environment.items() if key != "WEFT_BUILD"} | {"PRETEND_SECONDS": "0", "PRETEND_LOG": str(log)}
+    try:
+        for time in ("first", "second"):
+            done = subprocess.run([str(top / "run"), "check", 'a "b".json'], capture_output=True, text=True, env=environment, cwd=folder)
+            report.check((done.returncode, done.stdout, done.stderr) == (0, 'weft got check a "b".json\n', ""), f"odd folder, {time} time: {done}")
+        told = log.read_text().splitlines()
+        paths = [word for word in told if word.startswith("/")]
+        report.check(told[:2] == ["-S", paths[0]] and told.count("--build") == 2, f"odd folder: cmake was told {told}")
+        report.check(not any(set(path) & set(" '\"") for path in paths), f"odd folder: {paths}")
+        report.check([os.path.realpath(path) for path in paths[:2]] == [str(top), str(top / "build/release")], f"odd folder: {paths}")
+        link = pathlib.Path(paths[0])
+        link.unlink()
+        link.symlink_to(folder)
+        stolen = subprocess.run([str(top / "run"), "check"], capture_output=True, text=True, env=environment, cwd=folder)
+        report.check(stolen.returncode == 1 and f"{link} is to be your link to {top}" in stolen.stderr, f"a link of that name to elsewhere: {stolen}")
+    finally:
+        for path in links_to(folder):
+            path.unlink()
+
+
 def main():
     report = Report()
     with temporary_folder() as name:
         folder = pathlib.Path(name)
-        shutil.copy(TOP / "run", folder / "run")
+        (folder / "cmake").mkdir()
+        for part in ("run", "cmake/plain_path.sh"):
+            shutil.copy(TOP / part, folder / part)
         program(folder / "bin/cmake", CMAKE)
         program(folder / "bin/dpkg-query", QUERY)
         program(folder / "build/app/weft", WEFT)
@@ -69,6 +106,7 @@ def main():
                              env=dict(environment, PRETEND_SECONDS="0", PRETEND_FAILURE="1"))
         report.check(bad.returncode == 1 and "error: pretended" in bad.stderr and "the build failed" in bad.stderr and not bad.stdout,
                      f"a build that fails: {bad}")
+        odd_folder(report, folder, environment)
     report.end()
 
 

@@ -1,19 +1,18 @@
 #!/usr/bin/env python3
 """The front view beside the reference picture: sphere for sphere at the same place, with colours in the same order.
 
-Usage: seed_front.py WEFT. Skipped without ../shared/data/ref. The reference has another tone curve, other filtering and hard
+Usage: seed_front.py WEFT REFERENCES. Skipped where REFERENCES has no such picture. The reference has another tone curve, other filtering and hard
 edges, so pixels are not compared: see docs/seed_front.md.
 """
 import math
 import pathlib
 import sys
 
-from program import SHARED, TOP, Report, run, temporary_folder
+from program import TOP, Report, run, temporary_folder
 
 sys.path.insert(0, str(TOP / "docs/gallery"))
 from png import read_png  # noqa: E402
 
-REF = SHARED / "data/ref"
 WIDTH, HEIGHT = 1280, 720
 DISC = 16      # pixels around a centre whose mean is a sphere's colour
 PATCH = 44     # half the side of the patch that is aligned, 4 to 10 pixels beyond the silhouette
@@ -91,19 +90,18 @@ def correlation(a, b):
 
 
 def main():
-    weft, report = sys.argv[1], Report()
-    if not REF.is_dir():
-        report.skip(f"{REF} is not there")
-        report.end()
+    weft, references, report = sys.argv[1], pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else ""), Report()
+    if not (references / "seed_front_720.png").exists():
+        report.skip("no references: configure with -DWEFT_REFERENCES=FOLDER")
     with temporary_folder() as folder:
         picture = pathlib.Path(folder) / "front.png"
-        done = run(weft, "render", "graphs/studio.json", "--materials", REF / "seed_materials.json", "--environment",
-                   REF / "procedural_env_2k.hdr", "--size", f"{WIDTH}x{HEIGHT}", "--quiet", "-o", picture)
+        done = run(weft, "render", "graphs/studio.json", "--materials", references / "seed_materials.json", "--environment",
+                   references / "procedural_env_2k.hdr", "--size", f"{WIDTH}x{HEIGHT}", "--quiet", "-o", picture)
         report.check(done.code == 0, f"render: exit code {done.code}\n{done.err}")
         if done.code:
             report.end()
         ours = rows_of(picture)
-    theirs = rows_of(REF / "seed_front_720.png")
+    theirs = rows_of(references / "seed_front_720.png")
 
     whole = [c for c in centers() if PATCH + SHIFT + 1 < c[3] < HEIGHT - PATCH - SHIFT - 2]
     report.check(len(whole) == 80, f"{len(whole)} spheres are whole in the picture, expected 80")

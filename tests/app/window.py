@@ -117,7 +117,6 @@ def inside_display(report, weft, compare, script):
         return pathlib.Path(os.environ["WEFT_SCREEN"])
     if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
         report.skip("xvfb-run or xdotool is not installed")
-        report.end()
     with tempfile.TemporaryDirectory(prefix="weft_screen_") as screen:
         xvfb = ["xvfb-run", "-a", "-s", f"-screen 0 1280x1024x24 -noreset -fbdir {screen}"]
         command = [*xvfb, sys.executable, script, weft, compare, *sys.argv[3:], "--inside"]

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tests/assets/temporary.h"
+#include "tests/skip.h"
 
 using namespace weft;
 using namespace weft::assets;
@@ -98,11 +99,16 @@ TEST_CASE("category and source may be absent") {
       R"([{"name": "a", "albedo": [0, 0.5, 1], "metallic": 0, "roughness": 1}])", "m.json", diagnostics);
   REQUIRE(library);
   CHECK(library->materials[0].albedo == std::array<float, 3>{0, 0.5f, 1});
-  const std::string seed = WEFT_SOURCE_DIR "/../shared/data/ref/seed_materials.json";
+}
+
+TEST_CASE("the hundred materials of the studio's model load" * doctest::test_suite("references")) {
+  const std::string seed = WEFT_REFERENCES "/seed_materials.json";
   if (!std::filesystem::exists(seed))
-    MESSAGE("skipped: no " << seed);
-  else
-    CHECK(loadMaterialLibrary(seed, diagnostics)->materials.size() == 100);
+    return weft::test::skipCase("no references: configure with -DWEFT_REFERENCES=FOLDER");
+  base::Diagnostics diagnostics;
+  const auto library = loadMaterialLibrary(seed, diagnostics);
+  REQUIRE_MESSAGE(library, diagnostics.text());
+  CHECK(library->materials.size() == 100);
 }
 
 TEST_CASE("every mistake is reported with its place") {

@@ -9,6 +9,7 @@
 #include "engine/gl/program_cache.h"
 #include "tests/gl/gl_test.h"
 #include "tests/gl/temp_folder.h"
+#include "tests/skip.h"
 
 using namespace weft::gl;
 using weft::base::Code;
@@ -60,6 +61,10 @@ std::vector<fs::path> filesIn(const std::string& folder) {
 
 bool hasBinaries() {
   return context().device().hasProgramBinaries;
+}
+
+void skipBinaries() {
+  weft::test::skipCase("the driver offers no program binaries; Mesa offers them with its shader cache on");
 }
 
 struct Fixture {
@@ -118,7 +123,8 @@ TEST_CASE_FIXTURE(Fixture, "the default holds 32") {
 }
 
 TEST_CASE_FIXTURE(Fixture, "an evicted variant comes back from disk without a compile, also in a new cache" *
-                               doctest::skip(!hasBinaries())) {
+                               doctest::test_suite("binaries")) {
+  if (!hasBinaries()) return skipBinaries();
   const std::string disk = folder.path("cache/binaries");
   {
     ProgramCache cache(context().device(), loader, {.capacity = 1, .folder = disk});
@@ -141,7 +147,8 @@ TEST_CASE_FIXTURE(Fixture, "an evicted variant comes back from disk without a co
 }
 
 TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written anew, and is no error" *
-                               doctest::skip(!hasBinaries())) {
+                               doctest::test_suite("binaries")) {
+  if (!hasBinaries()) return skipBinaries();
   const std::string disk = folder.path("cache");
   const auto fill = [&] {
     ProgramCache cache(context().device(), loader, {.capacity = 4, .folder = disk});
@@ -183,7 +190,8 @@ TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written an
 }
 
 TEST_CASE_FIXTURE(Fixture, "a binary of another driver or backend is not even looked at" *
-                               doctest::skip(!hasBinaries())) {
+                               doctest::test_suite("binaries")) {
+  if (!hasBinaries()) return skipBinaries();
   const std::string disk = folder.path("cache");
   ProgramCache(context().device(), loader, {.capacity = 4, .folder = disk}).get(variantOf(1), diagnostics);
   DeviceInfo other = context().device();
@@ -220,7 +228,8 @@ TEST_CASE_FIXTURE(
 }
 
 TEST_CASE_FIXTURE(Fixture, "ten thousand random requests compile each combination once" *
-                               doctest::skip(!hasBinaries())) {
+                               doctest::test_suite("binaries")) {
+  if (!hasBinaries()) return skipBinaries();
   ProgramCache cache(context().device(), loader, {.capacity = 8, .folder = folder.path("cache")});
   std::mt19937 random(7);
   std::set<int> asked;

@@ -1,10 +1,7 @@
 #include "tests/runtime/stage.h"
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-
 #include "engine/scene/scene_file.h"
+#include "tests/skip.h"
 
 namespace weft::runtime::test {
 
@@ -12,10 +9,7 @@ gl::Context& context() {
   static const std::unique_ptr<gl::Context> opened = [] {
     base::Diagnostics diagnostics;
     auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
-    if (!made) {
-      std::printf("skipped: no OSMesa context\n%s", diagnostics.text().c_str());
-      std::exit(77);
-    }
+    if (!made) weft::test::skipAll("no OSMesa context\n" + diagnostics.text());
     return made;
   }();
   return *opened;
@@ -26,11 +20,7 @@ std::string sourcePath(const std::string& relative) {
 }
 
 std::shared_ptr<const assets::ImageF> realEnvironment() {
-  const std::string path = sourcePath("../shared/data/hdr/spiaggia_di_mondello_1k.hdr");
-  if (!std::filesystem::exists(path)) {
-    MESSAGE("skipped: " << path << " is not on this machine");
-    return nullptr;
-  }
+  const std::string path = sourcePath("scenes/environments/spiaggia_di_mondello_1k.hdr");
   base::Diagnostics diagnostics;
   auto image = assets::loadEnvironment(path, diagnostics);
   REQUIRE_MESSAGE(image.has_value(), diagnostics.text());

@@ -21,7 +21,7 @@ namespace weft::runtime::test {
 gl::Context& context();
 
 std::string sourcePath(const std::string& relative);
-// The project's real environment map, or null with a message when it is not on this machine.
+// The photographed environment that comes with Weft.
 std::shared_ptr<const assets::ImageF> realEnvironment();
 World worldOf(const std::string& scene = "scenes/spheres.json");
 

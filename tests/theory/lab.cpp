@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
+
+#include "tests/skip.h"
 
 namespace weft::theory {
 
@@ -14,10 +14,7 @@ gl::Context& sharedContext() {
   static std::unique_ptr<gl::Context> context = [] {
     base::Diagnostics diagnostics;
     auto made = gl::createContext({.backend = gl::Backend::osmesa}, diagnostics);
-    if (!made) {
-      std::puts("skipped: no OSMesa context");
-      std::exit(77);
-    }
+    if (!made) weft::test::skipAll("no OSMesa context\n" + diagnostics.text());
     return made;
   }();
   return *context;
