@@ -1,32 +1,47 @@
 #!/usr/bin/env python3
 """Holds README.md, CONTRIBUTING.md and docs/*.md against the program: every fenced snippet is executed or compared.
 
-Usage: docs_test.py SOURCE_DIR BINARY_DIR [PAGE...]
+Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [--references FOLDER] [PAGE...]
 
 A fence says its language, then, where needed, what it is: ```json fragment or ```glsl shaders/x/y.frag.glsl.
-  sh            run with `bash -eu` in a copy of the tree. `./run X` is the built weft there, `view` under xvfb-run with
+  sh            part run: run with `bash -eu` in a copy of the tree. `./run X` is the built weft there, `view` under xvfb-run with
                 --max-frames 3. Not run, and only these: `./run` alone, `./run --setup-only`, git, cmake, ctest and ninja,
                 whose presets must be there; `./test ARGS` must select at least one test. `--frames 0:59` is shortened to 0:2.
+                Part view instead where a line is `./run view`.
+  sh references part references: the same, with FOLDER in the variable `references`
   LANGUAGE PATH the block stands, line by line, in that file (leading spaces apart); a .cpp is the whole file
-  json          with "passes": a graph, for `weft check`; with "cameras", "grid" or "spheres": a scene, checked with
-                graphs/glow.json; else it must parse
+  json          must parse. Part run: with "passes" it is a graph, for `weft check`; with "cameras", "grid" or "spheres" a scene,
+                checked with graphs/glow.json
   json fragment must parse inside { } or [ ]
-  glsl          compiles as a fragment shader
+  glsl          part glsl: compiles as a fragment shader
   text          shown, not checked here
-Links between pages, and files named in `inline code`, must be there. Commands on files of ../shared are left out
-where that is absent. Without a weft in BINARY_DIR (WEFT_GL=OFF), sh and the checks of graphs and scenes are left out,
-and the output says so.
+Part pages is all that needs neither programs nor references; links between pages, and files named in `inline code`, must be there. Without
+--part: all parts but references. A part that lacks what it needs is skipped as a whole (exit code 77), so each that may be is a
+ctest of its own. With --clone the checks are made in a clone of HEAD with nothing beside it, over which changes of tracked files are laid
+that are not committed yet; the weft of BINARY_DIR runs there on the data of the clone.
 """
+import argparse
 import json
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
 
-TOP, BINARY = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
+PARTS = ("pages", "glsl", "run", "view", "references")
+parser = argparse.ArgumentParser()
+parser.add_argument("source", type=pathlib.Path)
+parser.add_argument("binary", type=pathlib.Path)
+parser.add_argument("pages", nargs="*")
+parser.add_argument("--part", action="append", choices=PARTS)
+parser.add_argument("--clone", action="store_true")
+parser.add_argument("--references", type=pathlib.Path, default=pathlib.Path("/nowhere"))
+OPTIONS = parser.parse_args()
+TOP, BINARY = OPTIONS.source.resolve(), OPTIONS.binary.absolute()
+WANTED = OPTIONS.part or ["pages", "glsl", "run", "view"]
 CTEST = "ctest"  # comes with cmake
 WEFT = BINARY / "app/weft"
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```[ ]*$", re.M | re.S)
@@ -65,15 +80,13 @@ class Sandbox:
         self.root.mkdir()
         for name in DATA:
             shutil.copytree(TOP / name, self.root / name)
-        write_program(self.root / "run", RUN.format(weft=WEFT))
-        write_program(self.root / "test", TEST.format(ctest=shutil.which(CTEST), binary=BINARY))
+        write_program(self.root / "run", RUN.format(weft=shlex.quote(str(WEFT))))
+        write_program(self.root / "test", TEST.format(ctest=shlex.quote(shutil.which(CTEST)), binary=shlex.quote(str(BINARY))))
         tools = folder / "tools"
         tools.mkdir()
         for name in ("git", "cmake", "ctest", "ninja"):
             write_program(tools / name, SHIM)
-        if (TOP / "../shared").is_dir():
-            (folder / "shared").symlink_to((TOP / "../shared").resolve())
-        self.env = {**os.environ, "WEFT_DATA": str(self.root), "PATH": f"{tools}:{os.environ['PATH']}"}
+        self.env = {**os.environ, "WEFT_DATA": str(self.root), "references": str(OPTIONS.references.absolute()), "PATH": f"{tools}:{os.environ['PATH']}"}
         self.env.pop("DISPLAY", None)
 
     def shell(self, script):
@@ -110,7 +123,7 @@ def check_json(body, info, sandbox, number):
         value = json.loads(text)
     except ValueError as error:
         return str(error)
-    if not sandbox or not isinstance(value, dict):
+    if not sandbox or "run" not in WANTED or not isinstance(value, dict):
         return None
     if "passes" in value:
         path = sandbox.root / f"graphs/snippet_{number}.json"
@@ -127,12 +140,21 @@ def check_json(body, info, sandbox, number):
 
 
 def check_glsl(body, folder):
-    if not shutil.which("glslangValidator"):
-        return "skip: glslangValidator is not installed"
     path = folder / "snippet.frag"
     path.write_text("#version 450 core\n" + body + ("" if "void main()" in body else "void main() {}\n"))
     result = subprocess.run(["glslangValidator", str(path)], capture_output=True, text=True)
     return None if result.returncode == 0 else result.stdout
+
+
+def parts_of(language, info, body):
+    """The parts of the test that look at a block."""
+    if "/" in info or language not in ("sh", "glsl", "json"):
+        return {"pages"}
+    if language == "json":
+        return {"pages", "run"}
+    if language == "glsl":
+        return {"glsl"}
+    return {"references" if info == "references" else "view" if re.search(r"^\./run view", body, re.M) else "run"}
 
 
 def check_block(language, info, body, sandbox, folder, number):
@@ -151,20 +173,15 @@ def check_block(language, info, body, sandbox, folder, number):
         known = {p["name"] for p in json.loads((TOP / "CMakePresets.json").read_text())["configurePresets"] if not p.get("hidden")}
         if unknown := set(presets) - known:
             return f"no preset {sorted(unknown)} in CMakePresets.json"
-        if not sandbox:
-            return "skip: no weft is built here"
-        if "xvfb-run" not in body and re.search(r"\./run view", body) and not shutil.which("xvfb-run"):
-            return "skip: xvfb-run is not installed"
-        if "../shared/" in body and not (TOP / "../shared").is_dir():
-            rest = "\n".join(line for line in body.splitlines() if "../shared/" not in line)
-            return sandbox.shell(rest) or "skip: no ../shared, so not the commands that take files from it"
         return sandbox.shell(body.replace("--frames 0:59", "--frames 0:2"))
     return None
 
 
 def check_references(page, text):
-    """Links and file names."""
+    """Links and file names, and that every fence is closed."""
     problems = []
+    if text.count("\n```") + text.startswith("```") != 2 * len(FENCE.findall(text)):
+        problems.append("a fence is not closed")
     prose = FENCE.sub("", text)
     for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", prose):
         if not (page.parent / target).exists():
@@ -193,35 +210,89 @@ def compare_problems(problems, expected):
     return 1 if missed or wrong else 0
 
 
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(77)
+
+
+def skip_what_cannot_run():
+    if {"run", "view", "references"} & set(WANTED) and not WEFT.exists():
+        skip("no weft is built here: configured with WEFT_GL=OFF")
+    if "glsl" in WANTED and not shutil.which("glslangValidator"):
+        skip("glslangValidator is not installed")
+    if "view" in WANTED and not shutil.which("xvfb-run"):
+        skip("xvfb-run is not installed")
+    if "references" in WANTED and not (OPTIONS.references / "seed_materials.json").exists():
+        skip("no references: configure with -DWEFT_REFERENCES=FOLDER")
+
+
+def try_git(*words):
+    bare = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}  # of a hook that runs this
+    return subprocess.run(["git", "-C", TOP, *words], capture_output=True, text=True, env=bare)
+
+
+def git(*words):
+    done = try_git(*words)
+    if done.returncode:
+        sys.exit(f"git {' '.join(map(str, words))}: exit {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def clone_into(folder):
+    """HEAD of the checkout, then what is changed in its tracked files."""
+    git("clone", "--quiet", TOP, folder)
+    head = git("rev-parse", "HEAD").strip()
+    git("-C", folder, "checkout", "--quiet", "--detach", head)
+    changed = [name for name in git("diff", "--name-only", "-z", "HEAD").split("\0") if name]
+    for name in changed:
+        (folder / name).unlink(missing_ok=True)
+        if (TOP / name).exists():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(TOP / name, folder / name)
+    print(f"docs: a clone of {head[:12]}" + (f" with {len(changed)} files as they are changed here" if changed else ""))
+
+
+def run_in_clone():
+    if not shutil.which("git"):
+        skip("git is not installed, so there is no clone")
+    if not (TOP / ".git").exists():
+        skip("the source tree is no git checkout, so there is no clone")
+    if (found := try_git("rev-parse", "HEAD")).returncode:  # of another owner, or nothing is committed yet
+        skip(f"git does not read this checkout: {found.stderr.strip().splitlines()[0]}")
+    with tempfile.TemporaryDirectory(prefix="weft_test_") as temporary:
+        clone = pathlib.Path(temporary) / "weft"
+        clone_into(clone)
+        parts = [word for part in WANTED for word in ("--part", part)]
+        return subprocess.run([sys.executable, clone / "tests/docs/docs_test.py", clone, BINARY, *parts, *OPTIONS.pages]).returncode
+
+
 def main():
-    pages = [TOP / p for p in sys.argv[3:]] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *sorted((TOP / "docs").glob("*.md"))]
-    problems, skipped, counts = [], [], {}
+    skip_what_cannot_run()
+    if OPTIONS.clone:
+        return run_in_clone()
+    pages = [TOP / p for p in OPTIONS.pages] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *sorted((TOP / "docs").glob("*.md"))]
+    problems, counts = [], {}
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
-        if not WEFT.exists():
-            skipped.append("sh, graphs and scenes everywhere: no weft is built here")
         for page in pages:
             name = page.relative_to(TOP)
             text = page.read_text()
-            if text.count("\n```") + text.startswith("```") != 2 * len(FENCE.findall(text)):
-                problems.append(f"{name}: a fence is not closed")
-            problems += [f"{name}: {p}" for p in check_references(page, text)]
+            if "pages" in WANTED:
+                problems += [f"{name}: {p}" for p in check_references(page, text)]
             here = folder / page.stem
             here.mkdir()
-            sandbox = Sandbox(here) if WEFT.exists() else None
+            sandbox = Sandbox(here) if {"run", "view", "references"} & set(WANTED) else None
             for number, match in enumerate(FENCE.finditer(text)):
                 language, _, info = match.group(1).strip().partition(" ")
+                if not parts_of(language, info.strip(), match.group(2)) & set(WANTED):
+                    continue
                 line = text.count("\n", 0, match.start()) + 1
                 counts[language] = counts.get(language, 0) + 1
                 problem = check_block(language, info.strip(), match.group(2), sandbox, here, number)
-                if problem and problem.startswith("skip: "):
-                    skipped.append(f"{name}:{line}: {problem[6:]}")
-                elif problem:
+                if problem:
                     problems.append(f"{name}:{line}: {problem}")
-    if TOP / "docs/overview.md" in pages:
+    if TOP / "docs/overview.md" in pages and "pages" in WANTED:
         problems += [f"docs/overview.md: {p}" for p in check_overview()]
-    for line in skipped:
-        print(f"skipped {line}")
     if expected := re.search(r"<!-- problems:\n(.*?)-->", "".join(p.read_text() for p in pages), re.S):
         return compare_problems(problems, expected.group(1).split("\n")[:-1])
     print("\n".join(problems) or f"docs: {len(pages)} pages, " + ", ".join(f"{n} {l}" for l, n in sorted(counts.items())))
