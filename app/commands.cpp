@@ -11,6 +11,7 @@
 #include "app/bench/workload_bench.h"
 #include "app/device_session.h"
 #include "app/session.h"
+#include "engine/base/printable.h"
 #include "engine/graph/dump_dot.h"
 #include "engine/graph/dump_json.h"
 #include "engine/graph/dump_text.h"
@@ -79,7 +80,7 @@ int runCheck(const Options& options) {
   }
   const int code = report(diagnostics);
   if (code == 0)
-    fmt::print("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n", options.graph,
+    fmt::print("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n", base::printable(options.graph),
                plan->graph->passes.size(), plan->steps.size(), plan->storages.size(), plan->bytesAllocated,
                plan->bytesDeclared);
   return code;

@@ -11,6 +11,7 @@
 #include "app/session.h"
 #include "engine/base/file.h"
 #include "engine/base/json_dom.h"
+#include "engine/base/printable.h"
 #include "engine/graph/read.h"
 
 namespace weft::app {
@@ -82,14 +83,18 @@ void printTable(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) widths[i] = std::max(widths[i], base::printable(row[i]).size());
   }
   for (const auto& row : rows) {
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", base::printable(row[i]), widths[i]);
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::print("{}\n", line);
   }
+}
+
+std::string dumped(const Json& json) {
+  return base::printableJson(json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 struct Preset {
@@ -124,7 +129,7 @@ int runParams(const Options& options) {
   if (plan && options.format == "json") {
     Json all = Json::array();
     for (const graph::ParameterSpec& parameter : plan->graph->parameters) all.push_back(toJson(parameter));
-    fmt::print("{}\n", all.dump(2));
+    fmt::print("{}\n", dumped(all));
   } else if (plan) {
     std::vector<std::vector<std::string>> rows{{"NAME", "TYPE", "VALUE", "RANGE", "LABEL"}};
     for (const graph::ParameterSpec& parameter : plan->graph->parameters)
@@ -142,7 +147,7 @@ int runPresets(const Options& options) {
     Json all = Json::array();
     for (const Preset& preset : presets)
       all.push_back({{"name", preset.name}, {"title", preset.title}, {"description", preset.description}});
-    fmt::print("{}\n", all.dump(2));
+    fmt::print("{}\n", dumped(all));
   } else {
     std::vector<std::vector<std::string>> rows;
     for (const Preset& preset : presets) rows.push_back({preset.name, preset.description});

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/printable.h"
 #include "engine/graph/compile_scratch.h"
 #include "engine/graph/neutral.h"
 #include "engine/graph/plan.h"
@@ -110,6 +111,11 @@ std::optional<ordered_json> measureText(const std::string& text, const std::stri
   return result;
 }
 
+// A file's name may be no UTF-8.
+std::string dumped(const ordered_json& json) {
+  return base::printableJson(json.dump(2, ' ', false, ordered_json::error_handler_t::replace)) + "\n";
+}
+
 }  // namespace
 
 std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options,
@@ -134,7 +140,7 @@ std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options,
     growthCompute.emplace_back(n, n * (*result)["compute"]["compile_ns_per_pass"].get<double>());
     workloads.push_back(std::move(*result));
   }
-  if (options.files.size() == 1 && options.generated.empty()) return workloads[0].dump(2) + "\n";
+  if (options.files.size() == 1 && options.generated.empty()) return dumped(workloads[0]);
   ordered_json all{{"workloads", workloads}};
   const auto exponent = [](std::vector<std::pair<double, double>> points) {
     const auto [low, high] = std::minmax_element(points.begin(), points.end());
@@ -145,7 +151,7 @@ std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options,
     all["growth"] = exponent(growth);
     all["growth_compute"] = exponent(growthCompute);
   }
-  return all.dump(2) + "\n";
+  return dumped(all);
 }
 
 std::optional<std::string> benchWorkload(const std::string& path, base::Diagnostics& diagnostics) {

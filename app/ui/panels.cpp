@@ -7,6 +7,7 @@
 
 #include "app/ui/loading.h"
 #include "app/ui/log_layout.h"
+#include "engine/base/printable.h"
 
 namespace weft::app::ui {
 
@@ -186,7 +187,7 @@ void Panels::writeBack(base::Diagnostics& diagnostics) {
   if (live_.writeBack(files, diagnostics)) {
     said_ = files.empty() ? "the files say so already" : "wrote";
     for (const std::string& file : files) said_ += " " + file;
-    fmt::print("{}\n", said_);
+    fmt::print("{}\n", base::printable(said_));
   } else {
     said_ = "nothing was written: see the log";
   }
@@ -200,7 +201,7 @@ void Panels::toggleTrace(base::Diagnostics& diagnostics) {
   const std::string path = trace_.path();
   if (trace_.stop(diagnostics)) {
     said_ = "wrote " + path;
-    fmt::print("{}\n", said_);
+    fmt::print("{}\n", base::printable(said_));
   }
 }
 

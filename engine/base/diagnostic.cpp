@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/base/printable.h"
+
 namespace weft::base {
 
 namespace {
@@ -18,14 +20,9 @@ auto keyOf(const Diagnostic& d) {
   return std::tie(fileOf(d), d.place.line, d.place.column);
 }
 
-// A text of any length fits on a screen: its beginning, cut between two characters, and how much there was.
-constexpr std::size_t kLongestText = 400;
-
-std::string shortened(const std::string& text) {
-  if (text.size() <= kLongestText) return text;
-  std::size_t end = kLongestText - 40;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return fmt::format("{}… ({} bytes in all)", text.substr(0, end), text.size());
+// A text of any length fits on a screen, and is one line.
+std::string toldText(const std::string& text) {
+  return printable(shortened(text));
 }
 
 bool sameText(const Diagnostic& a, const Diagnostic& b) {
@@ -41,7 +38,7 @@ std::string nameOf(Code code) {
 std::string format(const Diagnostic& d) {
   std::string out;
   if (d.place.file && !d.place.file->empty()) {
-    out += *d.place.file;
+    out += printable(*d.place.file);
     if (d.place.line > 0) out += fmt::format(":{}", d.place.line);
     if (d.place.line > 0 && d.place.column > 0) out += fmt::format(":{}", d.place.column);
     out += ": ";
@@ -49,9 +46,9 @@ std::string format(const Diagnostic& d) {
   const char* severity = d.severity == Severity::error     ? "error"
                          : d.severity == Severity::warning ? "warning"
                                                            : "note";
-  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), shortened(d.message));
+  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), toldText(d.message));
   const auto line = [&](const char* label, const std::string& text) {
-    if (!text.empty()) out += fmt::format("\n    {}: {}", label, shortened(text));
+    if (!text.empty()) out += fmt::format("\n    {}: {}", label, toldText(text));
   };
   line("pass", d.pass);
   line("resource", d.resource);

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "engine/base/printable.h"
 #include "engine/graph/dump_shared.h"
 #include "engine/graph/explain.h"
 #include "engine/graph/subresource.h"
@@ -12,7 +13,7 @@ namespace {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : base::printable(text)) {
     if (c == '"' || c == '\\') out.push_back('\\');
     out.push_back(c);
   }

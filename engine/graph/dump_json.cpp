@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "engine/base/printable.h"
 #include "engine/graph/dump_shared.h"
 #include "engine/graph/explain.h"
 #include "engine/graph/subresource.h"
@@ -141,7 +142,7 @@ std::string dumpJson(const Plan& plan, bool explain) {
     if (explain) j["why"] = explainer->whyStorage(r);
     json["resources"].push_back(std::move(j));
   }
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return base::printableJson(json.dump(2, ' ', false, ordered_json::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace weft::graph

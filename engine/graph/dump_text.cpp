@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/printable.h"
 #include "engine/graph/dump_shared.h"
 #include "engine/graph/explain.h"
 #include "engine/graph/subresource.h"
@@ -87,7 +88,11 @@ class Writer {
 
  private:
   void line(int depth, const std::string& content) {
-    if (!content.empty()) text_.append(static_cast<std::size_t>(2 * depth), ' ').append(content);
+    // Two headings begin with an empty line.
+    const std::size_t blank = content.starts_with('\n') ? 1 : 0;
+    text_.append(blank, '\n');
+    if (!content.empty())
+      text_.append(static_cast<std::size_t>(2 * depth), ' ').append(base::printable(content.substr(blank)));
     text_ += '\n';
   }
 
