@@ -8,6 +8,7 @@
 
 #include "data_places.h"
 #include "engine/assets/loader.h"
+#include "engine/base/message_choice.h"
 #include "engine/graph/read.h"
 #include "engine/scene/scene_file.h"
 
@@ -75,8 +76,7 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
 
 int report(base::Diagnostics& diagnostics, bool notes) {
   diagnostics.sortByPlace();
-  for (const base::Diagnostic& d : diagnostics.items())
-    if (notes || d.severity != base::Severity::note) std::fputs((base::format(d) + "\n").c_str(), stderr);
+  std::fputs(base::chooseMessages(diagnostics, notes).text().c_str(), stderr);
   return diagnostics.hasErrors() ? 1 : 0;
 }
 

@@ -38,7 +38,7 @@ runtime::WorldFacts factsWithoutWorld();
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts, bool software,
                                             base::Diagnostics& diagnostics);
 
-// Prints all diagnostics to standard error, or all but notes. Returns 1 when there is an error among them, else 0.
+// Prints the diagnostics to standard error, or all but notes; of very many, as engine/base/message_choice.h says. Returns 1 when there is an error among them, else 0.
 int report(base::Diagnostics& diagnostics, bool notes = true);
 
 }  // namespace weft::app

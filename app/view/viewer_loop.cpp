@@ -15,6 +15,7 @@
 #include "app/view/screens.h"
 #include "app/view/viewer.h"
 #include "engine/base/hash.h"
+#include "engine/base/message_choice.h"
 
 namespace weft::app {
 
@@ -29,7 +30,7 @@ constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many
 // What is wrong with the files or with a change made here is told, and does not count against the program.
 void tell(base::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
   report(diagnostics);
-  log.set(topic, diagnostics.items());
+  log.set(topic, base::chooseMessages(diagnostics).items());
   diagnostics.clear();
 }
 
