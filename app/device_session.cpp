@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "app/session.h"
+#include "engine/base/file_access.h"
+#include "engine/base/printable.h"
 #include "engine/gl/objects.h"
 
 namespace weft::app {
@@ -28,6 +30,7 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
   gl::ContextOptions wanted;
   wanted.backend = gl::findBackend(options.backend).value_or(gl::Backend::automatic);
   if (window && wanted.backend == gl::Backend::automatic) wanted.backend = gl::Backend::glfw;
+  base::allowFolder(cacheFolderOf(options));
   wanted.title = "weft: " + options.graph;
   wanted.width = options.width;
   wanted.height = options.height;
@@ -84,7 +87,11 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
   return out;
 }
 
-void print(const nlohmann::ordered_json& stats) { fmt::print(stderr, "{}\n", stats.dump(2)); }
+void print(const nlohmann::ordered_json& stats) { 
+  // A name may be no UTF-8: a path, a driver's text.
+  using Json = nlohmann::ordered_json;
+  fmt::print(stderr, "{}\n", base::printableJson(stats.dump(2, ' ', false, Json::error_handler_t::replace)));
+ }
 
 std::string closeDevice(std::unique_ptr<DeviceSession> session) {
   const std::unique_ptr<gl::Context> context = std::move(session->context);

@@ -18,7 +18,7 @@ std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   std::vector<std::string> files;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (assets::isEnvironmentName(entry.path().string()) && !entry.is_directory(ignored))
+    if (assets::isEnvironmentName(entry.path().string()) && entry.is_regular_file(ignored))
       files.push_back(entry.path().string());
   std::ranges::sort(files);
   return files;

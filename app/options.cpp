@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "app/session.h"
+#include "engine/base/file_access.h"
 #include "engine/base/limits.h"
 #include "engine/base/nearest.h"
 
@@ -45,6 +46,19 @@ std::string takeLimit(const std::string& text) {
   return base::setLimit(text.substr(0, at), text.substr(at + 1)).value_or("");
 }
 
+// Confines reading, for this process.
+std::string takeConfinement(const std::string& folder) { return base::confineTo(folder).value_or(""); }
+
+// What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
+void chooseFiles(const Options& options) {
+  for (const std::string* file : {&options.graph, &options.scene, &options.environment, &options.materials, &options.frameGraph})
+    base::chooseFile(*file);
+  for (const std::string& preset : options.presets) base::chooseFile(preset);
+  for (const std::string& workload : options.workloads) base::chooseFile(workload);
+  for (const auto& [name, value] : options.sets) base::chooseFile(value);  // where the parameter is a file
+  for (const char* folder : {"graphs", "shaders", "scenes", "materials"}) base::allowFolder(dataFolder() + "/" + folder);
+}
+
 std::string checkSet(const std::string& text) {
   const std::size_t at = text.find('=');
   return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
@@ -76,7 +90,7 @@ bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
 
 struct Raw {
   std::string size = "1280x720", frames = "0";
-  std::vector<std::string> sets, limits;
+  std::vector<std::string> sets, limits, folders;
 };
 
 constexpr const char* kWaitForAssets = "--wait-for-assets";
@@ -174,9 +188,12 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    command->add_option("--confine", raw.folders, "read only below this folder and those named on the command line, whatever files name; repeatable")
+        ->check(CLI::Validator(takeConfinement, "FOLDER"));
     command->add_option("--limit", raw.limits, "raise or lower a limit of docs/limits.md for this run; repeatable")
         ->check(CLI::Validator(takeLimit, "NAME=VALUE"));
+  }
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) commands.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {
@@ -206,6 +223,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     const std::size_t at = set.find('=');
     options.sets.emplace_back(set.substr(0, at), set.substr(at + 1));
   }
+  chooseFiles(options);
   return options;
 }
 

@@ -60,7 +60,9 @@ int runView(const Options& options) {
   auto world = loadWorld(first, diagnostics);
   if (!world) {
     if (wait && !files.environment.empty()) return report(diagnostics);
-    diagnostics.clear();  // the scene is read again, and says it again
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(scenePathOf(files), ignored))
+      diagnostics.clear();  // the scene is read again, and says it again
     world.emplace(scene::Scene{});
   }
   if (!files.environment.empty() && !world->environment()) world->expectEnvironment();

@@ -1,6 +1,7 @@
 #include "engine/base/file.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/file_access.h"
+#include "engine/base/folder_names.h"
 #include "engine/base/nearest.h"
 
 namespace weft::base {
@@ -22,8 +25,6 @@ struct FileCloser {
 };
 using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
 
-// Of a folder, to find the nearest in.
-constexpr std::size_t kMaxNames = 5000;
 // A pipe may be read, an endless one must not fill the memory.
 constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 
@@ -38,14 +39,17 @@ std::string hintForMissing(const std::filesystem::path& path) {
       missing = missing.parent_path();
     return fmt::format("check the path: there is no folder '{}'", missing.string());
   }
-  std::vector<std::string> names;
-  for (auto entry = std::filesystem::directory_iterator(folder, ec);
-       !ec && entry != std::filesystem::directory_iterator() && names.size() < kMaxNames; entry.increment(ec))
-    names.push_back(entry->path().filename().string());
-  std::ranges::sort(names);
-  const std::string near = nearestName(path.filename().string(), names);
+  const std::shared_ptr<const std::vector<std::string>> names = namesIn(folder.string());
+  const std::string near = nearestName(path.filename().string(), *names);
   return near.empty() ? "check the path"
                       : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
+}
+
+// Whether a pipe has bytes or its end; false after a moment without, so that whoever waits can be asked.
+bool hasMore(int descriptor) {
+  constexpr int kMilliseconds = 50;
+  pollfd one{descriptor, POLLIN, 0};
+  return ::poll(&one, 1, kMilliseconds) > 0;
 }
 
 }  // namespace
@@ -57,36 +61,53 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
 
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                     const Place& place, const ReadProgress& goOn) {
-  const auto fail = [&](const std::string& reason, const std::string& hint) {
+  const auto fail = [&](std::string_view reason, const std::string& hint) {
     Place where = place;
     if (!where.file) where.file = std::make_shared<const std::string>(path);
     diagnostics.error(code, where, fmt::format("cannot read '{}': {}", path, reason)).hint = hint;
     return std::nullopt;
   };
-  std::error_code ec;
-  const auto status = std::filesystem::status(path, ec);
-  if (status.type() == std::filesystem::file_type::not_found)
-    return fail("no such file", hintForMissing(path));
-  if (status.type() == std::filesystem::file_type::directory)
-    return fail("it is a directory", "name a file inside it");
-  if (status.type() == std::filesystem::file_type::character ||
-      status.type() == std::filesystem::file_type::block)
-    return fail("it is a device", "name a file");
-  const FilePtr file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail(std::strerror(errno), "");
-  const std::uintmax_t size =
-      std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, ec) : 0;
-  const std::uint64_t total = ec ? 0 : size;
+  const OpenedFile opened = openFile(path);
+  switch (opened.state) {
+    case OpenedFile::State::open:
+      break;
+    case OpenedFile::State::outside:
+      reportOutside(path, diagnostics, place);
+      return std::nullopt;
+    case OpenedFile::State::missing:
+      return fail("no such file", hintForMissing(path));
+    case OpenedFile::State::directory:
+      return fail("it is a directory", "name a file inside it");
+    case OpenedFile::State::device:
+      return fail("it is a device", "name a file");
+    case OpenedFile::State::pipe:
+      return fail("it is a pipe", "name a file; only a path on the command line may be a pipe");
+    case OpenedFile::State::pipe_again:
+      return fail("it is a pipe, which can be read only once", "name a file, to have it read again");
+    case OpenedFile::State::socket:
+      return fail("it is a socket", "name a file");
+    case OpenedFile::State::unreadable:
+      return fail(std::strerror(opened.error), "");
+  }
+  const FilePtr file(::fdopen(opened.descriptor, "rb"));
+  if (!file) {
+    ::close(opened.descriptor);
+    return fail(std::strerror(ENOMEM), "");
+  }
   std::string bytes;
   char chunk[65536];
   // Not fread: a slow pipe is told of as it comes.
   for (;;) {
-    const ssize_t got = ::read(fileno(file.get()), chunk, sizeof chunk);
-    if (got < 0 && errno == EINTR) continue;
+    if (opened.endless && !hasMore(opened.descriptor)) {
+      if (goOn && !goOn(bytes.size(), 0)) return std::nullopt;
+      continue;
+    }
+    const ssize_t got = ::read(opened.descriptor, chunk, sizeof chunk);
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (got < 0) return fail(std::strerror(errno), "");
     if (got == 0) break;
     bytes.append(chunk, static_cast<std::size_t>(got));
-    if (goOn && !goOn(bytes.size(), total)) return std::nullopt;
+    if (goOn && !goOn(bytes.size(), opened.bytes)) return std::nullopt;
     if (bytes.size() > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
   }
   return bytes;

@@ -189,6 +189,9 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   std::string file(sizeof header, '\0');
   std::memcpy(file.data(), &header, sizeof header);
   file.append(body);
+  // What is no file would be written to as it is, and a pipe waits for a reader.
+  std::error_code ec;
+  if (const auto there = std::filesystem::status(pathOf(key), ec); exists(there) && !is_regular_file(there)) return;
   Diagnostics unwritten;  // a cache that cannot be written is slow, not wrong
   if (base::writeFile(pathOf(key), file, unwritten)) ++stats_.binaryWrites;
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "engine/base/file.h"
+#include "engine/base/file_access.h"
 #include "engine/base/hash.h"
 #include "engine/base/nearest.h"
 #include "engine/gl/shader_scan.h"
@@ -40,25 +42,17 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// "../secret" and "a/../../b": a relative path that climbs out of where it is searched.
-bool leavesFolder(const fs::path& path) {
-  const fs::path normal = path.lexically_normal();
-  return !path.is_absolute() && !normal.empty() && *normal.begin() == "..";
+// A file that may be read, and is one of those that readFile() reads.
+bool isReadable(const fs::path& path) {
+  std::error_code ec;
+  return base::mayRead(path.string()) && fs::is_regular_file(path, ec);
 }
 
-// Paths below the folders, relative to them, of every GLSL file: what an include could have meant.
-std::vector<std::string> listShaders(const std::vector<std::string>& folders) {
-  std::vector<std::string> names;
-  for (const std::string& folder : folders) {
-    std::error_code ec;
-    for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
-         !ec && it != end && names.size() < 10000; it.increment(ec))
-      if (it->path().extension() == ".glsl")
-        names.push_back(it->path().lexically_relative(folder).generic_string());
-  }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
+// The first that may not be read, where nothing is said of whether it is there.
+std::optional<std::string> outsideOf(std::span<const fs::path> candidates) {
+  for (const fs::path& candidate : candidates)
+    if (const std::string path = candidate.lexically_normal().string(); !base::mayRead(path)) return path;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -67,8 +61,8 @@ std::vector<std::string> listShaders(const std::vector<std::string>& folders) {
 // one.
 class IncludeExpander {
  public:
-  IncludeExpander(const std::vector<std::string>& roots, Diagnostics& diagnostics)
-      : roots_(roots), diagnostics_(diagnostics) {}
+  IncludeExpander(const std::vector<std::string>& roots, ShaderNames& names, Diagnostics& diagnostics)
+      : roots_(roots), names_(names), diagnostics_(diagnostics) {}
 
   // `folder` is where includes are searched first; "" for text without a file.
   void expandRoot(const std::string& path, const std::string& folder, std::string_view text) {
@@ -140,12 +134,14 @@ class IncludeExpander {
     if (!path) {
       for (const fs::path& candidate : candidatesOf(name, folder))
         missing_.push_back(candidate.lexically_normal().string());
+      if (const auto outside = outsideOf(candidatesOf(name, folder)))
+        return base::reportOutside(*outside, diagnostics_, place);
       std::vector<std::string> folders = roots_;
       if (!folder.empty()) folders.push_back(folder);
       base::Diagnostic& error =
           diagnostics_.error(Code::W101, place, fmt::format("included file '{}' not found", name));
       error.expected = fmt::format("a file beside the including one or below {}", fmt::join(roots_, ", "));
-      error.hint = base::nearestHint(name, listShaders(folders));
+      error.hint = base::nearestHint(name, names_.below(folders));
       return;
     }
     const auto position = std::find(paths_.begin(), paths_.end(), *path);
@@ -191,14 +187,13 @@ class IncludeExpander {
   }
 
   std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
-    for (const fs::path& candidate : candidatesOf(name, folder)) {
-      std::error_code ec;
-      if (fs::is_regular_file(candidate, ec)) return candidate.lexically_normal().string();
-    }
+    for (const fs::path& candidate : candidatesOf(name, folder))
+      if (const fs::path normal = candidate.lexically_normal(); isReadable(normal)) return normal.string();
     return std::nullopt;
   }
 
   const std::vector<std::string>& roots_;
+  ShaderNames& names_;
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
   std::vector<std::string> paths_;  // by file number
@@ -235,14 +230,20 @@ std::string hintForShader(const std::string& path, const std::vector<std::string
 
 }  // namespace
 
-std::optional<std::string> SourceLoader::locate(const std::string& path) const {
-  std::error_code ec;
-  if (leavesFolder(path)) return std::nullopt;
+std::vector<fs::path> SourceLoader::candidatesOf(const std::string& path) const {
+  std::vector<fs::path> candidates;
   if (!fs::path(path).is_absolute())
-    for (const std::string& root : roots_)
-      if (const fs::path candidate = fs::path(root) / path; fs::exists(candidate, ec))
-        return candidate.lexically_normal().string();
-  if (fs::exists(path, ec)) return fs::path(path).lexically_normal().string();
+    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / path);
+  candidates.emplace_back(path);
+  return candidates;
+}
+
+std::optional<std::string> SourceLoader::locate(const std::string& path) const {
+  for (const fs::path& candidate : candidatesOf(path)) {
+    std::error_code ec;
+    const std::string normal = candidate.lexically_normal().string();
+    if (base::mayRead(normal) && fs::exists(normal, ec)) return normal;
+  }
   return std::nullopt;
 }
 
@@ -255,13 +256,18 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
     else
       for (const std::string& root : roots_)
         touched_.insert((fs::path(root) / path).lexically_normal().string());
+    std::vector<fs::path> candidates = candidatesOf(path);
+    // As it is, a path is from the current folder: where nobody looks for shaders on purpose.
+    if (candidates.size() > 1) candidates.pop_back();
+    if (const auto outside = outsideOf(candidates)) {
+      base::reportOutside(*outside, diagnostics, place);
+      return nullptr;
+    }
     base::Diagnostic& error =
         diagnostics.error(Code::W100, place, fmt::format("shader '{}' not found", path));
     error.expected =
         roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
-    error.hint = leavesFolder(path) ? "a shader's path stays below these folders: put the file into a folder "
-                                      "shaders/ beside the graph"
-                                    : hintForShader(path, listShaders(roots_));
+    error.hint = hintForShader(path, names_.below(roots_));
     return nullptr;
   }
   if (auto source = answer(*where)) return source;
@@ -271,7 +277,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   if (!text) return nullptr;
   ++expansions_;
   Diagnostics found;
-  IncludeExpander expander(roots_, found);
+  IncludeExpander expander(roots_, names_, found);
   expander.expandRoot(*where, folderOf(*where), *text);
   touch(expander.paths(), expander.missing());
   if (text->find_first_not_of(" \t\r\n") == std::string::npos)
@@ -291,7 +297,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text
   if (auto source = answer(key)) return source;
   ++expansions_;
   Diagnostics found;
-  IncludeExpander expander(roots_, found);
+  IncludeExpander expander(roots_, names_, found);
   expander.expandRoot(name, "", text);
   touch(std::span(expander.paths()).subspan(1), expander.missing());
   diagnostics.append(found);

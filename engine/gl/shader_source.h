@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/gl/shader_names.h"
 
 namespace weft::gl {
 
@@ -51,7 +53,8 @@ class SourceLoader {
   // `roots` are searched in order for includes that are not found beside the including file.
   explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
-  // The stage file `path`: below the first root that has it, else as it is. `place` is who asked (the graph
+  // The stage file `path`: below the first root that has it, else as it is; "../" and absolute paths lead where they lead
+  // (W200 where reading is confined and they lead out: engine/base/file_access.h). `place` is who asked (the graph
   // file), used when the file itself cannot be read (W100). Problems inside (W101 include not found, W102
   // include cycle, W103 malformed include, W106 #version) are reported all at once and give null. An
   // unchanged file (size and modification time of every file that took part) is expanded once.
@@ -64,11 +67,17 @@ class SourceLoader {
   // Where load() would find `path`, or nullopt.
   std::optional<std::string> locate(const std::string& path) const;
   // Forgets everything (files will be read again).
-  void clear() { cache_.clear(); }
+  void clear() {
+    cache_.clear();
+    names_.forget();
+  }
   const std::vector<std::string>& roots() const { return roots_; }
   // Every path that an answer since forgetTouched() came from or would come from, existing or not: what to watch.
   const std::set<std::string>& touched() const { return touched_; }
-  void forgetTouched() { touched_.clear(); }
+  void forgetTouched() {
+    touched_.clear();
+    names_.forget();
+  }
   // Files expanded so far, not answered from the cache.
   std::uint64_t expansions() const { return expansions_; }
 
@@ -82,11 +91,14 @@ class SourceLoader {
     std::shared_ptr<const ShaderSource> source;
     std::vector<Stamp> stamps;
   };
+  // Where `path` is looked for, in this order.
+  std::vector<std::filesystem::path> candidatesOf(const std::string& path) const;
   std::shared_ptr<const ShaderSource> answer(const std::string& key);
   void touch(std::span<const std::string> read, std::span<const std::string> missing);
   std::vector<std::string> roots_;
   std::unordered_map<std::string, Entry> cache_;
   std::set<std::string> touched_;
+  ShaderNames names_;
   std::uint64_t expansions_ = 0;
 };
 

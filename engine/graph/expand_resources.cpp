@@ -298,7 +298,10 @@ bool evaluateImport(Model& model, Entity& entity) {
   if (!good) return false;
   const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
   for (const base::Diagnostic& problem : facts.problems) {
-    model.diagnostics.add(problem).resource = entity.name;
+    base::Diagnostic& d = model.diagnostics.add(problem);
+    d.resource = entity.name;
+    // Of a file that may not be read, what matters is who names it.
+    if (d.code == Code::W200 && entity.desc) d.place = entity.desc->place;
     good = good && problem.severity != base::Severity::error;
   }
   if (!good) return false;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
+#include "engine/base/file_access.h"
 #include "engine/graph/overlay_apply.h"
 
 namespace weft::graph {
@@ -57,6 +58,8 @@ std::string pathBeside(const JsonValue& written) {
 }
 
 std::string identityOf(const std::string& path) {
+  // What may not be read is not followed either: it is what it is called.
+  if (!base::mayRead(path)) return std::filesystem::path(path).lexically_normal().string();
   std::error_code ec;
   const auto canonical = std::filesystem::weakly_canonical(path, ec);
   return ec ? path : canonical.string();

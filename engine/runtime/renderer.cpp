@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "engine/base/file_access.h"
 #include "engine/graph/read.h"
 #include "engine/runtime/formats.h"
 #include "engine/runtime/gl_state.h"
@@ -27,7 +28,7 @@ std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::
        {folder / "shaders", folder / ".." / "shaders", std::filesystem::path(dataFolder) / "shaders"}) {
     std::error_code ignored;
     const std::string text = candidate.lexically_normal().string();
-    if (std::filesystem::is_directory(candidate, ignored) && std::ranges::find(roots, text) == roots.end())
+    if (base::mayRead(text) && std::filesystem::is_directory(candidate, ignored) && std::ranges::find(roots, text) == roots.end())
       roots.push_back(text);
   }
   return roots;

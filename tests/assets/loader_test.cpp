@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "engine/assets/half.h"
+#include "engine/base/file_access.h"
 #include "tests/assets/temporary.h"
 
 using namespace weft;
@@ -243,6 +244,7 @@ TEST_CASE("progress of a pipe, which has no size, begins with what came of it") 
   whole << std::ifstream(writeHdr(folder, "a.hdr", 32, 16), std::ios::binary).rdbuf();
   const std::string bytes = whole.str(), pipe = folder.at("pipe.hdr");
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  base::chooseFile(pipe);
   std::binary_semaphore seen{0};
   bool inTime = false;
   std::jthread writer([&] {

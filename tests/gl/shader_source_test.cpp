@@ -1,9 +1,11 @@
 #include "engine/gl/shader_source.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
+#include "engine/base/file_access.h"
 #include "tests/gl/documented.h"
 #include "tests/gl/temp_folder.h"
 
@@ -146,22 +148,48 @@ TEST_CASE("an empty shader is told as that, where it is") {
   CHECK(loader.load("empty.frag.glsl", diagnostics));
 }
 
-TEST_CASE("a shader's path stays below its folders") {
+TEST_CASE("a shader's path leads where it says, until reading is confined") {
   TempFolder folder;
-  folder.write("secret.glsl", "void main() {}\n");
-  folder.write("shaders/a.frag.glsl", "void main() {}\n");
-  SourceLoader loader({folder.path("shaders")});
+  folder.write("secret.glsl", "float secret;\n");
+  folder.write("x/shaders/a.frag.glsl", "void main() {}\n");
+  folder.write("x/shaders/up.frag.glsl", "#include \"../../secret.glsl\"\nvoid main() {}\n");
+  folder.write("x/shaders/gone.frag.glsl", "#include \"../../gone.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path("x/shaders")});
   Diagnostics diagnostics;
-  CHECK(loader.load("sky/../a.frag.glsl", diagnostics) == nullptr);  // no folder sky
-  CHECK(loader.load("./a.frag.glsl", diagnostics));
+  for (const std::string& path : {std::string("./a.frag.glsl"), std::string("sky/../a.frag.glsl"), std::string("../../secret.glsl"),
+                                  folder.path("secret.glsl"), std::string("up.frag.glsl")})
+    CHECK_MESSAGE(loader.load(path, diagnostics), diagnostics.text());
+  CHECK_FALSE(loader.load("../../gone.glsl", diagnostics));
+  CHECK(diagnostics.items()[0].code == Code::W100);
   diagnostics.clear();
-  for (const char* path : {"../secret.glsl", "a/../../secret.glsl"}) {
+
+  loader.clear();
+  REQUIRE_FALSE(weft::base::confineTo(folder.path("x")));
+  CHECK(loader.load("a.frag.glsl", diagnostics));
+  const std::pair<std::string, std::string> outside[] = {{"../../secret.glsl", "secret.glsl"}, {"../../gone.glsl", "gone.glsl"},
+                                                         {folder.path("secret.glsl"), "secret.glsl"}, {folder.path("gone.glsl"), "gone.glsl"},
+                                                         {"up.frag.glsl", "secret.glsl"}, {"gone.frag.glsl", "gone.glsl"}};
+  for (const auto& [path, told] : outside) {
     CHECK_FALSE(loader.load(path, diagnostics));
-    REQUIRE(diagnostics.size() == 1);
-    CHECK(diagnostics.items()[0].code == Code::W100);
-    CHECK(diagnostics.items()[0].hint.starts_with("a shader's path stays below"));
+    REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+    CHECK(diagnostics.items()[0].code == Code::W200);
+    CHECK(diagnostics.items()[0].message.starts_with("'" + folder.path(told.c_str()) + "'"));
     diagnostics.clear();
   }
+  CHECK_FALSE(loader.load("b.frag.glsl", diagnostics));
+  CHECK(diagnostics.items()[0].code == Code::W100);
+  CHECK(diagnostics.items()[0].hint == "did you mean 'a.frag.glsl'?");
+  weft::base::resetFileAccess();
+}
+
+TEST_CASE("a shader that is a pipe is refused") {
+  TempFolder folder;
+  REQUIRE(::mkfifo(folder.path("pipe.frag.glsl").c_str(), 0600) == 0);
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("pipe.frag.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].message.find("it is a pipe") != std::string::npos);
 }
 
 TEST_CASE("an unchanged file is expanded once, a changed include again") {
