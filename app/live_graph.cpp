@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/session.h"
+#include "engine/base/file_access.h"
 #include "engine/graph/suffix.h"
 #include "engine/graph/write_back.h"
 #include "engine/scene/scene_file.h"
@@ -104,7 +105,7 @@ bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
     sceneStale_ = false;
     ++switches_;
   }
-  watch();
+  watch(&diagnostics);
   return good;
 }
 
@@ -165,13 +166,16 @@ bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) 
   return true;
 }
 
-void LiveGraph::watch() {
+// What there is to say of how files are watched goes to `diagnostics`, or waits for the next call that has one.
+void LiveGraph::watch(base::Diagnostics* diagnostics) {
   std::vector<std::string> files = renderer_.files();
   files.insert(files.end(), sceneFiles_.begin(), sceneFiles_.end());
   files.insert(files.end(), world_.scene().files.begin(), world_.scene().files.end());
   for (const std::string& file : {environment_.shown(), environment_.wanted()})
     if (!file.empty()) files.push_back(file);
+  std::erase_if(files, [](const std::string& file) { return !base::mayRead(file); });
   watcher_.watch(files);
+  if (diagnostics) diagnostics->append(watcher_.takeNotices());
 }
 
 bool LiveGraph::wantsLoad(double now) {
@@ -223,7 +227,7 @@ bool LiveGraph::pollEnvironment(base::Diagnostics& diagnostics) {
     world.expectEnvironment(false);
     tryWorld(world, diagnostics);
   }
-  watch();
+  watch(&diagnostics);
   return true;
 }
 

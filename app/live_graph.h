@@ -39,6 +39,8 @@ class LiveGraph {
   bool wantsLoad(double now);
   // For whoever wants to sleep until a watched file changes: readable then. -1: nothing is ever reported.
   int watchDescriptor() const { return watcher_.descriptor(); }
+  // Looks at the files that no descriptor tells of; true when poll() has something new. From any thread, about twice a second.
+  bool lookAtFiles() { return watcher_.poller().look(); }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);
@@ -79,7 +81,7 @@ class LiveGraph {
   bool tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics);
   bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
-  void watch();
+  void watch(base::Diagnostics* diagnostics = nullptr);
   // Adds `said` to `diagnostics`, where it names a set or disable that was made here by that and not by an
   // option.
   void tellOfHere(const base::Diagnostics& said, const graph::Settings& settings,

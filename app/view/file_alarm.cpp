@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <utility>
 
@@ -15,12 +16,22 @@ namespace {
 // Milliseconds between rings that nobody answers by reading: the first, and at most.
 constexpr int kPause = 20, kLongestPause = 1000;
 
-void listen(int descriptor, int stop, const std::function<void()>& ring) {
+constexpr std::chrono::milliseconds kBetweenLooks{500};
+
+void listen(int descriptor, int stop, const std::function<bool()>& look, const std::function<void()>& ring) {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point next = Clock::now() + kBetweenLooks;
   for (int pause = kPause;;) {
     pollfd both[] = {{stop, POLLIN, 0}, {descriptor, POLLIN, 0}};
-    if (::poll(both, 2, -1) < 0) continue;  // a signal
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
+    if (::poll(both, 2, std::max(0, static_cast<int>(left.count()))) < 0) continue;  // a signal
     if (both[0].revents) return;
-    if (both[1].revents & ~POLLIN) return;  // closed: it will never be readable
+    if (Clock::now() >= next) {
+      if (look()) ring();
+      next = Clock::now() + kBetweenLooks;
+    }
+    if (both[1].revents & ~POLLIN) descriptor = -1;  // closed: it will never be readable
+    if (!(both[1].revents & POLLIN)) continue;
     ring();
     if (::poll(both, 1, pause) > 0) return;
     const bool unread = ::poll(both + 1, 1, 0) > 0;
@@ -30,10 +41,9 @@ void listen(int descriptor, int stop, const std::function<void()>& ring) {
 
 }  // namespace
 
-FileAlarm::FileAlarm(int descriptor, std::function<void()> ring) {
-  if (descriptor < 0) return;
+FileAlarm::FileAlarm(int descriptor, std::function<bool()> look, std::function<void()> ring) {
   stop_ = ::eventfd(0, EFD_CLOEXEC);
-  if (stop_ >= 0) thread_ = std::thread(listen, descriptor, stop_, std::move(ring));
+  if (stop_ >= 0) thread_ = std::thread(listen, descriptor, stop_, std::move(look), std::move(ring));
 }
 
 FileAlarm::~FileAlarm() {

@@ -1,11 +1,16 @@
 #include "engine/base/file_watcher.h"
 
+#include <fmt/format.h>
 #include <sys/inotify.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 namespace weft::base {
 
@@ -28,9 +33,42 @@ bool holdsSomething(const std::string& path) {
   return fs::is_regular_file(path, ec) && fs::file_size(path, ec) > 0 && !ec;
 }
 
+// File systems that other machines or programs write to behind the kernel's back (linux/magic.h and their
+// sources); "" for all others.
+const char* networkOf(const std::string& file) {
+  struct statfs status {};
+  fs::path at = file;
+  while (::statfs(at.c_str(), &status) != 0) {
+    if (at == at.parent_path()) return "";
+    at = at.parent_path();
+  }
+  switch (static_cast<std::uint32_t>(status.f_type)) {
+    case 0x6969:
+      return "NFS";
+    case 0x517B:
+    case 0xFF534D42:
+    case 0xFE534D42:
+      return "CIFS";
+    case 0x65735546:
+      return "FUSE";
+    case 0x01021997:
+      return "9P";
+    case 0x5346414F:
+    case 0x6B414653:
+      return "AFS";
+    case 0x00C36400:
+      return "Ceph";
+    default:
+      return "";
+  }
+}
+
 }  // namespace
 
-FileWatcher::FileWatcher() : descriptor_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {}
+FileWatcher::FileWatcher(Means means) {
+  if (means == Means::inotify) descriptor_ = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  if (descriptor_ < 0) error_ = means == Means::inotify ? errno : EMFILE;
+}
 
 FileWatcher::~FileWatcher() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -49,35 +87,86 @@ void FileWatcher::watch(const std::vector<std::string>& files) {
 }
 
 void FileWatcher::arm() {
-  if (descriptor_ < 0) return;
   const auto before = std::move(folders_);
   folders_.clear();
   watched_.clear();
   awaited_.clear();
+  std::map<Reason, std::vector<std::string>> looked;
   for (const std::string& file : files_) {
     const std::string absolute = absoluteOf(file);
-    armFile(absolute, file);
+    Reason reason = armFile(absolute, file);
     std::error_code ec;
-    if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute)
-      armFile(real.string(), file);
+    if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute) {
+      const Reason behind = armFile(real.string(), file);
+      if (reason == Reason::told) reason = behind;
+    }
+    if (reason == Reason::told && *networkOf(absolute)) reason = Reason::network;
+    if (reason != Reason::told) looked[reason].push_back(file);
   }
+  std::vector<std::string> all;
+  for (const auto& [reason, files] : looked) {
+    all.insert(all.end(), files.begin(), files.end());
+    tell(reason, files);
+  }
+  poller_.watch(all);
   for (const auto& [watch, names] : before)
     if (!folders_.contains(watch)) ::inotify_rm_watch(descriptor_, watch);
 }
 
-void FileWatcher::armFile(const std::string& absolute, const std::string& given) {
+FileWatcher::Reason FileWatcher::armFile(const std::string& absolute, const std::string& given) {
+  if (descriptor_ < 0) return Reason::no_instance;
   watched_[absolute].insert(given);
   fs::path folder = fs::path(absolute).parent_path();
   for (;;) {
     const int watch = ::inotify_add_watch(descriptor_, folder.c_str(), kEvents);
     if (watch >= 0) {
       folders_[watch].insert(folder.string());
-      return;
+      return Reason::told;
     }
-    if (folder == folder.parent_path()) return;
+    if (errno == ENOSPC || errno == ENOMEM) return Reason::no_watch;
+    if (errno == EACCES) return Reason::unreadable;
+    if (folder == folder.parent_path()) return Reason::unreadable;
     awaited_.insert(folder.string());
     folder = folder.parent_path();
   }
+}
+
+void FileWatcher::tell(Reason reason, const std::vector<std::string>& files) {
+  if (!toldReasons_.insert(reason).second) return;
+  const std::string& first = files.front();
+  Diagnostic d{.severity = Severity::note,
+               .code = Code::W205,
+               .message = fmt::format("{} looked at twice a second instead of being told of changes",
+                                      files.size() == 1
+                                          ? fmt::format("'{}' is", first)
+                                          : fmt::format("'{}' and {} more {} are", first, files.size() - 1,
+                                                        files.size() == 2 ? "file" : "files")),
+               .place = {std::make_shared<const std::string>(first)}};
+  switch (reason) {
+    case Reason::told:
+      return;
+    case Reason::no_instance:
+      d.found = fmt::format("no inotify instance: {}", std::strerror(error_));
+      d.hint = "end other programs that watch files, or raise fs.inotify.max_user_instances with sysctl";
+      break;
+    case Reason::no_watch:
+      d.found = "no inotify watch is left for its folder";
+      d.hint = "end other programs that watch files, or raise fs.inotify.max_user_watches with sysctl";
+      break;
+    case Reason::unreadable:
+      d.found = "its folder may not be read, so inotify may not watch it";
+      d.hint = "give yourself the right to read the folder";
+      break;
+    case Reason::network:
+      d.found = fmt::format("it lies on a mount ({}) that others write to without inotify's knowledge",
+                            networkOf(absoluteOf(first)));
+      break;
+  }
+  notices_.add(std::move(d));
+}
+
+Diagnostics FileWatcher::takeNotices() {
+  return std::exchange(notices_, {});
 }
 
 void FileWatcher::note(const std::string& path, bool created) {
@@ -87,10 +176,10 @@ void FileWatcher::note(const std::string& path, bool created) {
 }
 
 std::vector<std::string> FileWatcher::poll() {
-  if (descriptor_ < 0) return {};
+  changed_.merge(poller_.take());
   alignas(inotify_event) char bytes[16384];
   bool again = false;
-  for (ssize_t got = 0; (got = ::read(descriptor_, bytes, sizeof bytes)) > 0;) {
+  for (ssize_t got = 0; descriptor_ >= 0 && (got = ::read(descriptor_, bytes, sizeof bytes)) > 0;) {
     for (const char* at = bytes; at < bytes + got;) {
       inotify_event event;
       std::memcpy(&event, at, sizeof event);

@@ -1,6 +1,8 @@
 #include "engine/base/file_watcher.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -19,7 +21,9 @@ struct Folder {
   std::string operator/(const char* name) const { return (path / name).string(); }
 };
 
-void write(const std::string& path, const char* text = "text") { std::ofstream(path) << text; }
+void write(const std::string& path, const char* text = "text") {
+  std::ofstream(path) << text;
+}
 
 }  // namespace
 
@@ -102,4 +106,73 @@ TEST_CASE("names stay as given, links are followed, another set takes over") {
   watcher.watch({odd});
   write(real);
   CHECK(watcher.poll().empty());
+}
+
+namespace {
+
+// What a watcher without inotify has to do.
+void checkLooking(FileWatcher& watcher, const Folder& folder) {
+  const std::string a = folder / "a.json", late = folder / "x/late.glsl";
+  write(a);
+  watcher.watch({a, late});
+  CHECK_FALSE(watcher.poller().look());
+  CHECK(watcher.poll().empty());
+  write(a, "longer text");
+  CHECK(watcher.poll().empty());  // nobody looked
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a});
+  CHECK(watcher.poll().empty());
+  CHECK_FALSE(watcher.poller().look());
+  // By a rename, with the same size and time: another file.
+  fs::copy_file(a, folder / "a.json~");
+  fs::last_write_time(folder / "a.json~", fs::last_write_time(a));
+  fs::rename(folder / "a.json~", a);
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a});
+  fs::create_directories(folder.path / "x");
+  write(late);
+  fs::remove(a);
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a, late});
+  // An empty file is about to be written, or stays empty.
+  write(a, "");
+  CHECK_FALSE(watcher.poller().look());
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a});
+  write(late, "changed, and then given up");
+  watcher.poller().look();
+  watcher.watch({a});
+  CHECK(watcher.poll().empty());
+  const auto said = watcher.takeNotices();
+  REQUIRE(said.size() == 1);
+  CHECK(said.items()[0].code == weft::base::Code::W205);
+  CHECK(said.items()[0].severity == weft::base::Severity::note);
+  CHECK(said.items()[0].message ==
+        "'" + a + "' and 1 more file are looked at twice a second instead of being told of changes");
+  CHECK(said.items()[0].found.starts_with("no inotify instance: "));
+  CHECK(watcher.takeNotices().empty());
+}
+
+}  // namespace
+
+TEST_CASE("without inotify files are looked at, which is said once") {
+  const Folder folder;
+  FileWatcher watcher(FileWatcher::Means::looking);
+  CHECK_FALSE(watcher.works());
+  checkLooking(watcher, folder);
+}
+
+TEST_CASE("the same when the system has nothing left to give") {
+  const Folder folder;
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const int next = ::open("/dev/null", O_RDONLY);  // the lowest that is free
+  REQUIRE(next >= 0);
+  ::close(next);
+  const rlimit none{static_cast<rlim_t>(next), before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &none) == 0);
+  FileWatcher watcher;
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &before) == 0);
+  REQUIRE_FALSE(watcher.works());
+  checkLooking(watcher, folder);
 }
