@@ -9,7 +9,7 @@
 
 #include "app/commands.h"
 #include "app/session.h"
-#include "engine/base/file.h"
+#include "engine/base/text_file.h"
 #include "engine/base/json_dom.h"
 #include "engine/base/printable.h"
 #include "engine/graph/read.h"
@@ -107,7 +107,7 @@ std::vector<Preset> bundledPresets(base::Diagnostics& diagnostics) {
   for (const auto& entry : std::filesystem::directory_iterator(presetsFolder(), ignored)) {
     if (entry.path().extension() != ".json") continue;
     const std::string path = entry.path().string();
-    const auto text = base::readFile(path, diagnostics);
+    const auto text = base::readTextFile(path, diagnostics);
     const auto root =
         text ? base::parseJson(*text, std::make_shared<const std::string>(path), diagnostics) : std::nullopt;
     if (!root) continue;

@@ -9,6 +9,7 @@
 #include "data_places.h"
 #include "engine/assets/loader.h"
 #include "engine/base/message_choice.h"
+#include "engine/graph/plan_memory.h"
 #include "engine/graph/read.h"
 #include "engine/scene/scene_file.h"
 
@@ -71,7 +72,8 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
   const auto registry = runtime::makeRegistry(passes::PassRegistry::builtin(), facts);
   const auto flat = graph::expandGraph(*desc, registry, settingsOf(options, software), diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
-  return std::make_shared<const graph::Plan>(graph::compile(flat));
+  auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+  return graph::checkMemory(*plan, diagnostics) ? plan : nullptr;
 }
 
 int report(base::Diagnostics& diagnostics, bool notes) {

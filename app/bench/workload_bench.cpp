@@ -8,8 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/file.h"
 #include "engine/base/printable.h"
+#include "engine/base/text_file.h"
 #include "engine/graph/compile_scratch.h"
 #include "engine/graph/neutral.h"
 #include "engine/graph/plan.h"
@@ -122,7 +122,7 @@ std::optional<std::string> benchWorkloads(const WorkloadBenchOptions& options,
                                           base::Diagnostics& diagnostics) {
   ordered_json workloads = ordered_json::array();
   for (const std::string& file : options.files) {
-    const auto text = base::readFile(file, diagnostics);
+    const auto text = base::readTextFile(file, diagnostics);
     if (!text) return std::nullopt;
     auto result = measureText(*text, file, options.repetitions, diagnostics);
     if (!result) return std::nullopt;

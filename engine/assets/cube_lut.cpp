@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/base/file.h"
+#include "engine/base/text_file.h"
 
 namespace weft::assets {
 
@@ -173,7 +173,7 @@ std::optional<CubeLut> readCubeLut(std::string_view text, const std::string& nam
 }
 
 std::optional<CubeLut> loadCubeLut(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> text = base::readFile(path, diagnostics);
+  const std::optional<std::string> text = base::readTextFile(path, diagnostics);
   if (!text) return {};
   return readCubeLut(*text, path, diagnostics);
 }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "engine/base/file.h"
+#include "engine/base/text_file.h"
 #include "engine/base/json_fields.h"
 
 namespace weft::assets {
@@ -101,7 +101,7 @@ std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const 
 }
 
 std::optional<MaterialLibrary> loadMaterialLibrary(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> text = base::readFile(path, diagnostics);
+  const std::optional<std::string> text = base::readTextFile(path, diagnostics);
   if (!text) return {};
   return readMaterialLibrary(*text, path, diagnostics);
 }

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "engine/base/json_errors.h"
 #include "engine/base/chars.h"
+#include "engine/base/json_errors.h"
+#include "engine/base/limit_report.h"
+#include "engine/base/text_file.h"
 
 namespace weft::base {
 
@@ -43,12 +45,6 @@ class CountingIterator {
   std::size_t* consumed_;
 };
 
-std::string escapePointer(std::string_view key) {
-  std::string out = "/";
-  for (const char c : key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return out;
-}
-
 constexpr bool isNumberChar(char c) {
   return isDigit(c) || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
 }
@@ -65,6 +61,7 @@ class Builder {
   bool null() { return add(JsonValue::Type::null, consumed_ - 4) != nullptr; }
   bool boolean(bool flag) {
     JsonValue* value = add(JsonValue::Type::boolean, consumed_ - (flag ? 4 : 5));
+    if (!value) return false;
     value->flag = flag;
     return true;
   }
@@ -74,14 +71,19 @@ class Builder {
     return addNumber(number, written.find_first_of(".eE") == std::string::npos);
   }
   bool string(std::string& text) {
-    add(JsonValue::Type::string, text_.startOfString(consumed_))->text = std::move(text);
+    JsonValue* value = add(JsonValue::Type::string, text_.startOfString(consumed_));
+    if (!value) return false;
+    value->text = text;  // a copy as long as the text: the lexer's own has room for the longest so far
     return true;
   }
   bool binary(std::vector<std::uint8_t>&) { return false; }
   bool key(std::string& key) {
-    key_ = std::move(key);
+    key_ = key;
     keyOffset_ = text_.startOfString(consumed_);
-    return true;
+    if (key_.size() <= limitOf(Limit::name_bytes)) return true;
+    reportLimit(diagnostics_, Limit::name_bytes, text_.placeOf(keyOffset_), "a key is too long").found =
+        fmt::format("{} bytes", key_.size());
+    return false;
   }
   bool start_object(std::size_t) { return open(JsonValue::Type::object); }
   bool start_array(std::size_t) { return open(JsonValue::Type::array); }
@@ -101,19 +103,25 @@ class Builder {
     if (start > 0 && !isDigit(text_.at(start - 1))) --start;  // the character that ended it
     while (start > 0 && isNumberChar(text_.at(start - 1))) --start;
     JsonValue* value = add(JsonValue::Type::number, start);
+    if (!value) return false;
     value->number = number;
     value->whole = whole;
     return true;
   }
 
-  // The new value, at its place in the tree; a dropped duplicate is built all the same, aside.
+  // The new value, at its place in the tree; a dropped duplicate is built all the same, aside. Null after a
+  // report.
   JsonValue* add(JsonValue::Type type, std::size_t offset) {
+    if (++count_ > limitOf(Limit::json_values)) {
+      reportLimit(diagnostics_, Limit::json_values, text_.placeOf(offset), "the file has too many values");
+      return nullptr;
+    }
     JsonValue* value = &root_;
     if (!open_.empty()) {
       JsonValue& parent = *open_.back();
       if (parent.is(JsonValue::Type::array)) {
         value = &parent.items.emplace_back();
-        value->pointer = fmt::format("{}/{}", parent.pointer, parent.items.size() - 1);
+        value->pointer = {containers_.back(), containers_.back()->add()};
       } else {
         value = addMember(parent);
       }
@@ -125,7 +133,7 @@ class Builder {
 
   JsonValue* addMember(JsonValue& object) {
     const Place place = text_.placeOf(keyOffset_);
-    const std::string pointer = object.pointer + escapePointer(key_);
+    const JsonPointer pointer(containers_.back(), containers_.back()->add(key_));
     const auto [before, fresh] = keys_.back().try_emplace(key_, place);
     if (!fresh) {
       auto& d = diagnostics_.error(Code::W6, place,
@@ -152,14 +160,19 @@ class Builder {
           .hint = "look for a bracket that is never closed";
       return false;
     }
-    open_.push_back(add(type, offset));
+    JsonValue* value = add(type, offset);
+    if (!value) return false;
+    open_.push_back(value);
     keys_.emplace_back();
+    containers_.push_back(
+        std::make_shared<JsonPointer::Container>(value->pointer, type == JsonValue::Type::object));
     return true;
   }
 
   bool close() {
     open_.pop_back();
     keys_.pop_back();
+    containers_.pop_back();
     return true;
   }
 
@@ -169,11 +182,12 @@ class Builder {
   JsonValue root_;
   std::vector<JsonValue*>
       open_;  // ancestors; each is the last child of the one before, so none of them moves
-  std::vector<std::unordered_map<std::string, Place>>
-      keys_;  // parallel to open_: where each key first stood
+  std::vector<std::unordered_map<std::string, Place>> keys_;  // parallel to open_: where each key first stood
+  std::vector<std::shared_ptr<JsonPointer::Container>> containers_;  // parallel to open_
   std::vector<std::unique_ptr<JsonValue>> dropped_;
   std::string key_;
   std::size_t keyOffset_ = 0;
+  std::size_t count_ = 0;
 };
 
 }  // namespace
@@ -193,6 +207,10 @@ Place JsonValue::textPlace() const {
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
                                    Diagnostics& diagnostics) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  if (text.size() > limitOf(Limit::json_bytes)) {
+    reportTooLarge({file, 0, 0}, text.size(), diagnostics);
+    return std::nullopt;
+  }
   const JsonText positions(text, file);
   if (!reportUnreadable(positions, diagnostics)) return std::nullopt;
   std::size_t consumed = 0;

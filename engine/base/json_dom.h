@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/json_pointer.h"
 
 namespace weft::base {
 
@@ -22,7 +23,7 @@ struct JsonValue {
   bool flag = false;    // boolean
   bool whole = false;   // number: written without a point or an exponent
   Place place;    // of its first character: the opening quote, brace or bracket, the first digit
-  std::string pointer;  // "/passes/3/read/source"; "" for the document
+  JsonPointer pointer;  // "/passes/3/read/source"; "" for the document
   double number = 0;    // finite
   std::string text;     // string, escapes resolved
   std::vector<JsonValue> items;     // array
@@ -44,8 +45,9 @@ struct JsonMember {
 // Objects and arrays inside each other, at most.
 constexpr int kMaxJsonDepth = 64;
 
-// Empty after Code::W2 (not JSON) or Code::W7 (too deep). A duplicate key is reported as Code::W6, its later
-// value is dropped, and reading goes on. `file` goes into every place and may be null.
+// Empty after Code::W2 (not JSON), Code::W7 (too deep) or Code::W201: a text beyond the limit json_bytes, more values
+// than json_values, a key beyond name_bytes. A duplicate key is reported as Code::W6, its later value is dropped, and
+// reading goes on. `file` goes into every place and may be null.
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
                                    Diagnostics& diagnostics);
 

@@ -142,8 +142,8 @@ std::optional<JsonValue> parse(std::string_view text) {
 const JsonValue* findPointer(const JsonValue& root, std::string_view pointer) {
   if (root.pointer == pointer) return &root;
   const auto leads = [&](const JsonValue& child) {
-    return pointer.starts_with(child.pointer) &&
-           (pointer.size() == child.pointer.size() || pointer[child.pointer.size()] == '/');
+    const std::string own = child.pointer.text();
+    return pointer.starts_with(own) && (pointer.size() == own.size() || pointer[own.size()] == '/');
   };
   for (const JsonValue& item : root.items)
     if (leads(item)) return findPointer(item, pointer);

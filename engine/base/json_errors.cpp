@@ -9,9 +9,11 @@
 namespace weft::base {
 
 JsonText::JsonText(std::string_view text, std::shared_ptr<const std::string> file)
-    : text_(text), file_(std::move(file)), lines_{0} {
+    : text_(text), file_(std::move(file)) {
+  lines_.reserve(static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1);
+  lines_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i)
-    if (text_[i] == '\n') lines_.push_back(i + 1);
+    if (text_[i] == '\n') lines_.push_back(static_cast<std::uint32_t>(i + 1));
 }
 
 Place JsonText::placeOf(std::size_t offset) const {
@@ -172,7 +174,8 @@ class Reporter {
   void reportEnd() {
     std::size_t end = text_.text().size();
     while (end > 0 && isSpace(text_.at(end - 1))) --end;
-    if (!inside_) return report(end, "the file holds no value", "a document is one object: { … }", "an object");
+    if (!inside_)
+      return report(end, "the file holds no value", "a document is one object: { … }", "an object");
     report(end,
            fmt::format("the file ends inside the {} that opens at {}:{}",
                        inside_->object ? "object" : "array", inside_->place.line, inside_->place.column),

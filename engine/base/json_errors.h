@@ -28,7 +28,7 @@ class JsonText {
  private:
   std::string_view text_;
   std::shared_ptr<const std::string> file_;
-  std::vector<std::size_t> lines_;  // offset of the first character of each line
+  std::vector<std::uint32_t> lines_;  // offset of the first character of each line
 };
 
 // The innermost object or array that is open where the error is.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -46,9 +47,26 @@ const std::vector<LimitInfo>& allLimits() {
   return kAll;
 }
 
-std::uint64_t limitOf(Limit limit) { return kValues[static_cast<std::size_t>(limit)]; }
+std::uint64_t limitOf(Limit limit) {
+  return kValues[static_cast<std::size_t>(limit)];
+}
 
-std::string_view nameOf(Limit limit) { return allLimits()[static_cast<std::size_t>(limit)].name; }
+std::string_view nameOf(Limit limit) {
+  return allLimits()[static_cast<std::size_t>(limit)].name;
+}
+
+std::uint64_t mostOf(Limit limit) {
+  switch (limit) {
+    case Limit::include_depth:
+    case Limit::extends_depth:
+    case Limit::alternatives_depth:
+    case Limit::definition_depth:
+    case Limit::repeat_indices:
+      return 256;
+    default:
+      return ~std::uint64_t{0} >> 1;
+  }
+}
 
 std::optional<std::string> setLimit(std::string_view name, std::string_view value) {
   std::vector<std::string> names;
@@ -56,7 +74,11 @@ std::optional<std::string> setLimit(std::string_view name, std::string_view valu
     names.emplace_back(info.name);
     if (info.name != name) continue;
     const auto count = parseCount(value);
-    if (!count) return fmt::format("expected a whole number from 1, which may end in K, M or G, found '{}'", value);
+    if (!count)
+      return fmt::format("expected a whole number from 1, which may end in K, M or G, found '{}'", value);
+    if (const std::uint64_t most = mostOf(info.limit); *count > most)
+      return fmt::format("expected at most {}, found {}: deeper walks would overflow the stack", most,
+                         *count);
     kValues[static_cast<std::size_t>(info.limit)] = *count;
     return std::nullopt;
   }
@@ -65,7 +87,10 @@ std::optional<std::string> setLimit(std::string_view name, std::string_view valu
 }
 
 std::string hintToRaise(Limit limit) {
-  return fmt::format("raise it with --limit {}={}, if that is meant", nameOf(limit), 2 * limitOf(limit));
+  const std::uint64_t now = limitOf(limit), most = mostOf(limit);
+  if (now >= most)
+    return fmt::format("{} cannot be raised further: deeper walks would overflow the stack", nameOf(limit));
+  return fmt::format("raise it with --limit {}={}, if that is meant", nameOf(limit), std::min(2 * now, most));
 }
 
 }  // namespace weft::base

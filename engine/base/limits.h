@@ -20,9 +20,14 @@ namespace weft::base {
   X(extends_depth,       64,            "overlays that extend each other in a row")             \
   X(alternatives_depth,  64,            "alternatives that lead to alternatives in a row")      \
   X(alternatives,        1000000,       "alternatives of one graph, looked at in all")          \
+  X(definition_depth,    64,            "definitions that depend on each other in a row")       \
   X(repeat_indices,      16,            "indices of one repeat")                                \
-  X(json_bytes,          64ull << 20,   "bytes of one JSON or .cube file")                      \
-  X(uses,                4000000,       "slots of all passes of one graph")                     \
+  X(json_bytes,          32ull << 20,   "bytes of one JSON or .cube file")                      \
+  X(json_values,         1500000,       "values of all JSON files of one graph, each use counted") \
+  X(name_bytes,          255,           "bytes of one name or key")                             \
+  X(uses,                2000000,       "slots, parameters and defines of all passes of one graph") \
+  X(graph_bytes,         640ull << 20,  "bytes of all passes of one graph, its repeats counted") \
+  X(terms,               10000000,      "operators and operands that passes evaluate, in all")  \
   X(texture_bytes,       4ull << 30,    "bytes of all textures and buffers of one plan")        \
   X(diagnostics,         100,           "messages that are printed")                            \
   X(shader_bytes,        1ull << 20,    "bytes of one shader with what it includes")            \
@@ -54,11 +59,15 @@ const std::vector<LimitInfo>& allLimits();
 std::uint64_t limitOf(Limit limit);
 std::string_view nameOf(Limit limit);
 
-// Sets one limit by name; 1 or more. The value is a whole number, or one with the suffix K, M or G (of 1024).
+// How far a limit can be raised: those that count steps of a walk on the stack stop where the stack would end.
+std::uint64_t mostOf(Limit limit);
+
+// Sets one limit by name; from 1 to mostOf(). The value is a whole number, or one with the suffix K, M or G (of 1024).
 // Returns what is wrong, as a sentence for the person who wrote it, or nothing.
 std::optional<std::string> setLimit(std::string_view name, std::string_view value);
 
-// "raise it with --limit include_files=2000": the fix of a message about a limit; twice the present value.
+// "raise it with --limit include_files=2000": the fix of a message about a limit; twice the present value, or what it
+// can be raised to.
 std::string hintToRaise(Limit limit);
 
 }  // namespace weft::base

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/json_pointer.h"
 #include "engine/graph/expr.h"
 #include "engine/graph/value.h"
 
 namespace weft::graph {
 
+using base::JsonPointer;
 using base::Place;
 
 // How a pass touches a resource.
@@ -38,7 +40,7 @@ struct SpanDesc {
 struct RefDesc {
   std::string text;            // as written
   Place place;
-  std::string pointer;
+  JsonPointer pointer;
   std::string name;            // dotted, without the leading @
   bool import = false;         // written with @
   std::optional<SpanDesc> mip, layer, face;
@@ -55,11 +57,11 @@ struct ParameterDesc {
   enum class Type : std::uint8_t { boolean, integer, number, vec2, vec3, vec4, choice, file };
   std::string name;
   Place place;
-  std::string pointer;
+  JsonPointer pointer;
   Type type = Type::number;
   Value initial;
   Place initialPlace;          // of the default's value, perhaps in an overlay
-  std::string initialPointer;
+  JsonPointer initialPointer;
   std::optional<double> min, max, step;
   std::string label, doc;
   std::vector<std::string> choices;
@@ -69,7 +71,7 @@ struct ParameterDesc {
 struct NamedExpr {
   std::string name;
   Place place;                 // of the name
-  std::string pointer;
+  JsonPointer pointer;
   Expr expr;
 };
 
@@ -82,7 +84,7 @@ struct ResourceDesc {
   enum class Kind : std::uint8_t { texture, buffer, import, input, alternatives };
   std::string name;
   Place place;
-  std::string pointer;
+  JsonPointer pointer;
   Kind kind = Kind::texture;
   // texture
   std::string format;
@@ -110,7 +112,7 @@ struct ResourceDesc {
 struct SlotDesc {
   std::string name;
   Place place;
-  std::string pointer;
+  JsonPointer pointer;
   Access access = Access::read;
   RefDesc ref;
 };
@@ -125,7 +127,7 @@ struct RangeDesc {
 struct PassParameterDesc {
   std::string name;
   Place place;
-  std::string pointer;
+  JsonPointer pointer;
   Expr value;                              // when not declared
   std::optional<ParameterDesc> declared;
 };
@@ -142,7 +144,7 @@ struct PassDesc {
   std::string name;            // for an include: its prefix
   Place place;                 // of the stanza's opening brace
   Place namePlace;
-  std::string pointer;
+  JsonPointer pointer;
   std::optional<IncludeDesc> include;
   std::string type;
   Place typePlace;
@@ -176,7 +178,7 @@ struct OutputDesc {
 struct SetDesc {
   std::string name;            // any unique suffix
   Place place;
-  std::string pointer;
+  JsonPointer pointer;
   Value value;
 };
 

@@ -1,5 +1,6 @@
 #include "engine/graph/expand.h"
 
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_live.h"
 #include "engine/graph/expand_passes.h"
 #include "engine/graph/expand_resources.h"
@@ -12,12 +13,13 @@ namespace weft::graph {
 std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry,
                                              const Settings& settings, base::Diagnostics& diagnostics) {
   using namespace expansion;
+  if (enoughErrors(diagnostics)) return nullptr;
   base::Diagnostics own;
   Model model{desc, registry, settings, own};
   model.incomplete = diagnostics.hasErrors();  // of the reader
   buildScopes(model);
   applySettings(model);
-  for (std::uint32_t i = 0; i < model.entities.size(); ++i) {
+  for (std::uint32_t i = 0; i < model.entities.size() && !isOver(model); ++i) {
     const auto kind = model.entities[i].kind;
     // An import's arguments are checked here; so is an input of the root, which nobody may read.
     if (kind == ResourceDesc::Kind::input)
@@ -26,9 +28,9 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
       ensureShape(model, i);
   }
   std::vector<DeferredUniform> deferred;
-  expandPasses(model, deferred);
-  finishGraph(model, deferred);
-  judgeMissing(model);
+  if (!isOver(model)) expandPasses(model, deferred);
+  if (!isOver(model)) finishGraph(model, deferred);
+  if (!isOver(model)) judgeMissing(model);
   reportUnincluded(model);
   if (!own.hasErrors()) checkSlices(model);
   if (!own.hasErrors() && !diagnostics.hasErrors()) warnUnread(model);

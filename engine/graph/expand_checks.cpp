@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/expand_limits.h"
 
 namespace weft::graph::expansion {
 
@@ -248,10 +250,24 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots) {
   bool good = checkAttachments(context, slots);
   if (context.type && context.type->shader == ShaderShape::none) good = checkCopy(context, slots) && good;
+  const auto writes = [](const SlotWork& work) {
+    return work.state == SlotWork::State::connected && work.use.access != Access::read;
+  };
+  const auto writers = static_cast<std::size_t>(std::ranges::count_if(slots, writes));
+  if (writers == 0 || !good) return good;
+  // Those that use what is written, by resource: a pass may have thousands of slots.
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> sharing;
+  for (const SlotWork& work : slots)
+    if (writes(work)) sharing.try_emplace(work.entity);
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (const auto found = sharing.find(slots[i].entity); found != sharing.end()) found->second.push_back(i);
   for (std::size_t i = 0; i < slots.size() && good; ++i) {
     const SlotWork& a = slots[i];
-    if (a.state != SlotWork::State::connected || a.use.access == Access::read) continue;
-    for (std::size_t j = 0; j < slots.size() && good; ++j) {
+    if (!writes(a)) continue;
+    const std::vector<std::size_t>& others = sharing[a.entity];
+    if (!compare(context.model, others.size(), a.slot->place)) return false;
+    for (const std::size_t j : others) {
+      if (!good) break;
       const SlotWork& b = slots[j];
       if (i == j || b.state != SlotWork::State::connected || !overlaps(a, b)) continue;
       const std::string& name = context.model.entities[a.entity].name;

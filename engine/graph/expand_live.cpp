@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_resources.h"
 #include "engine/graph/expand_versions.h"
 
@@ -97,6 +98,7 @@ class Judge {
     for (std::uint32_t i = 0; i < model.writes.size(); ++i) byEntity_[model.writes[i].entity].push_back(i);
     found_.reserve(model.missing.size());
     for (const MissingRead& missing : model.missing) {
+      if (isOver(model_)) return;
       found_.push_back(findWriters(missing));
       if (missing.pass != kNone && found_.back().enabledLater)
         wouldRead_[missing.pass].push_back(found_.back().enabledLater->pass);
@@ -104,7 +106,7 @@ class Judge {
   }
 
   void run() {
-    for (std::size_t i = 0; i < model_.missing.size(); ++i) judge(model_.missing[i], found_[i]);
+    for (std::size_t i = 0; i < model_.missing.size() && !isOver(model_); ++i) judge(model_.missing[i], found_[i]);
   }
 
  private:
@@ -113,6 +115,7 @@ class Judge {
     for (const MissingRead::Wanted& wanted : missing.wanted) {
       const auto records = byEntity_.find(wanted.entity);
       if (records == byEntity_.end()) continue;
+      if (!compare(model_, records->second.size(), missing.ref->place)) break;
       for (const std::uint32_t index : records->second) {
         const WriteRecord& write = model_.writes[index];
         if (!touches(model_, write, wanted)) continue;

@@ -49,7 +49,6 @@ struct Let {
   std::string path;
   Progress state = Progress::fresh;
   Value value;  // when done
-  Progress dynamicState = Progress::fresh;
   bool dynamic = false;        // contains age(), perhaps through another let
   std::optional<Expr> folded;  // of a dynamic one, after all passes are known
   bool structural = false;
@@ -160,6 +159,20 @@ struct MissingRead {
   std::vector<Wanted> wanted;
 };
 
+// What the expansion has done so far, held against the limits (expand_limits.h).
+struct Effort {
+  bool stopped = false;         // a limit was exceeded and reported: nothing more is expanded
+  bool tooDeep = false;         // definitions depend on each other in too long a row, which was reported
+  std::uint32_t depth = 0;      // definitions that are being evaluated, each for the one before
+  std::uint32_t height = 0;     // operators of their expressions, nested in each other
+  std::uint64_t looked = 0;     // alternatives looked at
+  std::uint64_t uses = 0;       // slots, parameters and defines
+  std::uint64_t bytes = 0;      // of passes
+  std::uint64_t terms = 0;      // operators and operands evaluated
+  std::uint64_t compared = 0;   // slots, writes and passes compared with each other
+  std::uint64_t suggested = 0;  // names gathered to find the nearest among
+};
+
 struct Model {
   const GraphDesc& desc;
   const Registry& registry;
@@ -172,6 +185,7 @@ struct Model {
   std::deque<Entity> entities{};
   NameMap<std::uint32_t> implicitImports{};     // "environment" of @environment
   std::vector<std::uint32_t> importResource{};  // per import: its FlatResource or kNone
+  std::unordered_map<std::string, std::uint32_t> importIndex{};  // by the text of the request
   std::unordered_map<std::string, std::vector<std::uint32_t>> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   Flow flow{};
@@ -187,6 +201,7 @@ struct Model {
   bool incomplete = false;                   // mistakes kept some writes out: what nobody writes is no news
   std::uint32_t position = 0;                // of the instance being expanded
   std::vector<std::string> evaluating{};     // what is being evaluated now, for the path of a cycle
+  Effort effort{};
 };
 
 // "a -> b -> a" from the stack of what is being evaluated, closed by `again`.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_resources.h"
 #include "engine/graph/expand_scope.h"
 #include "engine/graph/expand_versions.h"
@@ -20,6 +21,11 @@ std::optional<Value> letValue(Model& model, Let& let) {
   if (let.state == Progress::active) {
     reportCycle(model, let.desc->place,
                 fmt::format("'{}' depends on itself: {}", label, cyclePath(model, label)));
+    let.state = Progress::failed;
+    return Value{};
+  }
+  const Descent descent(model, let.desc->expr.height(), let.desc->place, label);
+  if (!descent.good()) {
     let.state = Progress::failed;
     return Value{};
   }
@@ -60,9 +66,14 @@ std::optional<Value> Names::variable(std::string_view name) {
       return model_.parameters[found.index].value;
     case Variable::Kind::ambiguous: {
       std::string all;
-      for (const Parameter& parameter : model_.parameters)
-        if (parameter.path.starts_with(scope_.prefix) && parameter.path.ends_with("." + std::string(name)))
-          all += (all.empty() ? "$" : ", $") + parameter.path.substr(scope_.prefix.size());
+      int many = 0;
+      const std::string suffix = "." + std::string(name);
+      for (const Parameter& parameter : model_.parameters) {
+        if (many == 8) break;
+        if (!parameter.path.starts_with(scope_.prefix) || !parameter.path.ends_with(suffix)) continue;
+        all += (all.empty() ? "$" : ", $") + parameter.path.substr(scope_.prefix.size());
+        ++many;
+      }
       auto& d = model_.diagnostics.error(
           Code::W46, {}, fmt::format("'${}' may mean several parameters of included files", name));
       d.place = scope_.desc->place;
@@ -73,8 +84,9 @@ std::optional<Value> Names::variable(std::string_view name) {
       break;
   }
   Let& let = model_.lets[found.index];
-  if (isDynamicLet(model_, let)) {
+  if (let.dynamic) {
     if (dynamicAllowed_) return Value::number(1);
+    if (model_.effort.tooDeep) return Value{};
     if (!model_.evaluating.empty() && let.state == Progress::active) return letValue(model_, let);
     auto& d = model_.diagnostics.error(Code::W78, let.desc->place,
                                        fmt::format("'${}' contains age() and changes from frame to frame, "
@@ -121,6 +133,7 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   const bool isImport = model_.entities[index].kind == ResourceDesc::Kind::import;
   const std::uint32_t target = isImport && fact != Fact::has ? index : staticTarget(model_, index, &mip);
   if (fact == Fact::has) return Value::boolean(target != kNone);
+  if (target == kNone && (model_.effort.stopped || model_.effort.tooDeep)) return Value{};
   if (target == kNone) {
     auto& d = model_.diagnostics.error(Code::W85, place,
                                        fmt::format("no alternative of '{}' holds, so it has no size", asked));
@@ -178,6 +191,7 @@ std::vector<std::string> Names::choicesOf(std::string_view variable) {
 
 std::vector<std::string> Names::candidates(NameKind kind) {
   std::vector<std::string> names;
+  if (kind == NameKind::variable && !maySuggest(model_, model_.parameters.size() + model_.lets.size())) return names;
   switch (kind) {
     case NameKind::builtin:
       return {"screen", "device.software"};
@@ -212,7 +226,7 @@ const Expr* Names::folded(std::string_view variable) {
   const Variable found = findVariable(model_, scope_, variable);
   if (found.kind != Variable::Kind::let) return nullptr;
   Let& let = model_.lets[found.index];
-  if (!isDynamicLet(model_, let)) return nullptr;
+  if (!let.dynamic) return nullptr;
   const std::string label = "$" + let.path;
   if (let.state == Progress::active) {
     reportCycle(model_, let.desc->place,
@@ -221,6 +235,8 @@ const Expr* Names::folded(std::string_view variable) {
     return nullptr;
   }
   if (!let.folded) {
+    const Descent descent(model_, let.desc->expr.height(), let.desc->place, label);
+    if (!descent.good()) return nullptr;
     let.state = Progress::active;
     model_.evaluating.push_back(label);
     Names names(model_, *let.scope);

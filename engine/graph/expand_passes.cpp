@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/graph/expand_checks.h"
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_spec.h"
 #include "engine/graph/expand_versions.h"
 
@@ -23,7 +24,7 @@ class PassWalk {
   void walk(Scope& scope, const std::string& outerWhy) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
     for (const PassDesc& desc : scope.desc->passes) {
-      if (tooMany_) return;
+      if (tooMany_ || isOver(model_)) return;
       if (desc.include)
         walkInclude(scope, desc, why);
       else if (scope.passes.find(desc.name)->second == &desc)
@@ -39,9 +40,14 @@ class PassWalk {
     Names names(model_, scope);
     const auto enabled = evaluateCondition(names, desc.enabled, true,
                                            fmt::format("'enabled' of include '{}'", desc.include->as));
-    walk(*child->second, why.empty() && enabled && !*enabled
-                             ? fmt::format("enabled: {} is false", desc.enabled.text())
-                             : why);
+    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why);
+  }
+
+  // Kept for each instance, so a long expression is cut.
+  static std::string whyFalse(const Expr& enabled) {
+    std::string text = enabled.text();
+    if (text.size() > 80) text = text.substr(0, 80) + "…";
+    return fmt::format("enabled: {} is false", text);
   }
 
   // ---- one stanza: its repeats ----
@@ -55,6 +61,7 @@ class PassWalk {
     const auto rules = model_.disables.find(declared_);
     rules_ = rules == model_.disables.end() ? nullptr : &rules->second;
     failed_ = false;
+    cost_ = costOf(desc, declared_);
     stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
     Names names(model_, scope);
     repeat(names, 0);
@@ -96,7 +103,7 @@ class PassWalk {
       return;
     }
     names.indices.push_back({range.index, 0});
-    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !failed_ && !tooMany_;
+    for (std::int64_t i = *first; (*step > 0 ? i <= *last : i >= *last) && !failed_ && !tooMany_ && !isOver(model_);
          i += *step) {
       names.indices.back().value = static_cast<double>(i);
       repeat(names, depth + 1);
@@ -124,11 +131,12 @@ class PassWalk {
       for (const DisableRule& rule : *rules_)
         if (rule.instance.empty() || rule.instance == name) return rule.why;
     if (!scopeWhy_.empty()) return scopeWhy_;
-    if (!*enabled) return fmt::format("enabled: {} is false", desc_->enabled.text());
+    if (!*enabled) return whyFalse(desc_->enabled);
     return std::string();
   }
 
   void instance(Names& names) {
+    if (!mayExpand(model_, cost_, desc_->place, declared_)) return;
     const std::size_t before = model_.diagnostics.errorCount();
     const std::string name = instanceName(names);
     bool byItself = false;
@@ -146,11 +154,13 @@ class PassWalk {
     slots.reserve(desc_->slots.size());
     const SlotDesc* gone = nullptr;
     for (const SlotDesc& slot : desc_->slots) {
+      if (isOver(model_)) return;
       slots.push_back(resolveSlot(context, slot, enabled ? pass : kNone));
       if (slots.back().state == State::empty && !gone) gone = &slot;
       if (slots.back().state == State::failed && slot.access != Access::read) model_.incomplete = true;
     }
     checkPassUses(context, *desc_, slots);
+    if (isOver(model_)) return;
     if (!why->empty()) {
       disabledInstance(context, slots, name, *why);
     } else if (gone) {
@@ -299,7 +309,10 @@ class PassWalk {
       const bool used =
           work.state == State::connected ||
           (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
-      if (used && model_.entities[work.entity].state == Progress::done) emitUses(work, pass);
+      if (used && model_.entities[work.entity].state == Progress::done) {
+        if (!mayUse(model_, work.entity, work.use, work.elementCount, slot.place)) return;
+        emitUses(work, pass);
+      }
       slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
       graph_.slots.push_back(std::move(slot));
     }
@@ -337,6 +350,7 @@ class PassWalk {
   const PassType* type_ = nullptr;
   const std::vector<DisableRule>* rules_ = nullptr;
   std::string declared_, scopeWhy_;
+  StanzaCost cost_;
   bool failed_ = false, stanzaGood_ = true;
 };
 

@@ -10,6 +10,9 @@ namespace weft::graph::expansion {
 // True when entity.shape is usable. Reports what is wrong the first time only.
 bool ensureShape(Model& model, std::uint32_t entity);
 
+// The part of ensureShape for an import: its arguments, and what the registry says of it.
+bool evaluateImport(Model& model, Entity& entity);
+
 // The index of an import in FlatGraph::imports; equal requests share one.
 std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind, const std::string& name);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_resources.h"
 #include "engine/graph/suffix.h"
 
@@ -106,6 +107,11 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
     entity.bindState = Progress::failed;
     return kNone;
   }
+  const Descent descent(model, 0, entity.desc->place, entity.name);
+  if (!descent.good()) {
+    entity.bindState = Progress::failed;
+    return kNone;
+  }
   entity.bindState = Progress::active;
   Scope& scope = *entity.scope;
   const std::string& name = entity.desc->name;
@@ -155,42 +161,6 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   return target;
 }
 
-// Finds what alternatives refer to, and reports lists that contain themselves.
-void linkAlternatives(Model& model) {
-  for (std::size_t i = 0; i < model.entities.size(); ++i) {
-    Entity& entity = model.entities[i];
-    if (entity.kind != ResourceDesc::Kind::alternatives) continue;
-    for (const RefDesc& ref : entity.desc->alternatives) {
-      markStructural(model, *entity.scope, ref);
-      entity.candidates.push_back(findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
-                                                     fmt::format("resource '{}' lists the", entity.name)));
-    }
-  }
-}
-
-void checkListCycle(Model& model, std::uint32_t index) {
-  Entity& entity = model.entities[index];
-  if (entity.kind != ResourceDesc::Kind::alternatives || entity.listState == Progress::done ||
-      entity.listState == Progress::failed)
-    return;
-  const std::string label = "'" + entity.name + "'";
-  if (entity.listState == Progress::active) {
-    auto& d = reportCycle(
-        model, entity.desc->place,
-        fmt::format("the alternatives of {} lead back to it: {}", label, cyclePath(model, label)));
-    d.resource = entity.name;
-    entity.listState = Progress::failed;
-    entity.candidates.assign(entity.candidates.size(), kNone);  // nothing walks round it again
-    return;
-  }
-  entity.listState = Progress::active;
-  model.evaluating.push_back(label);
-  for (std::size_t i = 0; i < entity.candidates.size(); ++i)
-    if (entity.candidates[i] != kNone) checkListCycle(model, entity.candidates[i]);
-  model.evaluating.pop_back();
-  if (entity.listState == Progress::active) entity.listState = Progress::done;
-}
-
 // An import declared under `name` here or in an enclosing file.
 std::uint32_t declaredImport(Model& model, Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent)
@@ -222,8 +192,8 @@ void buildScopes(Model& model) {
   Scope& root = model.scopes.emplace_back();
   root.desc = &model.desc;
   buildScope(model, root);
+  findDynamicLets(model);
   linkAlternatives(model);
-  for (std::uint32_t i = 0; i < model.entities.size(); ++i) checkListCycle(model, i);
 }
 
 std::uint32_t implicitImport(Model& model, std::string_view type) {
@@ -258,8 +228,15 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
                                        : findEntity(model, *child->second, name.substr(dot + 1), false);
 }
 
-std::vector<std::string> resourceNames(const Model& model, const Scope& scope) {
+bool maySuggest(Model& model, std::size_t names) {
+  constexpr std::uint64_t kMostNames = 5'000'000;
+  model.effort.suggested += names;
+  return model.effort.suggested <= kMostNames;
+}
+
+std::vector<std::string> resourceNames(Model& model, const Scope& scope) {
   std::vector<std::string> names;
+  if (!maySuggest(model, model.entities.size())) return names;
   for (const Entity& entity : model.entities)
     if (entity.desc && entity.name.starts_with(scope.prefix))
       names.push_back(entity.name.substr(scope.prefix.size()));
@@ -271,6 +248,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
                                  std::string_view slot) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
+  if (found == kNone && (model.effort.tooDeep || isOver(model))) return kNone;
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
   if (isUnread(scope, name)) return kNone;  // the reader reported its declaration
   if (isUnincluded(model, scope, name, place, user, pass)) return kNone;
@@ -333,6 +311,7 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
   const auto leaves = model.parametersByLeaf.find(leaf);
   if (leaves == model.parametersByLeaf.end()) return {};
   Variable result;
+  if (!compare(model, leaves->second.size(), from.desc->place)) return {};
   for (const std::uint32_t index : leaves->second) {
     const std::string& path = model.parameters[index].path;
     if (!path.starts_with(from.prefix) || !hasSuffix(path, name)) continue;
@@ -340,49 +319,6 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
     result = {Kind::parameter, index};
   }
   return result;
-}
-
-void markStructural(Model& model, Scope& scope, const Expr& expr) {
-  if (!expr.present()) return;
-  for (const std::string& name : expr.variables()) {
-    const Variable variable = findVariable(model, scope, name);
-    if (variable.kind == Variable::Kind::parameter) model.parameters[variable.index].structural = true;
-    if (variable.kind == Variable::Kind::let && !model.lets[variable.index].structural) {
-      Let& let = model.lets[variable.index];
-      let.structural = true;
-      markStructural(model, *let.scope, let.desc->expr);
-    }
-  }
-}
-
-void markStructural(Model& model, Scope& scope, const RefDesc& ref) {
-  markStructural(model, scope, ref.condition);
-  if (ref.element) markStructural(model, scope, *ref.element);
-  for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
-    if (*span) {
-      markStructural(model, scope, (*span)->first);
-      markStructural(model, scope, (*span)->last);
-    }
-}
-
-bool isDynamicLet(Model& model, Let& let) {
-  if (let.dynamicState == Progress::fresh) {
-    let.dynamicState =
-        Progress::active;  // met again in a cycle it is not dynamic; evaluation reports the cycle
-    let.dynamic = isDynamic(model, *let.scope, let.desc->expr);
-    let.dynamicState = Progress::done;
-  }
-  return let.dynamic;
-}
-
-bool isDynamic(Model& model, Scope& scope, const Expr& expr) {
-  if (!expr.present() || expr.isConstant()) return false;
-  if (expr.dynamic()) return true;
-  for (const std::string& name : expr.variables()) {
-    const Variable variable = findVariable(model, scope, name);
-    if (variable.kind == Variable::Kind::let && isDynamicLet(model, model.lets[variable.index])) return true;
-  }
-  return false;
 }
 
 bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed) {

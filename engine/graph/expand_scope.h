@@ -18,6 +18,10 @@ namespace weft::graph::expansion {
 
 // Fills scopes, parameters with their defaults (the reader has checked those), lets and entities.
 void buildScopes(Model& model);
+// Its steps after the scopes: marks lets that contain age(), perhaps through another; finds what alternatives refer to,
+// and reports lists that contain themselves (W050) or lead to lists in too long a row.
+void findDynamicLets(Model& model);
+void linkAlternatives(Model& model);
 
 // The entity a name stands for, with inputs followed; kNone when there is none (nothing is reported) or when
 // an input has nothing behind it (reported once).
@@ -28,6 +32,8 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
                                  std::string_view slot = {});
 // `user` of a name in size(name) and the like.
 constexpr const char* kAsksOf = "an expression asks of the";
+// False when so many names were gathered for suggestions that further messages go without.
+bool maySuggest(Model& model, std::size_t names);
 // True when the reader reported the declaration of this name and left it out: a use of it is no second
 // mistake.
 bool isUnread(const Scope& from, std::string_view name);
@@ -54,7 +60,6 @@ void markStructural(Model& model, Scope& scope, const Expr& expr);
 void markStructural(Model& model, Scope& scope, const RefDesc& ref);
 // True when the expression contains age(), perhaps through a let.
 bool isDynamic(Model& model, Scope& scope, const Expr& expr);
-bool isDynamicLet(Model& model, Let& let);
 // Names in branches that are not taken: variables, choices and resources.
 bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed = false);
 
@@ -97,6 +102,6 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
                                           bool floors = false);
 
 // The nearest names for hints.
-std::vector<std::string> resourceNames(const Model& model, const Scope& scope);
+std::vector<std::string> resourceNames(Model& model, const Scope& scope);
 
 }  // namespace weft::graph::expansion

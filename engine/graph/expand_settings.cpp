@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_scope.h"
 #include "engine/graph/read_context.h"
 #include "engine/graph/suffix.h"
@@ -162,7 +163,7 @@ struct Origin {
   const Scope& scope;
   std::string_view prefix = "";
   Place place = {};
-  std::string pointer = {};
+  JsonPointer pointer = {};
 };
 
 // `valueFor(type)` makes the value.
@@ -170,14 +171,23 @@ template <class ValueFor>
 void applySet(Model& model, const std::string& wanted, const Origin& origin, const ValueFor& valueFor) {
   std::vector<std::string> names;
   std::vector<std::size_t> parameters;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    if (model.parameters[i].path.starts_with(origin.prefix)) {
-      names.push_back(model.parameters[i].path.substr(origin.prefix.size()));
-      parameters.push_back(i);
-    }
+  const auto add = [&](std::size_t i) {
+    if (!model.parameters[i].path.starts_with(origin.prefix)) return;
+    names.push_back(model.parameters[i].path.substr(origin.prefix.size()));
+    parameters.push_back(i);
+  };
+  // Only those of its last part can be meant.
+  if (const auto leaves = model.parametersByLeaf.find(wanted.substr(wanted.rfind('.') + 1));
+      leaves != model.parametersByLeaf.end()) {
+    if (!compare(model, leaves->second.size(), origin.place)) return;
+    for (const std::uint32_t i : leaves->second) add(i);
+  }
   const std::vector<std::size_t> found = suffixMatches(names, wanted);
   if (found.empty()) {
     if (mayBeUnread(origin.scope, wanted)) return;
+    names.clear();
+    if (maySuggest(model, model.parameters.size()))
+      for (std::size_t i = 0; i < model.parameters.size(); ++i) add(i);
     auto& d =
         model.diagnostics.error(Code::W44, origin.place, fmt::format("no parameter is called '{}'", wanted));
     d.pointer = origin.pointer;
@@ -195,7 +205,7 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
 void applySets(Model& model) {
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
     for (const SetDesc& set : scope->desc->sets)
-      applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer}, [&](Type type) {
+      if (!isOver(model)) applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer}, [&](Type type) {
         const bool path = type == Type::file && set.value.type == Value::Type::symbol;
         return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
       });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/plan.h"
 
 namespace weft::graph::expansion {
@@ -33,10 +34,13 @@ bool isToldAlready(const Model& model, std::uint32_t pass) {
 
 // Follows what `job` writes through passes that are not of it: where it comes back to the job, neither could
 // ever end.
-void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job) {
+// Both can only stand between its `first` and its `last` pass. `from`, per resource: the pass outside that last touched
+// it; all kNone before and after.
+void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job, std::uint32_t first, std::uint32_t last,
+                  std::vector<std::uint32_t>& from) {
   const FlatGraph& graph = model.graph;
-  std::vector<std::uint32_t> from(graph.resources.size(), kNone);  // the pass outside that last touched it
-  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+  std::vector<std::uint32_t> touched;
+  for (std::uint32_t p = first; p <= last; ++p) {
     if (jobs.jobOf(p) == job) {
       eachUse(graph, p, [&](const FlatUse& use) {
         if (use.access != Access::read || use.history > 0 || from[use.resource] == kNone) return;
@@ -57,9 +61,12 @@ void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job) {
     });
     if (!reads || graph.passes[p].cadence == Cadence::always) continue;
     eachUse(graph, p, [&](const FlatUse& use) {
-      if (use.access != Access::read) from[use.resource] = p;
+      if (use.access == Access::read) return;
+      from[use.resource] = p;
+      touched.push_back(use.resource);
     });
   }
+  for (const std::uint32_t resource : touched) from[resource] = kNone;
 }
 
 }  // namespace
@@ -98,8 +105,18 @@ void checkSlices(Model& model) {
           fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]);
     });
   }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rangeOf(jobs.spread.size(), {kNone, 0});
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+    if (const std::uint32_t job = jobs.jobOf(p); job != kNone) {
+      rangeOf[job].first = std::min(rangeOf[job].first, p);
+      rangeOf[job].second = p;
+    }
+  std::vector<std::uint32_t> from(graph.resources.size(), kNone);
   for (std::uint32_t job = 0; job < jobs.spread.size(); ++job)
-    if (jobs.spread[job] != 0) checkWayBack(model, jobs, job);
+    if (const auto [first, last] = rangeOf[job]; jobs.spread[job] != 0 && first < last) {
+      if (!compare(model, last - first, model.graph.specs[first].place)) return;
+      checkWayBack(model, jobs, job, first, last, from);
+    }
 }
 
 }  // namespace weft::graph::expansion

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/graph/expand_checks.h"
+#include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_versions.h"
 
 namespace weft::graph::expansion {
@@ -130,11 +131,13 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     leaves.push_back(std::move(leaf));
     return true;
   }
+  if (entity.listState == Progress::failed) return false;  // reported
   Names listNames(model, *entity.scope);
   bool good = true;
   for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
     if (entity.candidates[i] == kNone) continue;
     const RefDesc& alternative = entity.desc->alternatives[i];
+    if (!lookAt(model, costOf(alternative), alternative.place)) return false;
     const auto holds =
         evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
     if (!holds) good = false;
@@ -269,6 +272,7 @@ void mention(Model& model, std::uint32_t index, std::uint32_t position) {
   Entity& entity = model.entities[index];
   if (!entity.mentions.empty() && entity.mentions.back() == position) return;
   entity.mentions.push_back(position);
+  if (!entity.candidates.empty() && !lookAt(model, entity.candidates.size(), entity.desc->place)) return;
   for (const std::uint32_t candidate : entity.candidates)
     if (candidate != kNone) mention(model, candidate, position);
 }

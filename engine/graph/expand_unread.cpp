@@ -29,7 +29,7 @@ bool samePlace(const Place& a, const Place& b) {
          (a.file == b.file || (a.file && b.file && *a.file == *b.file));
 }
 
-std::string hintFor(const Model& model, const Unincluded& group) {
+std::string hintFor(Model& model, const Unincluded& group) {
   const Scope& scope = *group.scope;
   if (group.uses.size() == 1)
     if (const std::string near = base::nearestName(group.uses[0].resource, resourceNames(model, scope));

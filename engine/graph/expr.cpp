@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cctype>
+#include <set>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expr_node.h"
@@ -77,6 +78,12 @@ int heightOver(const std::vector<ExprPtr>& children) {
   return height + 1;
 }
 
+std::uint32_t termsOver(const std::vector<ExprPtr>& children) {
+  std::uint64_t terms = 1;
+  for (const ExprPtr& child : children) terms += child->terms;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(terms, ~std::uint32_t{0}));
+}
+
 ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children) {
   auto node = std::make_shared<ExprNode>();
   node->op = op;
@@ -86,6 +93,7 @@ ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children) {
   node->height = static_cast<std::uint8_t>(height);
   node->dynamic = std::any_of(children.begin(), children.end(), [](const ExprPtr& c) { return c->dynamic; });
   node->children = std::move(children);
+  node->terms = termsOver(node->children);
   return node;
 }
 
@@ -174,10 +182,9 @@ void print(const ExprNode& node, int outer, std::string& out) {
   if (parens) out += ')';
 }
 
-void collectVariables(const ExprNode& node, std::vector<std::string>& out) {
-  if (node.op == ExprOp::variable && std::find(out.begin(), out.end(), node.name) == out.end())
-    out.push_back(node.name);
-  for (const ExprPtr& child : node.children) collectVariables(*child, out);
+void collectVariables(const ExprNode& node, std::vector<std::string>& out, std::set<std::string_view>& seen) {
+  if (node.op == ExprOp::variable && seen.insert(node.name).second) out.push_back(node.name);
+  for (const ExprPtr& child : node.children) collectVariables(*child, out, seen);
 }
 
 void collectFacts(const ExprNode& node, std::vector<std::pair<Fact, std::string>>& out) {
@@ -240,7 +247,8 @@ const base::Place& Expr::place() const {
 
 std::vector<std::string> Expr::variables() const {
   std::vector<std::string> out;
-  if (root_) collectVariables(*root_, out);
+  std::set<std::string_view> seen;
+  if (root_ && root_->op != ExprOp::constant) collectVariables(*root_, out, seen);
   return out;
 }
 
@@ -248,6 +256,14 @@ std::vector<std::pair<Fact, std::string>> Expr::facts() const {
   std::vector<std::pair<Fact, std::string>> out;
   if (root_) collectFacts(*root_, out);
   return out;
+}
+
+std::uint32_t Expr::terms() const {
+  return root_ ? root_->terms : 0;
+}
+
+int Expr::height() const {
+  return root_ ? root_->height : 0;
 }
 
 bool Expr::isConstant() const {

@@ -66,6 +66,9 @@ class Expr {
   // Every size(x), mips(x), count(x), has(x), age(x) it asks, with the name as written (an @ included), in
   // order.
   std::vector<std::pair<Fact, std::string>> facts() const;
+  // How many operators and operands it has, and how deep they are nested.
+  std::uint32_t terms() const;
+  int height() const;
   // True when evaluating it needs no scope: a literal of the file, or a folded expression without age().
   bool isConstant() const;
 

@@ -39,7 +39,17 @@ ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& dia
                       "the expression and the \"let\" it uses chain too many operators");
     return nullptr;
   }
+  const std::uint32_t terms = termsOver(children);
+  if (terms > kMaxFoldedTerms) {
+    diagnostics
+        .error(Code::W20, node->place,
+               fmt::format("the expression and the \"let\" it uses have more than {} operators and operands",
+                           kMaxFoldedTerms))
+        .hint = "age() changes in every frame, and all of it is evaluated then: use it fewer times";
+    return nullptr;
+  }
   auto copy = std::make_shared<ExprNode>(*node);
+  copy->terms = terms;
   copy->height = static_cast<std::uint8_t>(height);
   copy->dynamic = std::any_of(children.begin(), children.end(), [](const ExprPtr& c) { return c->dynamic; });
   copy->children = std::move(children);
@@ -81,6 +91,7 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
   }
   auto folded = std::make_shared<ExprNode>(*node);
   folded->children = std::move(children);
+  folded->terms = termsOver(folded->children);
   folded->dynamic = std::any_of(folded->children.begin(), folded->children.end(),
                                 [](const ExprPtr& c) { return c->dynamic; });
   if (folded->dynamic) return folded;

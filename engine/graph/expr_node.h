@@ -54,6 +54,7 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
   std::uint8_t height = 1;  // 1 for leaves; never above kMaxExprHeight
   bool dynamic = false;     // contains age()
   std::uint32_t key = 0;
+  std::uint32_t terms = 1;  // this one and all below it; one that stands in several places counts in each
   base::Place place;  // of the token to blame: the operator, the name, the function
   base::Place start;  // of the whole expression; set on roots only
   Value value{};
@@ -64,6 +65,8 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
 using ExprPtr = std::shared_ptr<const ExprNode>;
 
 constexpr int kMaxExprHeight = 200;
+// Of an expression with the `let` it uses in its place: it is evaluated in every frame.
+constexpr std::uint32_t kMaxFoldedTerms = 10'000;
 
 struct OpInfo {
   const char* spelling;
@@ -85,6 +88,8 @@ ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children);
 ExprPtr makeConstant(Value value, base::Place place);
 // 1 + the greatest height among `children`.
 int heightOver(const std::vector<ExprPtr>& children);
+// 1 + all terms of `children`.
+std::uint32_t termsOver(const std::vector<ExprPtr>& children);
 // A copy of `root` that knows where the whole expression starts.
 ExprPtr withStart(const ExprPtr& root, const base::Place& start);
 

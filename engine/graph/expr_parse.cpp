@@ -16,6 +16,7 @@ namespace weft::graph {
 namespace {
 
 constexpr int kMaxNesting = 64;
+constexpr std::size_t kMostItems = 64;  // of a list or a call, counted for the message before they are too many
 constexpr int kMaxParsedHeight =
     kMaxExprHeight - 1;  // leaves one level for the list that Expr::listOf puts around it
 
@@ -228,6 +229,8 @@ class Parser {
       ExprPtr item = parseConditional();
       if (!item) return nullptr;
       if (item->op == ExprOp::list) return fail(itemStart, "a list holds numbers, not lists");
+      if (items.size() == kMostItems)
+        return fail(bracket, fmt::format("a list of more than {} items: at most 4 are allowed", kMostItems));
       items.push_back(std::move(item));
     } while (accept(","));
     if (!accept("]")) return failUnexpected("',' or ']'");
@@ -313,6 +316,8 @@ class Parser {
       do {
         ExprPtr argument = parseConditional();
         if (!argument) return nullptr;
+        if (arguments.size() == kMostItems)
+          return fail(word, fmt::format("{}() with more than {} arguments", word.text, kMostItems));
         arguments.push_back(std::move(argument));
       } while (accept(","));
     }

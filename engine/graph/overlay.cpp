@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
-#include "engine/base/file.h"
 #include "engine/base/file_access.h"
+#include "engine/base/limit_report.h"
+#include "engine/base/text_file.h"
+#include "engine/graph/enough.h"
 #include "engine/graph/overlay_apply.h"
 
 namespace weft::graph {
@@ -25,12 +28,20 @@ void reportOverlayStanzas(const JsonValue& root, base::Diagnostics& diagnostics)
   for (const JsonValue& stanza : passes->items)
     for (const JsonMember& member : stanza.members)
       if (member.key == "before" || member.key == "after" || member.key == "remove") {
+        if (enoughErrors(diagnostics)) return;
         auto& d = diagnostics.error(Code::W19, member.place,
                                     fmt::format("\"{}\" in a file that extends no other", member.key));
         d.pointer = member.value.pointer;
         d.pass = stanzaName(stanza);
         d.hint = "write the pass at its place in the list, or say what this file \"extends\"";
       }
+}
+
+std::size_t valuesOf(const JsonValue& value) {
+  std::size_t count = 1;
+  for (const JsonValue& item : value.items) count += valuesOf(item);
+  for (const JsonMember& member : value.members) count += valuesOf(member.value);
+  return count;
 }
 
 void eraseMember(JsonValue& object, std::string_view key) {
@@ -77,7 +88,7 @@ std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const 
 std::shared_ptr<const std::string> SourceLoader::bytesOf(const std::string& path, const base::Place& from) {
   if (given_)
     if (const auto found = given_->find(path); found != given_->end()) return texts_[path] = found->second;
-  std::optional<std::string> bytes = base::readFile(path, diagnostics_, Code::W1, from);
+  std::optional<std::string> bytes = base::readTextFile(path, diagnostics_, Code::W1, from);
   return bytes ? texts_[path] = std::make_shared<const std::string>(*std::move(bytes)) : nullptr;
 }
 
@@ -85,6 +96,17 @@ std::shared_ptr<const Source> SourceLoader::text(std::string_view text, const st
   std::optional<JsonValue> root =
       base::parseJson(text, std::make_shared<const std::string>(path), diagnostics_);
   return root ? complete(*std::move(root), path) : nullptr;
+}
+
+bool SourceLoader::mayCopy(const Source& source, const base::Place& place) {
+  values_ += source.values;
+  if (values_ <= base::limitOf(base::Limit::json_values)) return true;
+  if (!std::exchange(tooMany_, true)) {
+    auto& d = base::reportLimit(diagnostics_, base::Limit::json_values, place,
+                                "the files of the graph and the copies that overlays change hold too many values");
+    d.found = fmt::format("{} with '{}'", values_, source.path);
+  }
+  return false;
 }
 
 std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::string& path) {
@@ -103,6 +125,8 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
   }
   reportOverlayStanzas(root, diagnostics_);
   eraseStanzaKeys(root);
+  source.values = valuesOf(root);
+  if (!mayCopy(source, root.place)) return nullptr;
   source.root = std::move(root);
   return std::make_shared<const Source>(std::move(source));
 }
@@ -112,6 +136,10 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
   Source source{.path = path, .identity = identityOf(path), .files = {path}};
   open_.emplace_back(source.identity, path);
   const std::shared_ptr<const Source> below = openBase(extends);
+  if (below && !mayCopy(*below, extends.place)) {
+    open_.pop_back();
+    return nullptr;
+  }
   if (below) {
     source.files.insert(source.files.end(), below->files.begin(), below->files.end());
     source.root = below->root;
@@ -122,6 +150,7 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
       for (const char* own : {"name", "description"}) eraseMember(source.root, own);  // of the base
       applyOverlay(*this, root, false, source, diagnostics_);
     }
+    source.values = valuesOf(source.root);
   }
   open_.pop_back();
   return below ? std::make_shared<const Source>(std::move(source)) : nullptr;
@@ -136,6 +165,13 @@ std::shared_ptr<const Source> SourceLoader::openBase(const JsonValue& extends) {
     return nullptr;
   }
   const std::string below = pathBeside(extends), identity = identityOf(below);
+  if (open_.size() > base::limitOf(base::Limit::extends_depth)) {
+    auto& limit = base::reportLimit(diagnostics_, base::Limit::extends_depth, extends.place,
+                                    "overlays extend each other in too long a row");
+    limit.pointer = extends.pointer;
+    limit.found = fmt::format("'{}', one more", below);
+    return nullptr;
+  }
   if (!isOpen(identity)) return file(below, extends.place);
   auto& d = diagnostics_.error(Code::W15, extends.place, fmt::format("'{}' extends itself", below));
   d.pointer = extends.pointer;
@@ -175,9 +211,11 @@ std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, con
         fmt::format("open '{}' as the graph", path);
     return nullptr;
   }
+  if (!mayCopy(source, root->place)) return nullptr;
   Source made = source;
   made.files.push_back(path);
   if (made.root.is(Type::object)) applyOverlay(*this, *root, true, made, diagnostics_);
+  made.values = valuesOf(made.root);
   return std::make_shared<const Source>(std::move(made));
 }
 

@@ -23,6 +23,7 @@ struct Source {
                                        // overlay
   std::vector<base::JsonMember> sets;  // of "set", in the order they apply: the last wins
   std::map<std::string, std::shared_ptr<const Source>> changed;  // by prefix: includes reached into
+  std::size_t values = 0;  // of root: what a copy costs
 };
 
 // What an include stanza is called: "as", else the file's name without its ending. "" when it says neither.
@@ -46,6 +47,8 @@ class SourceLoader {
   bool isOpen(const std::string& identity) const;
   // Of everything opened so far.
   const FileTexts& texts() const { return texts_; }
+  // False after Code::W201: overlays make copies of what they are laid over, so values are counted again for each.
+  bool mayCopy(const Source& source, const base::Place& place);
 
  private:
   std::shared_ptr<const std::string> bytesOf(const std::string& path, const base::Place& from);
@@ -59,6 +62,8 @@ class SourceLoader {
   FileTexts texts_;
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
   std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
+  std::uint64_t values_ = 0;                                    // of all files and copies so far
+  bool tooMany_ = false;
 };
 
 }  // namespace weft::graph

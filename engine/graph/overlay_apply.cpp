@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "engine/base/limit_report.h"
 #include "engine/base/nearest.h"
+#include "engine/graph/enough.h"
 #include "engine/graph/suffix.h"
 
 namespace weft::graph {
@@ -17,31 +19,8 @@ using base::JsonMember;
 using base::JsonValue;
 using Type = JsonValue::Type;
 
-JsonMember* memberOf(JsonValue& object, std::string_view key) {
-  for (JsonMember& member : object.members)
-    if (member.key == key) return &member;
-  return nullptr;
-}
-
-// "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a
-// kind.
-std::string_view kindOf(const JsonValue& resource) {
-  if (!resource.is(Type::object)) return "alternatives";
-  for (const std::string_view kind : {"texture", "buffer", "import", "input"})
-    if (const JsonValue* value = resource.find(kind); value && !value->is(Type::null)) return kind;
-  return "";
-}
-
-// "resources" to "resource".
-std::string nounOf(const std::string& section) {
-  return section == "passes" ? "pass" : section == "let" ? "let" : section.substr(0, section.size() - 1);
-}
-
-std::string namesOf(const std::vector<Found>& all, const std::vector<std::size_t>& some) {
-  std::string text;
-  for (const std::size_t i : some) text += (text.empty() ? "" : ", ") + all[i].name;
-  return text;
-}
+// Names that the entries of overlays may look through, for each value that all files may hold.
+constexpr std::uint64_t kNamesPerValue = 8;
 
 class Applier {
  public:
@@ -52,17 +31,21 @@ class Applier {
   void run(const JsonValue& overlay, bool preset) {
     if (const JsonValue* passes = overlay.find("passes");
         passes && expect(*passes, Type::array, "\"passes\"", "an array"))
-      for (const JsonValue& stanza : passes->items) applyStanza(stanza);
+      for (const JsonValue& stanza : passes->items)
+        if (!stopped()) applyStanza(stanza);
     for (const JsonMember& member : overlay.members) {
+      if (stopped()) return;
       const JsonValue& value = member.value;
       const bool section = member.key == "parameters" || member.key == "let" || member.key == "resources";
-      if (member.key == "extends" || member.key == "passes" || (preset && (member.key == "name" || member.key == "description")))
+      if (member.key == "extends" || member.key == "passes" ||
+          (preset && (member.key == "name" || member.key == "description")))
         continue;
       if (member.key == "set") {
         if (expect(value, Type::object, "\"set\"", "an object of values by parameter"))
           target_.sets.insert(target_.sets.end(), value.members.begin(), value.members.end());
       } else if (section && value.is(Type::object)) {
-        for (const JsonMember& entry : value.members) applyEntry(member, entry);
+        for (const JsonMember& entry : value.members)
+          if (!stopped()) applyEntry(member, entry);
       } else {
         mergeMember(target_.root, member);
       }
@@ -78,6 +61,27 @@ class Applier {
     return d;
   }
 
+  bool stopped() const { return tooMuch_ || enoughErrors(diagnostics_); }
+
+  // Everything an entry of the overlay may mean. Each entry looks through all names, so a large overlay over
+  // many names ends in Code::W201.
+  std::vector<Found> findIn(const std::string& section, const base::Place& place) {
+    std::vector<Found> all = findAll(loader_, target_, section);
+    lookThrough(all.size(), place);
+    return all;
+  }
+
+  // False after the report.
+  bool lookThrough(std::size_t names, const base::Place& place) {
+    looked_ += names;
+    if (tooMuch_ || looked_ <= kNamesPerValue * base::limitOf(base::Limit::json_values)) return !tooMuch_;
+    base::reportLimit(diagnostics_, base::Limit::json_values, place,
+                      "the overlay changes too much of a graph with too many names")
+        .found = fmt::format("{} names looked through so far", looked_);
+    tooMuch_ = true;
+    return false;
+  }
+
   bool expect(const JsonValue& value, Type type, const char* what, const char* expected) {
     if (value.is(type)) return true;
     Diagnostic& d = error(Code::W3, value.place, value, fmt::format("{} has the wrong type", what));
@@ -89,6 +93,7 @@ class Applier {
   // ---- values ----
 
   void mergeMember(JsonValue& into, const JsonMember& over) {
+    if (!lookThrough(into.members.size(), over.place)) return;
     JsonMember* there = memberOf(into, over.key);
     if (over.value.is(Type::null)) {
       if (there) {
@@ -123,7 +128,8 @@ class Applier {
 
   // Calls `change` with the source at the end of the prefixes: a copy, kept beside its include.
   template <class Change>
-  void edit(Source& source, std::span<const std::string> below, const Change& change) {
+  void edit(Source& source, std::span<const std::string> below, const base::Place& place,
+            const Change& change) {
     if (below.empty()) return change(source);
     std::shared_ptr<const Source> child;
     if (const auto known = source.changed.find(below[0]); known != source.changed.end()) {
@@ -133,9 +139,20 @@ class Applier {
         if (const JsonValue* include = stanza.find("include"); include && includePrefix(stanza) == below[0])
           child = loader_.file(pathBeside(*include), include->place);
     }
-    auto copy = std::make_shared<Source>(*child);
-    edit(*copy, below.subspan(1), change);
-    source.changed[below[0]] = std::move(copy);
+    // One that this overlay has copied before, and nobody else has seen, is changed as it is.
+    std::shared_ptr<const Source>& kept = source.changed[below[0]];
+    std::shared_ptr<Source> copy;
+    if (kept && kept.use_count() == 2) {  // `kept` and `child`
+      copy = std::const_pointer_cast<Source>(kept);
+    } else {
+      if (!loader_.mayCopy(*child, place)) {
+        tooMuch_ = true;
+        return;
+      }
+      copy = std::make_shared<Source>(*child);
+    }
+    kept = copy;
+    edit(*copy, below.subspan(1), place, change);
   }
 
   // The one thing `wanted` means; null when there is none, or several, which is reported.
@@ -164,11 +181,12 @@ class Applier {
   void applyEntry(const JsonMember& section, const JsonMember& entry) {
     const std::string noun = nounOf(section.key);
     resource_ = section.key == "resources" ? entry.key : "";
-    const std::vector<Found> all = findAll(loader_, target_, section.key);
+    const std::vector<Found> all = findIn(section.key, entry.place);
+    if (tooMuch_) return;
     bool ambiguous = false;
     const Found* found = resolve(all, entry.key, noun, entry.place, entry.value, ambiguous);
     if (found) {
-      edit(target_, found->below, [&](Source& source) {
+      edit(target_, found->below, entry.place, [&](Source& source) {
         mergeEntry(section.key, *memberOf(source.root, section.key), found->index, entry);
       });
     } else if (!ambiguous && isWhole(section.key, entry)) {
@@ -260,7 +278,8 @@ class Applier {
   void putAt(const JsonValue& stanza, const JsonValue& anchor, bool after) {
     if (!expect(anchor, Type::string, after ? "\"after\"" : "\"before\"", "the name of a pass or include"))
       return;
-    const std::vector<Found> all = findAll(loader_, target_, "passes");
+    const std::vector<Found> all = findIn("passes", anchor.place);
+    if (tooMuch_) return;
     bool ambiguous = false;
     const Found* found = resolve(all, anchor.text, "anchor", anchor.place, anchor, ambiguous);
     if (!found) {
@@ -282,7 +301,7 @@ class Applier {
       }
       found = &*meant;
     }
-    edit(target_, found->below, [&](Source& source) {
+    edit(target_, found->below, anchor.place, [&](Source& source) {
       std::vector<JsonValue>& items = passesOf(source)->items;
       std::size_t at = found->index;
       JsonValue placed = withoutPlace(stanza, true);
@@ -309,7 +328,8 @@ class Applier {
     const JsonValue* named = stanza.find("name");
     if (!named) named = stanza.find("as") ? stanza.find("as") : stanza.find("include");
     const base::Place place = named ? named->place : stanza.place;
-    const std::vector<Found> all = findAll(loader_, target_, "passes");
+    const std::vector<Found> all = findIn("passes", place);
+    if (tooMuch_) return;
     bool ambiguous = false;
     const Found* found = resolve(all, pass_, "pass", place, stanza, ambiguous);
     if (ambiguous) return;
@@ -325,7 +345,7 @@ class Applier {
       if (stanza.find("type") || stanza.find("include"))
         passesOf(target_)->items.push_back(withoutPlace(stanza, true));
     } else {
-      edit(target_, found->below, [&](Source& source) {
+      edit(target_, found->below, place, [&](Source& source) {
         std::vector<JsonValue>& items = passesOf(source)->items;
         if (!remove) {
           mergeStanza(source, items[found->index], stanza);
@@ -367,6 +387,8 @@ class Applier {
   Source& target_;
   base::Diagnostics& diagnostics_;
   std::string pass_, resource_;  // what is being applied
+  std::uint64_t looked_ = 0;     // names, by all entries so far
+  bool tooMuch_ = false;         // reported; nothing more is applied
 };
 
 }  // namespace

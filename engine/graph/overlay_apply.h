@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/graph/overlay.h"
@@ -19,6 +20,14 @@ struct Found {
 // Everything in `section` ("resources", "passes"…) of the source and of all it includes, its own first.
 // Inputs are left out: they stand for a resource of another file.
 std::vector<Found> findAll(SourceLoader& loader, const Source& source, const std::string& section);
+
+// The member of that key, or null.
+base::JsonMember* memberOf(base::JsonValue& object, std::string_view key);
+// "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a kind.
+std::string_view kindOf(const base::JsonValue& resource);
+// "resources" to "resource".
+std::string nounOf(const std::string& section);
+std::string namesOf(const std::vector<Found>& all, const std::vector<std::size_t>& some);
 
 // Name of a pass stanza, else the prefix of an include (which an overlay may also call by "name"). "" when it
 // has none.

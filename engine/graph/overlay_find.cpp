@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "engine/base/limits.h"
 #include "engine/graph/overlay_apply.h"
 
 namespace weft::graph {
@@ -35,6 +36,10 @@ class Finder {
       const std::string identity = identityOf(path);
       if (loader_.isOpen(identity) || std::find(open_.begin(), open_.end(), identity) != open_.end())
         continue;
+      // So are too many of them, and too many in a row.
+      if (++looked_ >= base::limitOf(base::Limit::include_files) ||
+          open_.size() >= base::limitOf(base::Limit::include_depth))
+        break;
       const auto changed = source.changed.find(name);
       const std::shared_ptr<const Source> child =
           changed != source.changed.end() ? changed->second : loader_.file(path, include->place);
@@ -52,9 +57,33 @@ class Finder {
   SourceLoader& loader_;
   const std::string& section_;
   std::vector<std::string> below_, open_;
+  std::uint64_t looked_ = 0;  // includes, each use counted
 };
 
 }  // namespace
+
+JsonMember* memberOf(JsonValue& object, std::string_view key) {
+  for (JsonMember& member : object.members)
+    if (member.key == key) return &member;
+  return nullptr;
+}
+
+std::string_view kindOf(const JsonValue& resource) {
+  if (!resource.is(Type::object)) return "alternatives";
+  for (const std::string_view kind : {"texture", "buffer", "import", "input"})
+    if (const JsonValue* value = resource.find(kind); value && !value->is(Type::null)) return kind;
+  return "";
+}
+
+std::string nounOf(const std::string& section) {
+  return section == "passes" ? "pass" : section == "let" ? "let" : section.substr(0, section.size() - 1);
+}
+
+std::string namesOf(const std::vector<Found>& all, const std::vector<std::size_t>& some) {
+  std::string text;
+  for (const std::size_t i : some) text += (text.empty() ? "" : ", ") + all[i].name;
+  return text;
+}
 
 std::vector<Found> findAll(SourceLoader& loader, const Source& source, const std::string& section) {
   Finder finder(loader, section);

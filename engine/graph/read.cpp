@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "engine/graph/overlay.h"
 #include "engine/graph/read_context.h"
@@ -15,6 +16,7 @@ namespace {
 
 using base::Code;
 using base::Diagnostics;
+using base::Limit;
 using Type = JsonValue::Type;
 
 // One file of a chain of includes, innermost last.
@@ -29,15 +31,12 @@ class GraphReader {
       : diagnostics_(diagnostics), loader_(diagnostics, given) {}
 
   std::shared_ptr<const GraphDesc> readFile(const std::string& path, const Place& from) {
-    const std::string identity = identityOf(path);
-    if (const auto known = finished_.find(identity); known != finished_.end()) return known->second;
-    const std::shared_ptr<const Source> source = loader_.file(path, from);
-    return finished_[identity] = source ? readSource(*source) : nullptr;
+    return readBelow(path, from).graph;
   }
 
   std::shared_ptr<const GraphDesc> readText(std::string_view text, const std::string& path) {
     const std::shared_ptr<const Source> source = loader_.text(text, path);
-    return source ? readSource(*source) : nullptr;
+    return source ? readSource(*source).graph : nullptr;
   }
 
   std::shared_ptr<const GraphDesc> readWith(const std::string& path, std::span<const std::string> presets) {
@@ -45,15 +44,32 @@ class GraphReader {
     for (const std::string& preset : presets)
       if (source)
         if (auto made = loader_.withPreset(*source, preset)) source = std::move(made);
-    return source ? readSource(*source) : nullptr;
+    return source ? readSource(*source).graph : nullptr;
   }
 
  private:
-  std::shared_ptr<const GraphDesc> readSource(const Source& source) {
+  // A file with everything below it: each use of a file counts, because each is expanded for itself.
+  struct Weighed {
+    std::shared_ptr<const GraphDesc> graph;  // null when it could not be read
+    std::uint64_t files = 1, values = 0;
+    std::uint64_t depth = 1;  // of files in a row
+  };
+
+  Weighed readBelow(const std::string& path, const Place& from) {
+    const std::string identity = identityOf(path);
+    if (const auto known = finished_.find(identity); known != finished_.end()) return known->second;
+    const std::shared_ptr<const Source> source = loader_.file(path, from);
+    return finished_[identity] = source ? readSource(*source) : Weighed{};
+  }
+
+  Weighed readSource(const Source& source) {
     open_.push_back({source.identity, source.path});
+    Weighed before = std::exchange(weight_, {.graph = nullptr, .values = source.values});
     std::shared_ptr<const GraphDesc> graph = readRoot(source);
     open_.pop_back();
-    return graph;
+    Weighed made = std::exchange(weight_, std::move(before));
+    made.graph = std::move(graph);
+    return made;
   }
 
   std::shared_ptr<const GraphDesc> readRoot(const Source& source) {
@@ -71,6 +87,7 @@ class GraphReader {
     if (graph->name.empty()) graph->name = std::filesystem::path(source.path).stem().string();
     readVariables(context, root, *graph);
     for (const JsonMember& member : membersOf(context, root, "resources")) {
+      if (!context.goesOn()) break;
       if (std::optional<ResourceDesc> resource = readResource(context, member))
         graph->resources.push_back(*std::move(resource));
       else
@@ -129,6 +146,7 @@ class GraphReader {
     ReadContext::Seen seen;
     graph.passes.reserve(passes->items.size());
     for (const JsonValue& item : passes->items) {
+      if (!context.goesOn()) break;
       std::optional<PassDesc> pass = readPass(context, item);
       const JsonValue* name = item.find("name");
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
@@ -136,7 +154,7 @@ class GraphReader {
       if (!pass) continue;
       context.pass = pass->name;
       context.checkFresh(seen, pass->name, pass->namePlace,
-                         pass->pointer + (pass->include ? "/include" : "/name"), "pass");
+                         item.find(pass->include ? "include" : "name")->pointer, "pass");
       context.pass.clear();
       if (pass->include) follow(*item.find("include"), *pass->include, source, graph);
       graph.passes.push_back(*std::move(pass));
@@ -144,6 +162,7 @@ class GraphReader {
   }
 
   void follow(const JsonValue& stanza, IncludeDesc& include, const Source& source, GraphDesc& graph) {
+    if (tooMuch_) return;
     const std::string path = pathBeside(stanza);
     const std::string identity = identityOf(path);
     const auto again = std::find_if(open_.begin(), open_.end(),
@@ -156,9 +175,34 @@ class GraphReader {
       d.hint = "remove one of these includes";
       return;
     }
+    if (exceeds(Limit::include_depth, open_.size() + 1, stanza, "files include each other in too long a row")) return;
     const auto changed = source.changed.find(include.as);
-    include.graph =
-        changed != source.changed.end() ? readSource(*changed->second) : readFile(path, stanza.place);
+    Weighed below =
+        changed != source.changed.end() ? readSource(*changed->second) : readBelow(path, stanza.place);
+    if (tooMuch_) return;
+    // A file that was read before may stand deeper here.
+    if (exceeds(Limit::include_depth, open_.size() + below.depth, stanza, "files include each other in too long a row") ||
+        exceeds(Limit::include_files, weight_.files + below.files, stanza, "the graph includes too many files") ||
+        exceeds(Limit::json_values, weight_.values + below.values, stanza, "the included files hold too many values"))
+      return;
+    weight_.files += below.files;
+    weight_.values += below.values;
+    weight_.depth = std::max(weight_.depth, below.depth + 1);
+    include.graph = std::move(below.graph);
+    addFiles(include, path, graph);
+  }
+
+  // True after a report; then no further include is followed, and the graph is not expanded.
+  bool exceeds(Limit limit, std::uint64_t count, const JsonValue& stanza, const char* message) {
+    if (count <= base::limitOf(limit)) return false;
+    tooMuch_ = true;
+    auto& d = base::reportLimit(diagnostics_, limit, stanza.place, message);
+    d.pointer = stanza.pointer;
+    d.found = fmt::format("{} with '{}'", count, stanza.text);
+    return true;
+  }
+
+  static void addFiles(const IncludeDesc& include, const std::string& path, GraphDesc& graph) {
     std::vector<std::string> below = include.graph ? include.graph->files : std::vector<std::string>{path};
     for (std::string& file : below)
       if (std::find(graph.files.begin(), graph.files.end(), file) == graph.files.end())
@@ -168,8 +212,9 @@ class GraphReader {
   Diagnostics& diagnostics_;
   SourceLoader loader_;
   std::vector<OpenFile> open_;
-  std::map<std::string, std::shared_ptr<const GraphDesc>>
-      finished_;  // by identity; null for files that failed
+  std::map<std::string, Weighed> finished_;  // by identity
+  Weighed weight_;                           // of the file that is being read, so far
+  bool tooMuch_ = false;
 };
 
 // Diagnostics come in the order of the text, whatever order the reader looked at things.

@@ -19,10 +19,18 @@ std::string besideFile(const Place& place, const std::string& path) {
 
 using base::Code;
 
-base::Diagnostic& ReadContext::errorAt(Code code, const Place& place, const std::string& pointer,
+base::Diagnostic& ReadContext::errorAt(Code code, const Place& place, const JsonPointer& pointer,
                                        std::string message) {
-  auto& d = diagnostics_.error(code, place, std::move(message));
+  auto& d = goesOn() ? diagnostics_.error(code, place, std::move(message)) : unkept_;
   d.pointer = pointer;
+  d.pass = pass;
+  d.resource = resource;
+  return d;
+}
+
+base::Diagnostic& ReadContext::limit(base::Limit limit, const JsonValue& value, std::string message) {
+  auto& d = base::reportLimit(diagnostics_, limit, value.place, std::move(message));
+  d.pointer = value.pointer;
   d.pass = pass;
   d.resource = resource;
   return d;
@@ -32,7 +40,8 @@ base::Diagnostic& ReadContext::error(Code code, const JsonValue& value, std::str
   return errorAt(code, value.place, value.pointer, std::move(message));
 }
 
-void ReadContext::adopt(const base::Diagnostics& said, const std::string& pointer) {
+void ReadContext::adopt(const base::Diagnostics& said, const JsonPointer& pointer) {
+  if (said.empty() || !goesOn()) return;
   for (base::Diagnostic d : said.items()) {
     d.pointer = pointer;
     d.pass = pass;
@@ -54,6 +63,7 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
   for (const KeySpec& spec : keys) known.emplace_back(spec.key);
   for (const JsonMember& member : object.members) {
     if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
+    if (!goesOn()) return;
     auto& d = errorAt(Code::W4, member.place, member.value.pointer,
                       fmt::format("unknown key \"{}\" in {}", member.key, what));
     const std::string nearest = base::nearestName(member.key, known);
@@ -70,9 +80,16 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
   }
 }
 
-bool ReadContext::checkName(std::string_view name, const Place& place, const std::string& pointer,
+bool ReadContext::checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
                             std::string_view what) {
-  if (isIdent(name) && !isReservedWord(name)) return true;
+  const std::size_t longest = base::limitOf(base::Limit::name_bytes);
+  if (isIdent(name) && !isReservedWord(name) && name.size() <= longest) return true;
+  if (name.size() > longest && goesOn()) {
+    auto& d = base::reportLimit(diagnostics_, base::Limit::name_bytes, place, fmt::format("the name of {} is too long", what));
+    d.pointer = pointer;
+    d.found = fmt::format("{} bytes", name.size());
+    return false;
+  }
   auto& d = errorAt(Code::W12, place, pointer, fmt::format("\"{}\" cannot name {}", name, what));
   if (isReservedWord(name)) {
     d.expected = fmt::format("a word that is not reserved; reserved are {}", fmt::join(kReservedWords, ", "));
@@ -84,7 +101,7 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const std
 }
 
 bool ReadContext::checkFresh(Seen& seen, const std::string& name, const Place& place,
-                             const std::string& pointer, std::string_view what) {
+                             const JsonPointer& pointer, std::string_view what) {
   const auto [before, fresh] = seen.try_emplace(name, place);
   if (fresh) return true;
   auto& d = errorAt(Code::W9, place, pointer, fmt::format("{} '{}' is declared twice", what, name));

@@ -10,7 +10,9 @@
 #include <unordered_map>
 
 #include "engine/base/json_dom.h"
+#include "engine/base/limit_report.h"
 #include "engine/graph/desc.h"
+#include "engine/graph/enough.h"
 #include "engine/graph/keys.h"
 
 namespace weft::graph {
@@ -28,7 +30,7 @@ class ReadContext {
   std::string pass, resource;  // set while one is read
 
   base::Diagnostic& error(base::Code code, const JsonValue& value, std::string message);
-  base::Diagnostic& errorAt(base::Code code, const Place& place, const std::string& pointer,
+  base::Diagnostic& errorAt(base::Code code, const Place& place, const JsonPointer& pointer,
                             std::string message);
 
   // False, with Code::W3, when `value` is something else. `what` names it: "\"passes\"".
@@ -39,11 +41,11 @@ class ReadContext {
   void checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what);
 
   // Code::W12 unless `name` is an identifier without reserved words.
-  bool checkName(std::string_view name, const Place& place, const std::string& pointer,
+  bool checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
                  std::string_view what);
   // Code::W9 when `name` was already registered in `seen`.
   using Seen = std::unordered_map<std::string, Place>;
-  bool checkFresh(Seen& seen, const std::string& name, const Place& place, const std::string& pointer,
+  bool checkFresh(Seen& seen, const std::string& name, const Place& place, const JsonPointer& pointer,
                   std::string_view what);
 
   std::string text(const JsonValue* value, std::string_view what);
@@ -60,10 +62,16 @@ class ReadContext {
 
   // For the parsers of strings, which know neither pointer nor pass: adopt() what they said into a fresh
   // Diagnostics.
-  void adopt(const base::Diagnostics& said, const std::string& pointer);
+  void adopt(const base::Diagnostics& said, const JsonPointer& pointer);
+
+  // False once there are enough errors (enough.h): further ones are not kept.
+  bool goesOn() const { return !enoughErrors(diagnostics_); }
+  // Code::W201.
+  base::Diagnostic& limit(base::Limit limit, const JsonValue& value, std::string message);
 
  private:
   base::Diagnostics& diagnostics_;
+  base::Diagnostic unkept_;
 };
 
 // The parts, by what stands in the file; each takes a value of any type and reports what does not fit.

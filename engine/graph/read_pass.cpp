@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/names.h"
@@ -28,7 +29,7 @@ class PassReader {
   std::optional<PassDesc> run() {
     if (!context_.expect(value_, Type::object, "a pass")) return std::nullopt;
     if (const JsonValue* name = value_.find("name"); name && name->is(Type::string))
-      context_.pass = name->text;
+      context_.pass = name->text.substr(0, base::limitOf(base::Limit::name_bytes));
     return isInclude() ? readInclude() : readPass();
   }
 
@@ -111,7 +112,7 @@ class PassReader {
       out_.namePlace = name->place;
       out_.name = context_.text(name, "\"name\"");
       if (name->is(Type::string) && !context_.checkName(out_.name, name->place, name->pointer, "a pass"))
-        out_.name = isIdent(out_.name) ? out_.name : standIn(out_.name);  // the rest of the stanza is checked too
+        out_.name = isIdent(context_.pass) ? context_.pass : standIn(context_.pass);  // the rest of the stanza is checked too
     }
     readWords();
     readValues();
@@ -181,6 +182,12 @@ class PassReader {
       context_.error(Code::W5, ranges, "\"repeat\" without an index").hint = "write { \"i\": [0, 3] }";
     for (const JsonMember& member : ranges.members) {
       const JsonValue& value = member.value;
+      if (seen.size() >= base::limitOf(base::Limit::repeat_indices) && !seen.contains(member.key)) {
+        if (!std::exchange(tooManyIndices_, true))
+          context_.limit(base::Limit::repeat_indices, value,
+                         fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many", member.key));
+        return;
+      }
       bool good = context_.checkName(member.key, member.place, value.pointer, "an index");
       good = context_.checkFresh(seen, member.key, member.place, value.pointer, "index") && good;
       if (!value.is(Type::array) || value.items.size() < 2 || value.items.size() > 3) {
@@ -219,6 +226,7 @@ class PassReader {
                                                      : Access::read;
       if (access == Access::read && member.key != "read") continue;
       for (const JsonMember& slot : membersOf(member.key.c_str())) {
+        if (!context_.goesOn()) return;
         const std::string what = fmt::format("the slot '{}'", slot.key);
         bool good = context_.checkName(slot.key, slot.place, slot.value.pointer, "a slot");
         good = context_.checkFresh(names_, slot.key, slot.place, slot.value.pointer, kSharedName) && good;
@@ -281,6 +289,7 @@ class PassReader {
   const JsonValue& value_;
   PassDesc out_;
   ReadContext::Seen names_;  // slots, parameters and defines share one namespace
+  bool tooManyIndices_ = false;
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ bool isBlank(std::string_view text) {
 
 class RefParser {
  public:
-  RefParser(std::string_view text, const Place& place, const std::string& pointer,
+  RefParser(std::string_view text, const Place& place, const base::JsonPointer& pointer,
             base::Diagnostics& diagnostics)
       : whole_(text), text_(text), place_(place), diagnostics_(diagnostics) {
     ref_.text = text;
@@ -309,7 +309,7 @@ class RefParser {
 
 }  // namespace
 
-std::optional<RefDesc> parseRef(std::string_view text, const Place& place, const std::string& pointer,
+std::optional<RefDesc> parseRef(std::string_view text, const Place& place, const base::JsonPointer& pointer,
                                 base::Diagnostics& diagnostics) {
   return RefParser(text, place, pointer, diagnostics).run();
 }

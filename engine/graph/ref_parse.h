@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 5> kSamplerWords = {"linear", "nearest", 
 
 // `text` stands at `place`. Empty after Code::W21, or Code::W20 inside an index or a condition; stops at the
 // first.
-std::optional<RefDesc> parseRef(std::string_view text, const Place& place, const std::string& pointer,
+std::optional<RefDesc> parseRef(std::string_view text, const Place& place, const base::JsonPointer& pointer,
                                 base::Diagnostics& diagnostics);
 
 // Tells "@cut" and "camera if $progressive" from "size(hdr)" and "$taa ? 1 : 0" where both may stand

@@ -98,7 +98,7 @@ std::optional<std::string> putValue(const std::string& text, const std::string& 
   std::optional<std::string> out = text;
   for (std::size_t i = 0; i < at->items.size() && out; ++i)
     if (at->items[i].number != value.v[i])
-      out = base::replaceValue(*out, at->items[i].pointer, numberText(value.v[i], written(at->items[i])));
+      out = base::replaceValue(*out, at->items[i].pointer.text(), numberText(value.v[i], written(at->items[i])));
   return out;
 }
 
@@ -176,7 +176,7 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
     const std::string name = shortest(wanted.path, paths);
     edits.add(path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
   };
-  if (deciding && deciding->place.file) put(*deciding->place.file, deciding->pointer);
+  if (deciding && deciding->place.file) put(*deciding->place.file, deciding->pointer.text());
   if (const auto overlay = overlayOf(desc, presets, texts)) putSet(*overlay);
   if (found.desc->initialPlace.file) put(*found.desc->initialPlace.file, found.desc->initialPointer);
   putSet(desc.path);
@@ -211,17 +211,17 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
   if (pass && pass->place.file)
     edits.add(*pass->place.file, [&](const std::string& text) -> std::optional<std::string> {
       const auto root = parse(text);
-      const JsonValue* stanza = root ? base::findPointer(*root, pass->pointer) : nullptr;
+      const JsonValue* stanza = root ? base::findPointer(*root, pass->pointer.text()) : nullptr;
       if (!stanza) return std::nullopt;
       const JsonValue* enabled = stanza->find("enabled");
       if (!enabled)
-        return base::insertMember(text, pass->pointer, "enabled", "false",
+        return base::insertMember(text, pass->pointer.text(), "enabled", "false",
                                   stanza->find("shader") ? "shader" : "type");
-      if (!enabled->is(JsonValue::Type::string)) return base::replaceValue(text, enabled->pointer, "false");
+      if (!enabled->is(JsonValue::Type::string)) return base::replaceValue(text, enabled->pointer.text(), "false");
       // The condition stays readable, and comes back when "&& false" is removed.
       const bool loose = enabled->text.find_first_of("?|") != std::string::npos;
       const std::string kept = loose ? "(" + enabled->text + ")" : enabled->text;
-      return base::replaceValue(text, enabled->pointer, base::quoteJson(kept + " && false"));
+      return base::replaceValue(text, enabled->pointer.text(), base::quoteJson(kept + " && false"));
     });
   return std::move(edits.made);
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/base/file_access.h"
+#include "engine/graph/plan_memory.h"
 #include "engine/graph/read.h"
 #include "engine/runtime/formats.h"
 #include "engine/runtime/gl_state.h"
@@ -90,6 +91,7 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
   if (!flat || diagnostics.hasErrors()) return nullptr;
   device_.imports.renewFiles();
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+  if (!graph::checkMemory(*plan, diagnostics)) return nullptr;
   const bool standIn = !world.environment() && !world.environmentPending();
   if (standIn && readsEnvironment(*flat) && !prepareFallback(world, diagnostics)) return nullptr;
   return Execution::create(device_, std::move(plan), execution_.get(), diagnostics);

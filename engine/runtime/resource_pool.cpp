@@ -1,7 +1,10 @@
 #include "engine/runtime/resource_pool.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "engine/runtime/formats.h"
 
@@ -68,8 +71,47 @@ gl::TextureRef PhysicalTexture::view(std::uint32_t copy, const gl::ViewDesc& des
   return views_.back().view.ref();
 }
 
+namespace {
+
+// Of those that share the arena; kNone when there are none.
+std::uint32_t largestTransientOf(const Plan& plan) {
+  std::uint32_t largest = kNone;
+  for (std::uint32_t r = 0; r < plan.bufferOffsetOf.size(); ++r)
+    if (plan.bufferOffsetOf[r] != Plan::kNoOffset &&
+        (largest == kNone || plan.graph->resources[r].bytes > plan.graph->resources[largest].bytes))
+      largest = r;
+  return largest;
+}
+
+// Buffers that shaders see, held against the largest block of the device: what lies behind it no shader would reach.
+bool checkBlocks(const Plan& plan, base::Diagnostics& diagnostics) {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  std::vector<std::uint8_t> told(plan.graph->resources.size(), 0);
+  bool good = true;
+  for (std::size_t u = 0; u < plan.graph->uses.size(); ++u) {
+    const FlatUse& use = plan.graph->uses[u];
+    if (use.kind != graph::Kind::storage || plan.attached[u] == 0 || use.resource == kNone) continue;
+    const FlatResource& resource = plan.graph->resources[use.resource];
+    if (resource.kind != ResourceKind::buffer || resource.bytes <= static_cast<std::uint64_t>(most)) continue;
+    good = false;
+    if (std::exchange(told[use.resource], std::uint8_t{1}) != 0) continue;
+    auto& d = diagnostics.error(
+        base::Code::W117, {},
+        fmt::format("buffer '{}' of {} bytes is larger than a shader can see", plan.graph->resourceNames[use.resource],
+                    resource.bytes));
+    d.resource = plan.graph->resourceNames[use.resource];
+    d.expected = fmt::format("at most {} bytes in one storage block of this device", most);
+    d.hint = "split it into several buffers";
+  }
+  return good;
+}
+
+}  // namespace
+
 std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePool* before,
                                                    base::Diagnostics& diagnostics) {
+  if (!checkBlocks(plan, diagnostics)) return nullptr;
   auto pool = std::make_unique<ResourcePool>();
   pool->resources_.resize(plan.graph->resources.size());
   pool->names_ = plan.graph->resourceNames;
@@ -161,7 +203,17 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
       arenaSerial_ = before->arenaSerial_;
       arenaFresh = false;
     } else {
-      auto arena = gl::Buffer::create(plan.arenaBytes, kFlags, "transient buffers", diagnostics);
+      base::Diagnostics refused;
+      auto arena = gl::Buffer::create(plan.arenaBytes, kFlags, "transient buffers", refused);
+      // The place of such a message is that of the largest of them.
+      for (base::Diagnostic each : refused.items()) {
+        if (const std::uint32_t largest = largestTransientOf(plan); largest != kNone) {
+          each.resource = names_[largest];
+          each.hint = fmt::format("'{}' is the largest of them, {} bytes: make it smaller", names_[largest],
+                                  plan.graph->resources[largest].bytes);
+        }
+        diagnostics.add(std::move(each));
+      }
       if (!arena) return false;
       arena_ = std::move(*arena);
       arenaSerial_ = nextSerial();

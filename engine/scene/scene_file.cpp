@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "engine/assets/material_library.h"
-#include "engine/base/file.h"
+#include "engine/base/text_file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/nearest.h"
 
@@ -106,7 +106,7 @@ class Reader {
   std::vector<MaterialId> readLibraryFile(const std::string& path, const JsonValue& value) {
     if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
     std::vector<MaterialId>& ids = libraries_[path];
-    const auto text = base::readFile(path, diagnostics_, Code::W1, value.place);
+    const auto text = base::readTextFile(path, diagnostics_, Code::W1, value.place);
     if (!text) return {};
     scene_.files.push_back(path);
     const auto library = assets::readMaterialLibrary(*text, path, diagnostics_);
@@ -350,7 +350,7 @@ std::optional<Scene> readScene(std::string_view text, const std::string& name, D
 std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics,
                                std::vector<std::string>* files, const SceneChoice& choice) {
   if (files) *files = {path};
-  const std::optional<std::string> text = base::readFile(path, diagnostics);
+  const std::optional<std::string> text = base::readTextFile(path, diagnostics);
   if (!text) return {};
   Reader reader(path, diagnostics, choice);
   std::optional<Scene> scene = reader.read(*text);

@@ -116,7 +116,7 @@ CASES = [
     (rendered("layers.json"), 1, "W048", r"layers\.json:3:62"),
     (rendered("history.json"), 1, "W048", r"history\.json:3:63"),
     (["check", "repeat.json", "--no-shaders"], 1, "W081", r"repeat\.json:\d+:\d+"),
-    (rendered("memory.json"), 1, "W116", r"memory\.json:3:5"),
+    (rendered("memory.json"), 1, "W202", r"memory\.json:3:5"),
     (rendered("missing_shader.json"), 1, "W100", r"missing_shader\.json:5:54"),
     (rendered("bad_shader.json"), 1, "W104", r"shaders/bad\.frag\.glsl:3:\d+"),
     # what is wrong with a graph does not hide its shaders, nor a bad name the rest of its pass

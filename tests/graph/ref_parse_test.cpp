@@ -12,9 +12,15 @@ Place placeAt(std::uint32_t column) {
   return {std::make_shared<const std::string>("t.json"), 3, column};
 }
 
+JsonPointer pointerTo(std::string_view key) {
+  auto object = std::make_shared<JsonPointer::Container>(JsonPointer::root(), true);
+  const std::uint32_t index = object->add(key);
+  return {std::move(object), index};
+}
+
 RefDesc parse(std::string_view text) {
   Diagnostics diagnostics;
-  auto ref = parseRef(text, placeAt(1), "/p", diagnostics);
+  auto ref = parseRef(text, placeAt(1), pointerTo("p"), diagnostics);
   REQUIRE_MESSAGE(ref, diagnostics.text());
   CHECK(diagnostics.empty());
   CHECK(ref->text == text);
@@ -30,7 +36,7 @@ struct Failure {
 
 Failure failure(std::string_view text) {
   Diagnostics diagnostics;
-  CHECK_MESSAGE(!parseRef(text, placeAt(1), "/p", diagnostics), text);
+  CHECK_MESSAGE(!parseRef(text, placeAt(1), pointerTo("p"), diagnostics), text);
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   const auto& d = diagnostics.items()[0];
   return {d.code, d.place.column, d.message, d.hint};

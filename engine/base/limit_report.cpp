@@ -1,0 +1,15 @@
+#include "engine/base/limit_report.h"
+
+#include <fmt/format.h>
+
+namespace weft::base {
+
+Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, const Place& place, std::string message) {
+  const LimitInfo& info = allLimits()[static_cast<std::size_t>(limit)];
+  Diagnostic& d = diagnostics.error(Code::W201, place, std::move(message));
+  d.expected = fmt::format("at most {} {} (limit {})", limitOf(limit), info.counts, info.name);
+  d.hint = hintToRaise(limit);
+  return d;
+}
+
+}  // namespace weft::base

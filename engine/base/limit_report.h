@@ -1,0 +1,15 @@
+// The report of a limit that is exceeded, the same everywhere: Code::W201 with the limit's name, its value
+// and how to raise it. Does not: count.
+#pragma once
+
+#include <string>
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/limits.h"
+
+namespace weft::base {
+
+// `message` says what is too large; "expected" and the fix come from the limit.
+Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, const Place& place, std::string message);
+
+}  // namespace weft::base

@@ -1,0 +1,384 @@
+#!/usr/bin/env python3
+"""Graphs made to fill the stack, the memory or the time of `weft check`: each dimension just below its limit, where the
+check ends well, and above it, where one error says the limit at a place. No run may end by a signal or take more than
+1 GB. The files are made here. --full prints what each run took.
+
+    hostile_graphs.py WEFT [--full]
+"""
+import json
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import time
+
+from program import DIAGNOSTIC, Report, temporary_folder
+
+GIGABYTE = 1 << 30
+GUARD_S = 120  # a hanging run ends; what it took is printed, not judged
+SMALL = {"texture": "rgba8", "size": 8}
+PASS = {"type": "fullscreen", "shader": "a.frag.glsl"}
+
+
+def graph(resources=None, passes=(), **more):
+    last = {**PASS, "name": "last", "write": {"result": "ldr"}}
+    return {"resources": {**(resources or {}), "ldr": SMALL}, "passes": [*passes, last], "present": "ldr", **more}
+
+
+def reader(source, **more):
+    """A pass that runs and reads `source`."""
+    return {**PASS, "name": "reader", "side_effect": True, "read": {"source": source}, "write": {"result": "ldr"}, **more}
+
+
+def text(value):
+    return json.dumps(value, separators=(",", ":"))
+
+
+def alternatives_in_a_row(n):
+    chain = {f"a{i}": [f"a{i + 1}"] for i in range(n - 1)}
+    return {"g.json": graph({**chain, f"a{n - 1}": ["ldr"]}, [reader("a0?")])}
+
+
+def alternatives_of_two(n):
+    lists = {f"{side}{i}": [f"x{i + 1}", f"y{i + 1}"] for i in range(n) for side in "xy"}
+    return {"g.json": graph({**lists, f"x{n}": SMALL, f"y{n}": SMALL}, [reader("x0?")])}
+
+
+def size_of_alternatives_of_two(n):
+    files = alternatives_of_two(n)
+    files["g.json"]["resources"].update({f"{side}{n}": ["ldr if false"] for side in "xy"})
+    files["g.json"]["let"] = {"known": "has(x0)"}
+    files["g.json"]["passes"][0] = {**PASS, "name": "reader", "write": {"result": "ldr"}, "enabled": "$known"}
+    return files
+
+
+def includes_in_a_row(n):
+    files = {f"f{i}.json": {"passes": [{"include": f"f{i + 1}.json", "as": "n"}]} for i in range(1, n - 1)}
+    return {"g.json": graph({}, [{"include": "f1.json", "as": "n"}]), **files, f"f{n - 1}.json": {"passes": []}}
+
+
+def includes_twice(n, **stanza):
+    two = lambda i: [{"include": f"f{i}.json", "as": side, **stanza} for side in "ab"]
+    files = {f"f{i}.json": {"passes": two(i + 1)} for i in range(1, n)}
+    return {"g.json": graph({}, two(1)), **files, f"f{n}.json": {"passes": []}}
+
+
+def includes_beside(n):
+    return {"g.json": graph({}, [{"include": "f.json", "as": f"n{i}"} for i in range(n)]), "f.json": {"passes": []}}
+
+
+def includes_of_much(n, values):
+    return {"g.json": graph({}, [{"include": "f.json", "as": f"n{i}"} for i in range(n)]),
+            "f.json": {"let": {f"l{i}": 1 for i in range(values)}, "passes": []}}
+
+
+def extends_in_a_row(n):
+    files = {f"f{i}.json": {"extends": f"f{i + 1}.json"} for i in range(1, n)}
+    return {"g.json": {"extends": "f1.json"}, **files, f"f{n}.json": graph()}
+
+
+def extends_of_much(n, values):
+    files = extends_in_a_row(n)
+    files[f"f{n}.json"]["let"] = {f"l{i}": 1 for i in range(values)}
+    return files
+
+
+def overlay_of_much(names, entries):
+    return {"g.json": {"extends": "f.json", "parameters": {f"p{i}": {"default": 2} for i in range(entries)}},
+            "f.json": graph(parameters={f"p{i}": {"type": "float", "default": 1} for i in range(names)})}
+
+
+def lets_in_a_row(n):
+    lets = {f"l{i}": f"$l{i + 1} + 1" for i in range(n - 1)}
+    return {"g.json": graph({"a": {**SMALL, "size": "$l0"}}, let={**lets, f"l{n - 1}": 1})}
+
+
+def lets_in_a_cycle(n):
+    return {"g.json": graph({"a": {**SMALL, "size": "$l0"}}, let={f"l{i}": f"$l{(i + 1) % n} + 1" for i in range(n)})}
+
+
+def ages_in_a_row(n):
+    lets = {f"l{i}": f"$l{i + 1}" for i in range(n - 1)}
+    return {"g.json": graph({}, [{**PASS, "name": "p", "side_effect": True, "write": {"result": "ldr"}, "parameters": {"k": "$l0"}}],
+                            let={**lets, f"l{n - 1}": "age(ldr)"})}
+
+
+def ages_doubled(n):
+    files = ages_in_a_row(n)
+    files["g.json"]["let"].update({f"l{i}": f"$l{i + 1} + $l{i + 1}" for i in range(n - 1)})
+    return files
+
+
+def sizes_in_a_row(n):
+    chain = {f"t{i}": {**SMALL, "size": f"size(t{i + 1})"} for i in range(n - 1)}
+    return {"g.json": graph({**chain, f"t{n - 1}": SMALL})}
+
+
+def conditions_in_a_row(n):
+    chain = {f"a{i}": [f"ldr if has(a{i + 1})"] for i in range(n - 1)}
+    return {"g.json": graph({**chain, f"a{n - 1}": ["ldr"]}, [{**PASS, "name": "p", "enabled": "has(a0)", "write": {"o": "ldr"}}])}
+
+
+def binds_in_a_row(n):
+    part = {"resources": {"x": {"input": "texture"}}, "passes": []}
+    stanzas = [{"include": "f.json", "as": f"n{i}", "bind": {"x": f"n{i + 1}.x"}} for i in range(n - 1)]
+    return {"g.json": graph({}, [*stanzas, {"include": "f.json", "as": f"n{n - 1}", "bind": {"x": "ldr"}}, reader("n0.x?")]), "f.json": part}
+
+
+def tall_lets(n, height):
+    """Each let stands at the bottom of a tall expression of the one before."""
+    lets = {f"l{i}": f"$l{i + 1}" + " + 1" * height for i in range(n - 1)}
+    return {"g.json": graph({"a": {**SMALL, "size": "$l0"}}, let={**lets, f"l{n - 1}": 1})}
+
+
+def repeat_of(indices):
+    return {"g.json": graph({}, [{**PASS, "name": "p", "repeat": {f"i{i}": [0, 0] for i in range(indices)}, "write": {"result": "ldr"}}])}
+
+
+def repeat_to(n, **more):
+    return {"g.json": graph({"a": {**SMALL, "clear": 0}}, [{**PASS, "name": "p", "repeat": {"i": [1, n]}, "read": {"s": "a"}, "write": {"r": "a"}, **more},
+                                                           reader("a")])}
+
+
+def passes_that_read_all_before(n):
+    resources = {f"r{i}": SMALL for i in range(n)}
+    passes = [{**PASS, "name": f"p{i}", "read": {f"s{j}": f"r{j}" for j in range(i)}, "write": {"o": f"r{i}"}} for i in range(n)]
+    return {"g.json": {"resources": resources, "passes": passes, "present": f"r{n - 1}"}}
+
+
+def small_passes(n):
+    return {"g.json": graph({"a": {**SMALL, "clear": 0}}, [*({**PASS, "name": f"p{i}", "read": {"s": "a"}, "write": {"r": "a"}} for i in range(n)), reader("a")])}
+
+
+def slots_of_one_pass(n):
+    return {"g.json": graph({"a": {**SMALL, "clear": 0}}, [{**PASS, "name": "p", "side_effect": True, "read": {f"s{i}": "a" for i in range(n)}, "write": {"r": "ldr"}}])}
+
+
+def images_of_one_texture(n):
+    """Each slot of one pass stores to a layer of one texture, and each is held against the others."""
+    return {"g.json": graph({"a": {**SMALL, "layers": 2048}}, [{"name": "p", "type": "compute", "shader": "a.comp.glsl", "side_effect": True, "threads": 1,
+                                                                "write": {f"s{i}": f"a.layer[{i % 2048}] as image" for i in range(n)}}])}
+
+
+def layers_read_again(writers, readers):
+    """A texture of which each layer has another writer is read whole: every reader sees them all."""
+    write = {**PASS, "name": "w", "repeat": {"i": [0, writers - 1]}, "write": {"o": "a.layer[i]"}}
+    read = {**PASS, "name": "r", "repeat": {"i": [1, readers]}, "side_effect": True, "read": {"s": "a"}, "write": {"o": "ldr"}}
+    return {"g.json": graph({"a": {**SMALL, "layers": writers}}, [write, read])}
+
+
+def textures(n, **more):
+    names = [f"t{i}" for i in range(n)]
+    passes = [{**PASS, "name": f"p{i}", "write": {"o": name}} for i, name in enumerate(names)]
+    final = {**PASS, "name": "final", "side_effect": True, "read": {f"s{i}": name for i, name in enumerate(names)}, "write": {"o": "ldr"}}
+    return {"g.json": graph({name: {"texture": "rgba32f", "size": 8000, **more} for name in names}, [*passes, final])}
+
+
+def unknown_names(resources, passes):
+    return {"g.json": graph({f"r{i}": SMALL for i in range(resources)}, [{**PASS, "name": f"p{i}", "read": {"s": f"q{i}"}, "write": {"o": "ldr"}} for i in range(passes)])}
+
+
+def unknown_keys(n):
+    return {"g.json": graph({}, [{**PASS, "name": "p", "write": {"o": "ldr"}, **{f"key{i}": 1 for i in range(n)}}])}
+
+
+def long_key(n):
+    return {"g.json": graph({"a" * n: SMALL})}
+
+
+def long_pass_name(n):
+    return {"g.json": graph({}, [{**PASS, "name": "p" * n, "write": {"o": "ldr"}}])}
+
+
+def long_keys_in_depth(n):
+    value = "x"
+    for _ in range(40):
+        value = {"k" * 250: value, **({f"x{i}": i for i in range(n)} if value == "x" else {})}
+    return {"g.json": graph(**{"presentt": value})}
+
+
+def long_expression(n):
+    return {"g.json": graph({"a": {**SMALL, "size": "max(" + ",".join("1" for _ in range(n)) + ")"}})}
+
+
+def long_list(n):
+    return {"g.json": graph({"a": {**SMALL, "size": "[" + ",".join("1" for _ in range(n)) + "]"}})}
+
+
+def wide_expression(n):
+    names = [f"$p{i}" for i in range(n)]
+    while len(names) > 1:
+        names = [f"max({','.join(names[i:i + 8])})" if len(names[i:i + 8]) > 1 else names[i] for i in range(0, len(names), 8)]
+    return {"g.json": graph({"a": {**SMALL, "size": names[0]}}, parameters={f"p{i}": {"type": "float", "default": 8} for i in range(n)})}
+
+
+def many(kind, n):
+    values = {"parameters": {"type": "float", "default": 1}, "resources": SMALL, "let": 1}
+    more = {kind: {f"n{i}": values[kind] for i in range(n)}}
+    return {"g.json": graph(more["resources"]) if kind == "resources" else graph(**more)}
+
+
+def imports(n):
+    return {"g.json": graph({f"i{i}": {"import": "camera", "jitter": i} for i in range(n)})}
+
+
+def spread_jobs(n):
+    resources = {f"r{i}": SMALL for i in range(n)}
+    first = [{**PASS, "name": f"a{i}", "update": "once", "slices": 2, "group": f"g{i}", "write": {"o": f"r{i}"}} for i in range(n)]
+    second = [{**PASS, "name": f"b{i}", "update": "once", "slices": 2, "group": f"g{i}", "read": {"s": f"r{i}"}, "write": {"o": f"r{i}"}} for i in range(n)]
+    return {"g.json": graph(resources, [*first, *second])}
+
+
+def blanks(n):
+    return {"g.json": " \n" * (n // 2) + text(graph())}
+
+
+def values_of(n):
+    return {"g.json": '{"resources":{"a":[' + ",".join(["0"] * n) + "]}}"}
+
+
+def parameters_of_one_pass(n, repeats):
+    stanza = {**PASS, "name": "p", "repeat": {"i": [1, repeats]}, "side_effect": True, "write": {"o": "ldr"}, "parameters": {f"k{i}": "i" for i in range(n)}}
+    return {"g.json": graph({}, [stanza])}
+
+
+def terms_of_one_pass(n, repeats):
+    stanza = {**PASS, "name": "p", "repeat": {"i": [1, repeats]}, "side_effect": True, "write": {"o": "ldr"}, "parameters": {"k": "i" + " + i" * n}}
+    return {"g.json": graph({}, [stanza])}
+
+
+L = lambda name, value: ["--limit", f"{name}={value}"]
+# name: (files, arguments, code or None, text of the message). A code: exit code 1, and the first error has it, at a place.
+CASES = {
+    "20,000 alternatives in a row": (lambda: alternatives_in_a_row(20_000), [], "W201", "alternatives_depth"),
+    "64 alternatives in a row": (lambda: alternatives_in_a_row(64), [], None, ""),
+    "65 alternatives in a row": (lambda: alternatives_in_a_row(65), [], "W201", "raise it with --limit alternatives_depth=128"),
+    "256 alternatives in a row, the most": (lambda: alternatives_in_a_row(256), L("alternatives_depth", 256), None, ""),
+    "2^60 ways through alternatives": (lambda: alternatives_of_two(60), [], "W201", "(limit alternatives)"),
+    "2^60 ways through alternatives, asked by has()": (lambda: size_of_alternatives_of_two(60), [], "W201", "(limit alternatives)"),
+    "2^10 ways through alternatives": (lambda: alternatives_of_two(10), [], None, ""),
+    "3,000 includes in a row": (lambda: includes_in_a_row(3000), [], "W201", "include_depth"),
+    "64 files in a row": (lambda: includes_in_a_row(64), [], None, ""),
+    "65 files in a row": (lambda: includes_in_a_row(65), [], "W201", "found: 65 with 'f64.json'"),
+    "256 files in a row, the most": (lambda: includes_in_a_row(256), L("include_depth", 256), None, ""),
+    "2^31 includes": (lambda: includes_twice(31), [], "W201", "include_files"),
+    "2^31 includes, disabled": (lambda: includes_twice(31, enabled=False), [], "W201", "include_files"),
+    "2^31 includes below a preset": (lambda: {**includes_twice(31), "p.json": {"parameters": {}, "let": {"a": 1}}}, ["--preset", "p.json"], "W201", "include_files"),
+    "999 includes": (lambda: includes_beside(999), [], None, ""),
+    "1,000 includes": (lambda: includes_beside(1000), [], "W201", "(limit include_files)"),
+    "900 uses of a file of 5,000 values": (lambda: includes_of_much(900, 5000), [], "W201", "json_values"),
+    "5,000 extends in a row": (lambda: extends_in_a_row(5000), [], "W201", "extends_depth"),
+    "64 extends in a row": (lambda: extends_in_a_row(64), [], None, ""),
+    "65 extends in a row": (lambda: extends_in_a_row(65), [], "W201", "(limit extends_depth)"),
+    "256 extends in a row, the most": (lambda: extends_in_a_row(256), L("extends_depth", 256), None, ""),
+    "60 copies of 100,000 values": (lambda: extends_of_much(60, 100_000), [], "W201", "json_values"),
+    "overlay of 20,000 entries": (lambda: overlay_of_much(20_000, 20_000), [], "W201", "the overlay changes too much"),
+    "overlay of 300 entries": (lambda: overlay_of_much(3000, 300), [], None, ""),
+    "20,000 lets in a row": (lambda: lets_in_a_row(20_000), [], "W201", "definition_depth"),
+    "63 lets in a row": (lambda: lets_in_a_row(63), [], None, ""),
+    "65 lets in a row": (lambda: lets_in_a_row(65), [], "W201", "which ends at"),
+    "20,000 lets in a circle": (lambda: lets_in_a_cycle(20_000), [], "W201", "definition_depth"),
+    "60 tall lets in a row": (lambda: tall_lets(60, 150), [], "W201", "operators nested in each other"),
+    "tall lets, the limit raised": (lambda: tall_lets(256, 150), L("definition_depth", 256), "W201", "operators nested in each other"),
+    "20,000 lets of age() in a row": (lambda: ages_in_a_row(20_000), [], "W201", "definition_depth"),
+    "60 lets of age(), each twice the next": (lambda: ages_doubled(60), [], "W020", "operators and operands"),
+    "20,000 sizes in a row": (lambda: sizes_in_a_row(20_000), [], "W201", "definition_depth"),
+    "250 sizes in a row, the limit raised": (lambda: sizes_in_a_row(250), L("definition_depth", 256), None, ""),
+    "20,000 conditions in a row": (lambda: conditions_in_a_row(20_000), [], "W201", "operators nested in each other"),
+    "60 conditions in a row": (lambda: conditions_in_a_row(60), [], None, ""),
+    "900 binds in a row": (lambda: binds_in_a_row(900), [], "W201", "definition_depth"),
+    "60 binds in a row": (lambda: binds_in_a_row(60), [], None, ""),
+    "100,000 indices of a repeat": (lambda: repeat_of(100_000), [], "W201", "repeat_indices"),
+    "16 indices of a repeat": (lambda: repeat_of(16), [], None, ""),
+    "17 indices of a repeat": (lambda: repeat_of(17), [], "W201", "'i16' is one too many"),
+    "256 indices of a repeat, the most": (lambda: repeat_of(256), L("repeat_indices", 256), None, ""),
+    "500,000 instances": (lambda: repeat_to(500_000), [], None, ""),
+    "1,000,001 instances": (lambda: repeat_to(1_000_001), [], "W081", ""),
+    "1,500 passes that read all before them": (lambda: passes_that_read_all_before(1500), [], None, ""),
+    "100,000 passes": (lambda: small_passes(100_000), [], None, ""),
+    "400,000 passes": (lambda: small_passes(400_000), [], "W201", ""),
+    "200,000 slots of one pass": (lambda: slots_of_one_pass(200_000), [], None, ""),
+    "uses above the limit": (lambda: slots_of_one_pass(100), L("uses", 100), "W201", "(limit uses)"),
+    "uses below the limit": (lambda: slots_of_one_pass(98), L("uses", 100), None, ""),
+    "1,000 instances of 2,001 parameters": (lambda: parameters_of_one_pass(2001, 1000), [], "W201", ""),
+    "100,000 instances of 198 terms": (lambda: terms_of_one_pass(98, 100_000), [], "W201", "(limit terms)"),
+    "50,000 images of one texture": (lambda: images_of_one_texture(50_000), [], "W065", ""),
+    "100,000 readers of 2,048 layers": (lambda: layers_read_again(2048, 100_000), [], "W201", ""),
+    "16 textures of 1 GB": (lambda: textures(16), [], "W202", "the largest are 't0' 1024000000 bytes, 't1' 1024000000 bytes"),
+    "4 textures of 1 GB": (lambda: textures(4), [], None, ""),
+    "5 textures of 1 GB, the limit raised": (lambda: textures(5), L("texture_bytes", "8G"), None, ""),
+    "100,000 unknown names": (lambda: unknown_names(100_000, 100_000), [], "W040", ""),
+    "500,000 unknown keys": (lambda: unknown_keys(500_000), [], "W004", ""),
+    "a key of 10 MB": (lambda: long_key(10_000_000), [], "W201", "(limit name_bytes)"),
+    "a key of 255 bytes": (lambda: long_key(255), [], None, ""),
+    "a name of 256 bytes": (lambda: long_pass_name(256), [], "W201", "found: 256 bytes"),
+    "a name of 10 MB": (lambda: long_pass_name(10_000_000), [], "W201", "(limit name_bytes)"),
+    "40 long keys around 200,000 values": (lambda: long_keys_in_depth(200_000), [], "W004", ""),
+    "a call with 2,000,000 arguments": (lambda: long_expression(2_000_000), [], "W020", "more than 64 arguments"),
+    "a list of 2,000,000 numbers": (lambda: long_list(2_000_000), [], "W020", "more than 64 items"),
+    "an expression of 100,000 variables": (lambda: wide_expression(100_000), [], None, ""),
+    "100,000 parameters": (lambda: many("parameters", 100_000), [], None, ""),
+    "100,000 resources": (lambda: many("resources", 100_000), [], None, ""),
+    "100,000 lets": (lambda: many("let", 100_000), [], None, ""),
+    "20,000 imports that differ": (lambda: imports(20_000), [], None, ""),
+    "30,000 spread jobs": (lambda: spread_jobs(30_000), [], "W201", ""),
+    "40 MB of white space": (lambda: blanks(40 << 20), [], "W201", "(limit json_bytes)"),
+    "30 MB of lines": (lambda: blanks(30 << 20), [], None, ""),
+    "2,000,000 values": (lambda: values_of(2_000_000), [], "W201", "(limit json_values)"),
+    "1,400,000 values": (lambda: values_of(1_400_000), [], "W003", ""),
+}
+
+
+class Ended:
+    def __init__(self, command, folder):
+        with open(folder / "out.txt", "w+b") as out:
+            begin = time.monotonic()
+            process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT, preexec_fn=self.limit)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.seconds = time.monotonic() - begin
+            self.code, self.bytes = process.returncode, usage.ru_maxrss * 1024
+            out.seek(0)
+            self.text = out.read(1 << 20).decode(errors="replace")
+
+    @staticmethod
+    def limit():  # what goes wrong must not take the machine along
+        resource.setrlimit(resource.RLIMIT_CPU, (GUARD_S, GUARD_S))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_AS, (4 * GIGABYTE, 4 * GIGABYTE))
+
+
+def check_case(report, weft, name, case, full):
+    make, arguments, code, says = case
+    with temporary_folder() as folder_name:
+        folder = pathlib.Path(folder_name)
+        for file, value in make().items():
+            (folder / file).write_text(value if isinstance(value, str) else text(value))
+        ended = Ended([str(weft), "check", "--no-shaders", "g.json", *arguments], folder)
+    if full:
+        print(f"{ended.seconds:6.2f} s {ended.bytes / 1e6:6.0f} MB  exit {ended.code}  {name}", flush=True)
+    shown = f"{name}:\n{ended.text[:1500]}"
+    report.check(ended.code == (1 if code else 0), f"exit code {ended.code}: {shown}")
+    report.check(ended.bytes <= GIGABYTE, f"{ended.bytes / 1e6:.0f} MB: {name}")
+    report.check(says in ended.text, f"does not say {says!r}: {shown}")
+    if code:
+        errors = [m for m in map(DIAGNOSTIC.match, ended.text.splitlines()) if m and m["severity"] == "error"]
+        fits = errors and any(m["code"] == code for m in errors) and all(m["place"] for m in errors)
+        report.check(fits, f"no {code} at a place: {shown}")
+        if code in ("W201", "W202"):
+            report.check([m["code"] for m in errors] == [code], f"more than one {code}: {shown}")
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    wanted = [a for a in sys.argv[2:] if not a.startswith("--")]
+    for name, case in CASES.items():
+        if all(re.search(w, name) for w in wanted):
+            check_case(report, weft, name, case, "--full" in sys.argv)
+    report.end()
+
+
+if __name__ == "__main__":
+    main()
