@@ -31,12 +31,12 @@ namespace weft::base {
   X(texture_bytes,       4ull << 30,    "bytes of all textures and buffers of one plan")        \
   X(diagnostics,         100,           "messages that are printed")                            \
   X(shader_bytes,        1ull << 20,    "bytes of one shader with what it includes")            \
-  X(shader_tokens,       200000,        "tokens of one shader after its macros")                \
-  X(shader_depth,        250,           "brackets or operators nested in one expression")       \
-  X(shader_cases,        2000,          "cases of one switch")                                  \
-  X(shader_array,        16384,         "elements of one array in a shader, its blocks aside")  \
-  X(shader_seconds,      20,            "seconds that a shader compiles")                       \
-  X(shader_memory,       1ull << 30,    "bytes that a shader takes to compile")                 \
+  X(shader_tokens,       200000,        "tokens of one shader after its macros and calls")      \
+  X(shader_depth,        500,           "brackets, operators or blocks around one another")     \
+  X(shader_cases,        400,           "cases of one switch")                                  \
+  X(shader_array,        1024,          "elements of one array in a shader, its blocks aside")  \
+  X(shader_seconds,      10,            "seconds of processor time that a program compiles")    \
+  X(shader_memory,       1ull << 30,    "bytes that a program takes to compile")                \
   X(program_cache_bytes, 256ull << 20,  "bytes of the folder of program binaries")              \
   X(frames,              1000000,       "frames of one command")
 // clang-format on

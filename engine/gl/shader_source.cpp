@@ -92,6 +92,7 @@ class IncludeExpander {
   // `depth`: how many #if surround the whole file.
   void expandFile(std::size_t number, const std::string& folder, std::string_view text, int depth) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) reportZero(number, text, zero);
     stack_.push_back(number);
     LineScanner scanner(text);
     while (scanner.next()) {
@@ -169,6 +170,17 @@ class IncludeExpander {
     if (depth > 0) emit(fmt::format("#define WEFT_INCLUDED_{}", number), by, place.line);
     expandFile(number, folderOf(*path), *text, depth);
     if (known || depth > 0) emit("#endif", by, place.line);
+  }
+
+  // Drivers take the text up to it and say nothing.
+  void reportZero(std::size_t number, std::string_view text, std::size_t at) {
+    const auto line = static_cast<std::uint32_t>(1 + std::ranges::count(text.substr(0, at), '\n'));
+    const std::size_t before = text.rfind('\n', at);
+    const std::size_t column = before == std::string_view::npos ? at + 1 : at - before;
+    diagnostics_
+        .error(Code::W104, {source_->files[number], line, static_cast<std::uint32_t>(column)},
+               "a zero byte stands in the shader")
+        .hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)";
   }
 
   void reportCycle(std::vector<std::size_t>::const_iterator first, const Place& place) {

@@ -1,0 +1,112 @@
+#include "engine/gl/shader_calls.h"
+
+#include <algorithm>
+#include <string>
+
+namespace weft::gl {
+
+namespace {
+
+constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+
+// What functions of the language become, in tokens of usual code that cost the driver as much (docs/limits.md).
+std::uint64_t weightOf(std::string_view name) {
+  constexpr std::pair<std::string_view, std::uint64_t> kWeights[] = {
+      {"inverse", 500}, {"determinant", 150}, {"sin", 70},  {"cos", 70},  {"tan", 140}, {"asin", 70}, {"acos", 70},
+      {"atan", 70},     {"sinh", 70},         {"cosh", 70}, {"tanh", 70}, {"asinh", 70}, {"acosh", 70}, {"atanh", 70},
+      {"exp", 30},      {"log", 30},          {"exp2", 30}, {"log2", 30}, {"pow", 60}};
+  for (const auto& [each, weight] : kWeights)
+    if (each == name) return weight;
+  return name.starts_with("texture") ? 100 : name.starts_with("texelFetch") ? 40 : 0;
+}
+
+// a + b · n, or kMost.
+std::uint64_t addTimes(std::uint64_t a, std::uint64_t b, std::uint64_t n) {
+  if (n != 0 && b > (kMost - a) / n) return kMost;
+  return a + b * n;
+}
+
+}  // namespace
+
+void CallCount::begin(std::string_view name, std::uint32_t arguments, const Token& at) {
+  bySignature_[{name, arguments}].push_back(static_cast<std::uint32_t>(functions_.size()));
+  functions_.push_back({.signature = {name, arguments}, .at = at, .calls = {}, .callees = {}});
+  open_ = true;
+}
+
+// A call may mean any function of its name and number of arguments; the one that it stands in only where there is no
+// other, as overloads call each other more often than functions themselves.
+void CallCount::resolve(std::uint32_t index) {
+  Function& function = functions_[index];
+  for (const auto& [signature, count] : function.calls) {
+    const auto found = bySignature_.find(signature);
+    if (found == bySignature_.end()) {
+      function.tokens = addTimes(function.tokens, weightOf(signature.first), count);
+      continue;
+    }
+    for (const std::uint32_t callee : found->second)
+      if (callee != index || found->second.size() == 1) function.callees.emplace_back(callee, count);
+  }
+}
+
+void CallCount::finish(ShaderSize& size) {
+  for (std::uint32_t i = 0; i < functions_.size(); ++i) resolve(i);
+  for (std::uint32_t i = 0; i < functions_.size(); ++i)
+    if (functions_[i].state == Function::State::fresh) visit(i, size);
+  // Mesa does it in every function, not in main() alone: a chain of calls costs the square of its length.
+  std::uint64_t largest = 0, all = 0;
+  for (const Function& function : functions_) {
+    all = addTimes(all, function.inlined, 1);
+    if (function.inlined <= largest) continue;
+    largest = function.inlined;
+    size.inlined = {.count = 0,
+                    .line = function.at.line,
+                    .column = function.at.column,
+                    .name = std::string(function.signature.first)};
+  }
+  size.inlined.count = all;
+}
+
+// Depth first without recursion: a chain of calls may be long.
+void CallCount::visit(std::uint32_t root, ShaderSize& size) {
+  std::vector<std::uint32_t> path{root};
+  std::vector<std::size_t> next{0};
+  functions_[root].state = Function::State::open;
+  while (!path.empty()) {
+    Function& function = functions_[path.back()];
+    if (next.back() == function.callees.size()) {
+      close(function);
+      path.pop_back();
+      next.pop_back();
+      continue;
+    }
+    const std::uint32_t callee = function.callees[next.back()++].first;
+    if (functions_[callee].state == Function::State::open) noteCircle(path, callee, size);
+    if (functions_[callee].state != Function::State::fresh) continue;
+    functions_[callee].state = Function::State::open;
+    path.push_back(callee);
+    next.push_back(0);
+  }
+}
+
+void CallCount::close(Function& function) {
+  function.inlined = function.tokens;
+  for (const auto& [signature, count] : function.calls) {
+    std::uint64_t largest = 0;
+    for (const auto& [callee, times] : function.callees)
+      if (functions_[callee].signature == signature) largest = std::max(largest, functions_[callee].inlined);
+    function.inlined = addTimes(function.inlined, largest, count);
+  }
+  function.state = Function::State::done;
+}
+
+void CallCount::noteCircle(const std::vector<std::uint32_t>& path, std::uint32_t first, ShaderSize& size) const {
+  if (!size.circle.empty()) return;
+  for (auto it = std::find(path.begin(), path.end(), first); it != path.end(); ++it)
+    size.circle.emplace_back(functions_[*it].signature.first);
+  size.circle.push_back(size.circle.front());
+  const Token& at = functions_[first].at;
+  size.circleAt = {.count = size.circle.size() - 1, .line = at.line, .column = at.column, .name = size.circle.front()};
+}
+
+}  // namespace weft::gl
