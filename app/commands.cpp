@@ -46,7 +46,7 @@ void checkShaders(const Options& options, const graph::Plan& plan, base::Diagnos
     for (std::uint32_t conditions = 0; conditions < combinations; ++conditions) {
       const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
       const auto variant = device.programs.get(request, diagnostics);
-      if (!variant || !runtime::checkProgram(plan, step.pass, *variant, diagnostics)) break;
+      if (!variant || !runtime::checkProgram(plan, step.pass, *variant, session->context->device().limits, diagnostics)) break;
     }
   }
 }

@@ -41,7 +41,7 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
   gl::Context& current = *context;
   return std::unique_ptr<DeviceSession>(
       new DeviceSession{std::move(context), runtime::Renderer(current, options.graph,
-                                                              {.dataFolder = dataFolder(), .cacheFolder = cacheFolderOf(options), .presets = options.presets})});
+                                                              {.dataFolder = dataFolder(), .cacheFolder = cacheFolderOf(options), .trial = {"/proc/self/exe"}, .presets = options.presets})});
 }
 
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {
@@ -56,6 +56,8 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
                      {"evictions", programs.evictions},
                      {"revivals", programs.revivals},
                      {"compilations", programs.compilations},
+                     {"refusals", programs.refusals},
+                     {"trials", programs.trials},
                      {"binary_loads", programs.binaryLoads},
                      {"binary_rejects", programs.binaryRejects}};
   runtime::Execution* execution = session.renderer.execution();

@@ -1,11 +1,14 @@
 // weft: the command line. Options in, one command, its exit code out.
+#include <string_view>
 #include <utility>
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "engine/gl/shader_trial.h"
 
 int main(int argc, char** argv) {
   using namespace weft::app;
+  if (argc > 1 && std::string_view(argv[1]) == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
   int exitCode = 0;
   const auto options = parseOptions(argc, argv, exitCode);
   if (!options) return exitCode;

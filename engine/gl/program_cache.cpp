@@ -9,6 +9,9 @@
 
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/limits.h"
+#include "engine/gl/binary_folder.h"
+#include "engine/gl/program_admission.h"
 
 namespace weft::gl {
 
@@ -18,11 +21,11 @@ using base::Diagnostics;
 
 constexpr std::size_t kMostFailures = 256;
 constexpr std::size_t kMostEvicted = 256;  // above it, those that nobody holds are forgotten
-constexpr std::size_t kKeyLength = 32;
+constexpr std::size_t kKeyLength = kBinaryKeyLength;
 
 // What stands before the binary in its file. The checksum keeps damaged bytes away from the driver.
 struct BinaryHeader {
-  char magic[8] = {'W', 'E', 'F', 'T', 'B', 'I', 'N', '1'};
+  char magic[kBinaryMagic.size()] = {};
   char key[kKeyLength] = {};
   std::uint32_t format = 0;
   std::uint32_t compute = 0;
@@ -93,22 +96,43 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   }
   ++stats_.misses;
   if (auto held = revive(key)) return remember(key, std::move(held));
+  Diagnostics refused;
+  const ProgramSize size = measureProgram(stages, request.defines, refused);
+  if (refused.hasErrors()) {
+    ++stats_.refusals;
+    return refuse(key, request, std::move(refused), diagnostics);
+  }
   const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
   std::optional<Program> program = loadBinary(key, compute, request.label);
   if (!program) {
+    if (size.unusual && !options_.trial.empty()) {
+      ++stats_.trials;
+      if (!survivesTrial(options_.trial, device_, stages, request.defines, request.outputs, size, refused)) {
+        ++stats_.refusals;
+        return refuse(key, request, std::move(refused), diagnostics);
+      }
+    }
     ++stats_.compilations;
     Diagnostics log;
     program = Program::compile(stages, request.defines, request.outputs, request.label, log);
-    appendFor(request, log, diagnostics);
     if (!program) {
       ++stats_.failures;
-      if (failures_.size() >= kMostFailures) failures_.clear();
-      failures_.emplace(key, std::move(log));
-      return nullptr;
+      placeCircles(stages, size, log);
+      return refuse(key, request, std::move(log), diagnostics);
     }
+    appendFor(request, log, diagnostics);
     storeBinary(key, compute, *program);
   }
   return remember(key, std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages)}));
+}
+
+// Tells what is wrong, now and when it is asked for again.
+std::shared_ptr<const Variant> ProgramCache::refuse(std::string key, const ProgramRequest& request, Diagnostics said,
+                                                    Diagnostics& diagnostics) {
+  appendFor(request, said, diagnostics);
+  if (failures_.size() >= kMostFailures) failures_.clear();
+  failures_.emplace(std::move(key), std::move(said));
+  return nullptr;
 }
 
 std::shared_ptr<const Variant> ProgramCache::remember(std::string key,
@@ -161,7 +185,7 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   BinaryHeader header;
   std::memcpy(&header, bytes->data(), sizeof header);
   const std::string_view body = std::string_view(*bytes).substr(sizeof header);
-  if (std::memcmp(header.magic, BinaryHeader{}.magic, sizeof header.magic) != 0 ||
+  if (std::string_view(header.magic, sizeof header.magic) != kBinaryMagic ||
       std::string_view(header.key, kKeyLength) != key || header.bytes != body.size() ||
       header.checksum != base::hashBytes(body) || (header.compute != 0) != compute)
     return reject();
@@ -172,6 +196,7 @@ std::optional<Program> ProgramCache::loadBinary(const std::string& key, bool com
   std::optional<Program> program = Program::load(binary, compute, label);
   if (!program) return reject();
   ++stats_.binaryLoads;
+  touchBinary(pathOf(key));
   return program;
 }
 
@@ -180,6 +205,7 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   const std::optional<ProgramBinary> binary = program.binary();
   if (!binary) return;
   BinaryHeader header;
+  std::memcpy(header.magic, kBinaryMagic.data(), kBinaryMagic.size());
   std::memcpy(header.key, key.data(), kKeyLength);
   header.format = binary->format;
   header.compute = compute;
@@ -193,7 +219,19 @@ void ProgramCache::storeBinary(const std::string& key, bool compute, const Progr
   std::error_code ec;
   if (const auto there = std::filesystem::status(pathOf(key), ec); exists(there) && !is_regular_file(there)) return;
   Diagnostics unwritten;  // a cache that cannot be written is slow, not wrong
-  if (base::writeFile(pathOf(key), file, unwritten)) ++stats_.binaryWrites;
+  if (!base::writeFile(pathOf(key), file, unwritten)) return;
+  ++stats_.binaryWrites;
+  boundFolder(file.size());
+}
+
+// Looks at the folder with the first binary of this process, then when what it knows of and wrote itself is too much.
+void ProgramCache::boundFolder(std::uint64_t written) {
+  const std::uint64_t most = base::limitOf(base::Limit::program_cache_bytes);
+  if (folderBytes_) *folderBytes_ += written;
+  if (folderBytes_.value_or(~0ull) <= most) return;
+  const BinaryFolderUse use = pruneBinaries(options_.folder, most);
+  folderBytes_ = use.bytes;
+  stats_.binaryRemovals += use.removed;
 }
 
 }  // namespace weft::gl

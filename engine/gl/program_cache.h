@@ -3,13 +3,15 @@
 // for loses none when it is loaded again), on disk all of them as program binaries. A broken, foreign or
 // rejected binary is a miss and is written anew. A variant that does not compile gives its diagnostics and
 // null, and the caller keeps the program it has; the failure is remembered until the sources change, so that
-// asking again compiles nothing. Does not: compile in the background, delete old binaries, or watch files
-// (SourceLoader looks at times).
+// asking again compiles nothing. What is too large for the driver is refused, and what is unusually large tried in
+// a process of its own first (shader_bounds.h, shader_trial.h). The folder is kept below program_cache_bytes.
+// Does not: compile in the background, or watch files (SourceLoader looks at times).
 #pragma once
 
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -50,7 +52,9 @@ struct ProgramCacheStats {
   std::uint64_t hits = 0, misses = 0, evictions = 0;
   std::uint64_t compilations = 0;  // from source, failed ones included
   std::uint64_t failures = 0;      // of those
-  std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0;
+  std::uint64_t refusals = 0;      // not compiled: too large (W203), or the driver did not survive the trial (W204)
+  std::uint64_t trials = 0;
+  std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0, binaryRemovals = 0;
   std::uint64_t revivals = 0;  // misses for a variant that had been evicted and was still held elsewhere
 };
 
@@ -59,6 +63,9 @@ class ProgramCache {
   struct Options {
     std::size_t capacity = 32;  // at least 1
     std::string folder;         // of binaries, made when absent; "": no disk cache
+    // Starts a process that compiles first what is unusually large (shader_trial.h); empty: none, and what kills the
+    // driver kills this process.
+    std::vector<std::string> trial{};
   };
   // `device` and `loader` must outlive the cache.
   ProgramCache(const DeviceInfo& device, SourceLoader& loader, Options options);
@@ -76,16 +83,20 @@ class ProgramCache {
     std::string key;
     std::shared_ptr<const Variant> variant;
   };
+  std::shared_ptr<const Variant> refuse(std::string key, const ProgramRequest& request, base::Diagnostics said,
+                                        base::Diagnostics& diagnostics);
   std::shared_ptr<const Variant> remember(std::string key, std::shared_ptr<const Variant> variant);
   std::shared_ptr<const Variant> revive(const std::string& key);
   std::optional<Program> loadBinary(const std::string& key, bool compute, std::string_view label);
   void storeBinary(const std::string& key, bool compute, const Program& program);
+  void boundFolder(std::uint64_t written);
   std::string pathOf(const std::string& key) const;
 
   const DeviceInfo& device_;
   SourceLoader& loader_;
   Options options_;
   ProgramCacheStats stats_;
+  std::optional<std::uint64_t> folderBytes_;  // of binaries, as far as is known here
   std::list<Entry> order_;  // most recently used first
   std::unordered_map<std::string, std::list<Entry>::iterator> index_;
   std::unordered_map<std::string, std::weak_ptr<const Variant>> evicted_;

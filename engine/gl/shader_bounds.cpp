@@ -23,7 +23,8 @@ struct Bound {
 };
 
 std::vector<Bound> boundsOf(const ShaderSize& size) {
-  const auto& [tokens, inlined, depth, cases, array, bytes, uncertain, circle, circleAt] = size;
+  const ShaderCount &tokens = size.tokens, &inlined = size.inlined, &depth = size.depth, &cases = size.cases,
+                    &array = size.array;
   std::vector<Bound> bounds;
   bounds.push_back({Limit::shader_tokens, &tokens,
                     tokens.name.empty() ? "the shader is too long"
@@ -97,6 +98,10 @@ ShaderShare largestShare(const ShaderSize& size) {
   return largest;
 }
 
-bool isUnusual(const ShaderSize& size) { return size.uncertain || largestShare(size).share > kUsualShare; }
+// Many small switches or arrays cost what a large one does.
+bool isUnusual(const ShaderSize& size) {
+  return size.uncertain || size.allCases > base::limitOf(Limit::shader_cases) ||
+         size.allElements > base::limitOf(Limit::shader_array) || largestShare(size).share > kUsualShare;
+}
 
 }  // namespace weft::gl

@@ -29,6 +29,7 @@ struct ShaderSize {
   ShaderCount cases;    // of one switch
   ShaderCount array;    // elements of one variable outside blocks
   std::uint64_t bytes = 0;
+  std::uint64_t allCases = 0, allElements = 0;  // of all switches and all arrays together
   bool uncertain = false;  // some of it could not be counted
   // Functions that call each other in a circle, the first one again at the end; empty: none is seen. Overloads of one
   // name and number of arguments are not told apart, so a circle is only one where the driver says so too.

@@ -17,6 +17,7 @@ std::uint64_t weightOf(std::string_view name) {
       {"exp", 30},      {"log", 30},          {"exp2", 30}, {"log2", 30}, {"pow", 60}};
   for (const auto& [each, weight] : kWeights)
     if (each == name) return weight;
+  if (name.starts_with("textureGather")) return 250;
   return name.starts_with("texture") ? 100 : name.starts_with("texelFetch") ? 40 : 0;
 }
 

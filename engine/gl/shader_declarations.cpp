@@ -88,6 +88,7 @@ std::optional<std::uint64_t> DeclarationCount::dimensions(std::span<const Token>
 }
 
 void DeclarationCount::note(std::uint64_t elements, const Token& at, std::string_view name) {
+  if (elements > 1) size_.allElements = std::min(kMost, size_.allElements + elements);
   if (elements <= size_.array.count) return;
   size_.array = {.count = elements, .line = at.line, .column = at.column, .name = std::string(name)};
 }

@@ -97,6 +97,7 @@ class StructureScan {
   }
 
   void countCase(Level& level) {
+    ++size_.allCases;
     if (++level.cases > size_.cases.count)
       size_.cases = {.count = level.cases, .line = level.begin.line, .column = level.begin.column, .name = {}};
   }

@@ -294,6 +294,7 @@ class SpecFiller {
   // ---- compute and draw ----
 
   void addThreads() {
+    spec_.threadsPlace = desc_.threads.present() ? desc_.threads.place() : desc_.namePlace;
     if (desc_.threads.present()) {
       const Value value = desc_.threads.evaluate(names_, model_.diagnostics);
       if (value.type == Value::Type::none) return;

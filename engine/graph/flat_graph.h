@@ -110,6 +110,7 @@ struct PassSpec {
   std::vector<UniformSpec> uniforms;
   StateSpec state;
   std::uint32_t threads[3] = {1, 1, 1};
+  Place threadsPlace;             // of "threads", else of the pass
   std::uint32_t instances = 1;    // of a draw without a list
   std::string list;               // draw list or ""
   std::string geometry;

@@ -27,7 +27,9 @@ namespace weft::runtime {
 
 // GL things that outlive a plan.
 struct Device {
-  Device(gl::Context& context, std::vector<std::string> shaderRoots, std::string cacheFolder);
+  // `trial` as in gl::ProgramCache::Options.
+  Device(gl::Context& context, std::vector<std::string> shaderRoots, std::string cacheFolder,
+         std::vector<std::string> trial = {});
   gl::Context& context;
   gl::SourceLoader sources;
   gl::ProgramCache programs;

@@ -165,7 +165,7 @@ bool Execution::choosePass(std::size_t step, std::uint32_t conditions, base::Dia
   context.variant =
       device_.programs.get(programRequestOf(*plan_->graph, *plan_, pass, type, conditions), diagnostics);
   PreparedPass made;
-  if (context.variant && checkProgram(*plan_, pass, *context.variant, diagnostics))
+  if (context.variant && checkProgram(*plan_, pass, *context.variant, device_.context.device().limits, diagnostics))
     made = preparePass(context, step);
   made.conditions = conditions;
   std::copy_n(passes_[step].context.maxGroups, 3, made.context.maxGroups);

@@ -8,10 +8,11 @@
 
 namespace weft::runtime {
 
-Device::Device(gl::Context& c, std::vector<std::string> shaderRoots, std::string cacheFolder)
+Device::Device(gl::Context& c, std::vector<std::string> shaderRoots, std::string cacheFolder,
+               std::vector<std::string> trial)
     : context(c),
       sources(std::move(shaderRoots)),
-      programs(c.device(), sources, {.capacity = 32, .folder = std::move(cacheFolder)}),
+      programs(c.device(), sources, {.capacity = 32, .folder = std::move(cacheFolder), .trial = std::move(trial)}),
       timers(c.device()) {}
 
 GLuint Device::sampler(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare) {
@@ -68,7 +69,7 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
     const std::uint32_t settled = settledConditionsOf(plan_->graph->specs[step.pass]);
     variants.back() =
         device_.programs.get(programRequestOf(*plan_->graph, *plan_, step.pass, reflected, settled), problems);
-    if (variants.back()) checkProgram(*plan_, step.pass, *variants.back(), problems);
+    if (variants.back()) checkProgram(*plan_, step.pass, *variants.back(), device_.context.device().limits, problems);
   }
   diagnostics.append(problems);
   if (problems.hasErrors()) return false;

@@ -133,7 +133,9 @@ gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::
 // Whether a buffer use reads the rows of a draw list, whose layout is the shader's.
 bool isInstanceTable(const graph::FlatGraph& graph, const graph::FlatUse& use);
 
-// Holds the slots and parameters of a pass against its program (W181 to W187).
-bool checkProgram(const graph::Plan& plan, std::uint32_t pass, const gl::Variant& variant, base::Diagnostics& diagnostics);
+// Holds the slots and parameters of a pass against its program (W181 to W187), and its work groups against the device
+// (W206).
+bool checkProgram(const graph::Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
+                  base::Diagnostics& diagnostics);
 
 }  // namespace weft::runtime

@@ -7,6 +7,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/gl/objects.h"
+#include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepared_pass.h"
 #include "engine/runtime/sampler_types.h"
 
@@ -41,13 +42,15 @@ std::string upper(std::string text) {
 
 class Checker {
  public:
-  Checker(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, base::Diagnostics& diagnostics)
+  Checker(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
+          base::Diagnostics& diagnostics)
       : plan_(plan),
         graph_(*plan.graph),
         spec_(graph_.specs[pass]),
         pass_(pass),
         variant_(variant),
         reflection_(variant.program.reflection()),
+        limits_(limits),
         diagnostics_(diagnostics) {}
 
   bool run() {
@@ -55,6 +58,7 @@ class Checker {
     checkParameters();
     checkRest();
     checkSlices(graph_.passes[pass_]);
+    checkGroups();
     return good_;
   }
 
@@ -274,12 +278,33 @@ class Checker {
         .hint = "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove \"slices\"";
   }
 
+  // A dispatch beyond them is an error of the driver, in every frame and without a place.
+  void checkGroups() {
+    passes::PassContext context;
+    context.spec = &spec_;
+    std::copy_n(reflection_.workGroup, 3, context.groupSize);
+    std::copy_n(limits_.computeGroups, 3, context.maxGroups);
+    if (context.groupSize[0] == 0) return;  // no compute shader
+    const passes::WorkGroups groups = passes::workGroupsOf(context);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t most = context.maxGroups[axis], size = context.groupSize[axis];
+      if (groups.count[axis] <= most) continue;
+      base::Diagnostic& d = fail(Code::W206, spec_.threadsPlace,
+                                 fmt::format("pass '{}' has more work groups along {} than the device takes",
+                                             spec_.name, "xyz"[axis]));
+      d.expected = fmt::format("at most {} groups of {} threads, that is {}", most, size, std::uint64_t{most} * size);
+      d.found = fmt::format("{} groups for {} threads", groups.count[axis], spec_.threads[axis]);
+      d.hint = fmt::format("raise local_size_{} in '{}', or spread the work over the other axes", "xyz"[axis], spec_.shader);
+    }
+  }
+
   const Plan& plan_;
   const FlatGraph& graph_;
   const PassSpec& spec_;
   const std::uint32_t pass_;
   const gl::Variant& variant_;
   const gl::Reflection& reflection_;
+  const gl::Limits& limits_;
   base::Diagnostics& diagnostics_;
   bool good_ = true, slotMissing_ = false;
 };
@@ -341,8 +366,9 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
   return request;
 }
 
-bool checkProgram(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, base::Diagnostics& diagnostics) {
-  return Checker(plan, pass, variant, diagnostics).run();
+bool checkProgram(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
+                  base::Diagnostics& diagnostics) {
+  return Checker(plan, pass, variant, limits, diagnostics).run();
 }
 
 }  // namespace weft::runtime

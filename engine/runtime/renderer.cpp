@@ -38,7 +38,7 @@ std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::
 Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
     : graphPath_(graphPath),
       options_(std::move(options)),
-      device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder) {}
+      device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder, options_.trial) {}
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
   base::Diagnostics said;
@@ -106,7 +106,7 @@ bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostic
   settings.software = device_.context.device().software;
   const auto flat = graph::expandGraph(*desc, makeRegistry(device_.passTypes, world.facts()), settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return false;
-  fallbackDevice_ = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder), options_.cacheFolder);
+  fallbackDevice_ = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder), options_.cacheFolder, options_.trial);
   fallback_ = Execution::create(*fallbackDevice_, std::make_shared<const graph::Plan>(graph::compile(flat)), nullptr,
                                 diagnostics);
   if (!fallback_) return false;

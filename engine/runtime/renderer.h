@@ -23,6 +23,7 @@ class Renderer {
   struct Options {
     std::string dataFolder;     // holds graphs/ and shaders/
     std::string cacheFolder;    // of program binaries; empty: none
+    std::vector<std::string> trial{};    // starts a process that tries a large shader first (gl::ProgramCache); empty: none
     std::vector<std::string> presets{};  // overlays laid over the graph whenever it is read, in order
   };
   Renderer(gl::Context& context, const std::string& graphPath, Options options);

@@ -6,7 +6,9 @@
 #include <random>
 #include <set>
 
+#include "engine/base/limits.h"
 #include "engine/gl/program_cache.h"
+#include "tests/gl/documented.h"
 #include "tests/gl/gl_test.h"
 #include "tests/gl/temp_folder.h"
 #include "tests/skip.h"
@@ -258,4 +260,131 @@ TEST_CASE_FIXTURE(Fixture, "names are held against the source, not against what 
   CHECK_FALSE(variant->program.reflection().findSampler("unused_slot"));
   CHECK(variant->mentions("unused_slot"));
   CHECK_FALSE(variant->mentions("no_slot"));
+}
+
+namespace {
+
+// Sets a limit for one test.
+class LimitScope {
+ public:
+  LimitScope(weft::base::Limit limit, std::uint64_t value) : limit_(limit), before_(weft::base::limitOf(limit)) {
+    set(value);
+  }
+  ~LimitScope() { set(before_); }
+
+ private:
+  void set(std::uint64_t value) {
+    CHECK_FALSE(weft::base::setLimit(weft::base::nameOf(limit_), std::to_string(value)));
+  }
+  weft::base::Limit limit_;
+  std::uint64_t before_;
+};
+
+ProgramRequest fragmentOf(const std::string& text) {
+  ProgramRequest request;
+  request.stages = {{GL_VERTEX_SHADER, "triangle", "void main() { gl_Position = vec4(0.0); }\n"},
+                    {GL_FRAGMENT_SHADER, "paint.frag.glsl", text}};
+  request.outputs = {"result"};
+  request.pass = "paint";
+  return request;
+}
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Fixture, "what is too large is not compiled, and told again without counting") {
+  ProgramCache cache(context().device(), loader, {.capacity = 2, .folder = ""});
+  std::string sum = "out vec4 result;\nvoid main() {\n  float a = 1.0;\n  result = vec4(";
+  for (int i = 0; i < 50000; ++i) sum += "a + ";
+  for (int i = 0; i < 2; ++i) {
+    Diagnostics said;
+    CHECK_FALSE(cache.get(fragmentOf(sum + "a);\n}\n"), said));
+    REQUIRE(said.size() == 1);
+    CHECK(said.items()[0].code == Code::W203);
+    CHECK(said.items()[0].place.line == 4);
+    CHECK(said.items()[0].pass == "paint");
+  }
+  CHECK(cache.stats().compilations == 0);
+  CHECK(cache.stats().refusals == 1);
+  CHECK(cache.stats().hits == 1);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a process that dies over a program is told, one that cannot be had is not") {
+  std::string cases = "out vec4 result;\nvoid main() {\n  switch (int(gl_FragCoord.x)) {\n";
+  for (int i = 0; i < 60; ++i) cases += "    case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
+  const ProgramRequest request = fragmentOf(cases + "  }\n}\n");
+  // Says that it has opened a context, takes its input, and dies.
+  ProgramCache dies(context().device(), loader,
+                    {.capacity = 2, .folder = "", .trial = {"/bin/sh", "-c", "printf o; cat >/dev/null; kill -SEGV $$"}});
+  CHECK_FALSE(dies.get(request, diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  const weft::base::Diagnostic& told = diagnostics.items()[0];
+  CHECK(told.code == Code::W204);
+  CHECK(told.message == "the driver did not survive compiling this shader");
+  CHECK(*told.place.file == "paint.frag.glsl");
+  CHECK(told.found.starts_with("signal 11"));
+  CHECK(told.hint.find("shader_cases") != std::string::npos);
+  CHECK(dies.stats().trials == 1);
+  CHECK(dies.stats().refusals == 1);
+  CHECK(dies.stats().compilations == 0);
+  Diagnostics again;
+  CHECK_FALSE(dies.get(request, again));
+  CHECK(again.contains(Code::W204));
+  CHECK(dies.stats().trials == 1);
+  for (const std::vector<std::string>& trial : {std::vector<std::string>{"/no/such/program"}, {"/bin/false"}, {}}) {
+    ProgramCache unknown(context().device(), loader, {.capacity = 2, .folder = "", .trial = trial});
+    Diagnostics none;
+    CHECK(unknown.get(request, none));
+    CHECK_MESSAGE(none.empty(), none.text());
+    CHECK(unknown.stats().trials == (trial.empty() ? 0 : 1));
+  }
+  // A usual one is not tried.
+  Diagnostics none;
+  CHECK(dies.get(fragmentOf("out vec4 result;\nvoid main() { result = vec4(1.0); }\n"), none));
+  CHECK(dies.stats().trials == 1);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a process that does not come to an end is ended") {
+  std::string cases = "out vec4 result;\nvoid main() {\n  switch (int(gl_FragCoord.x)) {\n";
+  for (int i = 0; i < 60; ++i) cases += "    case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
+  const LimitScope second(weft::base::Limit::shader_seconds, 1);
+  ProgramCache cache(context().device(), loader,
+                     {.capacity = 2, .folder = "", .trial = {"/bin/sh", "-c", "printf o; cat >/dev/null; exec sleep 1000"}});
+  CHECK_FALSE(cache.get(fragmentOf(cases + "  }\n}\n"), diagnostics));
+  CHECK(diagnostics.contains(Code::W204));
+}
+
+TEST_CASE_FIXTURE(Fixture, "functions in a circle are told where they stand") {
+  SourceLoader bad({"tests/bad_shaders"});
+  ProgramCache cache(context().device(), bad, {.capacity = 2, .folder = ""});
+  ProgramRequest request = fragmentOf("");
+  request.stages[1] = {GL_FRAGMENT_SHADER, "w104_circle.frag.glsl", ""};
+  request.pass = "";
+  CHECK_FALSE(cache.get(request, diagnostics));
+  CHECK(diagnostics.size() == 1);
+  weft::gl::test::checkDocumented(diagnostics, Code::W104);
+}
+
+TEST_CASE_FIXTURE(Fixture, "the folder of binaries stays below its limit, and what is used stays in it") {
+  if (!hasBinaries()) return;
+  const std::string disk = folder.path("bounded");
+  std::uint64_t each = 0;
+  {
+    ProgramCache cache(context().device(), loader, {.capacity = 32, .folder = disk});
+    REQUIRE(cache.get(variantOf(0), diagnostics));
+    each = fs::file_size(filesIn(disk).at(0));
+  }
+  const fs::path first = filesIn(disk).at(0);
+  const LimitScope limit(weft::base::Limit::program_cache_bytes, 8 * each + each / 2);
+  ProgramCache cache(context().device(), loader, {.capacity = 1, .folder = disk});
+  for (int n = 1; n <= 40; ++n) {
+    REQUIRE(cache.get(variantOf(n), diagnostics));
+    REQUIRE(cache.get(variantOf(0), diagnostics));  // from disk, as memory holds one
+    // Files of one moment have one time: those before are made older.
+    for (const fs::path& file : filesIn(disk))
+      fs::last_write_time(file, fs::last_write_time(file) - std::chrono::seconds(file == first ? 1 : 10));
+    CHECK(filesIn(disk).size() <= 9);
+  }
+  CHECK(fs::exists(first));
+  CHECK(cache.stats().binaryRemovals >= 30);
+  CHECK(cache.stats().binaryLoads == 40);
 }

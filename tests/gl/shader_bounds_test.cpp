@@ -95,6 +95,15 @@ TEST_CASE("what kills or stalls a driver is told with its place instead of being
   refuses(inMain("switch (int(result.x)) {\n" + cases + "}"), "a switch has too many cases", 3);
 }
 
+TEST_CASE("the message is that of docs/errors.md") {
+  SourceLoader loader({"tests/bad_shaders"});
+  Diagnostics diagnostics;
+  const auto source = loader.load("w203_doubling.frag.glsl", diagnostics);
+  REQUIRE_MESSAGE(source, diagnostics.text());
+  CHECK_FALSE(checkShaderSize(measureShader(*source, {}), *source, diagnostics));
+  weft::gl::test::checkDocumented(diagnostics, Code::W203);
+}
+
 TEST_CASE("arrays are counted where they are declared, blocks aside") {
   refuses(inMain("float a[100000];\na[int(result.x)] = 1.0;"), "the array 'a' is too large", 3);
   refuses("const int kHigh = 300;\n#define WIDE (kHigh * 4)\n" + inMain("vec3 b = vec3(0.0), c[kHigh][WIDE + 1];"),
@@ -120,6 +129,17 @@ TEST_CASE("arrays are counted where they are declared, blocks aside") {
   CHECK(unknown.good);
   CHECK(unknown.size.uncertain);
   CHECK(isUnusual(unknown.size));
+}
+
+TEST_CASE("many small arrays or switches are unusual, and allowed") {
+  const Measured arrays = measure(inMain(times("{ float a[100]; a[int(result.x)] = 1.0; }\n", 11)));
+  CHECK_MESSAGE(arrays.good, arrays.diagnostics.text());
+  CHECK(arrays.size.allElements == 1100);
+  CHECK(isUnusual(arrays.size));
+  CHECK_FALSE(isUnusual(measure(inMain(times("{ float a[100]; a[int(result.x)] = 1.0; }\n", 9))).size));
+  const std::string few = "switch (int(result.x)) {" + times("case 1: break;", 41) + "}\n";
+  CHECK(isUnusual(measure(inMain(times(few, 10))).size));
+  CHECK_FALSE(isUnusual(measure(inMain(times(few, 9))).size));
 }
 
 TEST_CASE("what is not compiled is not counted, and what only the driver knows is") {

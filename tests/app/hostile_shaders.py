@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Shaders that kill a driver, take all memory or keep it busy for minutes: each is told with its place, by `weft check` and
+within a guard of processor time and memory; the viewer over whose shader one is saved keeps its last good picture and goes on,
+and leaves no process behind. hostile_shaders.py WEFT COMPARE. Nothing is timed but by the guard."""
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+
+from program import DIAGNOSTIC, Report, run, temporary_folder
+from window import Session, copy_of_tree, inside_display, save
+
+SECONDS, BYTES = 60, 1 << 30  # of processor time and of memory, of a command and what it starts
+UNBOUND = ("--limit", "shader_tokens=1G", "--limit", "shader_depth=1000000", "--limit", "shader_cases=1000000",
+           "--limit", "shader_array=1000000", "--limit", "shader_bytes=100M")
+
+
+def main_of(body, before=""):
+    return f"in vec2 uv;\nout vec4 result;\n{before}void main() {{\n  float a = uv.x;\n  {body}\n}}\n"
+
+
+def chain(line, count):
+    return "".join(line.replace("$", str(i)).replace("%", str(i - 1)) + "\n" for i in range(1, count + 1))
+
+
+SUM = main_of("result = vec4(" + "a + " * 100000 + "a);")
+CASES = "\n".join(f"case {i}: result = vec4({i}.0); break;" for i in range(20000))
+DOUBLE = "float f0(float x) { return x * uv.y; }\n" + chain("float f$(float x) { return f%(x) + f%(x + 1.0); }", 24)
+CALLS = "float f0(float x) { return x * uv.y; }\n" + chain("float f$(float x) { return f%(x) + 1.0; }", 1000)
+SINES = main_of("\n".join(f"a = sin(a) * uv.y + {i}.5;" for i in range(1200)) + "result = vec4(a);")
+# name, shader, code, place behind the file's name, options
+HOSTILE = [
+    ("a sum", SUM, "W203", ":6:3", ()),
+    ("brackets", main_of("result = vec4(" + "(" * 20000 + "a" + ")" * 20000 + ");"), "W203", ":6:3", ()),
+    ("a macro that doubles", main_of("result = vec4(M24);", "#define M0 a\n" + chain("#define M$ M% + M%", 24)), "W203", r":31:17", ()),
+    ("a macro that doubles nothing", main_of("M24()", "#define M0(x) x\n" + chain("#define M$(x) M%(x)M%(x)", 24)), "W203", r":31:3", ()),
+    ("functions that double", main_of("result = vec4(f24(a));", DOUBLE), "W203", r":28:10", ()),
+    ("a chain of calls", main_of("result = vec4(f1000(a));", CALLS), "W203", r":1004:10", ()),
+    ("a switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES[:CASES.index("case 5000:")] + "}"), "W203", ":6:28", ()),
+    ("a larger switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES + "}"), "W203", r"(:6:28|:\d+:\d+)", ()),
+    ("an array", main_of("float b[100000];\n  b[int(uv.x * 1e5)] = a;\n  result = vec4(b[int(uv.y * 1e5)]);"), "W203", ":6:9", ()),
+    ("two megabytes", main_of("result = vec4(a);", "// nothing\n" * 200000), "W203", "", ()),
+    ("a circle", main_of("result = vec4(f(a));", "float g(float x);\nfloat f(float x) { return g(x); }\nfloat g(float x) { return f(x); }\n"),
+     "W104", ":4:8", ()),
+    ("a zero byte", main_of("result = vec4(a);\0"), "W104", ":6:20", ()),
+    # What bounds do not catch, the process that tries it does.
+    ("a sum without bounds", SUM, "W204", "", UNBOUND),
+    ("much memory", main_of("result = vec4(f1000(a));", CALLS), "W204", "", (*UNBOUND, "--limit", "shader_memory=200M")),
+    ("long work", SINES, "W204", "", ("--limit", "shader_seconds=1")),
+]
+
+
+def graph(shader, **keys):
+    return json.dumps({"resources": {"ldr": {"texture": "rgba8", "size": "screen"}},
+                       "passes": [{"name": "paint", "type": "fullscreen", "shader": shader, "write": {"result": "ldr"}, **keys}],
+                       "present": "ldr"})
+
+
+def guarded(report, name, weft, *arguments, folder):
+    """Runs and holds what it used against the guard."""
+    with open(folder / "err.txt", "w") as err:
+        process = subprocess.Popen([weft, *arguments], cwd=folder, stdout=subprocess.DEVNULL, stderr=err)
+        watch = time.monotonic() + 500
+        pid = 0
+        while pid == 0 and time.monotonic() < watch:
+            pid, status, used = os.wait4(process.pid, os.WNOHANG)
+            time.sleep(0.02)
+        if pid == 0:
+            process.kill()
+            pid, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    said = (folder / "err.txt").read_text(errors="replace")
+    spent = used.ru_utime + used.ru_stime
+    report.check(spent < SECONDS, f"{name}: {spent:.1f} s of processor time")
+    report.check(used.ru_maxrss * 1024 < BYTES, f"{name}: {used.ru_maxrss >> 10} MiB")
+    print(f"{name:32} exit code {process.returncode}, {spent:5.1f} s, {used.ru_maxrss >> 10} MiB")
+    sys.stdout.flush()
+    return process.returncode, said
+
+
+def commands(weft, folder, report):
+    for name, shader, code, place, options in HOSTILE:
+        (folder / "shaders").mkdir(exist_ok=True)
+        (folder / "shaders/bomb.frag.glsl").write_text(shader)
+        (folder / "g.json").write_text(graph("bomb.frag.glsl"))
+        exit_code, said = guarded(report, name, weft, "check", "g.json", "--program-cache", "none", *options, folder=folder)
+        errors = [m.groupdict() for m in map(DIAGNOSTIC.match, said.splitlines()) if m and m["severity"] == "error"]
+        at = [d["code"] + (d["place"] or "") + "".join(":" + d[k] for k in ("line", "column") if d[k]) for d in errors]
+        report.check(exit_code == 1, f"{name}: exit code {exit_code}\n{said}")
+        report.check(any(re.fullmatch(code + r"shaders/bomb\.frag\.glsl" + place, a) for a in at), f"{name}: {at}\n{said}")
+    # An unusual shader that is good is tried, and compiles; the bundled ones are never tried.
+    (folder / "shaders/many.frag.glsl").write_text(main_of("switch (int(a * 100.0)) {\n" + CASES[:CASES.index("case 80:")] + "}"))
+    (folder / "g.json").write_text(graph("many.frag.glsl"))
+    for graph_file, trials in (("g.json", 1), (str(pathlib.Path(__file__).parents[2] / "graphs/studio.json"), 0)):
+        good = run(weft, "render", graph_file, "--size", "64x36", "-o", "out.png", "--stats", "--program-cache", "none", folder=folder)
+        report.check(good.code == 0 and f'"trials": {trials},' in good.err, f"{graph_file}: {good.code}\n{good.err}")
+    # More work groups than the device takes: in both commands, where the threads stand.
+    (folder / "shaders/count.comp.glsl").write_text("layout(local_size_x = 1, local_size_y = 2) in;\nlayout(std430) buffer data { uint n[]; };\nvoid main() { n[0] = 1u; }\n")
+    (folder / "g.json").write_text("""{ "resources": { "b": { "buffer": 64 }, "ldr": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "count", "type": "compute", "shader": "count.comp.glsl", "write": { "data": "b" },
+      "threads": [8, 400000] },
+    { "name": "paint", "type": "fullscreen", "shader": "show.frag.glsl", "read": { "data": "b" }, "write": { "result": "ldr" } }
+  ], "present": "ldr" }""")
+    (folder / "shaders/show.frag.glsl").write_text("layout(std430) readonly buffer data { uint n[]; };\nout vec4 result;\nvoid main() { result = vec4(float(n[0])); }\n")
+    for command in (["check", "g.json"], ["render", "g.json", "--size", "8x8", "-o", "out.png"]):
+        result = run(weft, *command, folder=folder)
+        found = [(d["code"], d["place"], d["line"]) for d in result.diagnostics]
+        report.check(result.code == 1 and found == [("W206", "g.json", "4")], f"{command[0]}: {result.code}\n{result.err}")
+
+
+def children(pid):
+    found = []
+    for task in pathlib.Path(f"/proc/{pid}/task").glob("*/children"):
+        try:
+            found += map(int, task.read_text().split())
+        except OSError:
+            pass
+    return found
+
+
+def viewer(weft, folder, report):
+    composite = folder / "shaders/composite/composite.frag.glsl"
+    good = composite.read_text()
+    bomb = good.replace("void main() {", "void main() {\n  float zero = 0.0;\n  result = vec4(" + "zero + " * 100000 + "zero);", 1)
+    greener = good[:good.rindex("}")] + "  result.rgb *= vec3(0.2, 1.0, 0.2);\n}\n"
+
+    def session(code, *options):
+        live = Session(weft, folder, *options, graph="graphs/glow.json")
+        try:
+            if not report.check(live.open(), f"no window\n{live.said()}"):
+                return
+            first = live.settled()
+            if not report.check(first, f"no picture\n{live.said()}"):
+                return
+            save(composite, bomb)
+            report.check(live.until(lambda: f"error[{code}]" in live.said()), f"{code} is not told\n{live.said()}")
+            same = live.shot()
+            report.check(live.alive() and same and same.read_bytes() == first.read_bytes(), f"{code}: the picture is another one")
+            report.check(not children(live.process.pid), f"{code}: a process is left")
+            save(composite, greener)
+            report.check(live.until(lambda: (s := live.shot()) and s.read_bytes() != first.read_bytes()), f"{code}: the fix is not taken up")
+            live.leave(report)
+        finally:
+            live.stop()
+            save(composite, good)
+
+    session("W203")
+    session("W204", *UNBOUND)
+    # Whoever ends the viewer ends the process with it.
+    live = Session(weft, folder, *UNBOUND, "--limit", "shader_seconds=100", graph="graphs/glow.json")
+    try:
+        if not report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
+            return
+        lines = "".join(f"  shade = sin(shade) * {i}.5;\n" for i in range(4000))
+        save(composite, good.replace("void main() {", "void main() {\n  float shade = gl_FragCoord.x;\n" + lines, 1)
+             .replace("\n}", "\n  result.r += shade;\n}"))
+        begun = live.until(lambda: children(live.process.pid))
+        if report.check(begun, f"nothing is tried\n{live.said()}"):
+            live.process.send_signal(signal.SIGKILL)
+            live.process.wait()
+            end = time.monotonic() + 120
+            while time.monotonic() < end and any(pathlib.Path(f"/proc/{p}").exists() and "\nState:\tZ" not in pathlib.Path(f"/proc/{p}/status").read_text() for p in begun):
+                time.sleep(0.05)
+            report.check(time.monotonic() < end, "the process goes on without the viewer")
+    finally:
+        live.stop()
+
+
+def main():
+    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
+    if "--inside" not in sys.argv:
+        with temporary_folder() as name:
+            commands(weft, pathlib.Path(name), report)
+        if report.problems:
+            report.end()
+    inside_display(report, weft, compare, __file__)
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        copy_of_tree(folder)
+        viewer(weft, folder, report)
+    report.end()
+
+
+main()
