@@ -178,6 +178,7 @@ struct OutputDesc {
 struct SetDesc {
   std::string name;            // any unique suffix
   Place place;
+  Place valuePlace;
   JsonPointer pointer;
   Value value;
 };

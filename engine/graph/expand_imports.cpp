@@ -5,6 +5,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand_resources.h"
+#include "engine/graph/expand_settings.h"
 
 namespace weft::graph::expansion {
 
@@ -115,10 +116,10 @@ bool evaluateImport(Model& model, Entity& entity) {
   if (!good) return false;
   const ImportFacts facts = model.registry.factsOf ? model.registry.factsOf(request) : ImportFacts{};
   for (const base::Diagnostic& problem : facts.problems) {
-    base::Diagnostic& d = model.diagnostics.add(problem);
+    base::Diagnostic& d = model.diagnostics.add(placedAtArgument(model, *entity.scope, given, problem));
     d.resource = entity.name;
     // Of a file that may not be read, what matters is who names it.
-    if (d.code == Code::W200 && entity.desc) d.place = entity.desc->place;
+    if (d.code == Code::W200 && d.place.line == 0 && entity.desc) d.place = entity.desc->place;
     good = good && problem.severity != base::Severity::error;
   }
   if (!good) return false;

@@ -41,6 +41,7 @@ struct Parameter {
   std::string path;  // "post.exposure", "post.composite.vignette"
   Value value;
   bool structural = false;
+  Place valuePlace{};  // where `value` was written: a default, a "set", the command line
 };
 
 struct Let {

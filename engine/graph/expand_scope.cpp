@@ -18,7 +18,7 @@ const std::vector<std::string> kSelectors{"mip", "layer", "face", "stencil"};
 std::uint32_t addParameter(Model& model, const ParameterDesc& desc, std::string path) {
   const auto index = static_cast<std::uint32_t>(model.parameters.size());
   model.parametersByLeaf[desc.name].push_back(index);
-  model.parameters.push_back({&desc, std::move(path), desc.initial, false});
+  model.parameters.push_back({&desc, std::move(path), desc.initial, false, desc.initialPlace});
   return index;
 }
 

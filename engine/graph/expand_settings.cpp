@@ -58,6 +58,16 @@ std::optional<double> parseNumber(std::string_view text) {
   return x;
 }
 
+// What is wrong with a word that is spelled as a number and is none ("nan", "inf", "1e999"); null for any
+// other.
+const char* whyNoNumber(std::string_view text) {
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (text.empty() || end != text.data() + text.size()) return nullptr;
+  if (error == std::errc::result_out_of_range) return "beyond what a number can hold";
+  return error == std::errc{} && !std::isfinite(x) ? "not a finite number" : nullptr;
+}
+
 // A JSON scalar or list of numbers, else a word.
 Value parseValue(std::string_view text, Type type) {
   if (type == Type::file) return Value::text(std::string(text));
@@ -164,6 +174,7 @@ struct Origin {
   std::string_view prefix = "";
   Place place = {};
   JsonPointer pointer = {};
+  Place valuePlace = {};  // `place` when it has no file
 };
 
 // `valueFor(type)` makes the value.
@@ -197,7 +208,9 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
   if (reportUnlessOne(model, names, found, wanted, "parameters", origin.place)) return;
   Parameter& parameter = model.parameters[parameters[found[0]]];
   Value value = valueFor(parameter.desc->type);
-  if (checkParameterValue(model, parameter, value, origin.place)) parameter.value = std::move(value);
+  if (!checkParameterValue(model, parameter, value, origin.place)) return;
+  parameter.value = std::move(value);
+  parameter.valuePlace = origin.valuePlace.file ? origin.valuePlace : origin.place;
 }
 
 // What files say first, the innermost first, so that an including file has the last word; then the command
@@ -205,10 +218,12 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
 void applySets(Model& model) {
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
     for (const SetDesc& set : scope->desc->sets)
-      if (!isOver(model)) applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer}, [&](Type type) {
-        const bool path = type == Type::file && set.value.type == Value::Type::symbol;
-        return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
-      });
+      if (!isOver(model))
+        applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer, set.valuePlace},
+               [&](Type type) {
+                 const bool path = type == Type::file && set.value.type == Value::Type::symbol;
+                 return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
+               });
   for (const auto& [name, text] : model.settings.sets)
     applySet(model, name, {model.scopes.front(), "", placeOfSetting(sourceOfSet(name, text))},
              [&](Type type) { return parseValue(text, type); });
@@ -284,8 +299,12 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
                     : desc.type == Type::file ? word
                                               : value.type == Value::Type::list && value.count == components;
   if (!fits) {
-    auto* d = refuse(Code::W47, desc.type == Type::choice ? "none of its choices" : "of the wrong type");
-    if (const std::string meant = meantBy(desc, value); !meant.empty())
+    const bool wantsNumber = desc.type == Type::number || desc.type == Type::integer;
+    const char* const why = word && wantsNumber ? whyNoNumber(value.symbol) : nullptr;
+    auto* d = refuse(Code::W47, why                         ? why
+                                : desc.type == Type::choice ? "none of its choices"
+                                                            : "of the wrong type");
+    if (const std::string meant = why ? "" : meantBy(desc, value); !meant.empty())
       d->hint = fmt::format("did you mean '{}'?", meant);
     return false;
   }
@@ -297,6 +316,25 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
       return false;
     }
   return true;
+}
+
+base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<NamedExpr>& arguments,
+                                  base::Diagnostic problem) {
+  if (!problem.place.file || problem.place.line != 0) return problem;
+  const std::string file = *problem.place.file;
+  for (const NamedExpr& argument : arguments) {
+    Names names(model, scope);
+    base::Diagnostics said;  // by whoever evaluated it for the import
+    if (argument.expr.evaluate(names, said).symbol != file) continue;
+    problem.place = argument.expr.place();
+    for (const std::string& name : argument.expr.variables()) {
+      const Variable variable = findVariable(model, scope, name);
+      if (variable.kind != Variable::Kind::parameter) continue;
+      const Parameter& parameter = model.parameters[variable.index];
+      if (parameter.value.symbol == file && parameter.valuePlace.file) problem.place = parameter.valuePlace;
+    }
+  }
+  return problem;
 }
 
 void applySettings(Model& model) {

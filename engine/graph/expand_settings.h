@@ -13,4 +13,10 @@ void applySettings(Model& model);
 // Whether `value` fits a parameter: its type, its choices, its range. Reports at `place`.
 bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place);
 
+// A problem with a whole file that one of the `arguments` of an import names, told where somebody wrote the
+// name: the "set" of a preset, the command line, the default of a parameter, or the argument itself. Any
+// other as it is.
+base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<NamedExpr>& arguments,
+                                  base::Diagnostic problem);
+
 }  // namespace weft::graph::expansion

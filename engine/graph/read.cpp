@@ -137,7 +137,7 @@ class GraphReader {
     if (const JsonValue* set = source.root.find("set")) context.expect(*set, Type::object, "\"set\"");
     for (const JsonMember& member : source.sets)
       if (std::optional<Value> value = readValue(context, member))
-        graph.sets.push_back({member.key, member.place, member.value.pointer, *std::move(value)});
+        graph.sets.push_back({member.key, member.place, member.value.place, member.value.pointer, *std::move(value)});
   }
 
   void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {
