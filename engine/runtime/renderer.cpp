@@ -151,29 +151,38 @@ std::optional<assets::ImageF> Renderer::readPresentedFloat() {
   return image;
 }
 
+assets::Image8 toBytes(const assets::ImageF& picture) {
+  assets::Image8 image{picture.width, picture.height, 4, {}};
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  image.texels.resize(picture.texels.size() / channels * 4);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    const std::size_t c = i % 4, pixel = i / 4 * channels;
+    const float value = c < channels ? picture.texels[pixel + c] : c == 3 ? 1.0f : picture.texels[pixel];
+    image.texels[i] = static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * 255.0f));
+  }
+  return image;
+}
+
+bool Renderer::presentsBytes() {
+  return execution_ && execution_->presented().id != 0 && execution_->presented().desc.format == GL_RGBA8;
+}
+
 std::optional<assets::Image8> Renderer::readPresented8() {
-  const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
-  if (texture.id == 0) return std::nullopt;
+  if (!presentsBytes()) {
+    const auto picture = readPresentedFloat();
+    return picture ? std::optional(toBytes(*picture)) : std::nullopt;
+  }
+  const gl::TextureRef texture = execution_->presented();
   const gl::Extent extent = gl::extentOf(texture.desc, 0);
   assets::Image8 image{static_cast<int>(extent.width), static_cast<int>(extent.height), 4, {}};
   const std::size_t row = std::size_t{extent.width} * 4;
   image.texels.resize(row * extent.height);
-  std::vector<std::uint8_t> bytes(image.texels.size());
-  if (texture.desc.format == GL_RGBA8) {
-    const std::vector<std::byte> exact = gl::readTexture(texture, 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
-    std::transform(exact.begin(), exact.end(), bytes.begin(), [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
-  } else {
-    const std::vector<float> texels = gl::readFloats(texture);
-    const std::size_t channels = gl::floatChannelsOf(texture.desc.format);
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-      const std::size_t c = i % 4;
-      const float value = c < channels ? texels[i / 4 * channels + c] : c == 3 ? 1.0f : texels[i / 4 * channels];
-      bytes[i] = static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * 255.0f));
-    }
-  }
+  const std::vector<std::byte> exact = gl::readTexture(texture, 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
   for (std::size_t y = 0; y < extent.height; ++y)
-    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row), row,
-                image.texels.begin() + static_cast<std::ptrdiff_t>(y * row));
+    std::transform(exact.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row),
+                   exact.begin() + static_cast<std::ptrdiff_t>((extent.height - y) * row),
+                   image.texels.begin() + static_cast<std::ptrdiff_t>(y * row),
+                   [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
   return image;
 }
 

@@ -18,6 +18,9 @@ namespace weft::runtime {
 // Where a graph's shaders are looked for: beside it, beside its folder, then the bundled ones.
 std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder);
 
+// 8 bits of a picture, as readPresented8() gives them: clamped to 0 and 1, NaN becomes 0, alpha that is not there 1.
+assets::Image8 toBytes(const assets::ImageF& picture);
+
 class Renderer {
  public:
   struct Options {
@@ -50,6 +53,8 @@ class Renderer {
 
   // The presented picture with its top row first. Empty when the graph presents nothing.
   std::optional<assets::Image8> readPresented8();
+  // It is stored in 8 bits, which hold neither NaN nor infinity.
+  bool presentsBytes();
   std::optional<assets::ImageF> readPresentedFloat();
   // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree; leaves it bound and
   // releaseBindings() of gl_state.h done.
