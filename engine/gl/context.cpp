@@ -154,7 +154,7 @@ std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diag
       fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)));
   error.found = fmt::format("{}", fmt::join(failures, "; "));
   error.hint = options.backend == Backend::glfw
-                   ? "start it in a graphical session or under xvfb-run, or use the backend 'osmesa'"
+                   ? "start it in a graphical session or under `xvfb-run -a`; `weft render` needs no display"
                    : "install libosmesa6 for the software backend, or the GPU's EGL driver";
   return nullptr;
 }
