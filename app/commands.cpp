@@ -5,12 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cstdio>
 
 #include "app/bench/frame_bench.h"
 #include "app/bench/workload_bench.h"
 #include "app/device_session.h"
 #include "app/session.h"
+#include "app/standard_streams.h"
 #include "engine/base/printable.h"
 #include "engine/graph/dump_dot.h"
 #include "engine/graph/dump_json.h"
@@ -80,23 +80,22 @@ int runCheck(const Options& options) {
   }
   const int code = report(diagnostics);
   if (code == 0)
-    fmt::print("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n", base::printable(options.graph),
-               plan->graph->passes.size(), plan->steps.size(), plan->storages.size(), plan->bytesAllocated,
-               plan->bytesDeclared);
+    print(fmt::format("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n", base::printable(options.graph),
+                      plan->graph->passes.size(), plan->steps.size(), plan->storages.size(), plan->bytesAllocated,
+                      plan->bytesDeclared));
   return code;
 }
 
 int runDot(const Options& options) {
   base::Diagnostics diagnostics;
-  if (const auto plan = planFor(options, diagnostics)) fmt::print("{}", graph::dumpDot(*plan));
+  if (const auto plan = planFor(options, diagnostics)) print(graph::dumpDot(*plan));
   return report(diagnostics);
 }
 
 int runPlan(const Options& options) {
   base::Diagnostics diagnostics;
   if (const auto plan = planFor(options, diagnostics))
-    fmt::print("{}", options.format == "json" ? graph::dumpJson(*plan, options.explain)
-                                              : graph::dumpText(*plan, options.explain));
+    print(options.format == "json" ? graph::dumpJson(*plan, options.explain) : graph::dumpText(*plan, options.explain));
   return report(diagnostics);
 }
 
@@ -106,36 +105,36 @@ int runBench(const Options& options) {
     Options frame = options;
     frame.graph = options.frameGraph;
     const auto text = benchFrame(frame, diagnostics);
-    if (text) fmt::print("{}\n", *text);
+    if (text) print(*text + "\n");
     return report(diagnostics);
   }
   WorkloadBenchOptions wanted;
   wanted.files = options.workloads;
   const auto text = options.workloads.size() == 1 ? benchWorkload(options.workloads[0], diagnostics)
                                                   : benchWorkloads(wanted, diagnostics);
-  if (text) fmt::print("{}\n", *text);
+  if (text) print(*text + "\n");
   return report(diagnostics);
 }
 
 int runSchema(const Options&) {
-  fmt::print("{}", graph::graphSchema());
+  print(graph::graphSchema());
   return 0;
 }
 
 // What a graph may name, from the registry itself.
 int runTypes(const Options&) {
   const graph::Registry registry = runtime::makeRegistry(passes::PassRegistry::builtin(), {});
-  fmt::print("pass types\n");
+  print("pass types\n");
   for (const graph::PassType& type : registry.passTypes) {
-    fmt::print("  {}\n    {}\n", type.name, type.doc);
-    if (!type.keys.empty()) fmt::print("    keys: {}\n", fmt::join(type.keys, ", "));
-    for (const graph::FixedSlot& slot : type.fixedSlots) fmt::print("    slot {}: {}\n", slot.name, slot.doc);
+    print(fmt::format("  {}\n    {}\n", type.name, type.doc));
+    if (!type.keys.empty()) print(fmt::format("    keys: {}\n", fmt::join(type.keys, ", ")));
+    for (const graph::FixedSlot& slot : type.fixedSlots) print(fmt::format("    slot {}: {}\n", slot.name, slot.doc));
   }
-  fmt::print("\nimports\n");
+  print("\nimports\n");
   for (const graph::ImportType& type : registry.imports) {
-    fmt::print("  @{}\n    {}\n", type.name, type.doc);
+    print(fmt::format("  @{}\n    {}\n", type.name, type.doc));
     for (const graph::ImportArgument& argument : type.arguments)
-      fmt::print("    {} (default {}): {}\n", argument.name, graph::toText(argument.initial), argument.doc);
+      print(fmt::format("    {} (default {}): {}\n", argument.name, graph::toText(argument.initial), argument.doc));
   }
   return 0;
 }

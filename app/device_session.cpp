@@ -1,14 +1,11 @@
 #include "app/device_session.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "app/session.h"
+#include "app/standard_streams.h"
 #include "engine/base/file_access.h"
-#include "engine/base/printable.h"
 #include "engine/gl/objects.h"
 
 namespace weft::app {
@@ -89,11 +86,7 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
   return out;
 }
 
-void print(const nlohmann::ordered_json& stats) { 
-  // A name may be no UTF-8: a path, a driver's text.
-  using Json = nlohmann::ordered_json;
-  fmt::print(stderr, "{}\n", base::printableJson(stats.dump(2, ' ', false, Json::error_handler_t::replace)));
- }
+void printStats(const nlohmann::ordered_json& stats) { printError(dumpJson(stats) + "\n"); }
 
 std::string closeDevice(std::unique_ptr<DeviceSession> session) {
   const std::unique_ptr<gl::Context> context = std::move(session->context);

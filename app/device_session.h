@@ -21,7 +21,7 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
 
 // --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
-void print(const nlohmann::ordered_json& stats);  // on standard error
+void printStats(const nlohmann::ordered_json& stats);  // on standard error
 
 // Destroys the renderer, then asks the driver which objects still exist: "none", unless one was forgotten.
 // The context goes last. What the overlay made must be gone by then.

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/session.h"
+#include "app/standard_streams.h"
 #include "engine/base/text_file.h"
 #include "engine/base/json_dom.h"
 #include "engine/base/printable.h"
@@ -89,12 +90,8 @@ void printTable(const std::vector<std::vector<std::string>>& rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", base::printable(row[i]), widths[i]);
     line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
+    print(line + "\n");
   }
-}
-
-std::string dumped(const Json& json) {
-  return base::printableJson(json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 struct Preset {
@@ -103,15 +100,16 @@ struct Preset {
 
 std::vector<Preset> bundledPresets(base::Diagnostics& diagnostics) {
   std::vector<Preset> presets;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(presetsFolder(), ignored)) {
-    if (entry.path().extension() != ".json") continue;
-    const std::string path = entry.path().string();
+  std::error_code ec;
+  for (auto entry = std::filesystem::directory_iterator(presetsFolder(), ec);
+       !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec)) {
+    if (entry->path().extension() != ".json") continue;
+    const std::string path = entry->path().string();
     const auto text = base::readTextFile(path, diagnostics);
     const auto root =
         text ? base::parseJson(*text, std::make_shared<const std::string>(path), diagnostics) : std::nullopt;
     if (!root) continue;
-    Preset preset{.name = entry.path().stem().string(), .title = {}, .description = {}};
+    Preset preset{.name = entry->path().stem().string(), .title = {}, .description = {}};
     if (const auto* title = root->find("name")) preset.title = title->text;
     if (const auto* description = root->find("description")) preset.description = description->text;
     presets.push_back(std::move(preset));
@@ -129,7 +127,7 @@ int runParams(const Options& options) {
   if (plan && options.format == "json") {
     Json all = Json::array();
     for (const graph::ParameterSpec& parameter : plan->graph->parameters) all.push_back(toJson(parameter));
-    fmt::print("{}\n", dumped(all));
+    print(dumpJson(all) + "\n");
   } else if (plan) {
     std::vector<std::vector<std::string>> rows{{"NAME", "TYPE", "VALUE", "RANGE", "LABEL"}};
     for (const graph::ParameterSpec& parameter : plan->graph->parameters)
@@ -147,7 +145,7 @@ int runPresets(const Options& options) {
     Json all = Json::array();
     for (const Preset& preset : presets)
       all.push_back({{"name", preset.name}, {"title", preset.title}, {"description", preset.description}});
-    fmt::print("{}\n", dumped(all));
+    print(dumpJson(all) + "\n");
   } else {
     std::vector<std::vector<std::string>> rows;
     for (const Preset& preset : presets) rows.push_back({preset.name, preset.description});

@@ -16,10 +16,11 @@ constexpr float kLoadingShare = 0.8f;  // of the bar; the rest is sending
 
 std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   std::vector<std::string> files;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (assets::isEnvironmentName(entry.path().string()) && entry.is_regular_file(ignored))
-      files.push_back(entry.path().string());
+  std::error_code ec, ignored;
+  for (auto entry = std::filesystem::directory_iterator(folder, ec);
+       !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec))
+    if (assets::isEnvironmentName(entry->path().string()) && entry->is_regular_file(ignored))
+      files.push_back(entry->path().string());
   std::ranges::sort(files);
   return files;
 }

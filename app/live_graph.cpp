@@ -44,9 +44,9 @@ bool isAt(const base::Diagnostic& diagnostic, const std::string& source) {
   return diagnostic.place.file && *diagnostic.place.file == *graph::placeOfSetting(source).file;
 }
 
-// Whether it says that the graph does not take it.
+// Whether it says that the graph does not take it. (A file it names that is missing may come back.)
 bool isAbout(const base::Diagnostic& diagnostic, const std::string& source) {
-  return diagnostic.severity == base::Severity::error && isAt(diagnostic, source);
+  return diagnostic.severity == base::Severity::error && diagnostic.code != base::Code::W1 && isAt(diagnostic, source);
 }
 
 }  // namespace
@@ -166,15 +166,20 @@ bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) 
   return true;
 }
 
-// What there is to say of how files are watched goes to `diagnostics`, or waits for the next call that has one.
-void LiveGraph::watch(base::Diagnostics* diagnostics) {
+std::vector<std::string> LiveGraph::files() const {
   std::vector<std::string> files = renderer_.files();
   files.insert(files.end(), sceneFiles_.begin(), sceneFiles_.end());
   files.insert(files.end(), world_.scene().files.begin(), world_.scene().files.end());
   for (const std::string& file : {environment_.shown(), environment_.wanted()})
     if (!file.empty()) files.push_back(file);
-  std::erase_if(files, [](const std::string& file) { return !base::mayRead(file); });
-  watcher_.watch(files);
+  return files;
+}
+
+// What there is to say of how files are watched goes to `diagnostics`, or waits for the next call that has one.
+void LiveGraph::watch(base::Diagnostics* diagnostics) {
+  std::vector<std::string> watched = files();
+  std::erase_if(watched, [](const std::string& file) { return !base::mayRead(file); });
+  watcher_.watch(watched);
   if (diagnostics) diagnostics->append(watcher_.takeNotices());
 }
 

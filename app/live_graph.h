@@ -62,6 +62,9 @@ class LiveGraph {
   // `files` are those that were written. False after errors: nothing was.
   bool writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics);
 
+  // Everything that was read, or missed.
+  std::vector<std::string> files() const;
+
   const runtime::World& world() const { return world_; }
   const graph::Settings& settings() const { return settings_; }
   const LiveEnvironment& environment() const { return environment_; }

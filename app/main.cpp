@@ -4,20 +4,22 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "app/standard_streams.h"
 #include "engine/gl/shader_trial.h"
 
 int main(int argc, char** argv) {
   using namespace weft::app;
   if (argc > 1 && std::string_view(argv[1]) == weft::gl::kTrialWord) weft::gl::runTrial(argc - 1, argv + 1);
+  prepareStreams();
   int exitCode = 0;
   const auto options = parseOptions(argc, argv, exitCode);
-  if (!options) return exitCode;
+  if (!options) return finishStreams(exitCode);
 
   static constexpr std::pair<const char*, int (*)(const Options&)> kCommands[] = {
       {"render", runRender}, {"view", runView},       {"check", runCheck}, {"params", runParams}, {"presets", runPresets},
       {"dot", runDot},       {"plan", runPlan},       {"bench", runBench}, {"schema", runSchema}, {"types", runTypes},
   };
   for (const auto& [name, run] : kCommands)
-    if (options->command == name) return run(*options);
+    if (options->command == name) return finishStreams(run(*options));
   return 2;
 }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <sstream>
 
 #include "app/session.h"
+#include "app/standard_streams.h"
 #include "engine/base/file_access.h"
 #include "engine/base/limits.h"
 #include "engine/base/nearest.h"
@@ -32,11 +34,27 @@ std::string checkSize(const std::string& text) {
   return good ? "" : "expected WIDTHxHEIGHT, each from 1 to 16384, found '" + text + "'";
 }
 
+// A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
+CLI::Validator numberFrom(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    const bool good = error == std::errc{} && end == text.data() + text.size() && x >= low && x <= high;
+    return good ? "" : fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
+  };
+  return {check, fmt::format("{} to {}", low, high)};
+}
+
 std::string checkFrames(const std::string& text) {
   std::uint32_t first = 0, last = 0;
   const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
                                                         : parsePair(text, ':', first, last) && first <= last;
   return good ? "" : "expected FRAME or FIRST:LAST with FIRST <= LAST, found '" + text + "'";
+}
+
+std::string checkCount(const std::string& text) {
+  std::uint32_t count = 0;
+  return parseNumber(text, count) ? "" : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
 }
 
 // Sets the limit, for this process.
@@ -81,11 +99,20 @@ bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
     const std::string argument = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
     if (!argument.starts_with("--") || std::ranges::find(names, argument) != names.end()) continue;
     const std::string near = base::nearestName(argument, names);
-    fmt::print(stderr, "weft {}: unknown option '{}'; {}\n", command.get_name(), argument,
-               near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near));
+    printError(fmt::format("weft {}: unknown option '{}'; {}\n", command.get_name(), argument,
+                           near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near)));
     told = true;
   }
   return told;
+}
+
+// Help, the version, or what is wrong. 0 when it was asked for.
+int tell(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  print(out.str());
+  printError(err.str());
+  return code;
 }
 
 struct Raw {
@@ -133,27 +160,29 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   render->add_option("-o,--output", options.output, "image to write, .png or .exr; for several frames a pattern: f_%04d.png")
       ->required();
   render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")->check(CLI::Validator(checkFrames, "A:B"));
-  render->add_option("--fps", options.fps, "frames per second of the clock")->check(CLI::Range(1.0, 1000.0));
+  render->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
   render->add_flag(kWaitForAssets, options.waitForAssets, "the first frame waits for everything it needs; always so without a window");
   render->add_flag("--quiet", options.quiet, "no progress bar and no notes");
 
-  CLI::App* view = app.add_subcommand("view", "open a window and run a graph in it");
+  CLI::App* view = app.add_subcommand("view", "open a window and run a graph in it (without a display: xvfb-run -a)");
   addGraphOptions(*view, options, raw);
   addDeviceOptions(*view, options);
-  view->add_option("--max-frames", options.maxFrames, "close after this many frames (0: when the window is closed)");
+  view->add_option("--max-frames", options.maxFrames, "close after this many frames (0: when the window is closed)")
+      ->check(CLI::Validator(checkCount, "FRAMES"));
   view->add_flag(kWaitForAssets, options.waitForAssets, "open the window when the environment is there, not before");
   view->add_option("--panels", options.panels, "show (or hide) at the start: parameters, passes, inspector, profiler, storage, histogram")
       ->delimiter(',')
       ->check(CLI::IsMember({"parameters", "passes", "inspector", "profiler", "storage", "histogram"}));
+  view->add_flag("--events", options.events, "say on standard output what happens, a line each, for scripts");
   view->add_flag("!--no-ui", options.ui, "no panels over the picture");
   view->add_option("--screenshot", options.screenshot, "picture to write of the last frame before closing, .png or .exr");
   view->add_option("--record", options.record, "write every frame from the first on, at a fixed step: f_%04d.png, or .exr");
-  view->add_option("--fps", options.fps, "frames per second of recordings")->check(CLI::Range(1.0, 1000.0));
+  view->add_option("--fps", options.fps, "frames per second of recordings")->check(numberFrom(1, 1000));
   view->add_flag("!--no-vsync", options.vsync, "do not wait for the screen's refresh");
   view->add_flag("--idle", options.idle, "draw only when something changed");
   view->add_option("--render-scale", options.renderScale, "pixels of the scene per pixel of the window, each way")
-      ->check(CLI::Range(0.1, 4.0));
-  view->add_option("--ui-scale", options.uiScale, "size of the panels (default: as the screen says)")->check(CLI::Range(0.25, 8.0));
+      ->check(numberFrom(0.1, 4));
+  view->add_option("--ui-scale", options.uiScale, "size of the panels (default: as the screen says)")->check(numberFrom(0.25, 8));
 
   CLI::App* check = app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");
   addGraphOptions(*check, options, raw);
@@ -197,7 +226,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   std::vector<std::string> commands;
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) commands.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {
-    fmt::print(stderr, "weft: unknown command '{}'; {}\n", argv[1], base::nearestHint(argv[1], commands));
+    printError(fmt::format("weft: unknown command '{}'; {}\n", argv[1], base::nearestHint(argv[1], commands)));
     exitCode = 2;
     return std::nullopt;
   }
@@ -205,11 +234,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError& error) {
     const auto chosen = app.get_subcommands();
-    if (chosen.empty() || !tellUnknownOption(*chosen.front(), argc, argv)) app.exit(error);
+    if (chosen.empty() || !tellUnknownOption(*chosen.front(), argc, argv)) tell(app, error);
     exitCode = 2;
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    exitCode = app.exit(error) == 0 ? 0 : 2;
+    exitCode = tell(app, error) == 0 ? 0 : 2;
     return std::nullopt;
   }
   options.command = app.get_subcommands().front()->get_name();

@@ -37,6 +37,7 @@ struct Options {
   bool ui = true;                            // view: panels over the picture
   bool vsync = true, idle = false;           // view
   double renderScale = 1, uiScale = 0;       // view: pixels of the scene per pixel of the window; 0: as the screen says
+  bool events = false;                       // view: says what happens, for scripts
   std::string record;                        // view: pattern of a recording from the first frame on; empty: none
 };
 

@@ -1,13 +1,13 @@
-// Pictures that commands write: names with frame numbers, and the presented texture into them. Does not:
-// decide which frames.
+// Files that commands write: names with frame numbers, their folders, and that none of them is a file that is
+// read. Does not: write them (app/picture_writer.h does), or decide which frames.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/base/diagnostic.h"
-#include "engine/runtime/renderer.h"
 
 namespace weft::app {
 
@@ -15,11 +15,26 @@ namespace weft::app {
 // such pattern.
 std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_t frame);
 
-// Whether frames can be written under `pattern`, from number `first` on; makes their folder. W180 if not.
+// Whether pictures can be written under `pattern`, from number `first` on; makes the first one's folder. W180
+// if not.
 bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
                  base::Diagnostics& diagnostics);
 
-// The presented texture as it is: .png has 8 bits of it, .exr its values. False after errors.
-bool savePresented(runtime::Renderer& renderer, const std::string& path, base::Diagnostics& diagnostics);
+// Makes the folder of one file. False after W180.
+bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics);
+// The folders of all frames, where the number is part of a folder's name.
+bool makeFolders(const std::string& pattern, std::uint32_t first, std::uint32_t last,
+                 base::Diagnostics& diagnostics);
+
+// What one option has a run write: a file, or the frames of a pattern.
+struct OutputFile {
+  std::string option;   // "-o", as it stands in messages
+  std::string pattern;  // empty: nothing
+  std::uint32_t first = 0, last = 0;
+};
+// That no output is one of the files that the run reads, or another output, by whatever name or link. Only
+// files count: devices and pipes are nobody's. False after W180.
+bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
+                   base::Diagnostics& diagnostics);
 
 }  // namespace weft::app

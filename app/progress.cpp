@@ -34,13 +34,13 @@ std::string durationText(double seconds) {
 }
 
 std::string progressText(const Progress& p) {
-  const auto filled = static_cast<std::size_t>(std::uint64_t{p.done} * kBarWidth / std::max(1u, p.total));
+  const auto filled = static_cast<std::size_t>(p.done * kBarWidth / std::max<std::uint64_t>(1, p.total));
   std::string text = fmt::format("[{}{}] {}/{} frames", std::string(filled, '#'),
                                  std::string(kBarWidth - filled, '.'), p.done, p.total);
   if (p.lead > 0 && p.done < p.total)
     text += fmt::format(", {} of them lead up to the first picture", p.lead);
   if (p.done > 0 && p.done < p.total)
-    text += fmt::format(", {} left", durationText(p.seconds / p.done * (p.total - p.done)));
+    text += fmt::format(", {} left", durationText(p.seconds / static_cast<double>(p.done) * static_cast<double>(p.total - p.done)));
   if (p.done == p.total) text += fmt::format(" in {}", durationText(p.seconds));
   return text;
 }

@@ -12,7 +12,7 @@ std::string durationText(double seconds);
 // Of frames of one run: `lead` of the `total` run only because a later one looks back at them, `done` are
 // done after `seconds`.
 struct Progress {
-  std::uint32_t done = 0, total = 1, lead = 0;
+  std::uint64_t done = 0, total = 1, lead = 0;
   double seconds = 0;
 };
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/standard_streams.h"
 #include "data_places.h"
 #include "engine/assets/loader.h"
 #include "engine/base/message_choice.h"
@@ -17,7 +17,8 @@ namespace weft::app {
 
 std::string dataFolder() {
   if (const char* folder = std::getenv("WEFT_DATA")) return folder;
-  if (std::filesystem::is_directory(WEFT_DATA_SOURCE)) return WEFT_DATA_SOURCE;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(WEFT_DATA_SOURCE, ignored)) return WEFT_DATA_SOURCE;
   return WEFT_DATA_INSTALLED;
 }
 
@@ -78,7 +79,7 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
 
 int report(base::Diagnostics& diagnostics, bool notes) {
   diagnostics.sortByPlace();
-  std::fputs(base::chooseMessages(diagnostics, notes).text().c_str(), stderr);
+  printError(base::chooseMessages(diagnostics, notes).text());
   return diagnostics.hasErrors() ? 1 : 0;
 }
 

@@ -10,7 +10,7 @@
 
 #include "app/device_session.h"
 #include "app/session.h"
-#include "engine/base/printable.h"
+#include "app/standard_streams.h"
 #include "engine/graph/read.h"
 
 namespace weft::app {
@@ -138,7 +138,7 @@ std::optional<std::string> benchFrame(const Options& options, base::Diagnostics&
     variants.push_back(std::move(row));
   }
   out["variants"] = std::move(variants);
-  return base::printableJson(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  return dumpJson(out);
 }
 
 }  // namespace weft::app

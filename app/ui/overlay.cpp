@@ -73,6 +73,12 @@ void Overlay::hideMouse(bool hidden) {
   mouseHidden_ = hidden;
 }
 
+std::optional<std::pair<int, int>> Overlay::releasedMouse() const {
+  if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left)) return std::nullopt;
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return std::pair(static_cast<int>(at.x), static_cast<int>(at.y));
+}
+
 bool Overlay::wantsMouse() const {
   return ImGui::GetIO().WantCaptureMouse;
 }

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 struct GLFWwindow;
 
@@ -30,6 +32,9 @@ class Overlay {
   void setScale(float scale);
   // Off: panels ignore the mouse, wherever it is (it is captured).
   void setMouseEnabled(bool enabled);
+
+  // Where the left button was let go, in pixels of the window, as panels between begin() and end() saw it.
+  std::optional<std::pair<int, int>> releasedMouse() const;
 
   bool wantsMouse() const;
   bool wantsKeys() const;  // a text field has the keyboard

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "app/standard_streams.h"
 #include "app/ui/loading.h"
 #include "app/ui/log_layout.h"
+#include "app/view/recorder.h"
 #include "engine/base/printable.h"
 
 namespace weft::app::ui {
@@ -187,7 +189,8 @@ void Panels::writeBack(base::Diagnostics& diagnostics) {
   if (live_.writeBack(files, diagnostics)) {
     said_ = files.empty() ? "the files say so already" : "wrote";
     for (const std::string& file : files) said_ += " " + file;
-    fmt::print("{}\n", base::printable(said_));
+    print(base::printable(said_) + "\n");
+    flushPrinted();
   } else {
     said_ = "nothing was written: see the log";
   }
@@ -195,13 +198,14 @@ void Panels::writeBack(base::Diagnostics& diagnostics) {
 
 void Panels::toggleTrace(base::Diagnostics& diagnostics) {
   if (!trace_.recording()) {
-    trace_.start(fmt::format("weft_{:05}.trace.json", frame_), diagnostics);
+    trace_.start(screenshotName(static_cast<std::uint32_t>(frame_), ".trace.json"), diagnostics);
     return;
   }
   const std::string path = trace_.path();
   if (trace_.stop(diagnostics)) {
     said_ = "wrote " + path;
-    fmt::print("{}\n", base::printable(said_));
+    print(base::printable(said_) + "\n");
+    flushPrinted();
   }
 }
 

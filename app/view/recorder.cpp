@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 
 #include "app/output_files.h"
+#include "app/standard_streams.h"
 
 namespace weft::app {
 
@@ -20,19 +20,21 @@ bool Recorder::start(const std::string& pattern, base::Diagnostics& diagnostics)
   return active_;
 }
 
-void Recorder::stop() {
+void Recorder::stop(base::Diagnostics& diagnostics) {
   if (!active_) return;
   active_ = false;
-  fmt::print("wrote {} frames to {}\n", frames_, pattern_);
-  std::fflush(stdout);
+  print(fmt::format("wrote {} frames to {}\n", frames_, pattern_));
+  flushPrinted();
+  writer_.tell(diagnostics);
 }
 
 void Recorder::add(runtime::Renderer& renderer, base::Diagnostics& diagnostics) {
   if (!active_) return;
-  if (savePresented(renderer, *outputNameOf(pattern_, frames_), diagnostics))
+  const std::string path = *outputNameOf(pattern_, frames_);
+  if (makeFolderOf(path, diagnostics) && writer_.save(renderer, path, diagnostics))
     ++frames_;
   else
-    stop();
+    stop(diagnostics);
 }
 
 std::string screenshotName(std::uint32_t frame, const char* extension) {

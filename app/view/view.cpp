@@ -2,19 +2,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/live_environment.h"
 #include "app/output_files.h"
 #include "app/session.h"
+#include "app/standard_streams.h"
 #include "app/view/viewer.h"
+#include "engine/base/limits.h"
 
 namespace weft::app {
 
 namespace {
+
+// The number of the last frame; 0 when nobody knows it.
+std::uint32_t lastFrameOf(const Options& options) {
+  return options.maxFrames ? options.maxFrames - 1 : 0;
+}
 
 // Whether saving a file may make it good: nobody is to wait for a file that is not there, or for a wrong
 // command line.
@@ -27,11 +34,38 @@ bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
   });
 }
 
+// Before the window opens. The frames of a recording have no end unless --max-frames gives one.
+bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
+  const std::uint64_t limit = base::limitOf(base::Limit::frames);
+  if (options.maxFrames > limit)
+    diagnostics
+        .error(base::Code::W201, graph::placeOfSetting(fmt::format("--max-frames {}", options.maxFrames)),
+               fmt::format("{} frames would run, the limit 'frames' is {}", options.maxFrames, limit))
+        .hint = base::hintToRaise(base::Limit::frames) +
+                ", or leave --max-frames out: the window then stays until it is closed";
+  if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
+  if (!options.record.empty()) checkOutput(options.record, 0, options.maxFrames != 1, diagnostics);
+  return !diagnostics.hasErrors();
+}
+
+// When everything that is read is known.
+bool checkInputs(const Options& options, const LiveGraph& live, base::Diagnostics& diagnostics) {
+  const std::uint32_t last = lastFrameOf(options);
+  const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
+                                {"--record", options.record, 0, options.maxFrames ? last : ~0u},
+                                {"--trace", options.trace}};
+  std::vector<std::string> inputs = live.files();
+  inputs.push_back(options.graph);
+  const bool known = options.maxFrames > 0;
+  return checkDistinct(outputs, inputs, diagnostics) &&
+         (!known || options.record.empty() || makeFolders(options.record, 0, last, diagnostics));
+}
+
 }  // namespace
 
 int runView(const Options& options) {
   base::Diagnostics diagnostics;
-  if (!options.screenshot.empty() && !checkOutput(options.screenshot, 0, false, diagnostics)) return report(diagnostics);
+  if (!checkOutputs(options, diagnostics)) return report(diagnostics);
   Options files = options;
   if (!files.environment.empty())
     files.environment = firstEnvironment(options.environment, diagnostics).value_or("");
@@ -45,7 +79,10 @@ int runView(const Options& options) {
     return 3;
   }
   if (!session->context->window()) {
-    fmt::print(stderr, "weft view needs a window: use --backend glfw, or `weft render` without a display\n");
+    printError(fmt::format(
+        "weft view needs a window, which the backend '{}' has not: leave --backend out; without a display "
+        "use `xvfb-run -a`, or `weft render`\n",
+        options.backend));
     return 2;
   }
   graph::Settings settings = settingsOf(options, session->context->device().software);
@@ -73,6 +110,7 @@ int runView(const Options& options) {
     // With a number of frames to draw there is nobody who could save a file.
     if (!live.load(diagnostics) && (options.maxFrames || !canBeFixed(options, diagnostics)))
       return report(diagnostics);
+    if (!checkInputs(options, live, diagnostics)) return report(diagnostics);
     Viewer viewer(options, *session, live, std::move(diagnostics));
     code = viewer.run();
     if (options.stats)
@@ -80,7 +118,7 @@ int runView(const Options& options) {
   }
   const std::string left = closeDevice(std::move(session));
   stats["gl_objects_left"] = left;
-  if (options.stats) print(stats);
+  if (options.stats) printStats(stats);
   return code;
 }
 

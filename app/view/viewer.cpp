@@ -24,6 +24,7 @@ Viewer::Viewer(const Options& options, DeviceSession& session, LiveGraph& live, 
       input_(window_),
       alarm_(live.watchDescriptor(), [&live] { return live.lookAtFiles(); }, [] { glfwPostEmptyEvent(); }),
       panels_(live, session.renderer, log_),
+      events_(options.events),
       diagnostics_(std::move(said)),
       renderScale_(options.renderScale),
       vsync_(options.vsync),
@@ -105,7 +106,7 @@ void Viewer::scaleRendering(int steps) {
 
 void Viewer::toggleRecording() {
   if (recorder_.active()) {
-    recorder_.stop();
+    recorder_.stop(diagnostics_);
     clock_.fix(0);
   } else if (recorder_.start(options_.record, diagnostics_)) {
     clock_.fix(options_.fps);

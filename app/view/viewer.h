@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "app/device_session.h"
 #include "app/live_graph.h"
@@ -13,6 +14,7 @@
 #include "app/ui/panels.h"
 #include "app/view/actions.h"
 #include "app/view/camera_rig.h"
+#include "app/view/event_log.h"
 #include "app/view/file_alarm.h"
 #include "app/view/frame_clock.h"
 #include "app/view/picture_rest.h"
@@ -61,6 +63,8 @@ class Viewer {
   void redraw(gl::Size size);
   void drawUi();
   void saveScreenshots();
+  void saveLast();  // --screenshot, once
+  void say(std::string_view event) const { events_.say(frame_, event); }
   void tellFrame();
 
   const Options& options_;
@@ -80,18 +84,23 @@ class Viewer {
   std::uint64_t cuts_ = 0, sceneGeneration_ = 0;
   FrameClock clock_;
   Recorder recorder_;
+  PictureWriter writer_;  // of screenshots
+  EventLog events_;
   PictureRest rest_;
   runtime::FrameReport report_;    // of the last frame
   base::Diagnostics diagnostics_;  // of what the loop is doing
   std::string screenshot_;         // extension of one that is wanted
   std::string title_;
   std::uint32_t frame_ = 0, redraws_ = 0;
-  std::uint64_t events_ = 0, switches_ = 0;  // as they were when they were last looked at
+  std::uint64_t inputs_ = 0, switches_ = 0;  // as they were when they were last looked at
   int restless_ = 0;                         // redraws that the panels still want
   float uiScale_ = 1;
+  gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;
   bool dropped_ = false;  // the last frame was not shown
   bool vsync_ = true, idle_ = false, help_ = false, minimised_ = false;
+  bool resting_ = false, shown_ = false;  // as it was said last; a picture was
+  bool lastSaved_ = false;
   bool broken_ = false;  // the driver or an output complained
 };
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <thread>
 #include <utility>
 
 #include "app/output_files.h"
 #include "app/session.h"
+#include "app/standard_streams.h"
 #include "app/view/screens.h"
 #include "app/view/viewer.h"
 #include "engine/base/hash.h"
@@ -56,9 +56,11 @@ int Viewer::run() {
     }
     if (options_.maxFrames && frame_ >= options_.maxFrames) break;
   }
-  recorder_.stop();
+  saveLast();
+  recorder_.stop(diagnostics_);
   panels_.tracer().stop(diagnostics_);
   input_.capture(false);
+  say("closed");
   return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
 }
 
@@ -71,7 +73,10 @@ void Viewer::waitForEvents() {
 }
 
 void Viewer::update(gl::Size size) {
-  if (std::exchange(events_, input_.events()) != input_.events()) restless_ = kRestlessAfterEvent;
+  if (std::exchange(inputs_, input_.events()) != input_.events()) restless_ = kRestlessAfterEvent;
+  if (size.width != size_.width || size.height != size_.height)
+    say(fmt::format("size {} {}", size.width, size.height));
+  size_ = size;
   const float uiScale =
       options_.uiScale > 0 ? static_cast<float>(options_.uiScale) : session_.context->contentScale();
   if (overlay_ && uiScale != uiScale_) overlay_->setScale(uiScale);
@@ -94,14 +99,19 @@ void Viewer::update(gl::Size size) {
   if (looked) {
     tell(diagnostics_, log_, ui::Log::kFiles);
     restless_ = kRestlessAfterEvent;
+    say(live_.good() ? "files good" : "files wrong");
   }
   if (live_.pollEnvironment(diagnostics_)) {
     tell(diagnostics_, log_, ui::Log::kEnvironment);
     rest_.disturb();
     restless_ = kRestlessAfterEvent;
+    say("environment " + live_.environment().shown());
   }
   const std::uint64_t changes = live_.changes();
-  for (const std::string_view action : input_.takeActions()) actions_.run(action);
+  for (const std::string_view action : input_.takeActions()) {
+    actions_.run(action);
+    say(fmt::format("action {}", action));
+  }
   if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
   if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
@@ -187,13 +197,15 @@ void Viewer::show(gl::Size size) {
   recorder_.add(renderer_, diagnostics_);
   if (!recorder_.active() && clock_.fixed()) clock_.fix(0);  // it could not write
   renderer_.present(size.width, size.height);
-  if (frame_ == options_.maxFrames && !options_.screenshot.empty())
-    savePresented(renderer_, options_.screenshot, diagnostics_);
+  if (frame_ == options_.maxFrames) saveLast();
   saveScreenshots();
   tellFrame();
   drawUi();
   session_.context->swapBuffers();
-  if (idle_) judgeRest();
+  if (!std::exchange(shown_, true)) say("shown");
+  if (!idle_) return;
+  judgeRest();
+  if (std::exchange(resting_, rest_.resting()) != rest_.resting()) say(resting_ ? "resting" : "awake");
 }
 
 void Viewer::moveCamera(const FrameClock::Tick& tick) {
@@ -242,22 +254,35 @@ void Viewer::drawUi() {
     panels_.draw(report_, diagnostics_);
   else
     drawWaiting(log_.files());
+  const auto click = overlay_->releasedMouse();
   overlay_->hideMouse(false);
   if (!panels_.visible) drawModes(modes());
   if (help_) drawHelp();
   overlay_->end();
   if (panels_.wantsFrame()) rest_.disturb();
-  if (live_.changes() != before) tell(diagnostics_, log_, ui::Log::kChange);
+  if (live_.changes() != before) {
+    tell(diagnostics_, log_, ui::Log::kChange);
+    say("change");
+  }
+  if (click) say(fmt::format("click {} {}", click->first, click->second));
 }
 
 void Viewer::saveScreenshots() {
   if (screenshot_.empty()) return;
   const std::string name = screenshotName(frame_, screenshot_.c_str());
   screenshot_.clear();
-  if (live_.running() && savePresented(renderer_, name, diagnostics_)) {
-    fmt::print("wrote {}\n", name);
-    std::fflush(stdout);
+  if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
+    print(fmt::format("wrote {}\n", name));
+    flushPrinted();
   }
+  writer_.tell(diagnostics_);
+}
+
+void Viewer::saveLast() {
+  if (options_.screenshot.empty() || frame_ == 0 || !live_.running() || std::exchange(lastSaved_, true))
+    return;
+  writer_.save(renderer_, *outputNameOf(options_.screenshot, frame_ - 1), diagnostics_);
+  writer_.tell(diagnostics_);
 }
 
 void Viewer::tellFrame() {
