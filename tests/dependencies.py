@@ -10,7 +10,7 @@ import sys
 PROVIDED = {
     "fmt": "libfmt-dev", "nlohmann_json": "nlohmann-json3-dev", "doctest": "doctest-dev", "CLI11": "libcli11-dev",
     "glfw3": "libglfw3-dev", "imgui": "libimgui-dev", "libstb": "libstb-dev", "glm": "libglm-dev", "tinyexr": "libtinyexr-dev", "glad": "python3-glad",
-    "OSMesa": "libosmesa6-dev", "EGL": "libegl-dev", "xvfb-run": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
+    "OSMesa": "libosmesa6-dev", "EGL": "libegl-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
     "glslangValidator": "glslang-tools", "ccache": None, "git": None, "weft": None,
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.

@@ -7,15 +7,13 @@ damaged file keeps the picture and is reported; a file that changes on disk is t
 """
 import os
 import pathlib
-import shutil
-import subprocess
 import sys
 import threading
 import time
 
 from program import Report, run, temporary_folder
+from window import Session, copy_of_tree, inside_display
 
-LIMIT = 120  # seconds for anything to happen
 GRAPH = "graphs/glow.json"
 
 
@@ -62,56 +60,9 @@ def headless(weft, folder, report):
     report.check(refused.code == 1 and refused.codes() == ["W150"], f"a folder without a window: {refused.code}\n{refused.err}")
 
 
-class Window:
-    def __init__(self, weft, folder, environment):
-        self.folder, self.log = folder, folder / "stderr.txt"
-        command = [weft, "view", GRAPH, "--size", "160x90", "--no-ui", "--environment", environment]
-        with open(self.log, "w") as log:
-            self.process = subprocess.Popen([str(c) for c in command], cwd=folder, stderr=log, stdout=subprocess.DEVNULL,
-                                            env={**os.environ, "WEFT_DATA": str(folder)})
-        self.shots = 0
-
-    def until(self, holds):
-        end = time.monotonic() + LIMIT
-        while time.monotonic() < end and self.process.poll() is None:
-            if found := holds():
-                return found
-            time.sleep(0.05)
-        return None
-
-    def key(self, name):
-        subprocess.run(["xdotool", "key", name], capture_output=True)
-
-    def said(self):
-        return self.log.read_text(errors="replace")
-
-    def open(self):
-        def find():
-            found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "^weft: "], capture_output=True, text=True)
-            return found.stdout.split()
-        found = self.until(find)
-        if found:
-            subprocess.run(["xdotool", "mousemove", "--window", found[-1], "80", "45"], capture_output=True)
-        return found
-
-    def shot(self):
-        before, pressed = set(self.folder.glob("weft_*.png")), 0.0
-
-        def look():
-            nonlocal pressed
-            if time.monotonic() - pressed > 5:
-                pressed = time.monotonic()
-                self.key("F12")
-            return set(self.folder.glob("weft_*.png")) - before
-
-        found = self.until(look)
-        return max(found).read_bytes() if found else b""
-
-
 def window(weft, compare, folder, report):
     def mean(picture):
-        (folder / "shot.png").write_bytes(picture)
-        return float(run(compare, "--describe", folder / "shot.png").out.split()[2])
+        return float(run(compare, "--describe", picture).out.split()[2])
 
     maps = folder / "maps"
     maps.mkdir()
@@ -120,67 +71,62 @@ def window(weft, compare, folder, report):
     (maps / "b_green.HDR").write_bytes(green)
     (maps / "c_damaged.exr").write_bytes(b"not a picture")
     (maps / "notes.txt").write_text("not an environment")
-    os.mkfifo(maps / "z_late.hdr")
-    live = Window(weft, folder, maps / "z_late.hdr")
+    # A file that comes late: a pipe without a name in any folder, so that writing it is no change of a watched file.
+    reads, writes = os.pipe()
+    (maps / "z_late.hdr").symlink_to(f"/proc/{os.getpid()}/fd/{reads}")
+    begin, end = halves(radiance((200, 200, 200)))
+    live = Session(weft, folder, "--no-ui", "--environment", maps / "z_late.hdr", graph=GRAPH, size="160x90")
     try:
-        if not report.check(live.open(), f"no window\n{live.said()}"):
+        if not report.check(live.open(80, 45), f"no window\n{live.said()}"):
             return
         report.check(mean(live.shot()) == 0, "the picture is not black while the first environment is on its way")
-        waiting = threading.Event()
-        threading.Thread(target=feed, args=(maps / "z_late.hdr", halves(radiance((200, 200, 200))),
-                                            lambda: waiting.wait(LIMIT)), daemon=True).start()
+        before = live.mark()
+        os.write(writes, begin)
         report.check(mean(live.shot()) == 0, "half an environment is shown")
-        waiting.set()
-        grey = live.until(lambda: (s := live.shot()) and mean(s) > 20 and s)
-        report.check(grey, f"the first environment never comes\n{live.said()}")
+        os.write(writes, end)
+        os.close(writes)
+        report.check(live.event("environment .*z_late.hdr", before), f"the first environment never comes\n{live.said()}")
+        grey = live.settled()
+        report.check(mean(grey) > 20, "the first environment is black")
 
-        def goes(what, key, old, wanted=None):
-            live.key(key)
-            seen = live.until(lambda: (s := live.shot()) and (s == wanted if wanted else s != old) and s)
-            report.check(seen, f"{what}: the picture is not what it should be\n{live.said()}")
+        def goes(what, key, name, old, wanted=None):
+            shown = live.event(f"environment .*{name}", live.key(key))
+            seen = live.settled()
+            good = shown and seen and (seen.read_bytes() == wanted.read_bytes() if wanted else seen.read_bytes() != old.read_bytes())
+            report.check(good, f"{what}: the picture is not what it should be\n{live.said()}")
             return seen or old
 
-        first = goes("Page Down after the last: the first", "Next", grey)
-        second = goes("Page Down: the second", "Next", first)
+        first = goes("Page Down after the last: the first", "Next", "a_red.hdr", grey)
+        second = goes("Page Down: the second", "Next", "b_green.HDR", first)
         report.check(mean(first) > 20 and mean(second) > 20, "a map is black")
-        live.key("Next")
-        report.check(live.until(lambda: "c_damaged.exr: error[W150]" in live.said()), f"a damaged file is not reported\n{live.said()}")
-        report.check(live.shot() == second, "a damaged file changes the picture")
-        goes("Page Up twice: the first again", "Prior", second, second)
-        goes("Page Up twice: the first again", "Prior", second, first)
+        # A damaged file ends its request too, and the one before stays.
+        kept = goes("Page Down: a damaged file", "Next", "b_green.HDR", second, second)
+        report.check("c_damaged.exr: error[W150]" in live.said(), f"a damaged file is not reported\n{live.said()}")
+        goes("Page Up twice: the first again", "Prior", "b_green.HDR", kept, second)
+        goes("Page Up twice: the first again", "Prior", "a_red.hdr", second, first)
+        before = live.mark()
         (maps / "new.tmp").write_bytes(blue)
         (maps / "new.tmp").rename(maps / "a_red.hdr")
-        seen = live.until(lambda: (s := live.shot()) and s not in (first, second, grey) and s)
-        report.check(seen, f"a file that changed on disk is not taken up\n{live.said()}")
-        live.key("Escape")
-        live.until(lambda: False)
-        report.check(live.process.poll() == 0, f"Escape: exit code {live.process.poll()}\n{live.said()}")
+        report.check(live.event("environment .*a_red.hdr", before), f"a file that changed on disk is not taken up\n{live.said()}")
+        seen = live.settled()
+        report.check(seen and seen.read_bytes() not in [s.read_bytes() for s in (first, second, grey)], "a file that changed on disk does not show")
+        live.leave(report)
         report.check("W120" not in live.said(), live.said())
     finally:
-        if live.process.poll() is None:
-            live.process.kill()
-            live.process.wait()
+        live.stop()
 
 
 def main():
-    weft, compare, report = sys.argv[1], sys.argv[2], Report()
-    if "--inside" in sys.argv:  # the virtual display
-        with temporary_folder() as name:
-            folder = pathlib.Path(name)
-            top = pathlib.Path(__file__).resolve().parents[2]
-            for part in ("graphs", "shaders", "scenes", "materials"):
-                shutil.copytree(top / part, folder / part)
-            window(weft, compare, folder, report)
-        report.end()
+    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
     if "--window" not in sys.argv:
         with temporary_folder() as name:
             headless(weft, pathlib.Path(name), report)
         report.end()
-    if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
-        report.skip("xvfb-run or xdotool is not installed")
-    inside = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", sys.executable, __file__, weft, compare, "--inside"],
-                            capture_output=True, text=True)
-    report.check(inside.returncode == 0, f"in a window:\n{inside.stdout}{inside.stderr}")
+    inside_display(report, weft, compare, __file__)
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        copy_of_tree(folder)
+        window(weft, compare, folder, report)
     report.end()
 
 

@@ -11,10 +11,11 @@ import shutil
 import sys
 
 from program import TOP, Report, run, temporary_folder
+from window import display
 
 
 def main():
-    weft, compare, report = sys.argv[1], sys.argv[2], Report()
+    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
     if "--window" in sys.argv:
         in_window(weft, compare, report)
     else:
@@ -31,15 +32,14 @@ def without_display(weft, report):
 
 
 def in_window(weft, compare, report):
-    if not shutil.which("xvfb-run"):
-        report.skip("xvfb-run is not installed")
-    xvfb = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
-    with temporary_folder() as name:
+    if not shutil.which("Xvfb"):
+        report.skip("Xvfb is not installed")
+    with temporary_folder() as name, display() as environment:
         for graph in ("studio", "glow"):
             shot = pathlib.Path(name) / f"{graph}.png"
             done = run(weft, "view", f"graphs/{graph}.json", "--size", "640x360", "--max-frames", "5", "--screenshot", shot,
                        "--wait-for-assets",
-                       "--program-cache", "none", before=xvfb)
+                       "--program-cache", "none", env=environment)
             report.check(done.code == 0, f"{graph}: exit code {done.code}\n{done.err}")
             report.check(not done.diagnostics, f"{graph}: {done.err}")
             if not report.check(shot.exists(), f"{graph}: no screenshot"):
@@ -48,8 +48,8 @@ def in_window(weft, compare, report):
             words = mean.out.split()
             report.check(mean.code == 0 and words[:2] == ["640", "360"], f"{graph}: {mean.out}{mean.err}")
             report.check(20 < float(words[2]) < 235 and float(words[3]) > 10, f"{graph}: mean and spread {words[2:]}")
-        wide_parameters(weft, pathlib.Path(name), xvfb, report)
-        recording(weft, compare, pathlib.Path(name), xvfb, report)
+        wide_parameters(weft, pathlib.Path(name), environment, report)
+        recording(weft, compare, pathlib.Path(name), environment, report)
 
 
 WIDE = """{
@@ -73,16 +73,16 @@ void main() { result = vec4(seed == 7, bits == 0xffffffffu, free == 0x7fffffff, 
 """
 
 
-def wide_parameters(weft, folder, xvfb, report):
+def wide_parameters(weft, folder, environment, report):
     """Parameters with the widest ranges and values: the panel takes them all."""
     (folder / "shaders").mkdir()
     (folder / "shaders/wide.frag.glsl").write_text(WIDE_SHADER)
     (folder / "wide.json").write_text(WIDE)
-    done = run(weft, "view", "wide.json", "--size", "640x480", "--max-frames", "4", "--program-cache", "none", before=xvfb, folder=folder)
+    done = run(weft, "view", "wide.json", "--size", "640x480", "--max-frames", "4", "--program-cache", "none", env=environment, folder=folder)
     report.check(done.code == 0 and not done.diagnostics, f"wide parameters: exit code {done.code}\n{done.err}")
 
 
-def recording(weft, compare, folder, xvfb, report):
+def recording(weft, compare, folder, environment, report):
     """--record is `weft render --frames`, with a moving camera, blur of its motion and an exposure that adapts."""
     scene = folder / "orbit.json"
     text = (TOP / "scenes/spheres.json").read_text().replace("../materials", json.dumps(str(TOP / "materials"))[1:-1])
@@ -90,7 +90,7 @@ def recording(weft, compare, folder, xvfb, report):
     graph = ["graphs/studio.json", "--scene", scene, "--size", "160x90", "--set", "motion_blur=true", "--set", "auto_exposure=true",
              "--fps", "24", "--program-cache", "none"]
     done = run(weft, "view", *graph, "--record", folder / "rec/f_%02d.png", "--max-frames", "6", "--screenshot", folder / "end.exr",
-               "--render-scale", "1", "--stats", before=xvfb)
+               "--render-scale", "1", "--stats", env=environment)
     report.check(done.code == 0 and '"gl_objects_left": "none"' in done.err, f"recording: {done.code}\n{done.err}")
     same = run(weft, "render", *graph, "-o", folder / "ren/f_%02d.png", "--frames", "0:5", "--quiet")
     report.check(same.code == 0, same.err)
@@ -100,7 +100,7 @@ def recording(weft, compare, folder, xvfb, report):
             report.check(recorded.read_bytes() == rendered.read_bytes(), f"{recorded.name} differs from weft render's")
     report.check(pictures[0][0].read_bytes() != pictures[5][0].read_bytes(), "the camera stands still")
     report.check((folder / "end.exr").exists(), "no .exr")
-    half = run(weft, "view", *graph, "--max-frames", "1", "--screenshot", folder / "half.png", "--render-scale", "0.5", before=xvfb)
+    half = run(weft, "view", *graph, "--max-frames", "1", "--screenshot", folder / "half.png", "--render-scale", "0.5", env=environment)
     report.check(run(compare, "--describe", folder / "half.png").out.split()[:2] == ["80", "45"], f"render scale: {half.err}")
 
 

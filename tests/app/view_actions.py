@@ -6,6 +6,7 @@ picture on the screen is measured and printed, not judged."""
 import os
 import pathlib
 import re
+import signal
 import sys
 import time
 
@@ -61,13 +62,13 @@ def look_around(live, eyes, report):
     live.key("r")
     settles(live, first, report, "R after the cameras")
 
-    live.key("f")  # flies
+    live.act("f", "fly")
     live.tool("keydown", "w")
     ahead = differs(live, first, report, "flying forward")
     live.tool("keyup", "w")
     live.tool("mousemove_relative", "--", 60, 20)
     turned = differs(live, ahead, report, "the captured mouse")
-    live.key("Escape")  # lets go, and does not close
+    live.act("Escape", "close")  # lets go, and does not close
     report.check(live.shot() and live.alive(), "Escape in flight ends the program")
     live.key("r")
     settles(live, first, report, "R after a flight")
@@ -79,8 +80,7 @@ def look_around(live, eyes, report):
     live.key("equal")
     settles(live, first, report, "render scale 1 again")
 
-    live.key("shift+F12")
-    report.check(live.until(lambda: list(live.folder.glob("weft_*.exr"))), "Shift F12 writes no .exr")
+    report.check((exr := live.shot("shift+F12")) and exr.suffix == ".exr" and exr.exists(), "Shift F12 writes no .exr")
     for key in ("v", "v", "b", "b", "p", "p", "F1", "F1"):
         live.key(key)
     settles(live, first, report, "after switches that do not change pictures")
@@ -91,44 +91,44 @@ def switch_a_pass_off(live, first, screen, report):
     """Finds a box in the right panel by trying: down the left edge of what is right of the middle."""
     width, height = 640, 360
 
-    def click(x, y):
-        live.tool("mousemove", "--window", live.window, x, y)
-        live.tool("click", 1)
-
     before = screen.pixels()
-    live.key("space")
+    live.act("space", "panels")
     report.check(live.until(lambda: screen.pixels() != before), "the panels go away on the screen: they do not")
-    live.key("space")
+    live.act("space", "panels")
+    tried = []
     for x in (width - 288 - 8 + 20, width - 288 - 8 + 40):
         for y in range(30, 260, 10):
-            click(x, y)
+            if not live.click(x, y):
+                continue
+            tried.append((x, y))
             shot = live.shot()
             if not shot or shot.read_bytes() == first.read_bytes():
                 continue
             report.check(live.alive(), f"a click at {x}, {y} ends the program")
             live.tool("mousemove", "--window", live.window, 5, height - 5)
             return True
-    return report.check(False, "no click in the panel of passes changes the picture")
+    return report.check(False, f"no click in the panel of passes changes the picture; something changed by {tried}\n{live.said()}")
 
 
 def record(live, report):
-    live.key("F10")
+    live.act("F10", "record")
     folder = live.folder / "record_1"
     report.check(live.until(lambda: (folder / "f_00003.png").exists()), f"F10 records nothing\n{live.said()}")
-    live.key("F10")
+    ended = live.line(r"wrote (\d+) frames to record_1/f_%05d.png", live.key("F10"))
     live.shot()
     count = len(list(folder.glob("*.png")))
-    live.shot()
-    report.check(len(list(folder.glob("*.png"))) == count, "F10 does not stop the recording")
-    # The disk is full at the third frame.
-    (live.folder / "record_2").mkdir()
-    (live.folder / "record_2").rename(live.folder / "record_3")
+    report.check(ended and int(ended[1]) == count, f"F10 does not stop the recording: {ended}, {count} files")
+    # The disk becomes full under way: what would be written next leads to a full device. The program stands still meanwhile.
     second = live.folder / "record_2"
-    live.key("F10")
+    begun = live.key("F10")
     if report.check(live.until(lambda: (second / "f_00000.png").exists()), "the second recording does not begin"):
-        at = len(list(second.glob("f_*.png"))) + 20
-        for frame in range(at, at + 2000):
+        os.kill(live.process.pid, signal.SIGSTOP)
+        at = len(list(second.glob("f_*.png")))
+        for frame in range(at + 1, at + 10):  # the one before may be under way
             os.symlink("/dev/full", second / f"f_{frame:05}.png.{live.process.pid}.tmp")
+        os.kill(live.process.pid, signal.SIGCONT)
+        ended = live.line(r"wrote (\d+) frames to record_2/f_%05d.png", begun)
+        report.check(ended and int(ended[1]) in (at, at + 1), f"a full disk at frame {at + 1} ends the recording: {ended}")
         report.check(live.until(lambda: "error[W180]" in live.said()), f"a full disk is not reported\n{live.said()}")
     report.check(live.alive() and live.shot(), "a full disk ends the program")
 
@@ -137,19 +137,19 @@ def idle(live, report):
     def frame_of(shot):
         return int(re.match(r"weft_(\d+)", shot.name).group(1))
 
-    live.key("i")
-    rest = live.until(lambda: (a := live.shot()) and not time.sleep(0.3) and (b := live.shot()) and frame_of(a) == frame_of(b) and b)
-    if not report.check(rest, "idle mode never comes to rest"):
+    if not report.check(live.rest(live.key("i")), "idle mode never comes to rest"):
         return
-    live.key("2")
-    woken = live.until(lambda: (s := live.shot()) and frame_of(s) > frame_of(rest) and s.read_bytes() != rest.read_bytes() and s)
-    report.check(woken, "a key does not wake it")
-    live.until(lambda: (a := live.shot()) and not time.sleep(0.3) and (b := live.shot()) and frame_of(a) == frame_of(b))
-    last = live.shot()
+    rest = live.shot()
+    report.check(frame_of(live.shot()) == frame_of(rest), "a frame is drawn at rest")
+    report.check(live.rest(live.key("2")), "idle mode does not come to rest again")
+    woken = live.shot()
+    report.check(frame_of(woken) > frame_of(rest) and woken.read_bytes() != rest.read_bytes(), "a key does not wake it")
+    before = live.mark()
     edit(live.folder / "scenes/spheres.json", r'"spacing": [\d.]+', '"spacing": 3.1')
-    woken = live.until(lambda: (s := live.shot()) and frame_of(s) > frame_of(last) and s.read_bytes() != last.read_bytes() and s)
-    report.check(woken, "a saved file does not wake it")
-    live.key("i")
+    report.check(live.event("files good", before) and live.rest(before), f"a saved file does not wake it\n{live.said()}")
+    last = live.shot()
+    report.check(frame_of(last) > frame_of(woken) and last.read_bytes() != woken.read_bytes(), "a saved file shows nothing new")
+    live.act("i", "idle")
 
 
 def start_broken(weft, folder, eyes, report):
@@ -221,6 +221,28 @@ def lose_a_tweak(weft, folder, screen, report):
         live.stop()
 
 
+def lose_a_table(weft, folder, report):
+    """A table that goes away keeps the last good picture: its value is no wrong one, and is not left out."""
+    table = folder / "dark.cube"
+    save(table, "LUT_3D_SIZE 2\n" + "".join(f"{r / 4} {g / 4} {b / 4}\n" for b in (0, 1) for g in (0, 1) for r in (0, 1)))
+    live = Session(weft, folder, "--stats", "--no-ui", "--set", f"lut={table}", size="160x90")
+    try:
+        report.check(live.open(80, 45), f"no window\n{live.said()}")
+        dark, before = live.settled(), live.mark()
+        text = table.read_text()
+        table.unlink()
+        report.check(live.event("files wrong", before), "nobody notices that the table is gone")
+        report.check(f"command line: --set lut={table}: error[W001]" in live.said() and "left out" not in live.said(), live.said())
+        report.check(live.shot().read_bytes() == dark.read_bytes(), "without its table the picture changes")
+        before = live.mark()
+        save(table, text.replace("0.25", "0.5"))
+        report.check(live.event("files good", before), f"the table that is back is not taken up\n{live.said()}")
+        report.check(live.settled().read_bytes() != dark.read_bytes(), "the other table does not show")
+        close(live, report)
+    finally:
+        live.stop()
+
+
 TWEAKED = """{
   "parameters": { "strength": { "type": "float", "default": 0.2, "min": 0, "max": 1 } },
   "resources": { "ldr": { "texture": "rgba8", "size": "screen" } },
@@ -264,6 +286,7 @@ def main():
             live.stop()
         start_broken(weft, folder, eyes, report)
         lose_a_tweak(weft, folder, screen, report)
+        lose_a_table(weft, folder, report)
     report.end()
 
 

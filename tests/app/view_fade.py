@@ -6,7 +6,6 @@ import os
 import pathlib
 import re
 import sys
-import time
 
 from program import TOP, Report, run, temporary_folder
 from window import Session, inside_display
@@ -44,15 +43,15 @@ def main():
         try:
             if not report.check(live.open(), f"no window\n{live.said()}"):
                 return report.end()
-            live.until(lambda: (s := live.shot()) and mean(s) > 5)  # black while the first is on its way
+            live.event("environment .*")  # black while the first is on its way
             dark = live.settled()
             if not report.check(dark, f"no first picture\n{live.said()}"):
                 return report.end()
-            live.key("F10")
+            live.act("F10", "record")
             live.until(lambda: (folder / "record_1/f_00003.png").exists())
             live.key("Next")
             done = live.until(lambda: len(last := bytes_of(slice(-4, -1))) == 3 and last[0] != dark.read_bytes() and len(set(last)) == 1)
-            live.key("F10")
+            live.act("F10", "record")
             bright = live.settled()
             if report.check(done and bright, f"the second environment never comes\n{live.said()}"):
                 files = sorted((folder / "record_1").glob("f_*.png"))
@@ -63,17 +62,13 @@ def main():
                 means = [mean(f) for f in (dark, *fading, bright)]
                 report.check(all(a < b for a, b in zip(means, means[1:])), f"means: {means}")
 
-            def rests():
-                return live.until(lambda: (a := live.shot()) and not time.sleep(0.3) and (b := live.shot())
-                                  and frame_of(a) == frame_of(b) and b)
-
-            live.key("i")
-            report.check(rests(), "idle mode never comes to rest")
-            live.key("Prior")
-            back = live.until(lambda: (s := live.shot()) and s.read_bytes() == dark.read_bytes() and s)
-            report.check(back, "idle mode sleeps before the fade is over")
-            end = rests()
-            report.check(end and end.read_bytes() == dark.read_bytes(), "idle mode does not sleep after a fade")
+            report.check(live.rest(live.key("i")), "idle mode never comes to rest")
+            before = live.key("Prior")
+            report.check(live.event("environment .*a_dark.hdr", before), "the first environment never comes back")
+            report.check(live.rest(before), "idle mode does not sleep after a fade")
+            end, later = live.shot(), live.shot()
+            report.check(end and end.read_bytes() == dark.read_bytes(), "idle mode sleeps before the fade is over")
+            report.check(end and later and frame_of(end) == frame_of(later), "frames are drawn at rest")
             live.leave(report)
             report.check('"gl_objects_left": "none"' in live.said() and "W120" not in live.said(), live.said())
         finally:

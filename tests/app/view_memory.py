@@ -5,7 +5,6 @@ import os
 import pathlib
 import re
 import sys
-import time
 
 from program import Report, temporary_folder
 from window import Session, inside_display
@@ -31,12 +30,10 @@ def main():
                        graph=str(pathlib.Path(__file__).resolve().parents[2] / "graphs/studio.json"))
         samples, resizes = [], 0
         try:
-            live.window = live.until(lambda: live.tool("search", "--onlyvisible", "--name", "^weft: "))[-1]
+            live.open()
             while live.alive():
                 for width, height in SIZES:
-                    live.tool("windowsize", live.window, width, height)
-                    resizes += 1
-                    time.sleep(0.05)
+                    resizes += bool(live.resize(width, height))  # waits until it is taken
                 if live.alive():
                     samples.append(resident(live.process))
         finally:

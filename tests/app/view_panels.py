@@ -26,11 +26,11 @@ def panels(weft, folder, report, scale):
             live.key(key)
             beside = live.shot()
             report.check(beside and beside.read_bytes() == first.read_bytes(), f"scale {scale}: {key} changes the picture under the panels")
-        live.key("F9")  # ends the trace that --trace began
-        live.key("F9")  # begins another
+        live.act("F9", "trace")  # ends the trace that --trace began
+        live.act("F9", "trace")  # begins another
         live.shot()
-        live.key("F9")
-        traces = live.until(lambda: list(folder.glob("weft_*.trace.json")))
+        live.act("F9", "trace")
+        traces = list(folder.glob("weft_*.trace.json"))
         live.leave(report)
         report.check(not live.said(), live.said())
         for path in [folder / "session.json", *(traces or [])]:

@@ -84,6 +84,7 @@ def session(weft, compare, folder, report):
         turned = changes("a drag", apart)
         for width, height in ((400, 300), (1, 1), (333, 77), (640, 200), (500, 260)) * 3:
             live.tool("windowsize", live.window, width, height)
+        report.check(live.resize(420, 240) and live.resize(500, 260), "a size is never taken")
         resized = live.until(lambda: (s := live.shot()) and describe(s)[:2] == (500, 260) and s)
         report.check(resized and resized != turned, f"a picture of 500x260 never comes\n{live.said()}")
         live.tool("mousemove", "--window", live.window, 160, 90)

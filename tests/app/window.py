@@ -1,5 +1,7 @@
-"""Driving `weft view` in a window of a virtual display with xdotool: keys, drags, screenshots; waits have generous limits and
-nothing is timed. inside_display() runs a test's script again under xvfb-run."""
+"""Driving `weft view` in a window of a virtual display with xdotool: keys, drags, screenshots. Scripts wait for what the viewer says
+(`--events`, docs/viewer.md) and never for a time; LIMIT only guards against hanging. inside_display() runs a test's script again
+in a display of its own."""
+import contextlib
 import os
 import pathlib
 import re
@@ -11,20 +13,30 @@ import time
 
 from program import TOP
 
-LIMIT = 120  # seconds for anything to happen
+LIMIT = 300  # seconds for anything to happen
 
 
 class Session:
+    """A viewer under way. Its events are numbered in the order they come: mark() is how many there are, event(…, since) waits for
+    one after that."""
+
     def __init__(self, weft, folder, *arguments, graph="graphs/studio.json", size="320x180", data=True):
-        self.folder, self.log = folder, folder / "stderr.txt"
+        self.folder, self.log, self.told = folder, folder / "stderr.txt", folder / "stdout.txt"
         environment = {**os.environ, **({"WEFT_DATA": str(folder)} if data else {})}
-        command = [weft, "view", graph, "--size", size, "--program-cache", "none", *map(str, arguments)]
-        with open(self.log, "w") as log:
-            self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=subprocess.DEVNULL)
+        command = [weft, "view", graph, "--size", size, "--program-cache", "none", "--events", *map(str, arguments)]
+        with open(self.log, "w") as log, open(self.told, "w") as told:
+            self.process = subprocess.Popen(list(map(str, command)), cwd=folder, env=environment, stderr=log, stdout=told)
         self.window = None
 
     def said(self):
         return self.log.read_text(errors="replace")
+
+    def lines(self):
+        """What it printed, whole lines only."""
+        return self.told.read_text(errors="replace").split("\n")[:-1]
+
+    def mark(self):
+        return len(self.lines())
 
     def alive(self):
         return self.process.poll() is None
@@ -33,13 +45,24 @@ class Session:
         """The first thing true of `holds`; None when time is up or the program has ended."""
         end = time.monotonic() + LIMIT
         while time.monotonic() < end:
+            ended = not self.alive()  # asked first: what holds at the end is seen
             found = holds()
             if found:
                 return found
-            if not self.alive():
+            if ended:
                 return None
-            time.sleep(0.05)
+            time.sleep(0.02)
         return None
+
+    def line(self, pattern, since=0):
+        """The first line after `since` that is `pattern` as a whole, as a match; waits for it."""
+        def look():
+            return next((m for m in (re.fullmatch(pattern, line) for line in self.lines()[since:]) if m), None)
+
+        return self.until(look)
+
+    def event(self, what, since=0):
+        return self.line(r"event (\d+) (?:" + what + ")", since)
 
     def leave(self, report, code=0):
         """Closes the window as a person does; it is to end with `code`."""
@@ -56,28 +79,45 @@ class Session:
     def tool(self, *arguments):
         return subprocess.run(["xdotool", *map(str, arguments)], capture_output=True, text=True).stdout.split()
 
-    def open(self):
+    def open(self, x=160, y=90):
+        """Until the window is there and takes keys: the display gives them to what is under the pointer."""
         found = self.until(lambda: self.tool("search", "--onlyvisible", "--name", "^weft: "))
         self.window = found[-1] if found else None
-        self.tool("mousemove", "--window", self.window, 160, 90)
+        if self.window:
+            self.tool("mousemove", "--window", self.window, x, y)
         return self.window
 
     def key(self, name):
+        """Presses a key; returns the mark before it."""
+        before = self.mark()
         self.tool("key", name)
+        return before
 
-    def shot(self):
-        """The picture of a later frame, as a path."""
-        before, pressed = set(self.folder.glob("weft_*.png")), 0.0
+    def act(self, name, action):
+        """Presses a key and waits until the viewer has done what is on it."""
+        return self.event(f"action {action}", self.key(name))
 
-        def look():
-            nonlocal pressed
-            if time.monotonic() - pressed > 5:  # a key may come before the window takes any
-                pressed = time.monotonic()
-                self.key("F12")
-            return set(self.folder.glob("weft_*.png")) - before
+    def shot(self, name="F12"):
+        """The picture of a later frame, as a path. Keys are taken in order, so it shows what the keys before it did."""
+        found = self.line(r"wrote (weft_.*\.(?:png|exr))", self.key(name))
+        return self.folder / found[1] if found else None
 
-        found = self.until(look)
-        return max(found) if found else None
+    def resize(self, width, height):
+        before = self.mark()
+        self.tool("windowsize", self.window, width, height)
+        return self.event(f"size {width} {height}", before)
+
+    def click(self, x, y):
+        """Until the panels have seen it. What it changed stands before that, as `change`: True when something did."""
+        self.tool("mousemove", "--window", self.window, x, y)
+        before = self.mark()
+        self.tool("click", 1)
+        clicked = self.event(r"click -?\d+ -?\d+", before)
+        return bool(clicked) and any(re.fullmatch(r"event \d+ change", line) for line in self.lines()[before:])
+
+    def rest(self, since):
+        """In idle mode: until the picture stands still."""
+        return self.event("resting", since)
 
     def settled(self):
         """The picture at rest: of two later frames that are alike. While an environment fades in, no two are."""
@@ -111,13 +151,33 @@ def copy_of_tree(folder):
         shutil.copytree(TOP / part, folder / part)
 
 
+@contextlib.contextmanager
+def display(frames=None):
+    """A virtual display of this test alone: the environment to run a program in it. The X server chooses a number that is free and
+    says it when it is ready; `frames` is the folder of its frame buffer."""
+    listens, says = os.pipe()
+    command = ["Xvfb", "-displayfd", str(says), "-screen", "0", "1280x1024x24", "-noreset", "-nolisten", "tcp"]
+    server = subprocess.Popen(command + (["-fbdir", str(frames)] if frames else []), pass_fds=[says], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
+    os.close(says)
+    try:
+        with os.fdopen(listens) as numbers:
+            number = numbers.readline().strip()
+        assert number, "Xvfb does not start"
+        hidden = {k: v for k, v in os.environ.items() if k not in ("WAYLAND_DISPLAY", "XAUTHORITY")}
+        yield {**hidden, "DISPLAY": f":{number}"}
+    finally:
+        server.terminate()
+        server.wait()
+
+
 def inside_display(report, weft, compare, script):
-    """Unless inside already: runs `script` under a virtual display and ends. Inside: the folder of its frame buffer."""
+    """Unless inside already: runs `script` in a virtual display and ends. Inside: the folder of its frame buffer."""
     if "--inside" in sys.argv:
         return pathlib.Path(os.environ["WEFT_SCREEN"])
-    if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
-        report.skip("xvfb-run or xdotool is not installed")
-    with tempfile.TemporaryDirectory(prefix="weft_screen_") as screen:
-        xvfb = ["xvfb-run", "-a", "-s", f"-screen 0 1280x1024x24 -noreset -fbdir {screen}"]
-        command = [*xvfb, sys.executable, script, weft, compare, *sys.argv[3:], "--inside"]
-        sys.exit(subprocess.run(command, env={**os.environ, "WEFT_SCREEN": screen}).returncode)
+    if not shutil.which("Xvfb") or not shutil.which("xdotool"):
+        report.skip("Xvfb or xdotool is not installed")
+    with tempfile.TemporaryDirectory(prefix="weft_screen_") as screen, display(screen) as environment:
+        command = [sys.executable, script, weft, compare, *sys.argv[3:], "--inside"]
+        done = subprocess.run(command, env={**environment, "WEFT_SCREEN": screen})
+    sys.exit(done.returncode)
