@@ -22,7 +22,9 @@ struct Binary {
 };
 
 bool hasBinaryName(const std::string& name) {
-  const auto isKey = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || (c >= 'a' && c <= 'f'); };
+  const auto isKey = [](char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0 || (c >= 'a' && c <= 'f');
+  };
   return name.size() == kBinaryKeyLength + 4 && name.ends_with(".bin") &&
          std::all_of(name.begin(), name.begin() + kBinaryKeyLength, isKey);
 }
@@ -78,6 +80,8 @@ BinaryFolderUse pruneBinaries(const std::string& folder, std::uint64_t most) {
   return use;
 }
 
-void touchBinary(const std::string& path) { ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0); }
+void touchBinary(const std::string& path) {
+  ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+}
 
 }  // namespace weft::gl

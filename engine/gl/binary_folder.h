@@ -1,5 +1,6 @@
-// The folder of program binaries, kept below a size: what was not used for longest goes first. Several processes may
-// write, use and remove at once. Only files that Weft wrote are ever removed: they have a name of 32 hex digits and
+// The folder of program binaries, kept below a size: what was not used for longest goes first. Several
+// processes may write, use and remove at once. Only files that Weft wrote are ever removed: they have a name
+// of 32 hex digits and
 // ".bin", and begin with kBinaryMagic. Does not: know what stands behind the magic (program_cache.cpp).
 #pragma once
 

@@ -23,9 +23,9 @@ ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const 
   return program;
 }
 
-bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device, std::span<const StageSource> stages,
-                   std::span<const Define> defines, std::span<const std::string> outputs, const ProgramSize& size,
-                   Diagnostics& diagnostics) {
+bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
+                   std::span<const StageSource> stages, std::span<const Define> defines,
+                   std::span<const std::string> outputs, const ProgramSize& size, Diagnostics& diagnostics) {
   // A window's driver without its window.
   const Backend backend = device.backend != Backend::glfw ? device.backend
                           : device.software               ? Backend::osmesa
@@ -36,13 +36,16 @@ bool survivesTrial(std::span<const std::string> command, const DeviceInfo& devic
   for (std::size_t i = 1; i < stages.size(); ++i)
     if (largestShare(size.stages[i]).share >= largestShare(size.stages[largest]).share) largest = i;
   const ShaderShare share = largestShare(size.stages[largest]);
-  base::Diagnostic& error = diagnostics.error(Code::W204, {stages[largest].source->file, 0, 0},
-                                              fmt::format("the driver did not survive {} this shader", result.during));
+  base::Diagnostic& error =
+      diagnostics.error(Code::W204, {stages[largest].source->file, 0, 0},
+                        fmt::format("the driver did not survive {} this shader", result.during));
   error.expected = fmt::format("at most {} s of processor time ({}) and {} MiB ({})",
                                base::limitOf(Limit::shader_seconds), base::nameOf(Limit::shader_seconds),
                                base::limitOf(Limit::shader_memory) >> 20, base::nameOf(Limit::shader_memory));
-  error.found = fmt::format("{}, after {:.1f} s and with {} MiB", result.what, result.seconds, result.bytes >> 20);
-  error.hint = fmt::format("make it smaller: it has {:.0f} % of {}", 100 * share.share, base::nameOf(share.limit));
+  error.found =
+      fmt::format("{}, after {:.1f} s and with {} MiB", result.what, result.seconds, result.bytes >> 20);
+  error.hint = fmt::format("make it smaller: it has {:.0f} % of what {} allows by default", 100 * share.share,
+                           base::nameOf(share.limit));
   return false;
 }
 
@@ -57,9 +60,9 @@ void placeCircles(std::span<const StageSource> stages, const ProgramSize& size, 
       const ShaderSize& stage = size.stages[i];
       if (stage.circle.empty()) continue;
       if (!told) {
-        base::Diagnostic& circle =
-            placed.error(d.code, stages[i].source->placeOf(stage.circleAt.line, stage.circleAt.column),
-                         fmt::format("functions call each other in a circle: {}", fmt::join(stage.circle, " -> ")));
+        base::Diagnostic& circle = placed.error(
+            d.code, stages[i].source->placeOf(stage.circleAt.line, stage.circleAt.column),
+            fmt::format("functions call each other in a circle: {}", fmt::join(stage.circle, " -> ")));
         circle.expected = "functions that call others only, as GLSL has no recursion";
         circle.hint = "write it as a loop";
       }

@@ -1,6 +1,6 @@
-// Whether a program may be handed to the driver: its stages held against their bounds, tried in a process of its own
-// when they are unusual, and functions that call each other in a circle told with their place. Parts of ProgramCache,
-// not for others.
+// Whether a program may be handed to the driver: its stages held against their bounds, tried in a process of
+// its own when they are unusual, and functions that call each other in a circle told with their place. Parts
+// of ProgramCache, not for others.
 #pragma once
 
 #include <span>
@@ -24,8 +24,9 @@ ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const 
                            base::Diagnostics& diagnostics);
 
 // False after an error (W204): the driver did not survive the program.
-bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device, std::span<const StageSource> stages,
-                   std::span<const Define> defines, std::span<const std::string> outputs, const ProgramSize& size,
+bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
+                   std::span<const StageSource> stages, std::span<const Define> defines,
+                   std::span<const std::string> outputs, const ProgramSize& size,
                    base::Diagnostics& diagnostics);
 
 // Drivers say that there is recursion, and not where.

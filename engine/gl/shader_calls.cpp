@@ -9,12 +9,14 @@ namespace {
 
 constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
 
-// What functions of the language become, in tokens of usual code that cost the driver as much (docs/limits.md).
+// What functions of the language become, in tokens of usual code that cost the driver as much
+// (docs/limits.md).
 std::uint64_t weightOf(std::string_view name) {
   constexpr std::pair<std::string_view, std::uint64_t> kWeights[] = {
-      {"inverse", 500}, {"determinant", 150}, {"sin", 70},  {"cos", 70},  {"tan", 140}, {"asin", 70}, {"acos", 70},
-      {"atan", 70},     {"sinh", 70},         {"cosh", 70}, {"tanh", 70}, {"asinh", 70}, {"acosh", 70}, {"atanh", 70},
-      {"exp", 30},      {"log", 30},          {"exp2", 30}, {"log2", 30}, {"pow", 60}};
+      {"inverse", 500}, {"determinant", 150}, {"sin", 70},   {"cos", 70},   {"tan", 140},
+      {"asin", 70},     {"acos", 70},         {"atan", 70},  {"sinh", 70},  {"cosh", 70},
+      {"tanh", 70},     {"asinh", 70},        {"acosh", 70}, {"atanh", 70}, {"exp", 30},
+      {"log", 30},      {"exp2", 30},         {"log2", 30},  {"pow", 60}};
   for (const auto& [each, weight] : kWeights)
     if (each == name) return weight;
   if (name.starts_with("textureGather")) return 250;
@@ -35,8 +37,8 @@ void CallCount::begin(std::string_view name, std::uint32_t arguments, const Toke
   open_ = true;
 }
 
-// A call may mean any function of its name and number of arguments; the one that it stands in only where there is no
-// other, as overloads call each other more often than functions themselves.
+// A call may mean any function of its name and number of arguments; the one that it stands in only where
+// there is no other, as overloads call each other more often than functions themselves.
 void CallCount::resolve(std::uint32_t index) {
   Function& function = functions_[index];
   for (const auto& [signature, count] : function.calls) {
@@ -101,13 +103,15 @@ void CallCount::close(Function& function) {
   function.state = Function::State::done;
 }
 
-void CallCount::noteCircle(const std::vector<std::uint32_t>& path, std::uint32_t first, ShaderSize& size) const {
+void CallCount::noteCircle(const std::vector<std::uint32_t>& path, std::uint32_t first,
+                           ShaderSize& size) const {
   if (!size.circle.empty()) return;
   for (auto it = std::find(path.begin(), path.end(), first); it != path.end(); ++it)
     size.circle.emplace_back(functions_[*it].signature.first);
   size.circle.push_back(size.circle.front());
   const Token& at = functions_[first].at;
-  size.circleAt = {.count = size.circle.size() - 1, .line = at.line, .column = at.column, .name = size.circle.front()};
+  size.circleAt = {
+      .count = size.circle.size() - 1, .line = at.line, .column = at.column, .name = size.circle.front()};
 }
 
 }  // namespace weft::gl

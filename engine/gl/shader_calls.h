@@ -1,5 +1,5 @@
-// How long functions are once every call is replaced by what it calls, as compilers do, and which of them call each
-// other in a circle. A part of shader_bounds, not for others.
+// How long functions are once every call is replaced by what it calls, as compilers do, and which of them
+// call each other in a circle. A part of shader_bounds, not for others.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,9 @@ class CallCount {
   void end() { open_ = false; }
   bool open() const { return open_; }
   void addToken() { ++functions_.back().tokens; }
-  void addCall(std::string_view name, std::uint32_t arguments) { ++functions_.back().calls[{name, arguments}]; }
+  void addCall(std::string_view name, std::uint32_t arguments) {
+    ++functions_.back().calls[{name, arguments}];
+  }
   // Writes `inlined` and the circle.
   void finish(ShaderSize& size);
 
@@ -30,7 +32,8 @@ class CallCount {
     Token at;
     std::uint64_t tokens = 0, inlined = 0;
     std::map<Signature, std::uint64_t> calls;  // how often each is called
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> callees;  // candidates of one call beside one another
+    std::vector<std::pair<std::uint32_t, std::uint64_t>>
+        callees;  // candidates of one call beside one another
     enum class State : std::uint8_t { fresh, open, done } state = State::fresh;
   };
   void resolve(std::uint32_t index);

@@ -12,15 +12,17 @@ constexpr std::uint32_t kDeepest = 64;  // brackets in the size of an array
 
 // Stand before a type.
 constexpr std::array<std::string_view, 24> kQualifiers{
-    "const",  "in",        "out",       "inout",   "uniform",   "buffer",   "shared",   "highp",
-    "mediump", "lowp",     "precise",   "invariant", "flat",    "smooth",   "noperspective", "centroid",
-    "sample", "patch",     "coherent",  "volatile", "restrict", "readonly", "writeonly", "varying"};
+    "const",   "in",    "out",      "inout",     "uniform",  "buffer",   "shared",        "highp",
+    "mediump", "lowp",  "precise",  "invariant", "flat",     "smooth",   "noperspective", "centroid",
+    "sample",  "patch", "coherent", "volatile",  "restrict", "readonly", "writeonly",     "varying"};
 // Begin statements that declare nothing.
 constexpr std::array<std::string_view, 7> kStatements{"return",   "case",    "default",  "break",
                                                       "continue", "discard", "precision"};
 
 // Or kMost.
-std::uint64_t times(std::uint64_t a, std::uint64_t b) { return b != 0 && a > kMost / b ? kMost : a * b; }
+std::uint64_t times(std::uint64_t a, std::uint64_t b) {
+  return b != 0 && a > kMost / b ? kMost : a * b;
+}
 
 template <class List>
 bool contains(const List& list, std::string_view word) {
@@ -73,7 +75,8 @@ std::optional<std::int64_t> DeclarationCount::valueOf(std::span<const Token> tok
   return evaluateTokens(tokens, known, kDeepest);
 }
 
-std::optional<std::uint64_t> DeclarationCount::dimensions(std::span<const Token> tokens, std::size_t& at) const {
+std::optional<std::uint64_t> DeclarationCount::dimensions(std::span<const Token> tokens,
+                                                          std::size_t& at) const {
   std::optional<std::uint64_t> product = 1;
   while (at < tokens.size() && tokens[at].is("[")) {
     const std::size_t end = skipBrackets(tokens, at);
@@ -81,8 +84,10 @@ std::optional<std::uint64_t> DeclarationCount::dimensions(std::span<const Token>
     at = end;
     if (inside.empty()) continue;  // as many as its initializer has, which is counted there
     const auto count = valueOf(inside);
-    product = count && product ? std::optional(times(*product, static_cast<std::uint64_t>(std::max<std::int64_t>(*count, 0))))
-                               : std::nullopt;
+    product =
+        count && product
+            ? std::optional(times(*product, static_cast<std::uint64_t>(std::max<std::int64_t>(*count, 0))))
+            : std::nullopt;
   }
   return product;
 }
@@ -94,8 +99,10 @@ void DeclarationCount::note(std::uint64_t elements, const Token& at, std::string
 }
 
 void DeclarationCount::take(std::uint64_t elements, const Token& name) {
-  if (body_ == Body::members) structs_[struct_] = std::min(kMost, structs_[struct_] + elements);
-  else if (body_ == Body::none) note(elements, name, name.text);
+  if (body_ == Body::members)
+    structs_[struct_] = std::min(kMost, structs_[struct_] + elements);
+  else if (body_ == Body::none)
+    note(elements, name, name.text);
 }
 
 void DeclarationCount::add(std::span<const Token> statement) {
@@ -113,7 +120,9 @@ void DeclarationCount::add(std::span<const Token> statement) {
       break;
     }
   }
-  if (at >= statement.size() || statement[at].kind != TokenKind::word || contains(kStatements, statement[at].text)) return;
+  if (at >= statement.size() || statement[at].kind != TokenKind::word ||
+      contains(kStatements, statement[at].text))
+    return;
   const Token& type = statement[at++];
   const auto known = structs_.find(type.text);
   const std::uint64_t each = known == structs_.end() ? 1 : known->second;

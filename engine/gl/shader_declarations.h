@@ -1,5 +1,5 @@
-// Elements of the variables that a shader declares outside its blocks, and constants that name their sizes. A part of
-// shader_bounds, not for others.
+// Elements of the variables that a shader declares outside its blocks, and constants that name their sizes. A
+// part of shader_bounds, not for others.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace weft::gl {
 class DeclarationCount {
  public:
   explicit DeclarationCount(ShaderSize& size) : size_(size) {}
-  // What stands before a '{' at file level: a struct's members are counted where it is used, a block's are not.
+  // What stands before a '{' at file level: a struct's members are counted where it is used, a block's are
+  // not.
   void openBody(std::span<const Token> before);
   void closeBody();
   // A statement without its ';': a declaration, or something else that is passed over.

@@ -56,8 +56,8 @@ class Expander {
 
  private:
   struct Branch {
-    bool outer = true;   // what stands around is taken
-    bool now = true;     // this branch is
+    bool outer = true;    // what stands around is taken
+    bool now = true;      // this branch is
     bool before = false;  // a branch before it was, for certain
   };
 
@@ -163,9 +163,7 @@ class Expander {
     macros_[name.text] = std::move(macro);
   }
 
-  void expandText(std::span<const Token> text) {
-    expand(text, out_.tokens, 0);
-  }
+  void expandText(std::span<const Token> text) { expand(text, out_.tokens, 0); }
 
   bool spend(std::uint64_t count, const Token& at) {
     spent_ += count;
@@ -193,7 +191,8 @@ class Expander {
       if (outside) place = token;
       token.line = place.line;
       token.column = place.column;
-      const auto found = token.kind == TokenKind::word && !token.inert ? macros_.find(token.text) : macros_.end();
+      const auto found =
+          token.kind == TokenKind::word && !token.inert ? macros_.find(token.text) : macros_.end();
       if (outside && depth == 0) top_ = found == macros_.end() ? std::string_view() : found->first;
       if (!spend(1, place)) break;
       if (found == macros_.end()) {
@@ -250,8 +249,10 @@ class Expander {
       ++stack.back().at;
       if (next->is("(") && brackets++ == 0) continue;
       if (next->is(")") && --brackets == 0) break;
-      if (next->is(",") && brackets == 1) arguments.emplace_back();
-      else arguments.back().push_back(*next);
+      if (next->is(",") && brackets == 1)
+        arguments.emplace_back();
+      else
+        arguments.back().push_back(*next);
     } while (true);
     nest(depth + 1, place);
     if (depth + 1 >= deepest_) {
@@ -276,8 +277,8 @@ class Expander {
         made.push_back(token);
         continue;
       }
-      const bool pasted = (i > 0 && macro.body[i - 1].is("##")) ||
-                          (i + 1 < macro.body.size() && macro.body[i + 1].is("##"));
+      const bool pasted =
+          (i > 0 && macro.body[i - 1].is("##")) || (i + 1 < macro.body.size() && macro.body[i + 1].is("##"));
       if (!pasted && !expanded[index]) expand(arguments[index], expanded[index].emplace(), depth + 1);
       const Tokens& from = pasted ? arguments[index] : *expanded[index];
       if (!spend(from.size(), place)) break;

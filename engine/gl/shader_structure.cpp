@@ -24,16 +24,20 @@ bool isControl(const Token& token) {
 
 class StructureScan {
  public:
-  StructureScan(std::span<const Token> tokens, ShaderSize& size) : tokens_(tokens), size_(size), declarations_(size) {}
+  StructureScan(std::span<const Token> tokens, ShaderSize& size)
+      : tokens_(tokens), size_(size), declarations_(size) {}
 
   void run() {
     levels_.emplace_back();
     for (at_ = 0; at_ < tokens_.size(); ++at_) {
       const Token& token = tokens_[at_];
       if (functions_.open()) functions_.addToken();
-      if (token.kind == TokenKind::sign) takeSign(token);
-      else if (token.kind == TokenKind::word) takeWord(token);
-      else levels_.back().empty = false;
+      if (token.kind == TokenKind::sign)
+        takeSign(token);
+      else if (token.kind == TokenKind::word)
+        takeWord(token);
+      else
+        levels_.back().empty = false;
     }
     functions_.finish(size_);
   }
@@ -71,9 +75,7 @@ class StructureScan {
     deepen(1);
   }
 
-  void dropExpression() {
-    depth_ -= std::exchange(levels_.back().operators, 0);
-  }
+  void dropExpression() { depth_ -= std::exchange(levels_.back().operators, 0); }
 
   void endStatement() {
     dropExpression();
@@ -99,7 +101,8 @@ class StructureScan {
   void countCase(Level& level) {
     ++size_.allCases;
     if (++level.cases > size_.cases.count)
-      size_.cases = {.count = level.cases, .line = level.begin.line, .column = level.begin.column, .name = {}};
+      size_.cases = {
+          .count = level.cases, .line = level.begin.line, .column = level.begin.column, .name = {}};
   }
 
   void takeSign(const Token& token) {
@@ -178,8 +181,10 @@ class StructureScan {
         return;
       }
       if (levels_.size() == 1) {
-        if (functions_.open()) functions_.end();
-        else declarations_.closeBody();
+        if (functions_.open())
+          functions_.end();
+        else
+          declarations_.closeBody();
       }
       endStatement();
     }
@@ -200,6 +205,8 @@ class StructureScan {
 
 }  // namespace
 
-void measureStructure(std::span<const Token> tokens, ShaderSize& size) { StructureScan(tokens, size).run(); }
+void measureStructure(std::span<const Token> tokens, ShaderSize& size) {
+  StructureScan(tokens, size).run();
+}
 
 }  // namespace weft::gl

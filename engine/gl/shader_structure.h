@@ -1,5 +1,5 @@
-// The structure of a shader's tokens as far as it is counted: functions and who calls whom, nesting, cases of switches,
-// elements of arrays. A part of shader_bounds, not for others.
+// The structure of a shader's tokens as far as it is counted: functions and who calls whom, nesting, cases of
+// switches, elements of arrays. A part of shader_bounds, not for others.
 #pragma once
 
 #include <span>

@@ -10,13 +10,19 @@ namespace weft::gl {
 
 namespace {
 
-bool isStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-bool isPart(char c) { return isStart(c) || isDigit(c); }
+bool isStart(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool isDigit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+bool isPart(char c) {
+  return isStart(c) || isDigit(c);
+}
 
-constexpr std::array<std::string_view, 23> kSigns{"<<=", ">>=", "##", "++", "--", "<<", ">>", "<=",
-                                                  ">=",  "==",  "!=", "&&", "||", "^^", "+=", "-=",
-                                                  "*=",  "/=",  "%=", "&=", "|=", "^=", "::"};
+constexpr std::array<std::string_view, 23> kSigns{
+    "<<=", ">>=", "##", "++", "--", "<<", ">>", "<=", ">=", "==", "!=", "&&",
+    "||",  "^^",  "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "::"};
 
 // A backslash before the end of a line, and the end of it: how many characters, or 0.
 std::size_t continuationAt(std::string_view text, std::size_t at) {
@@ -105,7 +111,7 @@ class Evaluator {
  private:
   static int rankOf(std::string_view sign) {
     constexpr std::pair<std::string_view, int> kRanks[] = {
-        {"||", 1}, {"&&", 2}, {"|", 3}, {"^", 4},  {"&", 5},  {"==", 6}, {"!=", 6}, {"<", 7}, {">", 7},
+        {"||", 1}, {"&&", 2}, {"|", 3},  {"^", 4},  {"&", 5}, {"==", 6}, {"!=", 6}, {"<", 7},  {">", 7},
         {"<=", 7}, {">=", 7}, {"<<", 8}, {">>", 8}, {"+", 9}, {"-", 9},  {"*", 10}, {"/", 10}, {"%", 10}};
     for (const auto& [text, rank] : kRanks)
       if (text == sign) return rank;
@@ -167,7 +173,8 @@ class Evaluator {
                              : ~*value;
     }
     // int(…) and uint(…) are brackets here.
-    const bool conversion = (token.is("int") || token.is("uint")) && at_ < tokens_.size() && tokens_[at_].is("(");
+    const bool conversion =
+        (token.is("int") || token.is("uint")) && at_ < tokens_.size() && tokens_[at_].is("(");
     if (token.kind == TokenKind::word && !conversion) return valueOf_(token.text);
     if (conversion) ++at_;
     if (!conversion && !token.is("(")) return std::nullopt;

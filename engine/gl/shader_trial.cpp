@@ -89,16 +89,20 @@ std::string listen(int from, Clock::time_point until, bool& late) {
 
 const char* stepOf(char last) {
   switch (last) {
-    case kTrialOpened: return "compiling";
-    case kTrialCompiled: return "linking";
-    default: return "making its machine code";
+    case kTrialOpened:
+      return "compiling";
+    case kTrialCompiled:
+      return "linking";
+    default:
+      return "making its machine code";
   }
 }
 
 }  // namespace
 
-TrialResult tryProgram(std::span<const std::string> command, Backend backend, std::span<const StageSource> stages,
-                       std::span<const Define> defines, std::span<const std::string> outputs) {
+TrialResult tryProgram(std::span<const std::string> command, Backend backend,
+                       std::span<const StageSource> stages, std::span<const Define> defines,
+                       std::span<const std::string> outputs) {
   TrialResult result;
   int ends[2];
   if (command.empty() || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;

@@ -1,8 +1,8 @@
-// Compiling a program in a process of its own first, so that a driver that crashes over it, takes all memory or does not
-// come to an end takes nothing else along. The process is this executable again, started with kTrialWord, or whatever an
-// embedder names. It opens a context of the same driver, compiles, links and makes the machine code of a draw or a
-// dispatch that covers nothing, so that no loop of the shader runs. Nothing of it comes back but how it ended. Does not:
-// decide which programs to try (shader_bounds.h does).
+// Compiling a program in a process of its own first, so that a driver that crashes over it, takes all memory
+// or does not come to an end takes nothing else along. The process is this executable again, started with
+// kTrialWord, or whatever an embedder names. It opens a context of the same driver, compiles, links and makes
+// the machine code of a draw or a dispatch that covers nothing, so that no loop of the shader runs. Nothing
+// of it comes back but how it ended. Does not: decide which programs to try (shader_bounds.h does).
 #pragma once
 
 #include <span>
@@ -25,12 +25,14 @@ struct TrialResult {
   std::uint64_t bytes = 0;  // of memory at most
 };
 
-// `command`: the executable and what comes before kTrialWord; empty: nothing is tried. Waits for the process, which is
-// gone when this returns: it is ended after shader_seconds of processor time, or six times that by the clock.
-TrialResult tryProgram(std::span<const std::string> command, Backend backend, std::span<const StageSource> stages,
-                       std::span<const Define> defines, std::span<const std::string> outputs);
+// `command`: the executable and what comes before kTrialWord; empty: nothing is tried. Waits for the process,
+// which is gone when this returns: it is ended after shader_seconds of processor time, or six times that by
+// the clock.
+TrialResult tryProgram(std::span<const std::string> command, Backend backend,
+                       std::span<const StageSource> stages, std::span<const Define> defines,
+                       std::span<const std::string> outputs);
 
-// The other end: reads the program from standard input. Does not return.
+// The other end: `argv` from kTrialWord on, the program on standard input. Does not return.
 [[noreturn]] void runTrial(int argc, char** argv);
 
 }  // namespace weft::gl

@@ -37,7 +37,9 @@ std::string readAll(int from) {
   }
 }
 
-[[noreturn]] void leave() { ::_exit(0); }
+[[noreturn]] void leave() {
+  ::_exit(0);
+}
 
 void say(char step) {
   if (::write(STDOUT_FILENO, &step, 1) != 1) leave();  // nobody listens
@@ -166,13 +168,13 @@ std::optional<TrialProgram> readTrial(std::string_view text) {
 
 void runTrial(int argc, char** argv) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // not longer than who asked for it
-  const auto backend = argc > 4 ? findBackend(argv[2]) : std::nullopt;
+  const auto backend = argc > 3 ? findBackend(argv[1]) : std::nullopt;
   const auto program = backend ? readTrial(readAll(STDIN_FILENO)) : std::nullopt;
   if (!program) leave();
   base::Diagnostics ignored;
   const auto context = createContext({.backend = *backend, .debug = false}, ignored);
   if (!context) leave();
-  takeLimits(std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10));
+  takeLimits(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
   say(kTrialOpened);
   if (const GLuint linked = compile(*program); linked != 0) {
     say(kTrialLinked);

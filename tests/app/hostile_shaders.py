@@ -34,19 +34,19 @@ CALLS = "float f0(float x) { return x * uv.y; }\n" + chain("float f$(float x) { 
 SINES = main_of("\n".join(f"a = sin(a) * uv.y + {i}.5;" for i in range(1200)) + "result = vec4(a);")
 # name, shader, code, place behind the file's name, options
 HOSTILE = [
-    ("a sum", SUM, "W203", ":6:3", ()),
-    ("brackets", main_of("result = vec4(" + "(" * 20000 + "a" + ")" * 20000 + ");"), "W203", ":6:3", ()),
-    ("a macro that doubles", main_of("result = vec4(M24);", "#define M0 a\n" + chain("#define M$ M% + M%", 24)), "W203", r":31:17", ()),
-    ("a macro that doubles nothing", main_of("M24()", "#define M0(x) x\n" + chain("#define M$(x) M%(x)M%(x)", 24)), "W203", r":31:3", ()),
+    ("a sum", SUM, "W203", ":5:3", ()),
+    ("brackets", main_of("result = vec4(" + "(" * 20000 + "a" + ")" * 20000 + ");"), "W203", ":5:3", ()),
+    ("a macro that doubles", main_of("result = vec4(M24);", "#define M0 a\n" + chain("#define M$ M% + M%", 24)), "W203", r"(:30:3|:30:17)", ()),
+    ("a macro that doubles nothing", main_of("M24()", "#define M0(x) x\n" + chain("#define M$(x) M%(x)M%(x)", 24)), "W203", r":30:3", ()),
     ("functions that double", main_of("result = vec4(f24(a));", DOUBLE), "W203", r":28:10", ()),
     ("a chain of calls", main_of("result = vec4(f1000(a));", CALLS), "W203", r":1004:10", ()),
-    ("a switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES[:CASES.index("case 5000:")] + "}"), "W203", ":6:28", ()),
-    ("a larger switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES + "}"), "W203", r"(:6:28|:\d+:\d+)", ()),
-    ("an array", main_of("float b[100000];\n  b[int(uv.x * 1e5)] = a;\n  result = vec4(b[int(uv.y * 1e5)]);"), "W203", ":6:9", ()),
+    ("a switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES[:CASES.index("case 5000:")] + "}"), "W203", ":5:28", ()),
+    ("a larger switch", main_of("switch (int(uv.x * 1e5)) {\n" + CASES + "}"), "W203", r"(:5:28|:\d+:\d+)", ()),
+    ("an array", main_of("float b[100000];\n  b[int(uv.x * 1e5)] = a;\n  result = vec4(b[int(uv.y * 1e5)]);"), "W203", ":5:9", ()),
     ("two megabytes", main_of("result = vec4(a);", "// nothing\n" * 200000), "W203", "", ()),
     ("a circle", main_of("result = vec4(f(a));", "float g(float x);\nfloat f(float x) { return g(x); }\nfloat g(float x) { return f(x); }\n"),
      "W104", ":4:8", ()),
-    ("a zero byte", main_of("result = vec4(a);\0"), "W104", ":6:20", ()),
+    ("a zero byte", main_of("result = vec4(a);\0"), "W104", ":5:20", ()),
     # What bounds do not catch, the process that tries it does.
     ("a sum without bounds", SUM, "W204", "", UNBOUND),
     ("much memory", main_of("result = vec4(f1000(a));", CALLS), "W204", "", (*UNBOUND, "--limit", "shader_memory=200M")),
@@ -63,7 +63,8 @@ def graph(shader, **keys):
 def guarded(report, name, weft, *arguments, folder):
     """Runs and holds what it used against the guard."""
     with open(folder / "err.txt", "w") as err:
-        process = subprocess.Popen([weft, *arguments], cwd=folder, stdout=subprocess.DEVNULL, stderr=err)
+        process = subprocess.Popen([weft, *arguments], cwd=folder, stdout=subprocess.DEVNULL, stderr=err,
+                                   env={**os.environ, "XDG_CACHE_HOME": str(folder / "cache")})  # nothing of a run before
         watch = time.monotonic() + 500
         pid = 0
         while pid == 0 and time.monotonic() < watch:
@@ -87,11 +88,11 @@ def commands(weft, folder, report):
         (folder / "shaders").mkdir(exist_ok=True)
         (folder / "shaders/bomb.frag.glsl").write_text(shader)
         (folder / "g.json").write_text(graph("bomb.frag.glsl"))
-        exit_code, said = guarded(report, name, weft, "check", "g.json", "--program-cache", "none", *options, folder=folder)
+        exit_code, said = guarded(report, name, weft, "check", "g.json", *options, folder=folder)
         errors = [m.groupdict() for m in map(DIAGNOSTIC.match, said.splitlines()) if m and m["severity"] == "error"]
         at = [d["code"] + (d["place"] or "") + "".join(":" + d[k] for k in ("line", "column") if d[k]) for d in errors]
         report.check(exit_code == 1, f"{name}: exit code {exit_code}\n{said}")
-        report.check(any(re.fullmatch(code + r"shaders/bomb\.frag\.glsl" + place, a) for a in at), f"{name}: {at}\n{said}")
+        report.check(at and re.fullmatch(code + r"shaders/bomb\.frag\.glsl" + place, at[0]), f"{name}: {at}\n{said}")
     # An unusual shader that is good is tried, and compiles; the bundled ones are never tried.
     (folder / "shaders/many.frag.glsl").write_text(main_of("switch (int(a * 100.0)) {\n" + CASES[:CASES.index("case 80:")] + "}"))
     (folder / "g.json").write_text(graph("many.frag.glsl"))

@@ -17,7 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string nameOf(int i) { return fmt::format("{:032x}.bin", i); }
+std::string nameOf(int i) {
+  return fmt::format("{:032x}.bin", i);
+}
 
 std::string bytesFor(std::size_t size) {
   std::string bytes(size, 'x');
@@ -66,7 +68,8 @@ TEST_CASE("files of others are never removed") {
   fs::create_symlink(folder.path("kept"), folder.path(nameOf(6)));
   fs::create_directory(folder.path(nameOf(7)));
   CHECK(pruneBinaries(folder.path(), 100).removed == 4);
-  for (const std::string& name : {std::string("notes.bin"), nameOf(4) + ".txt", nameOf(5), nameOf(6), nameOf(7), std::string("kept")})
+  for (const std::string& name :
+       {std::string("notes.bin"), nameOf(4) + ".txt", nameOf(5), nameOf(6), nameOf(7), std::string("kept")})
     CHECK_MESSAGE(fs::exists(folder.path(name)), name);
   CHECK(pruneBinaries(folder.path("nowhere"), 100).bytes == 0);
 }
