@@ -314,8 +314,6 @@ def viewer(test, top):
     report.check("osmesa" not in told.err and "weft render" in told.err, told.err)
     told = test.refused(None, "view", GLOW, "--backend", "osmesa", "--program-cache", "none", exit_code=2, env=bare, says="needs a window")
     report.check("xvfb-run -a" in told.err, told.err)
-    if not shutil.which("Xvfb"):
-        return report.skip("Xvfb is not installed")
     with display() as environment:
         view = {"env": environment}
         short = ["view", GLOW, "--size", "64x36", "--program-cache", "none", "--no-ui"]
@@ -348,6 +346,8 @@ def viewer(test, top):
 
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    if not shutil.which("Xvfb"):
+        report.skip("Xvfb is not installed")
     with temporary_folder() as name:
         test = Hostile(weft, pathlib.Path(name), report)
         (test.folder / "shaders").mkdir()
