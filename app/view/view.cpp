@@ -44,7 +44,7 @@ bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
         .hint = base::hintToRaise(base::Limit::frames) +
                 ", or leave --max-frames out: the window then stays until it is closed";
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
-  if (!options.record.empty()) checkOutput(options.record, 0, options.maxFrames != 1, diagnostics);
+  if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
   return !diagnostics.hasErrors();
 }
 

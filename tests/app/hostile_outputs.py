@@ -314,6 +314,8 @@ def viewer(test, top):
     report.check("osmesa" not in told.err and "weft render" in told.err, told.err)
     told = test.refused(None, "view", GLOW, "--backend", "osmesa", "--program-cache", "none", exit_code=2, env=bare, says="needs a window")
     report.check("xvfb-run -a" in told.err, told.err)
+    for bad in ("r_%s.png", "r.png", "r_%d.gif"):
+        test.refused("W180", "view", GLOW, "--record", bad, env=bare)
     with display() as environment:
         view = {"env": environment}
         short = ["view", GLOW, "--size", "64x36", "--program-cache", "none", "--no-ui"]

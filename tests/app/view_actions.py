@@ -225,7 +225,8 @@ def lose_a_table(weft, folder, report):
     """A table that goes away keeps the last good picture: its value is no wrong one, and is not left out."""
     table = folder / "dark.cube"
     save(table, "LUT_3D_SIZE 2\n" + "".join(f"{r / 4} {g / 4} {b / 4}\n" for b in (0, 1) for g in (0, 1) for r in (0, 1)))
-    live = Session(weft, folder, "--stats", "--no-ui", "--set", f"lut={table}", size="160x90")
+    closed = folder / "closed.png"  # of the last frame, also when a person ends the program
+    live = Session(weft, folder, "--stats", "--no-ui", "--set", f"lut={table}", "--screenshot", closed, size="160x90")
     try:
         report.check(live.open(80, 45), f"no window\n{live.said()}")
         dark, before = live.settled(), live.mark()
@@ -237,8 +238,10 @@ def lose_a_table(weft, folder, report):
         before = live.mark()
         save(table, text.replace("0.25", "0.5"))
         report.check(live.event("files good", before), f"the table that is back is not taken up\n{live.said()}")
-        report.check(live.settled().read_bytes() != dark.read_bytes(), "the other table does not show")
+        last = live.settled()
+        report.check(last.read_bytes() != dark.read_bytes(), "the other table does not show")
         close(live, report)
+        report.check(closed.exists() and closed.read_bytes() == last.read_bytes(), "--screenshot of a window that a person closes")
     finally:
         live.stop()
 
