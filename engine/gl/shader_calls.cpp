@@ -13,10 +13,13 @@ constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
 // (docs/limits.md).
 std::uint64_t weightOf(std::string_view name) {
   constexpr std::pair<std::string_view, std::uint64_t> kWeights[] = {
-      {"inverse", 500}, {"determinant", 150}, {"sin", 70},   {"cos", 70},   {"tan", 140},
-      {"asin", 70},     {"acos", 70},         {"atan", 70},  {"sinh", 70},  {"cosh", 70},
-      {"tanh", 70},     {"asinh", 70},        {"acosh", 70}, {"atanh", 70}, {"exp", 30},
-      {"log", 30},      {"exp2", 30},         {"log2", 30},  {"pow", 60}};
+      {"inverse", 500},   {"determinant", 150}, {"sin", 80},    {"cos", 80},         {"tan", 160},
+      {"asin", 150},      {"acos", 150},        {"atan", 190},  {"sinh", 150},       {"cosh", 150},
+      {"tanh", 150},      {"asinh", 150},       {"acosh", 150}, {"atanh", 150},      {"exp", 70},
+      {"log", 70},        {"exp2", 60},         {"log2", 60},   {"pow", 150},        {"mod", 20},
+      {"smoothstep", 20}, {"normalize", 20},    {"fract", 10},  {"sign", 10},        {"length", 20},
+      {"distance", 20},   {"reflect", 20},      {"cross", 10},  {"refract", 30},     {"sqrt", 10},
+      {"floor", 5},       {"round", 10},        {"mix", 5},     {"outerProduct", 50}};
   for (const auto& [each, weight] : kWeights)
     if (each == name) return weight;
   if (name.starts_with("textureGather")) return 250;

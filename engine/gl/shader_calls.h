@@ -18,7 +18,7 @@ class CallCount {
   void begin(std::string_view name, std::uint32_t arguments, const Token& at);
   void end() { open_ = false; }
   bool open() const { return open_; }
-  void addToken() { ++functions_.back().tokens; }
+  void addTokens(std::uint64_t count) { functions_.back().tokens += count; }
   void addCall(std::string_view name, std::uint32_t arguments) {
     ++functions_.back().calls[{name, arguments}];
   }

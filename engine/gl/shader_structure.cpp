@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <optional>
-#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/gl/shader_calls.h"
@@ -16,6 +14,8 @@ namespace {
 
 // Signs that are no operators of an expression.
 constexpr std::array<std::string_view, 9> kSeparators{"(", ")", "[", "]", "{", "}", ";", ",", ":"};
+
+constexpr std::uint64_t kMatrixTokens = 100;  // for each use of one
 
 bool isControl(const Token& token) {
   constexpr std::array<std::string_view, 6> kWords{"if", "else", "for", "while", "do", "switch"};
@@ -31,7 +31,7 @@ class StructureScan {
     levels_.emplace_back();
     for (at_ = 0; at_ < tokens_.size(); ++at_) {
       const Token& token = tokens_[at_];
-      if (functions_.open()) functions_.addToken();
+      if (functions_.open()) functions_.addTokens(1);
       if (token.kind == TokenKind::sign)
         takeSign(token);
       else if (token.kind == TokenKind::word)
@@ -83,7 +83,16 @@ class StructureScan {
     statement_ = at_ + 1;
   }
 
+  // A product of matrices is one sign and a hundred operations.
+  void weighMatrix(const Token& token) {
+    const Token* last = before();
+    const bool named = last && (last->text.starts_with("mat") || last->text.starts_with("dmat"));
+    if (named && last->kind == TokenKind::word) matrices_.insert(token.text);
+    else if (functions_.open() && matrices_.contains(token.text)) functions_.addTokens(kMatrixTokens);
+  }
+
   void takeWord(const Token& token) {
+    weighMatrix(token);
     levels_.back().empty = false;
     if (isControl(token)) {
       ++levels_.back().controls;
@@ -195,6 +204,7 @@ class StructureScan {
   DeclarationCount declarations_;
   CallCount functions_;
   std::vector<Level> levels_;
+  std::unordered_set<std::string_view> matrices_;  // names declared as such
   std::size_t at_ = 0, statement_ = 0;
   std::uint32_t depth_ = 0;
   bool switchHeader_ = false;
