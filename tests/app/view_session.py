@@ -74,8 +74,11 @@ def session(weft, compare, folder, report):
         same = live.shot()
         report.check(same and same.read_bytes() == apart.read_bytes(), "back again, the picture is another one")
 
-        live.key("space")  # no panel in the way
+        live.act("space", "panels")  # no panel in the way
         live.tool("mousemove", "--window", live.window, 100, 90)
+        # A frame whose panels are gone already still asks those of the frame before whether the mouse is over one, after its
+        # screenshot. A second screenshot is of a later frame: from there on the button is the picture's.
+        live.shot()
         live.shot()
         live.tool("mousedown", 1)
         for x in range(110, 200, 10):
