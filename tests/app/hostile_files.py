@@ -248,6 +248,8 @@ def many(weft, folder, report):
 
     write(folder / "key.json", {**graph(), "k" * 10_485_760: 1})
     done = limited(weft, "check", "key.json", "--no-shaders", folder=folder)
+    report.check(done and done.codes() == ["W201"] and "10485760 bytes" in done.err, f"a key of 10 MB: {done and done.err[:500]}")
+    done = limited(weft, "check", "key.json", "--no-shaders", "--limit", "name_bytes=20M", folder=folder)
     report.check(done and done.codes() == ["W004"] and "k… (10485762 bytes) in a graph" in done.err, f"a key of 10 MB: {done and done.err[:500]}")
 
     for i in range(200):
