@@ -57,8 +57,9 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
     chosen
         .add({.severity = Severity::note,
               .code = Code::W208,
-              .message = fmt::format("the nearest name was not looked for {}: too many names are unknown",
-                                     names == 1 ? "once" : fmt::format("{} times", names)),
+              .message =
+                  fmt::format("{} without a hint at the nearest one: too many names are unknown",
+                              names == 1 ? "1 unknown name is" : fmt::format("{} unknown names are", names)),
               .place = {}})
         .hint = "correct the others first; the next run compares what is left";
   return chosen;

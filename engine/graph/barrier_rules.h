@@ -62,9 +62,9 @@ inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
   return 0;
 }
 
-// glClearTexSubImage, glClearNamedBufferSubData
-inline std::uint16_t clearBit(bool buffer) {
-  return buffer ? kBarrierBufferUpdate : kBarrierTextureUpdate;
+// glClearNamedFramebuffer of an attachment; glClearTexSubImage, glClearNamedBufferSubData
+inline std::uint16_t clearBit(const ClearOp& clear, bool buffer) {
+  return clear.attachment != kNone ? kBarrierFramebuffer : buffer ? kBarrierBufferUpdate : kBarrierTextureUpdate;
 }
 
 // The present blit and glReadPixels; a buffer is copied out.

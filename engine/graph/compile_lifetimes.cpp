@@ -91,6 +91,21 @@ void clearCells(const FlatUse& use, const FlatResource& r, Plan& plan, Scratch& 
   }
 }
 
+// Which of the clears go through the framebuffer of their pass.
+void findAttachedClears(const FlatGraph& graph, const Step& step, Plan& plan) {
+  const FlatPass& pass = graph.passes[step.pass];
+  for (std::uint32_t c = step.firstClear; c < plan.clears.size(); ++c) {
+    const FlatUse& clear = plan.clears[c].use;
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const FlatUse& use = graph.uses[u];
+      if (plan.attached[u] != 0 && (use.kind == Kind::color || use.kind == Kind::depth) && use.history == 0 &&
+          use.resource == clear.resource && use.mip == clear.mip && clear.mips == 1 && use.mips == 1 &&
+          use.layer == clear.layer && use.layers == clear.layers && use.planes == clear.planes)
+        plan.clears[c].attachment = u;
+    }
+  }
+}
+
 bool isLiveOutput(const FlatGraph& graph, const FlatUse& use, const Plan& plan, const Scratch& scratch) {
   const std::uint8_t flags = scratch.flags[use.resource];
   if ((flags & Scratch::kImported) == 0 && plan.firstStep[use.resource] == kNone) return false;
@@ -145,6 +160,7 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
       if ((flags & Scratch::kClear) != 0 && use.history == 0) clearCells(use, r, plan, scratch);
     }
     step.clearCount = static_cast<std::uint32_t>(plan.clears.size()) - step.firstClear;
+    if (step.clearCount != 0) findAttachedClears(graph, step, plan);
   }
   plan.bytesBound = bound;
   scratch.anyStore = stored != 0;

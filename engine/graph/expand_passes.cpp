@@ -200,6 +200,7 @@ class PassWalk {
   void addCadence(const SlotContext& context, Names& names, FlatPass& flat) {
     flat.cadence = desc_->cadence;
     flat.sideEffect = desc_->sideEffect;
+    if (type_) flat.touches = type_->touches;
     flat.group = groupOf();
     const auto slices =
         evaluateWhole(names, desc_->slices, 1, 0, 65536, fmt::format("the slices of {}", context.user));

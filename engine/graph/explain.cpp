@@ -208,13 +208,13 @@ bool Explainer::eachAccess(std::uint32_t step, F&& f) const {
   }
   const Step& s = plan_.steps[step];
   for (std::uint32_t c = s.firstClear; c < s.firstClear + s.clearCount; ++c)
-    if (f(Touch{s.pass, plan_.clears[c].use, true, 0}, clearBit(buffer(plan_.clears[c].use)), false))
+    if (f(Touch{s.pass, plan_.clears[c].use, true, 0}, clearBit(plan_.clears[c], buffer(plan_.clears[c].use)), false))
       return true;
   const FlatPass& pass = graph_.passes[s.pass];
   for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
     const FlatUse& use = graph_.uses[u];
-    if (plan_.attached[u] != 0 && f(Touch{s.pass, use, false, 0}, useBits(use, buffer(use)), isStore(use)))
-      return true;
+    const auto bits = static_cast<std::uint16_t>(useBits(use, buffer(use)) | (buffer(use) ? 0 : pass.touches));
+    if (plan_.attached[u] != 0 && f(Touch{s.pass, use, false, 0}, bits, isStore(use))) return true;
   }
   return false;
 }

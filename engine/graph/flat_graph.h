@@ -53,6 +53,7 @@ struct FlatPass {
   std::uint32_t firstUse = 0, useCount = 0;
   Cadence cadence = Cadence::always;
   bool sideEffect = false;
+  std::uint16_t touches = 0;      // as PassType::touches
   std::uint32_t group = kNone;    // passes of one group publish together
   std::uint32_t slices = 1;
 };

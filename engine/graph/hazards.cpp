@@ -165,7 +165,7 @@ class Collector {
       if (anyArena_) inherit(t);
       for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c) {
         const FlatUse& use = plan_.clears[c].use;
-        if constexpr (collecting) need(use, clearBit(isBufferUse(use)), false);
+        if constexpr (collecting) need(use, clearBit(plan_.clears[c], isBufferUse(use)), false);
         mark(use, false, 2 * t + 1);
       }
       const std::uint32_t last = pass.firstUse + pass.useCount;
@@ -175,6 +175,7 @@ class Collector {
           if (plan_.attached[u] == 0 || tracks_[use.resource].mode == Mode::ignored) continue;
           const bool store = isStore(use);
           need(use, store ? storeBit(use) : useBits(use, isBufferUse(use)), store);
+          if (pass.touches != 0 && !isBufferUse(use)) need(use, pass.touches, false);
         }
         settle(t);
       }

@@ -9,25 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/graph/barrier_bit.h"
 #include "engine/graph/flat_graph.h"
 
 namespace weft::graph {
-
-// One bit per glMemoryBarrier bit that a plan can need (OpenGL 4.5 core, 7.12.2); the runtime maps them.
-enum BarrierBit : std::uint16_t {
-  kBarrierVertex = 1 << 0,          // VERTEX_ATTRIB_ARRAY
-  kBarrierIndex = 1 << 1,           // ELEMENT_ARRAY
-  kBarrierUniform = 1 << 2,         // UNIFORM
-  kBarrierTexture = 1 << 3,         // TEXTURE_FETCH
-  kBarrierImage = 1 << 4,           // SHADER_IMAGE_ACCESS
-  kBarrierCommand = 1 << 5,         // COMMAND
-  kBarrierTextureUpdate = 1 << 6,   // TEXTURE_UPDATE: clears and sub-image writes
-  kBarrierBufferUpdate = 1 << 7,    // BUFFER_UPDATE: buffer clears and copies
-  kBarrierFramebuffer = 1 << 8,     // FRAMEBUFFER: attachments, blits, read-back of textures
-  kBarrierStorage = 1 << 9,         // SHADER_STORAGE
-};
-constexpr int kBarrierBitCount = 10;
-const char* barrierName(BarrierBit bit);
 
 // In this order: `barriers`, the clears, `barriersAfterClears`, the pass. Both masks are issued also in frames in which
 // the pass is skipped by its cadence, so that any subset of cadences is free of hazards; the clears run with the pass
@@ -44,6 +29,9 @@ struct Step {
 
 struct ClearOp {
   FlatUse use;                                  // range to clear; kind copy, access write
+  // The use of the pass that attaches exactly this range (an index into FlatGraph::uses): the clear goes through the
+  // pass's framebuffer. kNone: it is a texture update.
+  std::uint32_t attachment = kNone;
 };
 
 // A physical texture (history: `copies` of them in a row count as one Storage).

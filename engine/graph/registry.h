@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/graph/barrier_bit.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/format.h"
 
@@ -30,9 +31,11 @@ struct PassType {
   std::vector<std::string> keys;            // pass keys it takes besides those every pass takes: "threads", "list", …
   std::vector<FixedSlot> fixedSlots;        // empty: slots are the author's
   // Of types without a shader. `framebuffers`: its slots are bound as framebuffers, as a blit needs.
-  // `fromSource`: the view of what it writes begins at the level it reads, and its GL command fetches,
-  // renders or copies as the driver likes.
+  // `fromSource`: the view of what it writes begins at the level it reads.
   bool framebuffers = false, fromSource = false;
+  // Bits (BarrierBit) that its GL command waits behind besides those of its slots' kinds, on the ranges of textures that
+  // they name: what it does to them that no slot says.
+  std::uint16_t touches = 0;
 };
 
 enum class ImportKind : std::uint8_t { texture, buffer, view, list, event };

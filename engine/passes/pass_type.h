@@ -1,5 +1,5 @@
 // A pass type: what a graph may say of it (reflect) and the GL calls that do it (execute). The executor has already
-// bound program, textures, buffers, framebuffer, viewport and fixed-function state when execute() is called.
+// bound program, vertex array, textures, buffers, framebuffer, viewport and fixed-function state when execute() is called.
 // Knows nothing of windows, input, scheduling or files. To add one: a folder here, a class, a line in pass_registry.cpp.
 #pragma once
 

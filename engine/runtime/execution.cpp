@@ -17,6 +17,7 @@ using graph::kNone;
 FrameReport Execution::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
   world_ = &world;
   input_ = input;
+  states_.forget();
   FrameReport report;
   device_.timers.beginFrame(static_cast<std::uint32_t>(passes_.size()));
   std::fill(ran_.begin(), ran_.end(), std::uint8_t{0});
@@ -58,6 +59,7 @@ void Execution::finishSlices(FrameReport& report, base::Diagnostics& diagnostics
     runDecided(report, diagnostics);
     publishFinished();
     viewImports(diagnostics);
+    states_.forget();  // an upload may have changed it
     any = true;
   }
   if (!any) return;
@@ -80,27 +82,27 @@ void Execution::runDecided(FrameReport& report, base::Diagnostics& diagnostics) 
   for (std::size_t step = 0; step < passes_.size(); ++step) {
     const graph::Step& planned = plan_->steps[step];
     if (planned.barriers) {
-      GLbitfield bits = glBarriersOf(planned.barriers);
-      // The plan counts a clear as a texture update; a clear of an attachment goes through the framebuffer instead.
-      if (planned.barriers & graph::kBarrierTextureUpdate) bits |= GL_FRAMEBUFFER_BARRIER_BIT;
-      // The specification names no bit for glGenerateTextureMipmap; drivers fetch, render or copy: order all three.
-      if (passes_[step].fromSource)
-        bits |= GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
-      glMemoryBarrier(bits);
+      glMemoryBarrier(glBarriersOf(planned.barriers));
       ++report.barriers;
     }
     report.whole = report.whole && !(input_.obsolete && input_.obsolete());
     const bool leftOut = !report.whole && !lasting_[step];
     if (!cadence_->runs(step) || leftOut) {
       if (planned.barriersAfterClears) glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
-      if (step == tapStep_ && report.whole) tap_();
+      lookThroughTap(step, report);
       continue;
     }
     ran_[step] = 1;
     runStep(step, diagnostics);
-    if (step == tapStep_ && report.whole) tap_();
+    lookThroughTap(step, report);
   }
   cadence_->endFrame(own_, generationsBefore_, generations_);
+}
+
+void Execution::lookThroughTap(std::size_t step, const FrameReport& report) {
+  if (step != tapStep_ || !report.whole) return;
+  tap_();
+  states_.forget();
 }
 
 // What spread jobs finished in the frame before becomes what everybody sees.

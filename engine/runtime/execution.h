@@ -14,6 +14,7 @@
 
 #include "engine/gl/context.h"
 #include "engine/gl/program_cache.h"
+#include "engine/gl/state_cache.h"
 #include "engine/gl/timers.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/cadence.h"
@@ -118,6 +119,7 @@ class Execution {
   bool publishFinished();
   void publish(std::uint32_t resource);
   void runStep(std::size_t step, base::Diagnostics& diagnostics);
+  void lookThroughTap(std::size_t step, const FrameReport& report);
   void rotateWritten(const PreparedPass& pass);
   void bind(PreparedPass& pass, base::Diagnostics& diagnostics);
   GLuint framebufferOf(PreparedPass& pass, base::Diagnostics& diagnostics);
@@ -135,6 +137,7 @@ class Execution {
   std::vector<std::uint8_t> publishing_;         // per resource: a pass that is not `always` publishes it in this frame
   std::unique_ptr<FrameCadence> cadence_;
   FramebufferCache framebuffers_;
+  gl::StateCache states_;
   std::vector<gl::Attachment> attachmentScratch_;
   gl::Buffer uniforms_;
   std::vector<std::byte> uniformBytes_;

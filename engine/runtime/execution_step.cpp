@@ -16,7 +16,7 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
   device_.timers.begin(static_cast<std::uint32_t>(step));
   const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
   if (!pass.clears.empty() && cadence_->slices(step).begins()) {
-    openMasks();
+    openMasks(states_);
     for (const ClearCommand& clear : pass.clears) {
       const GpuResource& resource = (*pool_)[clear.use.resource];
       const std::uint32_t copy = resource.copyOf(0, pass.job);
@@ -58,15 +58,14 @@ void Execution::runStep(std::size_t step, base::Diagnostics& diagnostics) {
     glMemoryBarrier(glBarriersOf(after));
   bind(pass, diagnostics);
   if (framebuffer) {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    applyState(pass);
-    scissorTo(pass);
+    states_.bindFramebuffer(framebuffer);
+    applyState(pass, states_);
+    scissorTo(pass, states_);
   } else {
-    openMasks();
+    openMasks(states_);
   }
   if (pass.feedback) glTextureBarrier();
   pass.type->execute(pass.context);
-  if (framebuffer) glDisable(GL_SCISSOR_TEST);
   device_.timers.end(static_cast<std::uint32_t>(step));
 }
 
@@ -84,40 +83,41 @@ GLuint Execution::framebufferOf(PreparedPass& pass, base::Diagnostics& diagnosti
 }
 
 void Execution::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
-  if (pass.variant) glUseProgram(pass.variant->program.id());
+  if (pass.variant) states_.useProgram(pass.variant->program.id());
+  if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
   for (const TextureBinding& binding : pass.textures) {
     const GpuResource& resource = (*pool_)[binding.resource];
     const GLuint texture = binding.views.empty() ? resource.importedFor(binding.history, pass.job)
                                                  : binding.views[resource.copyOf(binding.history, pass.job)];
-    glBindTextureUnit(binding.unit, texture);
-    glBindSampler(binding.unit, binding.sampler);
+    states_.bindTexture(binding.unit, texture);
+    states_.bindSampler(binding.unit, binding.sampler);
   }
   for (const ImageBinding& binding : pass.images) {
     const GpuResource& resource = (*pool_)[binding.resource];
     const GLuint texture = binding.views.empty() ? resource.importedFor(binding.history, pass.job)
                                                  : binding.views[resource.copyOf(binding.history, pass.job)];
-    glBindImageTexture(binding.unit, texture, 0, binding.layered, 0, binding.access, binding.format);
+    states_.bindImage(binding.unit, texture, binding.layered, binding.access, binding.format);
   }
   for (const BufferBinding& binding : pass.buffers) {
     if (binding.list >= 0) {
       const auto list = static_cast<scene::DrawList>(binding.list);
       const BufferRef table = device_.imports.instances(list, binding.layout, diagnostics);
-      glBindBufferBase(binding.target, binding.index, table.id);
+      states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
       continue;
     }
     if (binding.import != kNone) {
       const BufferRef table =
           device_.imports.buffer(plan_->graph->imports[binding.import], binding.layout, diagnostics);
-      glBindBufferBase(binding.target, binding.index, table.id);
+      states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
       continue;
     }
     const GpuResource& resource = (*pool_)[binding.resource];
-    glBindBufferRange(binding.target, binding.index,
-                      resource.buffers[resource.copyOf(binding.history, pass.job)],
-                      static_cast<GLintptr>(resource.offset), static_cast<GLsizeiptr>(resource.bytes));
+    states_.bindBuffer(binding.target, binding.index,
+                       resource.buffers[resource.copyOf(binding.history, pass.job)],
+                       static_cast<GLintptr>(resource.offset), static_cast<GLsizeiptr>(resource.bytes));
   }
   const auto bindBlock = [&](const gl::Block* block, std::uint32_t offset) {
-    if (block) glBindBufferRange(GL_UNIFORM_BUFFER, block->binding, uniforms_.id(), offset, block->bytes);
+    if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, uniforms_.id(), offset, block->bytes);
   };
   bindBlock(pass.parametersBlock, pass.parametersOffset);
   bindBlock(pass.viewBlock, pass.viewOffset);

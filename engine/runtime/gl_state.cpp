@@ -6,37 +6,43 @@ namespace weft::runtime {
 
 namespace {
 
-void setBlend(GLuint index, graph::Blend blend) {
-  if (blend == graph::Blend::none) {
-    glDisablei(GL_BLEND, index);
-    return;
-  }
-  glEnablei(GL_BLEND, index);
-  const bool extreme = blend == graph::Blend::min || blend == graph::Blend::max;
-  glBlendEquationi(index, !extreme ? GL_FUNC_ADD : blend == graph::Blend::min ? GL_MIN : GL_MAX);
+std::optional<gl::StateCache::Blend> blendOf(graph::Blend blend) {
   switch (blend) {
-    case graph::Blend::add: glBlendFunci(index, GL_ONE, GL_ONE); break;
+    case graph::Blend::none:
+      return std::nullopt;
+    case graph::Blend::add:
+      return {{GL_FUNC_ADD, GL_ONE, GL_ONE, GL_ONE, GL_ONE}};
     case graph::Blend::alpha:
-      glBlendFuncSeparatei(index, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-      break;
-    case graph::Blend::premultiplied: glBlendFunci(index, GL_ONE, GL_ONE_MINUS_SRC_ALPHA); break;
-    case graph::Blend::multiply: glBlendFunci(index, GL_DST_COLOR, GL_ZERO); break;
-    default: glBlendFunci(index, GL_ONE, GL_ONE); break;
+      return {{GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA}};
+    case graph::Blend::premultiplied:
+      return {{GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA}};
+    case graph::Blend::multiply:
+      return {{GL_FUNC_ADD, GL_DST_COLOR, GL_ZERO, GL_DST_COLOR, GL_ZERO}};
+    case graph::Blend::min:
+      return {{GL_MIN, GL_ONE, GL_ONE, GL_ONE, GL_ONE}};
+    case graph::Blend::max:
+      return {{GL_MAX, GL_ONE, GL_ONE, GL_ONE, GL_ONE}};
   }
+  return std::nullopt;
 }
 
 }  // namespace
 
-void scissorTo(const PreparedPass& pass) {
+void scissorTo(const PreparedPass& pass, gl::StateCache& states) {
   const passes::PassContext& c = pass.context;
-  if (c.sliceCount == c.slices) {
-    glDisable(GL_SCISSOR_TEST);
-    return;
-  }
+  const bool confined = c.sliceCount != c.slices;
+  states.enable(GL_SCISSOR_TEST, confined);
+  if (!confined) return;
   const auto at = [&](std::uint64_t slice) { return static_cast<GLint>(pass.height * slice / c.slices); };
   const GLint from = at(c.slice);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(0, from, static_cast<GLsizei>(pass.width), at(c.slice + c.sliceCount) - from);
+  states.scissor(from, static_cast<GLsizei>(pass.width), at(c.slice + c.sliceCount) - from);
+}
+
+void openMasks(gl::StateCache& states) {
+  states.colorMask(true);
+  states.depthMask(true);
+  states.stencilMask(0xff);
+  states.enable(GL_SCISSOR_TEST, false);
 }
 
 void openMasks() {
@@ -55,39 +61,33 @@ void releaseBindings() {
   glBindSampler(0, 0);
 }
 
-void applyState(const PreparedPass& pass) {
+void applyState(const PreparedPass& pass, gl::StateCache& states) {
   const graph::StateSpec& state = pass.context.spec->state;
   bool depthAttached = false, depthWritable = false;
   for (const AttachmentBinding& attachment : pass.attachments) {
     const bool depth = attachment.point == GL_DEPTH_ATTACHMENT || attachment.point == GL_DEPTH_STENCIL_ATTACHMENT;
     depthAttached |= depth;
     depthWritable |= depth && attachment.use.access != graph::Access::read;
-    if (!depth && attachment.point != GL_STENCIL_ATTACHMENT) setBlend(attachment.point - GL_COLOR_ATTACHMENT0, graph::Blend::none);
+    if (depth || attachment.point == GL_STENCIL_ATTACHMENT) continue;
+    const GLuint index = attachment.point - GL_COLOR_ATTACHMENT0;
+    graph::Blend mode = graph::Blend::none;
+    for (const auto& [buffer, blend] : pass.blends)
+      if (buffer == index) mode = blend;
+    states.blend(index, blendOf(mode));
   }
-  for (const auto& [index, blend] : pass.blends) setBlend(index, blend);
-  glViewport(0, 0, static_cast<GLsizei>(pass.width), static_cast<GLsizei>(pass.height));
+  states.viewport(static_cast<GLsizei>(pass.width), static_cast<GLsizei>(pass.height));
   // Writing depth needs the test enabled; a pass that writes it without asking for a test passes always.
-  if (depthAttached && (state.depthTest || depthWritable)) {
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(state.depthTest ? glCompareOf(state.depthCompare) : GL_ALWAYS);
-    glDepthMask(depthWritable && state.depthWrite ? GL_TRUE : GL_FALSE);
-  } else {
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_FALSE);
-  }
-  if (state.cull == graph::Cull::none) {
-    glDisable(GL_CULL_FACE);
-  } else {
-    glEnable(GL_CULL_FACE);
-    glCullFace(state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
-  }
-  glPolygonMode(GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
-  if (state.offsetFactor != 0 || state.offsetUnits != 0) {
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(static_cast<GLfloat>(state.offsetFactor), static_cast<GLfloat>(state.offsetUnits));
-  } else {
-    glDisable(GL_POLYGON_OFFSET_FILL);
-  }
+  const bool depthTest = depthAttached && (state.depthTest || depthWritable);
+  states.enable(GL_DEPTH_TEST, depthTest);
+  if (depthTest) states.depthFunc(state.depthTest ? glCompareOf(state.depthCompare) : GL_ALWAYS);
+  states.depthMask(depthTest && depthWritable && state.depthWrite);
+  states.colorMask(true);
+  states.enable(GL_CULL_FACE, state.cull != graph::Cull::none);
+  if (state.cull != graph::Cull::none) states.cullFace(state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
+  states.polygonMode(state.lines ? GL_LINE : GL_FILL);
+  const bool offset = state.offsetFactor != 0 || state.offsetUnits != 0;
+  states.enable(GL_POLYGON_OFFSET_FILL, offset);
+  if (offset) states.polygonOffset(static_cast<GLfloat>(state.offsetFactor), static_cast<GLfloat>(state.offsetUnits));
 }
 
 }  // namespace weft::runtime

@@ -96,7 +96,7 @@ class Preparer {
       for (std::uint32_t k = 0; k < slot.useCount; ++k) {
         const std::uint32_t index = slot.firstUse + k;
         if (slot.access != Access::read && !isAttached(index)) continue;
-        good &= bindUse(slot, graph_.uses[index], k);
+        good &= bindUse(slot, index, k);
       }
     }
     const gl::Block* instances = out_.variant->program.reflection().findStorageBlock("instances");
@@ -122,7 +122,8 @@ class Preparer {
     assert(good);
   }
 
-  bool bindUse(const SlotSpec& slot, const FlatUse& use, std::uint32_t element) {
+  bool bindUse(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
+    const FlatUse& use = graph_.uses[index];
     const gl::Reflection& reflection = out_.variant->program.reflection();
     const FlatResource& resource = graph_.resources[use.resource];
     switch (slot.kind) {
@@ -169,14 +170,14 @@ class Preparer {
         const auto location = static_cast<GLuint>(output->location);
         for (const auto& [name, blend] : spec_.state.blend)
           if (name == slot.name && blend != graph::Blend::none) out_.blends.emplace_back(location, blend);
-        return attach(use, GL_COLOR_ATTACHMENT0 + location);
+        return attach(index, GL_COLOR_ATTACHMENT0 + location);
       }
       case Kind::depth: {
         const bool stencil = graph::hasStencil(resource.format);
-        return attach(use, !stencil              ? GL_DEPTH_ATTACHMENT
-                           : use.planes == 1     ? GL_DEPTH_ATTACHMENT
-                           : use.planes == 2     ? GL_STENCIL_ATTACHMENT
-                                                 : GL_DEPTH_STENCIL_ATTACHMENT);
+        return attach(index, !stencil          ? GL_DEPTH_ATTACHMENT
+                             : use.planes == 1 ? GL_DEPTH_ATTACHMENT
+                             : use.planes == 2 ? GL_STENCIL_ATTACHMENT
+                                               : GL_DEPTH_STENCIL_ATTACHMENT);
       }
       case Kind::copy: case Kind::vertex: case Kind::index: case Kind::indirect: return true;
     }
@@ -184,9 +185,10 @@ class Preparer {
   }
 
   // Attachments go through a view of the whole resource, so that equal storage gives equal framebuffers.
-  bool attach(const FlatUse& use, GLenum point) {
+  bool attach(std::uint32_t index, GLenum point) {
+    const FlatUse& use = graph_.uses[index];
     const FlatResource& resource = graph_.resources[use.resource];
-    AttachmentBinding binding{.point = point, .resource = use.resource, .mip = use.mip, .textures = {}, .use = use};
+    AttachmentBinding binding{.point = point, .resource = use.resource, .mip = use.mip, .textures = {}, .use = use, .index = index};
     const bool plain = resource.target == graph::Target::texture_2d || resource.target == graph::Target::texture_2d_multisample;
     binding.layer = plain || use.layers > 1 || resource.target == graph::Target::texture_3d ? -1 : use.layer;
     FlatUse whole = use;
@@ -246,17 +248,13 @@ class Preparer {
   void collectClears() {
     for (std::uint32_t i = 0; i < step_.clearCount; ++i) {
       ClearCommand command;
-      command.use = c_.plan.clears[step_.firstClear + i].use;
+      const graph::ClearOp& clear = c_.plan.clears[step_.firstClear + i];
+      command.use = clear.use;
       command.format = graph_.resources[command.use.resource].format;
-      for (const graph::ClearSpec& clear : graph_.clears)
-        if (clear.resource == command.use.resource) command.value = clear.value;
-      for (std::size_t a = 0; a < out_.attachments.size(); ++a) {
-        const FlatUse& attached = out_.attachments[a].use;
-        if (attached.resource == command.use.resource && attached.mip == command.use.mip && command.use.mips == 1 &&
-            attached.layer == command.use.layer && attached.layers == command.use.layers &&
-            attached.planes == command.use.planes)
-          command.attachment = static_cast<int>(a);
-      }
+      for (const graph::ClearSpec& spec : graph_.clears)
+        if (spec.resource == command.use.resource) command.value = spec.value;
+      for (std::size_t a = 0; a < out_.attachments.size(); ++a)
+        if (out_.attachments[a].index == clear.attachment) command.attachment = static_cast<int>(a);
       out_.clears.push_back(command);
     }
   }

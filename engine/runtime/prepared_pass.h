@@ -52,6 +52,7 @@ struct AttachmentBinding {
   std::int32_t layer = -1;
   std::vector<GLuint> textures;          // per copy
   graph::FlatUse use;
+  std::uint32_t index = graph::kNone;    // of `use` in FlatGraph::uses
 };
 
 // The source or destination of a pass type without a shader.

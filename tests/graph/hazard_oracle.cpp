@@ -136,7 +136,11 @@ class Replay {
         if (runs[step.pass]) {
           for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c) {
             begin("clear before " + name, frame);
-            touch(plan_.clears[c].use, Op::clear, false, step.pass);
+            // Through the pass's framebuffer, if the plan says so: then the pass must attach just that.
+            const std::uint32_t attachment = plan_.clears[c].attachment;
+            if (attachment != kNone && !attaches(step.pass, attachment, plan_.clears[c].use))
+              return "the clear before " + name + " names an attachment that is none";
+            touch(plan_.clears[c].use, attachment != kNone ? Op::attachment : Op::clear, false, step.pass);
             if (std::string found = commit(); !found.empty()) return found;
           }
         }
@@ -149,6 +153,10 @@ class Replay {
           const FlatUse& use = graph_.uses[u];
           const Op op = opOf(use, isBuffer(graph_.resources[use.resource]));
           touch(use, op, use.access != Access::read && (op == Op::image || op == Op::storage), step.pass);
+          // What the pass type does to the range besides.
+          for (const Op more : {Op::texture_fetch, Op::image, Op::attachment, Op::clear})
+            if (!isBuffer(graph_.resources[use.resource]) && (toGl(pass.touches) & bitToSeeShaderWrites(more, false)) != 0)
+              touch(use, more, false, step.pass);
           // Texture barriers order rendering with fetches of it, not shader stores with fetches.
           if (use.feedback) touch(use, Op::texture_fetch, false, step.pass);
         }
@@ -169,6 +177,15 @@ class Replay {
   }
 
  private:
+  bool attaches(std::uint32_t pass, std::uint32_t index, const FlatUse& range) const {
+    const FlatPass& p = graph_.passes[pass];
+    if (index < p.firstUse || index >= p.firstUse + p.useCount || plan_.attached[index] == 0) return false;
+    const FlatUse& use = graph_.uses[index];
+    return (use.kind == Kind::color || use.kind == Kind::depth) && use.resource == range.resource &&
+           use.history == 0 && use.mip == range.mip && use.mips == range.mips && use.layer == range.layer &&
+           use.layers == range.layers && use.planes == range.planes;
+  }
+
   // x becomes x@-1 at the start of every frame in which a writer of x runs; of a spread job, in which it
   // publishes.
   void rotate(const std::vector<bool>& runs) {

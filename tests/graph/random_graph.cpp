@@ -127,6 +127,8 @@ class Generator {
       if (chance(30)) pass.group = static_cast<std::uint32_t>(pick(2));
     }
     if (chance(8)) b_.sideEffect();
+    // As a type that makes mip levels by whatever the driver likes.
+    if (chance(6)) pass.touches = kBarrierFramebuffer | kBarrierTexture | kBarrierTextureUpdate;
     for (auto& cells : locked_) std::fill(cells.begin(), cells.end(), 0);
     for (std::size_t i = 2 + pick(6); i > 0; --i) addRead(compute);
     for (std::size_t i = 1 + pick(4); i > 0; --i) addWrite(compute);

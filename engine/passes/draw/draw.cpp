@@ -14,7 +14,6 @@ void Draw::execute(const PassContext& context) const {
   if (context.instances == 0) return;
   const Geometry& geometry = context.geometry;
   const auto instances = static_cast<GLsizei>(context.instances);
-  glBindVertexArray(geometry.vertexArray);
   if (geometry.indexType)
     glDrawElementsInstanced(geometry.mode, geometry.count, geometry.indexType, nullptr, instances);
   else

@@ -10,8 +10,7 @@ graph::PassType Fullscreen::reflect() const {
           .keys = {"state", "view", "feedback"}};
 }
 
-void Fullscreen::execute(const PassContext& context) const {
-  glBindVertexArray(context.geometry.vertexArray);
+void Fullscreen::execute(const PassContext&) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -11,7 +11,9 @@ graph::PassType Mipmap::reflect() const {
           .defaultWriteTexture = graph::Kind::copy,
           .fixedSlots = {{"source", graph::Access::read, "the finest level, already written"},
                          {"result", graph::Access::write, "the levels below it"}},
-          .fromSource = true};
+          .fromSource = true,
+          // The specification names no bit for glGenerateTextureMipmap; drivers fetch, render or copy: all three.
+          .touches = graph::kBarrierFramebuffer | graph::kBarrierTexture | graph::kBarrierTextureUpdate};
 }
 
 // The executor hands over one view that starts at the source level and ends at the last level written.
