@@ -170,6 +170,10 @@ class Builder {
   }
 
   bool close() {
+    // Large ones keep no room for more: it would be a quarter of the memory of a large file.
+    JsonValue& closed = *open_.back();
+    if (closed.members.size() > 64) closed.members.shrink_to_fit();
+    if (closed.items.size() > 64) closed.items.shrink_to_fit();
     open_.pop_back();
     keys_.pop_back();
     containers_.pop_back();

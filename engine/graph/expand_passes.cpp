@@ -358,6 +358,11 @@ class PassWalk {
 }  // namespace
 
 void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
+  std::size_t slots = 0;  // of stanzas that do not repeat: a large graph of them is not copied while it grows
+  for (const Scope& scope : model.scopes)
+    for (const PassDesc& pass : scope.desc->passes) slots += pass.slots.size();
+  model.graph.slots.reserve(slots);
+  model.graph.uses.reserve(slots);
   PassWalk(model, deferred).walk(model.scopes[0], {});
 }
 

@@ -229,7 +229,7 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 }
 
 bool maySuggest(Model& model, std::size_t names) {
-  constexpr std::uint64_t kMostNames = 5'000'000;
+  constexpr std::uint64_t kMostNames = 200'000;
   model.effort.suggested += names;
   return model.effort.suggested <= kMostNames;
 }

@@ -219,6 +219,10 @@ class PassReader {
   }
 
   void readSlots() {
+    std::size_t count = 0;
+    for (const char* key : {"read", "write", "modify"})
+      if (const JsonValue* slots = value_.find(key)) count += slots->members.size();
+    out_.slots.reserve(count);
     // In file order, whichever of the three comes first.
     for (const JsonMember& member : value_.members) {
       const Access access = member.key == "write"    ? Access::write

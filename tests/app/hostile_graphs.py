@@ -17,7 +17,7 @@ import time
 from program import DIAGNOSTIC, Report, temporary_folder
 
 GIGABYTE = 1 << 30
-GUARD_S = 120  # a hanging run ends; what it took is printed, not judged
+GUARD_S = 60  # of the processor: a hanging run ends; what it took is printed, not judged
 SMALL = {"texture": "rgba8", "size": 8}
 PASS = {"type": "fullscreen", "shader": "a.frag.glsl"}
 
@@ -122,9 +122,9 @@ def conditions_in_a_row(n):
 
 
 def binds_in_a_row(n):
-    part = {"resources": {"x": {"input": "texture"}}, "passes": []}
-    stanzas = [{"include": "f.json", "as": f"n{i}", "bind": {"x": f"n{i + 1}.x"}} for i in range(n - 1)]
-    return {"g.json": graph({}, [*stanzas, {"include": "f.json", "as": f"n{n - 1}", "bind": {"x": "ldr"}}, reader("n0.x?")]), "f.json": part}
+    part = {"resources": {"map": {"input": "texture"}}, "passes": []}
+    stanzas = [{"include": "f.json", "as": f"n{i}", "bind": {"map": f"n{i + 1}.map"}} for i in range(n - 1)]
+    return {"g.json": graph({}, [*stanzas, {"include": "f.json", "as": f"n{n - 1}", "bind": {"map": "ldr"}}, reader("n0.map?")]), "f.json": part}
 
 
 def tall_lets(n, height):
@@ -339,6 +339,7 @@ class Ended:
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
             self.seconds = time.monotonic() - begin
+            self.busy = usage.ru_utime + usage.ru_stime
             self.code, self.bytes = process.returncode, usage.ru_maxrss * 1024
             out.seek(0)
             self.text = out.read(1 << 20).decode(errors="replace")
@@ -358,7 +359,7 @@ def check_case(report, weft, name, case, full):
             (folder / file).write_text(value if isinstance(value, str) else text(value))
         ended = Ended([str(weft), "check", "--no-shaders", "g.json", *arguments], folder)
     if full:
-        print(f"{ended.seconds:6.2f} s {ended.bytes / 1e6:6.0f} MB  exit {ended.code}  {name}", flush=True)
+        print(f"{ended.seconds:6.2f} s ({ended.busy:5.2f} of the processor) {ended.bytes / 1e6:6.0f} MB  exit {ended.code}  {name}", flush=True)
     shown = f"{name}:\n{ended.text[:1500]}"
     report.check(ended.code == (1 if code else 0), f"exit code {ended.code}: {shown}")
     report.check(ended.bytes <= GIGABYTE, f"{ended.bytes / 1e6:.0f} MB: {name}")

@@ -54,7 +54,7 @@ TEST_CASE("values are counted, of every type and in every depth") {
   CHECK(parse("{ \"a\": [1, true], \"b\": { \"c\": null } }", diagnostics));
   CHECK(diagnostics.empty());
   checkRefused("{ \"a\": [1, true], \"b\": { \"c\": \"d\", \"e\": 1 } }",
-               "t.json:1:42: ", "(limit json_values)");
+               "t.json:1:41: ", "(limit json_values)");
   checkRefused("[1, 2, 3, 4, 5, {}]", "t.json:1:17: ", "(limit json_values)");
 }
 
