@@ -74,7 +74,9 @@ int runCheck(const Options& options) {
   const auto plan = planFor(options, diagnostics);
   if (plan && options.shaders) checkShaders(options, *plan, diagnostics);
   base::Diagnostics again;
-  if (const auto desc = plan ? nullptr : graph::readGraph(options.graph, options.presets, again)) {
+  // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
+  const bool over = diagnostics.contains(base::Code::W201);
+  if (const auto desc = plan || over ? nullptr : graph::readGraph(options.graph, options.presets, again)) {
     gl::SourceLoader sources(runtime::shaderRootsOf(options.graph, dataFolder()));
     checkShaderFiles(options, *desc, sources, diagnostics);
   }
