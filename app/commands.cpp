@@ -15,6 +15,7 @@
 #include "engine/graph/dump_dot.h"
 #include "engine/graph/dump_json.h"
 #include "engine/graph/dump_text.h"
+#include "engine/graph/enough.h"
 #include "engine/graph/read.h"
 #include "engine/graph/schema.h"
 #include "engine/runtime/prepared_pass.h"
@@ -57,6 +58,7 @@ void checkShaderFiles(const Options& options, const graph::GraphDesc& desc, gl::
                       base::Diagnostics& diagnostics) {
   const passes::PassRegistry types = passes::PassRegistry::builtin();
   for (const graph::PassDesc& pass : desc.passes) {
+    if (graph::enoughErrors(diagnostics)) return;
     if (pass.include && pass.include->graph)
       checkShaderFiles(options, *pass.include->graph, sources, diagnostics);
     const passes::PassType* type = pass.shader.empty() ? nullptr : types.find(pass.type);

@@ -47,6 +47,9 @@ FILES = {
     "history.json": graph(extra=', "history": 1000000000'),
     "repeat.json": graph(more=', "repeat": { "i": [0, 1000000000] }'),
     "memory.json": graph(size="[16384, 16384]", extra=', "layers": 2000'),
+    "block.json": graph(resources=',\n    "small": { "buffer": 64 }, "large": { "buffer": 2000000000 }',
+                        more=' },\n    { "name": "fill", "type": "compute", "shader": "fill.comp.glsl", "threads": 1, "side_effect": true, "write": { "data": "large" }'),
+    "shaders/fill.comp.glsl": "layout(local_size_x = 1) in;\nlayout(std430) buffer data { float values[]; };\nvoid main() { values[gl_GlobalInvocationID.x] = 1.0; }\n",
     "missing_shader.json": graph(shader="sky/no_such.frag.glsl"),
     "bad_shader.json": graph(shader="bad.frag.glsl"),
     "bad_include.json": graph(shader="include.frag.glsl"),
@@ -117,6 +120,7 @@ CASES = [
     (rendered("history.json"), 1, "W048", r"history\.json:3:63"),
     (["check", "repeat.json", "--no-shaders"], 1, "W081", r"repeat\.json:\d+:\d+"),
     (rendered("memory.json"), 1, "W202", r"memory\.json:3:5"),
+    (rendered("block.json"), 1, "W117", r"block\.json:4:32", "larger than a shader can see"),
     (rendered("missing_shader.json"), 1, "W100", r"missing_shader\.json:5:54"),
     (rendered("bad_shader.json"), 1, "W104", r"shaders/bad\.frag\.glsl:3:\d+"),
     # what is wrong with a graph does not hide its shaders, nor a bad name the rest of its pass

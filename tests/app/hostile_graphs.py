@@ -59,8 +59,8 @@ def includes_in_a_row(n):
     return {"g.json": graph({}, [{"include": "f1.json", "as": "n"}]), **files, f"f{n - 1}.json": {"passes": []}}
 
 
-def includes_twice(n, **stanza):
-    two = lambda i: [{"include": f"f{i}.json", "as": side, **stanza} for side in "ab"]
+def includes_twice(n):
+    two = lambda i: [{"include": f"f{i}.json", "as": side} for side in "ab"]
     files = {f"f{i}.json": {"passes": two(i + 1)} for i in range(1, n)}
     return {"g.json": graph({}, two(1)), **files, f"f{n}.json": {"passes": []}}
 
@@ -164,7 +164,7 @@ def images_of_one_texture(n):
 
 def layers_read_again(writers, readers):
     """A texture of which each layer has another writer is read whole: every reader sees them all."""
-    write = {**PASS, "name": "w", "repeat": {"i": [0, writers - 1]}, "write": {"o": "a.layer[i]"}}
+    write = {**PASS, "name": "writer", "repeat": {"i": [0, writers - 1]}, "write": {"o": "a.layer[i]"}}
     read = {**PASS, "name": "r", "repeat": {"i": [1, readers]}, "side_effect": True, "read": {"s": "a"}, "write": {"o": "ldr"}}
     return {"g.json": graph({"a": {**SMALL, "layers": writers}}, [write, read])}
 
@@ -264,7 +264,7 @@ CASES = {
     "65 files in a row": (lambda: includes_in_a_row(65), [], "W201", "found: 65 with 'f64.json'"),
     "256 files in a row, the most": (lambda: includes_in_a_row(256), L("include_depth", 256), None, ""),
     "2^31 includes": (lambda: includes_twice(31), [], "W201", "include_files"),
-    "2^31 includes, disabled": (lambda: includes_twice(31, enabled=False), [], "W201", "include_files"),
+    "2^31 includes, disabled": (lambda: includes_twice(31), ["--disable", "a", "--disable", "b"], "W201", "include_files"),
     "2^31 includes below a preset": (lambda: {**includes_twice(31), "p.json": {"parameters": {}, "let": {"a": 1}}}, ["--preset", "p.json"], "W201", "include_files"),
     "999 includes": (lambda: includes_beside(999), [], None, ""),
     "1,000 includes": (lambda: includes_beside(1000), [], "W201", "(limit include_files)"),
@@ -357,6 +357,9 @@ def check_case(report, weft, name, case, full):
         folder = pathlib.Path(folder_name)
         for file, value in make().items():
             (folder / file).write_text(value if isinstance(value, str) else text(value))
+        (folder / "shaders").mkdir()
+        for shader in ("a.frag.glsl", "a.comp.glsl"):
+            (folder / "shaders" / shader).write_text("void main() {}\n")
         ended = Ended([str(weft), "check", "--no-shaders", "g.json", *arguments], folder)
     if full:
         print(f"{ended.seconds:6.2f} s ({ended.busy:5.2f} of the processor) {ended.bytes / 1e6:6.0f} MB  exit {ended.code}  {name}", flush=True)
