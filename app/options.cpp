@@ -49,7 +49,7 @@ std::string checkFrames(const std::string& text) {
   std::uint32_t first = 0, last = 0;
   const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
                                                         : parsePair(text, ':', first, last) && first <= last;
-  return good ? "" : "expected FRAME or FIRST:LAST with FIRST <= LAST, found '" + text + "'";
+  return good ? "" : "expected FRAME or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to 4294967295, found '" + text + "'";
 }
 
 std::string checkCount(const std::string& text) {

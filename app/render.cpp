@@ -38,7 +38,7 @@ bool checkFrameCount(const Options& options, std::uint64_t count, const char* wh
                                 ? fmt::format("--frames {}", options.firstFrame)
                                 : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame)),
       fmt::format("{} frames would run{}, the limit 'frames' is {}", count, why, limit));
-  d.hint = base::hintToRaise(base::Limit::frames);
+  d.hint = base::hintToRaise(base::Limit::frames, count);
   return false;
 }
 

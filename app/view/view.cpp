@@ -41,7 +41,7 @@ bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
     diagnostics
         .error(base::Code::W201, graph::placeOfSetting(fmt::format("--max-frames {}", options.maxFrames)),
                fmt::format("{} frames would run, the limit 'frames' is {}", options.maxFrames, limit))
-        .hint = base::hintToRaise(base::Limit::frames) +
+        .hint = base::hintToRaise(base::Limit::frames, options.maxFrames) +
                 ", or leave --max-frames out: the window then stays until it is closed";
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
   if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);

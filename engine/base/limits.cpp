@@ -86,11 +86,12 @@ std::optional<std::string> setLimit(std::string_view name, std::string_view valu
   return fmt::format("there is no limit '{}'; {}", name, hint.empty() ? "docs/limits.md lists them" : hint);
 }
 
-std::string hintToRaise(Limit limit) {
+std::string hintToRaise(Limit limit, std::uint64_t needed) {
   const std::uint64_t now = limitOf(limit), most = mostOf(limit);
   if (now >= most)
     return fmt::format("{} cannot be raised further: deeper walks would overflow the stack", nameOf(limit));
-  return fmt::format("raise it with --limit {}={}, if that is meant", nameOf(limit), std::min(2 * now, most));
+  return fmt::format("raise it with --limit {}={}, if that is meant", nameOf(limit),
+                     std::min(std::max(2 * now, needed), most));
 }
 
 }  // namespace weft::base

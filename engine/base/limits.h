@@ -35,7 +35,7 @@ namespace weft::base {
   X(shader_depth,        500,           "brackets, operators or blocks around one another")     \
   X(shader_cases,        400,           "cases of one switch")                                  \
   X(shader_array,        1024,          "elements of one array in a shader, its blocks aside")  \
-  X(shader_seconds,      10,            "seconds of processor time that a program compiles")    \
+  X(shader_seconds,      5,             "seconds of processor time to try unusual shaders")       \
   X(shader_memory,       1ull << 30,    "bytes that a program takes to compile")                \
   X(program_cache_bytes, 256ull << 20,  "bytes of the folder of program binaries")              \
   X(frames,              1000000,       "frames of one command")
@@ -68,6 +68,7 @@ std::optional<std::string> setLimit(std::string_view name, std::string_view valu
 
 // "raise it with --limit include_files=2000": the fix of a message about a limit; twice the present value, or what it
 // can be raised to.
-std::string hintToRaise(Limit limit);
+// Never less than `needed`, where that is known.
+std::string hintToRaise(Limit limit, std::uint64_t needed = 0);
 
 }  // namespace weft::base

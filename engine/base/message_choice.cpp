@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "engine/base/limits.h"
@@ -16,6 +17,8 @@ std::string countText(std::size_t count, const char* one, const char* many) {
 }
 
 }  // namespace
+
+std::uint64_t mostErrors() { return std::max<std::uint64_t>(1000, limitOf(Limit::diagnostics)); }
 
 Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   Diagnostics sorted = all;
@@ -53,6 +56,13 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
                     .place = {}});
     d.hint = fmt::format("correct these first, or {}", hintToRaise(Limit::diagnostics));
   }
+  if (all.errorCount() >= mostErrors())
+    chosen
+        .add({.severity = Severity::note,
+              .code = Code::W208,
+              .message = fmt::format("after {} errors no more were looked for", all.errorCount()),
+              .place = {}})
+        .hint = "correct these first; there may be many more";
   if (const std::size_t names = takeUncompared(); names > 0)
     chosen
         .add({.severity = Severity::note,

@@ -11,7 +11,7 @@
 namespace weft::base {
 
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics) {
-  reportLimit(diagnostics, Limit::json_bytes, place, "the file is too large").found =
+  reportLimit(diagnostics, Limit::json_bytes, place, "the file is too large", bytes).found =
       fmt::format("{} bytes", bytes);
 }
 

@@ -23,11 +23,16 @@ struct ProgramSize {
 ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const Define> defines,
                            base::Diagnostics& diagnostics);
 
-// False after an error (W204): the driver did not survive the program.
+// Processor time that trials have taken since a graph began to load: all of them together have shader_seconds.
+struct TrialTime {
+  double spent = 0;
+};
+
+// False after an error (W204): the driver did not survive the program, or no time is left to try it.
 bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
                    std::span<const StageSource> stages, std::span<const Define> defines,
                    std::span<const std::string> outputs, const ProgramSize& size,
-                   base::Diagnostics& diagnostics);
+                   TrialTime& time, base::Diagnostics& diagnostics);
 
 // Drivers say that there is recursion, and not where.
 void placeCircles(std::span<const StageSource> stages, const ProgramSize& size, base::Diagnostics& log);

@@ -107,7 +107,7 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   if (!program) {
     if (size.unusual && !options_.trial.empty()) {
       ++stats_.trials;
-      if (!survivesTrial(options_.trial, device_, stages, request.defines, request.outputs, size, refused)) {
+      if (!survivesTrial(options_.trial, device_, stages, request.defines, request.outputs, size, trialTime_, refused)) {
         ++stats_.refusals;
         return refuse(key, request, std::move(refused), diagnostics);
       }

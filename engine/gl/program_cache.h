@@ -19,6 +19,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/gl/context.h"
 #include "engine/gl/program.h"
+#include "engine/gl/program_admission.h"
 #include "engine/gl/shader_source.h"
 
 namespace weft::gl {
@@ -73,6 +74,9 @@ class ProgramCache {
   // The variant, or null after errors. It stays valid when evicted or when its sources change.
   std::shared_ptr<const Variant> get(const ProgramRequest& request, base::Diagnostics& diagnostics);
 
+  // A graph begins to load: trials have all of shader_seconds again.
+  void startTrials() { trialTime_ = {}; }
+
   const ProgramCacheStats& stats() const { return stats_; }
   std::size_t size() const { return order_.size(); }
   // Drops the variants in memory; those held elsewhere live on.
@@ -96,6 +100,7 @@ class ProgramCache {
   SourceLoader& loader_;
   Options options_;
   ProgramCacheStats stats_;
+  TrialTime trialTime_;
   std::optional<std::uint64_t> folderBytes_;  // of binaries, as far as is known here
   std::list<Entry> order_;  // most recently used first
   std::unordered_map<std::string, std::list<Entry>::iterator> index_;

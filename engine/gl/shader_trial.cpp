@@ -23,6 +23,9 @@ namespace weft::gl {
 
 namespace {
 
+// A busy machine may take this many times longer by the clock than by the processor.
+constexpr std::uint64_t kClockPerProcessor = 6;
+
 using Clock = std::chrono::steady_clock;
 
 // A descriptor that is closed when it goes out of scope.
@@ -94,7 +97,7 @@ const char* stepOf(char last) {
     case kTrialCompiled:
       return "linking";
     default:
-      return "making its machine code";
+      return "making the machine code of";
   }
 }
 
@@ -102,12 +105,11 @@ const char* stepOf(char last) {
 
 TrialResult tryProgram(std::span<const std::string> command, Backend backend,
                        std::span<const StageSource> stages, std::span<const Define> defines,
-                       std::span<const std::string> outputs) {
+                       std::span<const std::string> outputs, std::uint64_t seconds) {
   TrialResult result;
   int ends[2];
   if (command.empty() || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;
   Descriptor mine(ends[0]), its(ends[1]);
-  const std::uint64_t seconds = base::limitOf(base::Limit::shader_seconds);
   const std::vector<std::string> arguments{kTrialWord, nameOf(backend), std::to_string(seconds),
                                            std::to_string(base::limitOf(base::Limit::shader_memory))};
   const pid_t pid = start(command, arguments, its.id());
@@ -119,7 +121,7 @@ TrialResult tryProgram(std::span<const std::string> command, Backend backend,
   bool late = false;
   std::string said;
   if (sendAll(mine.id(), writeTrial(stages, defines, outputs)))
-    said = listen(mine.id(), Clock::now() + std::chrono::seconds(6 * seconds), late);
+    said = listen(mine.id(), Clock::now() + std::chrono::seconds(kClockPerProcessor * seconds), late);
   const bool done = said.ends_with(kTrialDrawn);
   // It has nothing more to say: what it tidies up is not waited for.
   ::kill(pid, SIGKILL);
@@ -127,15 +129,17 @@ TrialResult tryProgram(std::span<const std::string> command, Backend backend,
   rusage used{};
   while (::wait4(pid, &status, 0, &used) < 0 && errno == EINTR) {
   }
+  result.seconds = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                   1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
   if (done || said.empty()) return result;
   result.survived = false;
   result.during = stepOf(said.back());
-  result.seconds = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-                   1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
   result.bytes = static_cast<std::uint64_t>(used.ru_maxrss) << 10;
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (late || signal == SIGXCPU || signal == SIGKILL)
-    result.what = fmt::format("{:.0f} s", result.seconds);
+  if (late)
+    result.what = fmt::format("no end after {} s by the clock", kClockPerProcessor * seconds);
+  else if (signal == SIGXCPU || signal == SIGKILL)
+    result.what = "no end in that time";
   else if (signal != 0)
     result.what = fmt::format("signal {} ({})", signal, strsignal(signal));
   else

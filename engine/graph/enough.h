@@ -2,16 +2,13 @@
 // memory and the search for a fix.
 #pragma once
 
-#include <algorithm>
-
 #include "engine/base/diagnostic.h"
-#include "engine/base/limits.h"
+#include "engine/base/message_choice.h"
 
 namespace weft::graph {
 
-// Many times what is printed.
 inline bool enoughErrors(const base::Diagnostics& diagnostics) {
-  return diagnostics.errorCount() >= std::max<std::uint64_t>(1000, base::limitOf(base::Limit::diagnostics));
+  return diagnostics.errorCount() >= base::mostErrors();
 }
 
 }  // namespace weft::graph

@@ -63,8 +63,7 @@ class Applier {
 
   bool stopped() const { return tooMuch_ || enoughErrors(diagnostics_); }
 
-  // Everything an entry of the overlay may mean. Each entry looks through all names, so a large overlay over
-  // many names ends in Code::W201.
+  // Everything an entry may mean. Each looks through all names, so a large overlay over many of them ends in W201.
   std::vector<Found> findIn(const std::string& section, const base::Place& place) {
     std::vector<Found> all = findAll(loader_, target_, section);
     lookThrough(all.size(), place);
@@ -139,7 +138,7 @@ class Applier {
         if (const JsonValue* include = stanza.find("include"); include && includePrefix(stanza) == below[0])
           child = loader_.file(pathBeside(*include), include->place);
     }
-    // One that this overlay has copied before, and nobody else has seen, is changed as it is.
+    // A copy that nobody else has seen is changed as it is.
     std::shared_ptr<const Source>& kept = source.changed[below[0]];
     std::shared_ptr<Source> copy;
     if (kept && kept.use_count() == 2) {  // `kept` and `child`

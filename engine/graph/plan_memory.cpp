@@ -59,7 +59,7 @@ bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics) {
         "{}'{}' {} bytes{}", i == 0 ? "the largest are " : ", ", graph.resourceNames[pieces[i].resource],
         pieces[i].bytes,
         pieces[i].sharing > 1 ? fmt::format(" (shared with {} others)", pieces[i].sharing - 1) : "");
-  d.hint = "make them smaller or keep less history; " + base::hintToRaise(base::Limit::texture_bytes);
+  d.hint = "make them smaller or keep less history; " + base::hintToRaise(base::Limit::texture_bytes, plan.bytesAllocated);
   return false;
 }
 

@@ -69,6 +69,7 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, const grap
                         base::Diagnostics& all) {
   base::Diagnostics diagnostics;  // of this attempt alone
   device_.sources.forgetTouched();
+  device_.programs.startTrials();
   LutFiles& luts = device_.imports.lutFiles();
   luts.forgetTouched();
   auto made = makeExecution(*desc, settings, world, diagnostics);
