@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "app/bench/edit_bench.h"
 #include "app/bench/frame_bench.h"
 #include "app/bench/workload_bench.h"
 #include "app/device_session.h"
@@ -109,6 +110,13 @@ int runBench(const Options& options) {
     Options frame = options;
     frame.graph = options.frameGraph;
     const auto text = benchFrame(frame, diagnostics);
+    if (text) print(*text + "\n");
+    return report(diagnostics);
+  }
+  if (!options.editGraph.empty()) {
+    Options edit = options;
+    edit.graph = options.editGraph;
+    const auto text = benchEdits(edit, diagnostics);
     if (text) print(*text + "\n");
     return report(diagnostics);
   }

@@ -57,6 +57,7 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
                      {"trials", programs.trials},
                      {"binary_loads", programs.binaryLoads},
                      {"binary_rejects", programs.binaryRejects}};
+  out["plans_built"] = session.renderer.plansBuilt();
   runtime::Execution* execution = session.renderer.execution();
   if (!execution) return out;
   const graph::Plan& plan = execution->plan();

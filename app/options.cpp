@@ -206,12 +206,15 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   CLI::App* bench = app.add_subcommand("bench", "measure; prints JSON");
   bench->add_option("--workload", options.workloads, "neutral workload files ({textures, passes}); repeatable");
   bench->add_option("--frame", options.frameGraph, "a graph file: the cost of its frame in full-screen copies")->excludes("--workload");
-  bench->add_option("--environment", options.environment, "environment map for --frame, .hdr or .exr");
-  bench->add_option("--scene", options.scene, "scene file for --frame");
-  bench->add_option("--camera", options.camera, "camera of the scene for --frame");
-  bench->add_option("--materials", options.materials, "material library for --frame");
-  bench->add_option("--size", raw.size, "size of the screen for --frame")->check(CLI::Validator(checkSize, "WxH"));
-  bench->add_option("--backend", options.backend, "where OpenGL comes from, for --frame")
+  bench->add_option("--edit", options.editGraph, "a graph file: what a changed parameter and a saved file cost before the next frame")
+      ->excludes("--workload")
+      ->excludes("--frame");
+  bench->add_option("--environment", options.environment, "environment map for --frame and --edit, .hdr or .exr");
+  bench->add_option("--scene", options.scene, "scene file for --frame and --edit");
+  bench->add_option("--camera", options.camera, "camera of the scene for --frame and --edit");
+  bench->add_option("--materials", options.materials, "material library for --frame and --edit");
+  bench->add_option("--size", raw.size, "size of the screen for --frame and --edit")->check(CLI::Validator(checkSize, "WxH"));
+  bench->add_option("--backend", options.backend, "where OpenGL comes from, for --frame and --edit")
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
 
   app.add_subcommand("schema", "print the JSON Schema of graph files");

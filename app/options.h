@@ -29,6 +29,7 @@ struct Options {
   bool explain = false;                      // plan: say why
   std::vector<std::string> workloads;        // bench
   std::string frameGraph;                    // bench --frame
+  std::string editGraph;                     // bench --edit
   std::uint32_t maxFrames = 0;               // view: stop after this many frames; 0: until closed
   std::string screenshot;                    // view: written at the end
   bool waitForAssets = false;                // view: before the first frame; without a window always

@@ -93,6 +93,7 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
   device_.imports.renewFiles();
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
   if (!graph::checkMemory(*plan, diagnostics)) return nullptr;
+  ++plansBuilt_;
   const bool standIn = !world.environment() && !world.environmentPending();
   if (standIn && readsEnvironment(*flat) && !prepareFallback(world, diagnostics)) return nullptr;
   return Execution::create(device_, std::move(plan), execution_.get(), diagnostics);

@@ -50,6 +50,8 @@ class Renderer {
   std::span<const std::string> presets() const { return options_.presets; }
   Device& device() { return device_; }
   const std::string& graphPath() const { return graphPath_; }
+  // Graphs compiled to plans so far, also those that could not be prepared.
+  std::uint64_t plansBuilt() const { return plansBuilt_; }
 
   // The presented picture with its top row first. Empty when the graph presents nothing.
   std::optional<assets::Image8> readPresented8();
@@ -79,6 +81,7 @@ class Renderer {
   std::unique_ptr<Execution> fallback_;
   gl::Framebuffer presentSource_;
   GLuint presentTexture_ = 0;
+  std::uint64_t plansBuilt_ = 0;
 };
 
 }  // namespace weft::runtime
