@@ -1,11 +1,9 @@
 #include "app/live_graph.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
+#include <ranges>
 #include <utility>
 
 #include "app/session.h"
@@ -24,31 +22,6 @@ constexpr double kQuietSeconds = 0.03;
 // The same for a file that went away: some programs write it anew only a while later.
 constexpr double kGoneSeconds = 0.3;
 
-// Not where the name goes on.
-void replaceAll(std::string& text, const std::string& what, const std::string& by) {
-  const auto goesOn = [&](std::size_t at) {
-    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
-  };
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos;) {
-    if (goesOn(at + what.size())) {
-      at += what.size();
-      continue;
-    }
-    text.replace(at, what.size(), by);
-    at += by.size();
-  }
-}
-
-// Whether `diagnostic` is at a setting.
-bool isAt(const base::Diagnostic& diagnostic, const std::string& source) {
-  return diagnostic.place.file && *diagnostic.place.file == *graph::placeOfSetting(source).file;
-}
-
-// Whether it says that the graph does not take it. (A file it names that is missing may come back.)
-bool isAbout(const base::Diagnostic& diagnostic, const std::string& source) {
-  return diagnostic.severity == base::Severity::error && diagnostic.code != base::Code::W1 && isAt(diagnostic, source);
-}
-
 }  // namespace
 
 LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world,
@@ -66,29 +39,6 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
     environment_.assume(options.environment);
 }
 
-void LiveGraph::tellOfHere(const base::Diagnostics& said, const graph::Settings& settings,
-                           base::Diagnostics& diagnostics) const {
-  for (base::Diagnostic each : said.items()) {
-    const auto rename = [&](const std::string& what, const std::string& by) {
-      if (isAt(each, what)) {
-        each.place = {};
-        each.message = fmt::format("{}: {}", by, each.message);
-      }
-      for (std::string* text : {&each.message, &each.expected, &each.found, &each.hint})
-        replaceAll(*text, what, by);
-    };
-    for (const auto* sets : {&settings.sets, &lostSets_})
-      for (const auto& [name, value] : *sets)
-        if (setHere_.contains(name))
-          rename(graph::sourceOfSet(name, value), "the value " + value + " set here for " + name);
-    for (const auto* names : {&settings.disables, &lostDisables_})
-      for (const std::string& name : *names)
-        if (disabledHere_.contains(name))
-          rename(graph::sourceOfDisable(name), "switching off " + name + " here");
-    diagnostics.add(std::move(each));
-  }
-}
-
 bool LiveGraph::load(base::Diagnostics& diagnostics) {
   graphStale_ = false;
   good_ = tryLoad(Attempt::final, diagnostics);
@@ -99,7 +49,7 @@ bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
   runtime::World world = world_;
   base::Diagnostics said;
   const bool good = tryScene(world, said) && tryGraph(attempt, world, said);
-  if (good || attempt == Attempt::final) tellOfHere(said, settings_, diagnostics);
+  if (good || attempt == Attempt::final) diagnostics.append(said);
   if (good) {
     world_ = std::move(world);
     sceneStale_ = false;
@@ -122,29 +72,27 @@ bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Dia
     return true;
   }
   if (attempt == Attempt::early) return false;
-  std::vector<std::pair<std::string, std::string>> sets;
-  std::vector<std::string> disables;
+  // What the graph as it is has no use for.
+  std::vector<graph::Setting> sets;
+  std::vector<graph::Disable> disables;
   base::Diagnostics warnings;
-  const auto take = [&](const std::string& source) {
-    const auto found =
-        std::ranges::find_if(said.items(), [&](const auto& each) { return isAbout(each, source); });
-    if (found == said.items().end()) return false;
-    base::Diagnostic warning = *found;
+  for (const graph::Refusal& refusal : renderer_.refused()) {
+    base::Diagnostic warning = refusal.why;
     warning.severity = base::Severity::warning;
     warning.message += "; left out until the files take it";
     warnings.add(std::move(warning));
-    return true;
-  };
-  std::erase_if(wanted.sets, [&](const auto& set) {
-    const bool lost = take(graph::sourceOfSet(set.first, set.second));
-    if (lost) sets.push_back(set);
-    return lost;
-  });
-  std::erase_if(wanted.disables, [&](const std::string& name) {
-    const bool lost = take(graph::sourceOfDisable(name));
-    if (lost) disables.push_back(name);
-    return lost;
-  });
+    if (refusal.disable)
+      disables.push_back(wanted.disables[refusal.index]);
+    else
+      sets.push_back(wanted.sets[refusal.index]);
+  }
+  for (const graph::Refusal& refusal : std::views::reverse(renderer_.refused())) {
+    const auto at = static_cast<std::ptrdiff_t>(refusal.index);
+    if (refusal.disable)
+      wanted.disables.erase(wanted.disables.begin() + at);
+    else
+      wanted.sets.erase(wanted.sets.begin() + at);
+  }
   if (warnings.empty() || !running()) {
     diagnostics.append(said);
     return false;
@@ -267,7 +215,7 @@ bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnos
   ++changes_;
   base::Diagnostics said;
   const bool taken = renderer_.apply(settings, world_, said);
-  tellOfHere(said, settings, diagnostics);
+  diagnostics.append(said);
   if (!taken) return false;
   settings_ = std::move(settings);
   ++switches_;
@@ -275,26 +223,46 @@ bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnos
   return true;
 }
 
-bool LiveGraph::setParameter(const std::string& name, const std::string& value,
+bool LiveGraph::setParameter(const std::string& name, const graph::Value& value,
                              base::Diagnostics& diagnostics) {
+  if (renderer_.setParameter(name, value)) {
+    ++changes_;
+    ++livesSet_;
+    remember(name, value);
+    return true;
+  }
   graph::Settings settings = settings_;
-  const auto same = [&](const auto& set) { return set.first == name; };
+  const auto same = [&](const graph::Setting& set) { return set.name == name; };
   std::erase_if(settings.sets, same);
   std::erase_if(lostSets_, same);
-  settings.sets.emplace_back(name, value);
-  setHere_.insert(name);
+  settings.sets.emplace_back(name, value, graph::Origin::panel);
   return trySettings(std::move(settings), diagnostics);
+}
+
+// In place where that is the last word on the parameter: a slider that moves allocates nothing.
+void LiveGraph::remember(const std::string& name, const graph::Value& value) {
+  auto& sets = settings_.sets;
+  const auto last = std::find_if(sets.rbegin(), sets.rend(),
+                                 [&](const graph::Setting& set) { return graph::hasSuffix(name, set.name); });
+  if (last != sets.rend() && last->name == name && last->origin == graph::Origin::panel) {
+    last->value = value;
+    return;
+  }
+  const auto same = [&](const graph::Setting& set) { return set.name == name; };
+  std::erase_if(sets, same);
+  std::erase_if(lostSets_, same);
+  sets.emplace_back(name, value, graph::Origin::panel);
 }
 
 bool LiveGraph::resetParameter(const std::string& name, base::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
-  std::erase_if(settings.sets, [&](const auto& set) { return graph::hasSuffix(name, set.first); });
+  std::erase_if(settings.sets, [&](const auto& set) { return graph::hasSuffix(name, set.name); });
   return trySettings(std::move(settings), diagnostics);
 }
 
 bool LiveGraph::isChanged(const std::string& parameter) const {
   return std::ranges::any_of(settings_.sets,
-                             [&](const auto& set) { return graph::hasSuffix(parameter, set.first); });
+                             [&](const auto& set) { return graph::hasSuffix(parameter, set.name); });
 }
 
 bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics) {
@@ -311,11 +279,8 @@ bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& di
 
 bool LiveGraph::setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics) {
   graph::Settings settings = settings_;
-  std::erase(settings.disables, pass);
-  if (!enabled) {
-    settings.disables.push_back(pass);
-    disabledHere_.insert(pass);
-  }
+  std::erase_if(settings.disables, [&](const graph::Disable& each) { return each.name == pass; });
+  if (!enabled) settings.disables.emplace_back(pass, graph::Origin::panel);
   return trySettings(std::move(settings), diagnostics);
 }
 

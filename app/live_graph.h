@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,9 +49,9 @@ class LiveGraph {
   void stepEnvironment(int by);
   // The size of the screen. False when it is what it was.
   bool resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
-  // As --set and --disable: by the full name of a parameter, of a pass. False after errors, and nothing has
-  // changed.
-  bool setParameter(const std::string& name, const std::string& value, base::Diagnostics& diagnostics);
+  // By the full name of a parameter, of a pass. A live parameter is set at once; everything else takes another
+  // plan. False after errors, and nothing has changed.
+  bool setParameter(const std::string& name, const graph::Value& value, base::Diagnostics& diagnostics);
   bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
 
   // What the files say again, instead of what setParameter said. False after errors.
@@ -72,8 +71,9 @@ class LiveGraph {
   bool running() const { return renderer_.execution() != nullptr; }
   // Whether the files as they are on disk are what is shown.
   bool good() const { return good_ && environmentGood_; }
-  // Count switches to another plan, and calls of setParameter and setEnabled.
+  // Count switches to another plan, live parameters that were set, and calls of setParameter and setEnabled.
   std::uint64_t switches() const { return switches_; }
+  std::uint64_t livesSet() const { return livesSet_; }
   std::uint64_t changes() const { return changes_; }
 
  private:
@@ -83,20 +83,16 @@ class LiveGraph {
   bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
   bool tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics);
   bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
+  void remember(const std::string& name, const graph::Value& value);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
   void watch(base::Diagnostics* diagnostics = nullptr);
-  // Adds `said` to `diagnostics`, where it names a set or disable that was made here by that and not by an
-  // option.
-  void tellOfHere(const base::Diagnostics& said, const graph::Settings& settings,
-                  base::Diagnostics& diagnostics) const;
 
   runtime::Renderer& renderer_;
   runtime::World world_;
   graph::Settings settings_;
   // What the graph as it is has no use for.
-  std::vector<std::pair<std::string, std::string>> lostSets_;
-  std::vector<std::string> lostDisables_;
-  std::set<std::string> setHere_, disabledHere_;  // names
+  std::vector<graph::Setting> lostSets_;
+  std::vector<graph::Disable> lostDisables_;
   std::string scenePath_;
   scene::SceneChoice sceneChoice_;
   LiveEnvironment environment_;
@@ -106,7 +102,7 @@ class LiveGraph {
   bool untried_ = false;              // as the files are since the last change
   std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds
-  std::uint64_t switches_ = 0, changes_ = 0;
+  std::uint64_t switches_ = 0, livesSet_ = 0, changes_ = 0;
 };
 
 }  // namespace weft::app

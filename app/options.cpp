@@ -73,7 +73,7 @@ void chooseFiles(const Options& options) {
     base::chooseFile(*file);
   for (const std::string& preset : options.presets) base::chooseFile(preset);
   for (const std::string& workload : options.workloads) base::chooseFile(workload);
-  for (const auto& [name, value] : options.sets) base::chooseFile(value);  // where the parameter is a file
+  for (const graph::Setting& set : options.sets) base::chooseFile(set.text);  // where the parameter is a file
   for (const char* folder : {"graphs", "shaders", "scenes", "materials"}) base::allowFolder(dataFolder() + "/" + folder);
 }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/graph/expand.h"
+
 namespace weft::app {
 
 struct Options {
@@ -20,7 +22,7 @@ struct Options {
   double fps = 60;
   std::vector<std::string> disables;
   std::vector<std::string> presets;          // overlay files
-  std::vector<std::pair<std::string, std::string>> sets;
+  std::vector<graph::Setting> sets;
   std::string backend = "auto";
   std::string cacheFolder;                   // program binaries; empty: the user's cache folder, "none": none
   bool stats = false, profile = false, quiet = false;

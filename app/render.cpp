@@ -34,7 +34,7 @@ bool checkFrameCount(const Options& options, std::uint64_t count, const char* wh
   if (count <= limit) return true;
   auto& d = diagnostics.error(
       base::Code::W201,
-      graph::placeOfSetting(options.firstFrame == options.lastFrame
+      graph::placeOfOption(options.firstFrame == options.lastFrame
                                 ? fmt::format("--frames {}", options.firstFrame)
                                 : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame)),
       fmt::format("{} frames would run{}, the limit 'frames' is {}", count, why, limit));

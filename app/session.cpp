@@ -35,7 +35,7 @@ graph::Settings settingsOf(const Options& options, bool software) {
           .screenHeight = options.height,
           .software = software,
           .sets = options.sets,
-          .disables = options.disables};
+          .disables = {options.disables.begin(), options.disables.end()}};
 }
 
 std::string scenePathOf(const Options& options) {

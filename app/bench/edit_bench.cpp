@@ -97,7 +97,7 @@ class EditBench {
 
  private:
   void set(const std::string& path, const Value& value) {
-    live_.setParameter(path, graph::toText(value), diagnostics_);
+    live_.setParameter(path, value, diagnostics_);
   }
 
   template <class Work>

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "app/ui/panels.h"
 
@@ -21,13 +23,12 @@ using Type = ParameterDesc::Type;
 // Dear ImGui asserts on wider ranges, and its whole numbers end at 2^30: those are edited as doubles as well.
 constexpr double kWidest = std::numeric_limits<double>::max() / 2;
 
-std::optional<Value> editNumber(const char* label, const graph::ParameterSpec& parameter) {
-  const ParameterDesc& desc = parameter.desc;
+std::optional<Value> editNumber(const char* label, const ParameterDesc& desc, const Value& now) {
   const bool whole = desc.type == Type::integer;
   const double low = std::max(desc.min.value_or(-1e9), -kWidest),
                high = std::min(desc.max.value_or(1e9), kWidest);
   const char* format = whole ? "%.0f" : "%.4g";
-  double x = parameter.value.v[0];
+  double x = now.v[0];
   const bool edited = desc.min && desc.max
                           ? ImGui::SliderScalar(label, ImGuiDataType_Double, &x, &low, &high, format,
                                                 ImGuiSliderFlags_AlwaysClamp)
@@ -38,8 +39,7 @@ std::optional<Value> editNumber(const char* label, const graph::ParameterSpec& p
 }
 
 // A list of three or four that its name calls a colour, from 0 to 1.
-bool isColor(const graph::ParameterSpec& parameter) {
-  const ParameterDesc& desc = parameter.desc;
+bool isColor(const ParameterDesc& desc) {
   if ((desc.type != Type::vec3 && desc.type != Type::vec4) || desc.min != 0 || desc.max != 1) return false;
   const std::string names = desc.name + desc.label;
   for (const char* word : {"color", "colour", "Color", "Colour", "albedo", "tint"})
@@ -47,8 +47,8 @@ bool isColor(const graph::ParameterSpec& parameter) {
   return false;
 }
 
-std::optional<Value> editColor(const char* label, const graph::ParameterSpec& parameter) {
-  Value value = parameter.value;
+std::optional<Value> editColor(const char* label, const Value& now) {
+  Value value = now;
   float color[4] = {0, 0, 0, 1};
   for (std::size_t i = 0; i < value.count; ++i) color[i] = static_cast<float>(value.v[i]);
   const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float;
@@ -57,47 +57,47 @@ std::optional<Value> editColor(const char* label, const graph::ParameterSpec& pa
   return value;
 }
 
-std::optional<Value> editFile(const char* label, const graph::ParameterSpec& parameter) {
+std::optional<Value> editFile(const char* label, const Value& now) {
   char text[1024] = {};
-  parameter.value.symbol.copy(text, sizeof text - 1);
+  now.symbol.copy(text, sizeof text - 1);
   if (!ImGui::InputText(label, text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue)) return std::nullopt;
   return Value::text(text);
 }
 
-std::optional<Value> editVector(const char* label, const graph::ParameterSpec& parameter) {
-  if (isColor(parameter)) return editColor(label, parameter);
-  Value value = parameter.value;
-  const double low = parameter.desc.min.value_or(-1e9), high = parameter.desc.max.value_or(1e9);
+std::optional<Value> editVector(const char* label, const ParameterDesc& desc, const Value& now) {
+  if (isColor(desc)) return editColor(label, now);
+  Value value = now;
+  const double low = desc.min.value_or(-1e9), high = desc.max.value_or(1e9);
   const bool edited = ImGui::DragScalarN(label, ImGuiDataType_Double, value.v.data(), value.count,
-                                         static_cast<float>(parameter.desc.step.value_or(0.01)), &low, &high, "%.3g",
+                                         static_cast<float>(desc.step.value_or(0.01)), &low, &high, "%.3g",
                                          ImGuiSliderFlags_AlwaysClamp);
   return edited ? std::optional(value) : std::nullopt;
 }
 
-std::optional<Value> editChoice(const char* label, const graph::ParameterSpec& parameter) {
+std::optional<Value> editChoice(const char* label, const ParameterDesc& desc, const Value& now) {
   std::optional<Value> chosen;
-  if (!ImGui::BeginCombo(label, parameter.value.symbol.c_str())) return chosen;
-  for (const std::string& choice : parameter.desc.choices) {
-    const bool current = choice == parameter.value.symbol;
+  if (!ImGui::BeginCombo(label, now.symbol.c_str())) return chosen;
+  for (const std::string& choice : desc.choices) {
+    const bool current = choice == now.symbol;
     if (ImGui::Selectable(choice.c_str(), current) && !current) chosen = Value::text(choice);
   }
   ImGui::EndCombo();
   return chosen;
 }
 
-std::optional<Value> edit(const char* label, const graph::ParameterSpec& parameter) {
-  switch (parameter.desc.type) {
+std::optional<Value> edit(const char* label, const ParameterDesc& desc, const Value& now) {
+  switch (desc.type) {
     case Type::boolean: {
-      bool on = parameter.value.truth();
+      bool on = now.truth();
       return ImGui::Checkbox(label, &on) ? std::optional(Value::boolean(on)) : std::nullopt;
     }
     case Type::integer:
-    case Type::number: return editNumber(label, parameter);
+    case Type::number: return editNumber(label, desc, now);
     case Type::vec2:
     case Type::vec3:
-    case Type::vec4: return editVector(label, parameter);
-    case Type::choice: return editChoice(label, parameter);
-    case Type::file: return editFile(label, parameter);
+    case Type::vec4: return editVector(label, desc, now);
+    case Type::choice: return editChoice(label, desc, now);
+    case Type::file: return editFile(label, now);
   }
   return std::nullopt;
 }
@@ -112,15 +112,19 @@ bool matches(const std::string& wanted, const std::string& text) {
 
 void Panels::drawParameters(base::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
+  const std::span<const Value> values = renderer_.execution()->parameters();
   char search[128] = {};
   search_.copy(search, sizeof search - 1);
   ImGui::SetNextItemWidth(-1);
   if (ImGui::InputTextWithHint("##search", "search", search, sizeof search)) search_ = search;
   ImGui::BeginChild("list");
-  std::string changed, text, reset, scope = "\n";
+  std::optional<Value> changedTo;
+  std::string changed, reset, scope = "\n";
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX;
   bool table = false;
-  for (const graph::ParameterSpec& parameter : graph.parameters) {
+  for (std::size_t i = 0; i < graph.parameters.size(); ++i) {
+    const graph::ParameterSpec& parameter = graph.parameters[i];
+    const Value& now = values[i];
     const std::string& label = parameter.desc.label.empty() ? parameter.desc.name : parameter.desc.label;
     if (!matches(search_, parameter.path) && !matches(search_, label)) continue;
     const std::size_t dot = parameter.path.rfind('.');
@@ -143,9 +147,9 @@ void Panels::drawParameters(base::Diagnostics& diagnostics) {
     const bool tweaked = live_.isChanged(parameter.path);
     if (tweaked) ImGui::PushStyleColor(ImGuiCol_Text, {1, 0.85f, 0.4f, 1});
     ImGui::SetNextItemWidth(-1);
-    if (const auto value = edit("##value", parameter)) {
+    if (auto value = edit("##value", parameter.desc, now)) {
       changed = parameter.path;
-      text = graph::toText(*value);
+      changedTo = std::move(value);
     }
     bool hovered = ImGui::IsItemHovered(), clicked = ImGui::IsItemClicked(ImGuiMouseButton_Right);
     ImGui::TableNextColumn();
@@ -157,7 +161,7 @@ void Panels::drawParameters(base::Diagnostics& diagnostics) {
     if (hovered) {
       ImGui::BeginTooltip();
       ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
-      ImGui::TextUnformatted((label + "\n" + parameter.path + " = " + graph::toText(parameter.value) +
+      ImGui::TextUnformatted((label + "\n" + parameter.path + " = " + graph::toText(now) +
                               (parameter.structural ? "\nchanges the plan" : "") + (parameter.desc.doc.empty() ? "" : "\n") +
                               parameter.desc.doc + (tweaked ? "\n* changed here; right click: as the files say" : ""))
                                  .c_str());
@@ -169,7 +173,7 @@ void Panels::drawParameters(base::Diagnostics& diagnostics) {
   }
   if (table) ImGui::EndTable();
   ImGui::EndChild();
-  if (!changed.empty()) live_.setParameter(changed, text, diagnostics);
+  if (changedTo) live_.setParameter(changed, *changedTo, diagnostics);
   else if (!reset.empty()) live_.resetParameter(reset, diagnostics);
 }
 

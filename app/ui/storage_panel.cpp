@@ -114,11 +114,13 @@ void Panels::drawStorage() {
 
 void Panels::drawHistogram(base::Diagnostics& diagnostics) {
   runtime::Execution& execution = *renderer_.execution();
-  for (const graph::ParameterSpec& parameter : execution.plan().graph->parameters) {
-    if (parameter.value.type != graph::Value::Type::boolean || !isCalled(parameter.path, "histogram")) continue;
-    bool on = parameter.value.truth();
+  const auto& parameters = execution.plan().graph->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const graph::ParameterSpec& parameter = parameters[i];
+    if (parameter.desc.type != graph::ParameterDesc::Type::boolean || !isCalled(parameter.path, "histogram")) continue;
+    bool on = execution.parameters()[i].truth();
     if (!ImGui::Checkbox("before the tone curve", &on)) break;
-    live_.setParameter(parameter.path, on ? "true" : "false", diagnostics);
+    live_.setParameter(parameter.path, graph::Value::boolean(on), diagnostics);
     return;  // with another plan: in the next frame
   }
   if (drawLuminance(execution)) return;

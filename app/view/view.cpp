@@ -39,7 +39,7 @@ bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
   const std::uint64_t limit = base::limitOf(base::Limit::frames);
   if (options.maxFrames > limit)
     diagnostics
-        .error(base::Code::W201, graph::placeOfSetting(fmt::format("--max-frames {}", options.maxFrames)),
+        .error(base::Code::W201, graph::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
                fmt::format("{} frames would run, the limit 'frames' is {}", options.maxFrames, limit))
         .hint = base::hintToRaise(base::Limit::frames, options.maxFrames) +
                 ", or leave --max-frames out: the window then stays until it is closed";
@@ -113,8 +113,10 @@ int runView(const Options& options) {
     if (!checkInputs(options, live, diagnostics)) return report(diagnostics);
     Viewer viewer(options, *session, live, std::move(diagnostics));
     code = viewer.run();
-    if (options.stats)
+    if (options.stats) {
       stats = statsOf(*session, {{"frames", viewer.frames()}, {"redraws", viewer.redraws()}});
+      stats["live_values_set"] = live.livesSet();
+    }
   }
   const std::string left = closeDevice(std::move(session));
   stats["gl_objects_left"] = left;

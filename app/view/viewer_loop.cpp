@@ -115,6 +115,7 @@ void Viewer::update(gl::Size size) {
   if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
   if (rig_.mode() == CameraRig::Mode::fly && !input_.captured()) toggleFlight();  // the focus went elsewhere
   if (std::exchange(switches_, live_.switches()) != live_.switches()) rest_.disturb();
+  if (std::exchange(livesSet_, live_.livesSet()) != live_.livesSet()) rest_.disturb();
   showState();
 }
 

@@ -123,7 +123,18 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
     appendFor(request, log, diagnostics);
     storeBinary(key, compute, *program);
   }
-  return remember(key, std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages)}));
+  return remember(key, std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages), key}));
+}
+
+void ProgramCache::touch(const std::shared_ptr<const Variant>& variant) {
+  if (const auto known = index_.find(variant->key); known != index_.end()) {
+    ++stats_.hits;
+    order_.splice(order_.begin(), order_, known->second);
+    return;
+  }
+  ++stats_.misses;
+  revive(variant->key);
+  remember(variant->key, variant);
 }
 
 // Tells what is wrong, now and when it is asked for again.

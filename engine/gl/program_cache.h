@@ -42,6 +42,7 @@ struct ProgramRequest {
 struct Variant {
   Program program;
   std::vector<StageSource> stages;
+  std::string key{};  // of the cache
   // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no
   // error).
   bool mentions(std::string_view name) const;
@@ -76,6 +77,10 @@ class ProgramCache {
 
   // A graph begins to load: trials have all of shader_seconds again.
   void startTrials() { trialTime_ = {}; }
+
+  // As get() of the request that `variant` is the answer to, without a look at its sources: for a pass that is known to
+  // be what it was.
+  void touch(const std::shared_ptr<const Variant>& variant);
 
   const ProgramCacheStats& stats() const { return stats_; }
   std::size_t size() const { return order_.size(); }

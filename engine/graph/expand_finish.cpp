@@ -149,12 +149,47 @@ void nameStandIns(Model& model) {
     }
 }
 
-void foldUniforms(Model& model, const std::vector<DeferredUniform>& deferred) {
-  for (const DeferredUniform& uniform : deferred) {
-    Names names(model, *uniform.scope);
-    names.indices = uniform.indices;
-    model.graph.specs[uniform.pass].uniforms[uniform.uniform].dynamic =
-        uniform.expr->fold(names, model.diagnostics);
+// What contains age().
+void foldTimed(Model& model, const std::vector<DeferredUniform>& deferred) {
+  const auto ageless = [](std::uint32_t) { return 0.0; };
+  for (const DeferredUniform& each : deferred) {
+    if (!each.value.expr || !isDynamic(model, *each.scope, *each.value.expr)) continue;
+    Names names(model, *each.scope);
+    names.indices = each.indices;
+    UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.value.uniform];
+    uniform.dynamic = each.value.expr->fold(names, model.diagnostics);
+    uniform.value = uniform.dynamic.evaluateFolded(ageless);
+  }
+}
+
+// What reads live parameters. One whose expression cannot be folded with them as leaves (it has branches that
+// are not taken now and mean nothing now, or it is too long) makes them structural: then it says what it says
+// when it is evaluated anew.
+void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
+  std::vector<Value> values;
+  for (const Parameter& parameter : model.parameters) values.push_back(parameter.value);
+  findLiveLets(model);
+  const auto trialAge = [](std::uint32_t) { return kTrialAge; };
+  for (const DeferredUniform& each : deferred) {
+    UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.value.uniform];
+    if (!each.value.expr) {
+      if (!model.parameters[each.value.parameter].structural)
+        uniform.dynamic = Expr::parameter(each.value.parameter, uniform.place);
+      continue;
+    }
+    const Expr& expr = *each.value.expr;
+    if (uniform.define || !isLive(model, *each.scope, expr)) continue;
+    Names names(model, *each.scope);
+    names.indices = each.indices;
+    names.live = true;
+    base::Diagnostics ignored;
+    const Expr folded = expr.fold(names, ignored);
+    // The same as it is without leaves, which was checked.
+    const Value before = uniform.dynamic.present() ? uniform.dynamic.evaluateFolded(trialAge) : uniform.value;
+    if (folded.live() && !names.failed && folded.evaluateFolded(trialAge, values) == before)
+      uniform.dynamic = folded;
+    else if (!folded.present() || names.failed || folded.live())
+      markStructural(model, *each.scope, expr);
   }
 }
 
@@ -164,9 +199,14 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   model.position = static_cast<std::uint32_t>(-1);
   resolvePresent(model);
   resolveOutputs(model);
-  foldUniforms(model, deferred);
+  foldTimed(model, deferred);
   resolveHistories(model);
   nameStandIns(model);
+  if (!model.diagnostics.hasErrors()) {
+    const base::Diagnostics said = model.diagnostics;
+    foldLive(model, deferred);
+    model.diagnostics = said;
+  }
   for (const Parameter& parameter : model.parameters)
     model.graph.parameters.push_back(
         {*parameter.desc, parameter.path, parameter.value, parameter.structural});

@@ -1,4 +1,4 @@
-// What expressions depend on through lets: age(), and parameters that structure depends on. Walks without
+// What expressions depend on through lets: age(), live parameters, and parameters that structure depends on. Walks without
 // recursion, because lets may stand in long rows.
 #include <utility>
 
@@ -6,11 +6,10 @@
 
 namespace weft::graph::expansion {
 
-// Every let that contains age(), perhaps through another: from those that say it to those that use them.
-void findDynamicLets(Model& model) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < model.lets.size(); ++i)
-    if (model.lets[i].desc->expr.dynamic()) found.push_back(i);
+namespace {
+
+// Sets `flag` of the lets in `found` and of all that use them, perhaps through others.
+void spread(Model& model, std::vector<std::uint32_t> found, bool Let::* flag) {
   if (found.empty()) return;
   std::vector<std::vector<std::uint32_t>> users(model.lets.size());
   for (std::uint32_t i = 0; i < model.lets.size(); ++i)
@@ -21,9 +20,45 @@ void findDynamicLets(Model& model) {
   while (!found.empty()) {
     const std::uint32_t let = found.back();
     found.pop_back();
-    if (std::exchange(model.lets[let].dynamic, true)) continue;
+    if (std::exchange(model.lets[let].*flag, true)) continue;
     found.insert(found.end(), users[let].begin(), users[let].end());
   }
+}
+
+bool readsLive(Model& model, Scope& scope, const Expr& expr) {
+  if (!expr.present() || expr.isConstant()) return false;
+  for (const std::string& name : expr.variables())
+    if (const Variable variable = findVariable(model, scope, name);
+        variable.kind == Variable::Kind::parameter && !model.parameters[variable.index].structural)
+      return true;
+  return false;
+}
+
+}  // namespace
+
+// Every let that contains age(), perhaps through another: from those that say it to those that use them.
+void findDynamicLets(Model& model) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < model.lets.size(); ++i)
+    if (model.lets[i].desc->expr.dynamic()) found.push_back(i);
+  spread(model, std::move(found), &Let::dynamic);
+}
+
+void findLiveLets(Model& model) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < model.lets.size(); ++i)
+    if (readsLive(model, *model.lets[i].scope, model.lets[i].desc->expr)) found.push_back(i);
+  spread(model, std::move(found), &Let::live);
+}
+
+bool isLive(Model& model, Scope& scope, const Expr& expr) {
+  if (readsLive(model, scope, expr)) return true;
+  if (!expr.present() || expr.isConstant()) return false;
+  for (const std::string& name : expr.variables()) {
+    const Variable variable = findVariable(model, scope, name);
+    if (variable.kind == Variable::Kind::let && model.lets[variable.index].live) return true;
+  }
+  return false;
 }
 
 void markStructural(Model& model, Scope& scope, const Expr& expr) {

@@ -52,6 +52,8 @@ struct Let {
   Value value;  // when done
   bool dynamic = false;        // contains age(), perhaps through another let
   std::optional<Expr> folded;  // of a dynamic one, after all passes are known
+  bool live = false;               // reads a live parameter, perhaps through another let; after findLiveLets()
+  std::optional<Expr> liveFolded;  // of a live one, and of a dynamic one beside live ones
   bool structural = false;
 };
 

@@ -127,6 +127,11 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
     if (isUnincluded(model_, scope_, resource, place, kAsksOf)) return Value{};
     return std::nullopt;
   }
+  if (live && model_.entities[index].kind != ResourceDesc::Kind::alternatives &&
+      model_.entities[index].state != Progress::done) {
+    failed = true;
+    return Value{};
+  }
   const std::string asked = model_.entities[index].name;
   std::uint32_t mip = 0;
   // An import answers for itself even when it has nothing: count() of no lights is 0.
@@ -226,6 +231,7 @@ const Expr* Names::folded(std::string_view variable) {
   const Variable found = findVariable(model_, scope_, variable);
   if (found.kind != Variable::Kind::let) return nullptr;
   Let& let = model_.lets[found.index];
+  if (live) return foldedLive(let);
   if (!let.dynamic) return nullptr;
   const std::string label = "$" + let.path;
   if (let.state == Progress::active) {
@@ -245,6 +251,29 @@ const Expr* Names::folded(std::string_view variable) {
     let.state = Progress::fresh;
   }
   return &*let.folded;
+}
+
+const Expr* Names::foldedLive(Let& let) {
+  if (!let.dynamic && !let.live) return nullptr;
+  if (!let.liveFolded) {
+    const Descent descent(model_, let.desc->expr.height(), let.desc->place, "$" + let.path);
+    let.liveFolded = Expr();    // met again in a circle, which nobody may have evaluated, it fails
+    base::Diagnostics ignored;  // a branch that is not taken now
+    Names names(model_, *let.scope);
+    names.live = true;
+    Expr folded = descent.good() ? let.desc->expr.fold(names, ignored) : Expr();
+    if (!names.failed) let.liveFolded = std::move(folded);
+  }
+  failed = failed || !let.liveFolded->present();
+  return &*let.liveFolded;
+}
+
+std::optional<std::uint32_t> Names::parameterKey(std::string_view name) {
+  if (!live) return std::nullopt;
+  const Variable found = findVariable(model_, scope_, name);
+  const bool leaf =
+      found.kind == Variable::Kind::parameter && !model_.parameters[found.index].structural;
+  return leaf ? std::optional(found.index) : std::nullopt;
 }
 
 std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, std::string_view what) {

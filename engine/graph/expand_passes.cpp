@@ -182,7 +182,7 @@ class PassWalk {
                                  kNone, index, work.whole});
     if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
-    std::vector<std::pair<std::uint32_t, const Expr*>> deferred;
+    std::vector<DeferredValue> deferred;
     fillSpec(context, *desc_, slots, ignored, deferred);
   }
 
@@ -287,8 +287,8 @@ class PassWalk {
     addCadence(context, names, flat);
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     PassSpec spec;
-    std::vector<std::pair<std::uint32_t, const Expr*>> dynamic;
-    if (stanzaGood_) fillSpec(context, *desc_, slots, spec, dynamic);
+    std::vector<DeferredValue> deferred;
+    if (stanzaGood_) fillSpec(context, *desc_, slots, spec, deferred);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     spec.name = context.pass;
     spec.declared = declared_;
@@ -331,8 +331,7 @@ class PassWalk {
         checkAccumulation(context, slots[i], slot.firstUse);
       emitWrites(slots[i], slot, pass);
     }
-    for (const auto& [uniform, expr] : dynamic)
-      deferred_.push_back({pass, uniform, expr, scope_, names.indices});
+    for (const DeferredValue& value : deferred) deferred_.push_back({pass, value, scope_, names.indices});
     graph_.passes.push_back(flat);
     graph_.passNames.push_back(context.pass);
     graph_.specs.push_back(std::move(spec));

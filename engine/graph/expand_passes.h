@@ -3,15 +3,16 @@
 #pragma once
 
 #include "engine/graph/expand_slots.h"
+#include "engine/graph/expand_spec.h"
 
 namespace weft::graph::expansion {
 
 constexpr std::uint32_t kMaxInstances = 1'000'000;
 
-// A uniform or define that contains age(): folded when every resource has its last version.
+// Of a pass that is there: its uniform or define, and where the expression stands.
 struct DeferredUniform {
-  std::uint32_t pass = 0, uniform = 0;
-  const Expr* expr = nullptr;
+  std::uint32_t pass = 0;
+  DeferredValue value;
   Scope* scope = nullptr;
   std::vector<Names::Index> indices;
 };

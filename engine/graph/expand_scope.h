@@ -60,6 +60,11 @@ void markStructural(Model& model, Scope& scope, const Expr& expr);
 void markStructural(Model& model, Scope& scope, const RefDesc& ref);
 // True when the expression contains age(), perhaps through a let.
 bool isDynamic(Model& model, Scope& scope, const Expr& expr);
+// For every let, whether it reads a live parameter, perhaps through another let. Only when everything structural is
+// known.
+void findLiveLets(Model& model);
+// True when the expression reads a live parameter, perhaps through a let; after findLiveLets().
+bool isLive(Model& model, Scope& scope, const Expr& expr);
 // Names in branches that are not taken: variables, choices and resources.
 bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed = false);
 
@@ -74,6 +79,9 @@ class Names final : public EvalScope {
       : model_(model), scope_(scope), dynamicAllowed_(dynamicAllowed) {}
 
   std::vector<Index> indices;  // of the pass instance
+  // Live parameters and the lets over them stay leaves of what is folded, and nothing new is looked at: what
+  // would need that, or fails, sets `failed`.
+  bool live = false, failed = false;
 
   std::optional<Value> variable(std::string_view name) override;
   std::optional<Value> index(std::string_view name) override;
@@ -83,11 +91,14 @@ class Names final : public EvalScope {
   std::vector<std::string> candidates(NameKind kind) override;
   std::optional<std::uint32_t> ageKey(std::string_view resource) override;
   const Expr* folded(std::string_view variable) override;
+  std::optional<std::uint32_t> parameterKey(std::string_view variable) override;
 
   Model& model() { return model_; }
   Scope& scope() { return scope_; }
 
  private:
+  const Expr* foldedLive(Let& let);
+
   Model& model_;
   Scope& scope_;
   bool dynamicAllowed_;  // a let with age() answers 1 instead of an error (checks of uniforms)

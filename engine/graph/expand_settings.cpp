@@ -9,6 +9,7 @@
 #include "engine/base/nearest.h"
 #include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_scope.h"
+#include "engine/graph/parameter_check.h"
 #include "engine/graph/read_context.h"
 #include "engine/graph/suffix.h"
 
@@ -17,32 +18,6 @@ namespace weft::graph {
 namespace {
 
 constexpr std::string_view kCommandLine = "command line: ";
-
-}  // namespace
-
-std::string sourceOfSet(const std::string& name, const std::string& value) {
-  return fmt::format("--set {}={}", name, value);
-}
-
-std::string sourceOfDisable(const std::string& name) {
-  return "--disable " + name;
-}
-
-bool isSetting(const Place& place) {
-  return place.file && place.file->starts_with(kCommandLine);
-}
-
-Place placeOfSetting(const std::string& source) {
-  return {std::make_shared<const std::string>(std::string(kCommandLine) + source), 0, 0};
-}
-
-}  // namespace weft::graph
-
-namespace weft::graph::expansion {
-
-namespace {
-
-using Type = ParameterDesc::Type;
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
@@ -69,8 +44,7 @@ const char* whyNoNumber(std::string_view text) {
 }
 
 // A JSON scalar or list of numbers, else a word.
-Value parseValue(std::string_view text, Type type) {
-  if (type == Type::file) return Value::text(std::string(text));
+Value parseValue(std::string_view text) {
   text = trim(text);
   if (text == "true" || text == "false") return Value::boolean(text == "true");
   if (const auto number = parseNumber(text)) return Value::number(*number);
@@ -91,6 +65,40 @@ Value parseValue(std::string_view text, Type type) {
   return Value::text(std::string(text));
 }
 
+}  // namespace
+
+Setting::Setting(std::string setName, std::string setText)
+    : name(std::move(setName)), value(parseValue(setText)), text(std::move(setText)) {}
+
+Setting::Setting(std::string setName, Value setValue, Origin setOrigin)
+    : name(std::move(setName)), value(std::move(setValue)), origin(setOrigin) {}
+
+std::string sourceOf(const Setting& setting) {
+  if (setting.origin == Origin::command_line) return fmt::format("--set {}={}", setting.name, setting.text);
+  return fmt::format("the value {} set here for {}", toText(setting.value), setting.name);
+}
+
+std::string sourceOf(const Disable& disable) {
+  return disable.origin == Origin::command_line ? "--disable " + disable.name
+                                                : fmt::format("switching off {} here", disable.name);
+}
+
+Place placeOfOption(const std::string& option) {
+  return {std::make_shared<const std::string>(std::string(kCommandLine) + option), 0, 0};
+}
+
+bool isSetting(const Place& place) {
+  return place.file && place.file->starts_with(kCommandLine);
+}
+
+}  // namespace weft::graph
+
+namespace weft::graph::expansion {
+
+namespace {
+
+using Type = ParameterDesc::Type;
+
 std::string joined(const std::vector<std::string>& names) {
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
@@ -108,10 +116,6 @@ std::string rangeText(const ParameterDesc& desc) {
 std::string listText(const ParameterDesc& desc, int count) {
   const std::string range = desc.min || desc.max ? ", each " + rangeText(desc) : "";
   return fmt::format("a list of {} numbers{}, such as {}", count, range, toText(desc.initial));
-}
-
-int componentsOf(Type type) {
-  return type == Type::vec2 ? 2 : type == Type::vec3 ? 3 : type == Type::vec4 ? 4 : 0;
 }
 
 std::string expectedOf(const ParameterDesc& desc) {
@@ -142,7 +146,7 @@ std::string meantBy(const ParameterDesc& desc, const Value& value) {
   }
   if (desc.type == Type::choice) return base::nearestName(text, desc.choices);
   if (const int count = componentsOf(desc.type); count > 0) {
-    const Value list = parseValue("[" + text + "]", desc.type);
+    const Value list = parseValue("[" + text + "]");
     return list.type == Value::Type::list && list.count == count ? toText(list) : "";
   }
   if (desc.type == Type::integer && value.type == Value::Type::number)
@@ -156,30 +160,43 @@ std::string meantBy(const ParameterDesc& desc, const Value& value) {
   return meant && (desc.type == Type::number || *meant == std::floor(*meant)) ? number : "";
 }
 
+// What a diagnostic about a setting begins with: of the command line a place, of a panel words in the
+// message.
+Place placeOf(Origin origin, const std::string& source) {
+  return origin == Origin::command_line ? placeOfOption(source) : Place{};
+}
+
+std::string prefixOf(Origin origin, const std::string& source) {
+  return origin == Origin::command_line ? std::string() : source + ": ";
+}
+
 bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
                      const std::vector<std::size_t>& found, std::string_view wanted, std::string_view noun,
-                     const Place& place) {
+                     const Place& place, const std::string& before) {
   if (found.size() == 1) return false;
   std::string all;
   for (const std::size_t i : found) all += (all.empty() ? "" : ", ") + names[i];
-  auto& d = model.diagnostics.error(Code::W46, place, fmt::format("'{}' may mean several {}", wanted, noun));
+  auto& d = model.diagnostics.error(Code::W46, place,
+                                    fmt::format("{}'{}' may mean several {}", before, wanted, noun));
   d.found = all;
   d.hint = fmt::format("write more of the name, such as '{}'", names[found[0]]);
   return true;
 }
 
-// Where a value comes from, and which parameters it may mean: those of `prefix`, by the rest of their names.
-struct Origin {
+// Where a value stands, and which parameters it may mean: those of `prefix`, by the rest of their names. `before` stands
+// before a message about it.
+struct SetPlace {
   const Scope& scope;
   std::string_view prefix = "";
   Place place = {};
   JsonPointer pointer = {};
   Place valuePlace = {};  // `place` when it has no file
+  std::string before = {};
 };
 
 // `valueFor(type)` makes the value.
 template <class ValueFor>
-void applySet(Model& model, const std::string& wanted, const Origin& origin, const ValueFor& valueFor) {
+void applySet(Model& model, const std::string& wanted, const SetPlace& origin, const ValueFor& valueFor) {
   std::vector<std::string> names;
   std::vector<std::size_t> parameters;
   const auto add = [&](std::size_t i) {
@@ -199,18 +216,28 @@ void applySet(Model& model, const std::string& wanted, const Origin& origin, con
     names.clear();
     if (maySuggest(model, model.parameters.size()))
       for (std::size_t i = 0; i < model.parameters.size(); ++i) add(i);
-    auto& d =
-        model.diagnostics.error(Code::W44, origin.place, fmt::format("no parameter is called '{}'", wanted));
+    auto& d = model.diagnostics.error(Code::W44, origin.place,
+                                      fmt::format("{}no parameter is called '{}'", origin.before, wanted));
     d.pointer = origin.pointer;
     d.hint = suffixHint(wanted, names);
     return;
   }
-  if (reportUnlessOne(model, names, found, wanted, "parameters", origin.place)) return;
+  if (reportUnlessOne(model, names, found, wanted, "parameters", origin.place, origin.before)) return;
   Parameter& parameter = model.parameters[parameters[found[0]]];
   Value value = valueFor(parameter.desc->type);
-  if (!checkParameterValue(model, parameter, value, origin.place)) return;
+  if (!checkParameterValue(model, parameter, value, origin.place, origin.before)) return;
   parameter.value = std::move(value);
   parameter.valuePlace = origin.valuePlace.file ? origin.valuePlace : origin.place;
+}
+
+void applySetting(Model& model, const Setting& set) {
+  const std::string source = sourceOf(set);
+  const SetPlace place{model.scopes.front(), "", placeOf(set.origin, source), {}, {}, prefixOf(set.origin, source)};
+  applySet(model, set.name, place, [&](Type type) {
+    // A path is what was written, whatever else that may mean.
+    const bool path = type == Type::file && set.origin == Origin::command_line;
+    return path ? Value::text(set.text) : set.value;
+  });
 }
 
 // What files say first, the innermost first, so that an including file has the last word; then the command
@@ -220,18 +247,18 @@ void applySets(Model& model) {
     for (const SetDesc& set : scope->desc->sets)
       if (!isOver(model))
         applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer, set.valuePlace},
-               [&](Type type) {
-                 const bool path = type == Type::file && set.value.type == Value::Type::symbol;
-                 return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
-               });
-  for (const auto& [name, text] : model.settings.sets)
-    applySet(model, name, {model.scopes.front(), "", placeOfSetting(sourceOfSet(name, text))},
-             [&](Type type) { return parseValue(text, type); });
+                 [&](Type type) {
+                   const bool path = type == Type::file && set.value.type == Value::Type::symbol;
+                   return path ? Value::text(besideFile(set.place, set.value.symbol)) : set.value;
+                 });
+  for (const Setting& set : model.settings.sets) applySetting(model, set);
 }
 
-void applyDisable(Model& model, const std::string& wanted) {
-  const std::string source = sourceOfDisable(wanted);
-  const Place place = placeOfSetting(source);
+void applyDisable(Model& model, const Disable& disable) {
+  const std::string& wanted = disable.name;
+  const std::string source = sourceOf(disable);
+  const Place place = placeOf(disable.origin, source);
+  const std::string before = prefixOf(disable.origin, source);
   const std::string declared = wanted.substr(0, wanted.find('['));
   struct Candidate {
     Scope* scope;      // an include
@@ -252,7 +279,7 @@ void applyDisable(Model& model, const std::string& wanted) {
   }
   const std::vector<std::size_t> found = suffixMatches(names, declared);
   if (!found.empty()) {
-    if (reportUnlessOne(model, names, found, wanted, "passes", place)) return;
+    if (reportUnlessOne(model, names, found, wanted, "passes", place, before)) return;
     const Candidate& match = candidates[found[0]];
     if (match.scope) {
       match.scope->disabledBy = source;
@@ -265,42 +292,35 @@ void applyDisable(Model& model, const std::string& wanted) {
   std::vector<std::string> parameters;
   for (const Parameter& parameter : model.parameters) parameters.push_back(parameter.path);
   if (const auto named = suffixMatches(parameters, wanted); !named.empty()) {
-    auto& d = model.diagnostics.error(Code::W84, place,
-                                      fmt::format("'{}' is a parameter, not a pass", parameters[named[0]]));
+    auto& d = model.diagnostics.error(
+        Code::W84, place, fmt::format("{}'{}' is a parameter, not a pass", before, parameters[named[0]]));
     const Parameter& parameter = model.parameters[named[0]];
     d.hint = parameter.desc->type == Type::boolean ? fmt::format("--set {}=false", wanted)
                                                    : fmt::format("set it with --set {}=VALUE", wanted);
     return;
   }
   if (mayBeUnread(model.scopes.front(), declared)) return;
-  auto& d = model.diagnostics.error(Code::W45, place, fmt::format("no pass is called '{}'", wanted));
+  auto& d =
+      model.diagnostics.error(Code::W45, place, fmt::format("{}no pass is called '{}'", before, wanted));
   d.hint = suffixHint(declared, names);
 }
 
 }  // namespace
 
-bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place) {
+bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
+                         const std::string& before) {
   const ParameterDesc& desc = *parameter.desc;
   const auto refuse = [&](Code code, const char* why) {
     auto& d = model.diagnostics.error(
-        code, place, fmt::format("parameter '{}': {} is {}", parameter.path, toText(value), why));
+        code, place, fmt::format("{}parameter '{}': {} is {}", before, parameter.path, toText(value), why));
     d.expected = expectedOf(desc);
     if (desc.place.file)
       d.expected += fmt::format(", as {}:{}:{} says", *desc.place.file, desc.place.line, desc.place.column);
     return &d;
   };
-  const bool number = value.type == Value::Type::number, word = value.type == Value::Type::symbol;
-  const int components = componentsOf(desc.type);
-  const bool fits = desc.type == Type::boolean   ? value.type == Value::Type::boolean
-                    : desc.type == Type::integer ? number && value.v[0] == std::floor(value.v[0])
-                    : desc.type == Type::number  ? number
-                    : desc.type == Type::choice
-                        ? word && std::ranges::find(desc.choices, value.symbol) != desc.choices.end()
-                    : desc.type == Type::file ? word
-                                              : value.type == Value::Type::list && value.count == components;
-  if (!fits) {
+  if (!fitsType(desc, value)) {
     const bool wantsNumber = desc.type == Type::number || desc.type == Type::integer;
-    const char* const why = word && wantsNumber ? whyNoNumber(value.symbol) : nullptr;
+    const char* const why = value.type == Value::Type::symbol && wantsNumber ? whyNoNumber(value.symbol) : nullptr;
     auto* d = refuse(Code::W47, why                         ? why
                                 : desc.type == Type::choice ? "none of its choices"
                                                             : "of the wrong type");
@@ -308,13 +328,10 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
       d->hint = fmt::format("did you mean '{}'?", meant);
     return false;
   }
-  for (std::size_t i = 0; i < value.count; ++i)
-    if (value.type != Value::Type::boolean &&
-        (!std::isfinite(value.v[i]) || (desc.min && value.v[i] < *desc.min) ||
-         (desc.max && value.v[i] > *desc.max))) {
-      refuse(Code::W48, "out of its range");
-      return false;
-    }
+  if (!fitsRange(desc, value)) {
+    refuse(Code::W48, "out of its range");
+    return false;
+  }
   return true;
 }
 
@@ -340,13 +357,39 @@ base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<
 void applySettings(Model& model) {
   const auto badScreen = [](std::uint32_t x) { return x < 1 || x > 16384; };
   if (badScreen(model.settings.screenWidth) || badScreen(model.settings.screenHeight)) {
-    auto& d =
-        model.diagnostics.error(Code::W48, placeOfSetting("--size"), "the screen's size is out of its range");
+    auto& d = model.diagnostics.error(Code::W48, placeOfOption("--size"),
+                                      "the screen's size is out of its range");
     d.expected = "1 to 16384 pixels a side";
     d.found = fmt::format("{}x{}", model.settings.screenWidth, model.settings.screenHeight);
   }
   applySets(model);
-  for (const std::string& name : model.settings.disables) applyDisable(model, name);
+  for (const Disable& disable : model.settings.disables) applyDisable(model, disable);
 }
 
 }  // namespace weft::graph::expansion
+
+namespace weft::graph {
+
+std::vector<Refusal> findRefused(const GraphDesc& desc, const Registry& registry, const Settings& settings) {
+  base::Diagnostics said;
+  expansion::Model model{desc, registry, settings, said};
+  expansion::buildScopes(model);
+  std::vector<Refusal> refused;
+  const auto note = [&](bool disable, std::size_t index) {
+    const auto error = std::ranges::find(said.items(), base::Severity::error, &base::Diagnostic::severity);
+    if (error != said.items().end()) refused.push_back({disable, index, *error});
+    said.clear();
+  };
+  said.clear();
+  for (std::size_t i = 0; i < settings.sets.size(); ++i) {
+    expansion::applySetting(model, settings.sets[i]);
+    note(false, i);
+  }
+  for (std::size_t i = 0; i < settings.disables.size(); ++i) {
+    expansion::applyDisable(model, settings.disables[i]);
+    note(true, i);
+  }
+  return refused;
+}
+
+}  // namespace weft::graph

@@ -10,8 +10,10 @@ namespace weft::graph::expansion {
 // Sets Parameter::value, Scope::disabledBy and Model::disables.
 void applySettings(Model& model);
 
-// Whether `value` fits a parameter: its type, its choices, its range. Reports at `place`.
-bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place);
+// Whether `value` fits a parameter: its type, its choices, its range. Reports at `place`, in words that come after
+// `before`.
+bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
+                         const std::string& before);
 
 // A problem with a whole file that one of the `arguments` of an import names, told where somebody wrote the
 // name: the "set" of a preset, the command line, the default of a parameter, or the argument itself. Any

@@ -36,7 +36,7 @@ class SpecFiller {
         slots_(slots),
         spec_(spec) {}
 
-  bool run(std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
+  bool run(std::vector<DeferredValue>& deferred) {
     const std::size_t before = model_.diagnostics.errorCount();
     for (const NamedExpr& state : desc_.state) addState(state);
     checkDepthState();
@@ -208,7 +208,7 @@ class SpecFiller {
     d.found = toText(value);
   }
 
-  void addDefine(const NamedExpr& define, std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
+  void addDefine(const NamedExpr& define, std::vector<DeferredValue>& deferred) {
     const std::string& name = define.name;
     const Expr& expr = define.expr;
     if (isDynamic(model_, names_.scope(), expr)) {
@@ -218,7 +218,7 @@ class SpecFiller {
             .hint = "each doubles the number of its shader variants";
         return;
       }
-      deferred.emplace_back(static_cast<std::uint32_t>(spec_.uniforms.size()), &expr);
+      deferred.push_back({static_cast<std::uint32_t>(spec_.uniforms.size()), &expr});
       UniformSpec condition;
       condition.name = name;
       condition.place = expr.place();
@@ -239,7 +239,7 @@ class SpecFiller {
   }
 
   void addParameter(const PassParameterDesc& desc,
-                    std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
+                    std::vector<DeferredValue>& deferred) {
     UniformSpec uniform;
     uniform.name = desc.name;
     uniform.place = desc.place;
@@ -260,7 +260,7 @@ class SpecFiller {
       }
       uniform.value = parameter->value;
     } else if (isDynamic(model_, names_.scope(), desc.value)) {
-      deferred.emplace_back(static_cast<std::uint32_t>(spec_.uniforms.size()), &desc.value);
+      deferred.push_back({static_cast<std::uint32_t>(spec_.uniforms.size()), &desc.value});
       spec_.uniforms.push_back(std::move(uniform));
       return;
     } else {
@@ -277,6 +277,11 @@ class SpecFiller {
       if (d.hint.empty()) d.hint = "a path can be an argument of an import only";
       return;
     }
+    const auto index = static_cast<std::uint32_t>(spec_.uniforms.size());
+    if (parameter)
+      deferred.push_back({index, nullptr, static_cast<std::uint32_t>(parameter - model_.parameters.data())});
+    else if (!desc.value.isConstant())
+      deferred.push_back({index, &desc.value});
     spec_.uniforms.push_back(std::move(uniform));
   }
 
@@ -363,7 +368,7 @@ class SpecFiller {
 }  // namespace
 
 bool fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
-              PassSpec& spec, std::vector<std::pair<std::uint32_t, const Expr*>>& deferred) {
+              PassSpec& spec, std::vector<DeferredValue>& deferred) {
   return SpecFiller(context, desc, slots, spec).run(deferred);
 }
 

@@ -6,11 +6,18 @@
 
 namespace weft::graph::expansion {
 
-// Fills everything of `spec` but names, slots and dynamic uniforms' values; returns false after a report.
-// `deferred` gets the indices of uniforms whose expression contains age(): they are folded when all versions
+// A uniform that may change without another plan: it is folded when all versions and all structural parameters
 // are known.
+struct DeferredValue {
+  std::uint32_t uniform = 0;
+  const Expr* expr = nullptr;         // null: `parameter` alone
+  std::uint32_t parameter = kNone;    // the one that it is, or kNone
+};
+
+// Fills everything of `spec` but names, slots and the values of uniforms and defines whose expression contains
+// age(); returns false after a report. `deferred` gets those, and every uniform that names a parameter.
 bool fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
-              PassSpec& spec, std::vector<std::pair<std::uint32_t, const Expr*>>& deferred);
+              PassSpec& spec, std::vector<DeferredValue>& deferred);
 
 // The import a view names; kNone means the default camera. nullopt after a report.
 std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spec);

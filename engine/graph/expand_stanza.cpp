@@ -151,13 +151,18 @@ void checkExpressions(const Stanza& stanza) {
   if (desc.view) checkReference(stanza, *desc.view);
   for (const NamedExpr& define : desc.defines) {
     checkExpr(model, scope, define.expr, true);
-    if (!isDynamic(model, scope, define.expr)) markStructural(model, scope, define.expr);
+    markStructural(model, scope, define.expr);
   }
   for (const NamedExpr& state : desc.state) structural(state.expr);
   for (const Expr* expr : {&desc.slices, &desc.threads, &desc.instances}) structural(*expr);
   for (const Expr& argument : desc.geometryArguments) structural(argument);
-  for (const PassParameterDesc& parameter : desc.parameters)
+  for (const PassParameterDesc& parameter : desc.parameters) {
     if (!parameter.declared) checkExpr(model, scope, parameter.value, true);
+    if (parameter.declared && parameter.declared->define)
+      if (const auto found = scope.passParameters.find(desc.name + "." + parameter.name);
+          found != scope.passParameters.end())
+        model.parameters[found->second].structural = true;
+  }
 }
 
 void checkCadence(const Stanza& stanza) {

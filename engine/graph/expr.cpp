@@ -88,13 +88,21 @@ ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children) {
   auto node = std::make_shared<ExprNode>();
   node->op = op;
   node->place = std::move(place);
+  setChildren(*node, std::move(children));
+  return node;
+}
+
+void setChildren(ExprNode& node, std::vector<ExprPtr> children) {
   const int height = heightOver(children);
   assert(height <= kMaxExprHeight + 1);
-  node->height = static_cast<std::uint8_t>(height);
-  node->dynamic = std::any_of(children.begin(), children.end(), [](const ExprPtr& c) { return c->dynamic; });
-  node->children = std::move(children);
-  node->terms = termsOver(node->children);
-  return node;
+  node.height = static_cast<std::uint8_t>(height);
+  node.dynamic = node.live = false;
+  for (const ExprPtr& child : children) {
+    node.dynamic = node.dynamic || child->dynamic;
+    node.live = node.live || child->live;
+  }
+  node.terms = termsOver(children);
+  node.children = std::move(children);
 }
 
 ExprPtr makeConstant(Value value, base::Place place) {
@@ -149,6 +157,9 @@ void print(const ExprNode& node, int outer, std::string& out) {
     case ExprOp::age_key:
       out += fmt::format("age(#{})", node.key);
       break;
+    case ExprOp::parameter_key:
+      out += fmt::format("$#{}", node.key);
+      break;
     case ExprOp::component:
       print(*node.children[0], info.precedence, out);
       out += '.';
@@ -187,6 +198,12 @@ void collectVariables(const ExprNode& node, std::vector<std::string>& out, std::
   for (const ExprPtr& child : node.children) collectVariables(*child, out, seen);
 }
 
+void collectParameters(const ExprNode& node, std::vector<std::uint32_t>& out) {
+  if (!node.live) return;
+  if (node.op == ExprOp::parameter_key) out.push_back(node.key);
+  for (const ExprPtr& child : node.children) collectParameters(*child, out);
+}
+
 void collectFacts(const ExprNode& node, std::vector<std::pair<Fact, std::string>>& out) {
   if (node.op == ExprOp::fact) out.emplace_back(node.fact, node.name);
   for (const ExprPtr& child : node.children) collectFacts(*child, out);
@@ -198,6 +215,17 @@ Expr Expr::constant(Value value, base::Place place) {
   Expr expr;
   ExprPtr node = makeConstant(std::move(value), place);
   expr.root_ = withStart(node, place);
+  return expr;
+}
+
+Expr Expr::parameter(std::uint32_t key, base::Place place) {
+  auto node = std::make_shared<ExprNode>();
+  node->op = ExprOp::parameter_key;
+  node->key = key;
+  node->live = node->folded = true;
+  node->place = node->start = std::move(place);
+  Expr expr;
+  expr.root_ = std::move(node);
   return expr;
 }
 
@@ -232,6 +260,18 @@ std::optional<Expr> Expr::parse(std::string_view text, const base::Place& place,
 
 bool Expr::dynamic() const {
   return root_ && root_->dynamic;
+}
+
+bool Expr::live() const {
+  return root_ && root_->live;
+}
+
+std::vector<std::uint32_t> Expr::parameterKeys() const {
+  std::vector<std::uint32_t> keys;
+  if (root_) collectParameters(*root_, keys);
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
 }
 
 std::string Expr::text() const {

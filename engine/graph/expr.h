@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,16 +41,27 @@ class EvalScope {
   virtual std::vector<std::string> candidates(NameKind kind) = 0;
   // A key by which a folded age() finds its resource at run time; nullopt for an unknown resource.
   virtual std::optional<std::uint32_t> ageKey(std::string_view resource) = 0;
-  // A `let` that changes from frame to frame (it contains age(), perhaps through another `let`), already folded in the
-  // scope it stands in; null for every other name. fold() asks this before variable() and puts the tree in its place.
+  // A `let` that changes without another plan (it contains age() or a live parameter, perhaps through another
+  // `let`), already folded in the scope it stands in; null for every other name. fold() asks this before
+  // variable() and puts the tree in its place.
   virtual const Expr* folded([[maybe_unused]] std::string_view variable) { return nullptr; }
+  // A key by which a folded expression finds the value of a live parameter; nullopt for every other name,
+  // which is folded to its value.
+  virtual std::optional<std::uint32_t> parameterKey([[maybe_unused]] std::string_view variable) {
+    return std::nullopt;
+  }
 };
+
+// Shapes and types are the same at every age; an age that no formula singles out shows them.
+constexpr double kTrialAge = 0.61803398874989485;
 
 // A parsed expression, or a literal. Copies share the tree. Default-constructed: absent.
 class Expr {
  public:
   Expr() = default;
   static Expr constant(Value value, base::Place place);
+  // A folded expression that is the value of one live parameter.
+  static Expr parameter(std::uint32_t key, base::Place place);
   static Expr listOf(std::vector<Expr> items, base::Place place);
   // Parses `text`, which stands at `place` (the place of the string's first character after the quote).
   static std::optional<Expr> parse(std::string_view text, const base::Place& place,
@@ -58,6 +70,10 @@ class Expr {
   bool present() const { return root_ != nullptr; }
   // True when it contains age(): its value changes from frame to frame.
   bool dynamic() const;
+  // True when it is folded and contains live parameters.
+  bool live() const;
+  // The keys of those, each once, ascending.
+  std::vector<std::uint32_t> parameterKeys() const;
   // Canonical text, fit to be parsed again.
   std::string text() const;
   const base::Place& place() const;
@@ -69,7 +85,8 @@ class Expr {
   // How many operators and operands it has, and how deep they are nested.
   std::uint32_t terms() const;
   int height() const;
-  // True when evaluating it needs no scope: a literal of the file, or a folded expression without age().
+  // True when evaluating it needs no scope: a literal of the file, or a folded expression without age() and
+  // live parameters.
   bool isConstant() const;
 
   // The value, or type none after an error was reported. age() is an error here unless `scope.fact` answers
@@ -78,13 +95,14 @@ class Expr {
   // Reports names and choices that do not exist, also in branches that evaluate() would not take. Asks the
   // scope for variables and choices only, never for facts. True when it found nothing wrong.
   bool check(EvalScope& scope, base::Diagnostics& diagnostics) const;
-  // Everything but age() replaced by its value; age nodes carry scope.ageKey(name). Absent after an error was
-  // reported.
+  // Everything but age() and live parameters replaced by its value; these carry scope.ageKey(name) and
+  // scope.parameterKey(name). Absent after an error was reported.
   Expr fold(EvalScope& scope, base::Diagnostics& diagnostics) const;
   // Evaluates a folded expression; no heap allocation for numbers and lists. `age` gives seconds since
-  // publication, which may be infinite. Type none (all components 0) when the result has none, such as a
-  // division by zero.
-  Value evaluateFolded(const std::function<double(std::uint32_t key)>& age) const;
+  // publication, which may be infinite; `parameters` the values by their keys. Type none (all components 0)
+  // when the result has none, such as a division by zero.
+  Value evaluateFolded(const std::function<double(std::uint32_t key)>& age,
+                       std::span<const Value> parameters = {}) const;
 
   const ExprNode* root() const { return root_.get(); }
 

@@ -40,8 +40,9 @@ bool isFinite(const Value& value) {
 class Evaluator {
  public:
   Evaluator(EvalScope& scope, base::Diagnostics& diagnostics) : scope_(&scope), diagnostics_(&diagnostics) {}
-  // A folded tree: no scope, an age, and perhaps no diagnostics.
-  Evaluator(const AgeFunction& age, base::Diagnostics* diagnostics) : age_(&age), diagnostics_(diagnostics) {}
+  // A folded tree: no scope, but ages and parameters, and perhaps no diagnostics.
+  Evaluator(const AgeFunction& age, std::span<const Value> parameters, base::Diagnostics* diagnostics)
+      : age_(&age), parameters_(parameters), diagnostics_(diagnostics) {}
 
   Value run(const ExprNode& node) {
     switch (node.op) {
@@ -59,6 +60,8 @@ class Evaluator {
         return fact(node);
       case ExprOp::age_key:
         return Value::number(age_ ? (*age_)(node.key) : 0);
+      case ExprOp::parameter_key:
+        return node.key < parameters_.size() ? parameters_[node.key] : Value{};
       case ExprOp::component:
         return component(node);
       case ExprOp::logical_not: {
@@ -340,6 +343,7 @@ class Evaluator {
 
   EvalScope* scope_ = nullptr;
   const AgeFunction* age_ = nullptr;
+  std::span<const Value> parameters_;
   base::Diagnostics* diagnostics_ = nullptr;
 };
 
@@ -359,8 +363,9 @@ Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& di
   return Evaluator(scope, diagnostics).run(node);
 }
 
-Value evaluateNode(const ExprNode& node, const AgeFunction& age, base::Diagnostics* diagnostics) {
-  return Evaluator(age, diagnostics).run(node);
+Value evaluateNode(const ExprNode& node, const AgeFunction& age, std::span<const Value> parameters,
+                   base::Diagnostics* diagnostics) {
+  return Evaluator(age, parameters, diagnostics).run(node);
 }
 
 Value Expr::evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const {
@@ -371,8 +376,9 @@ bool Expr::check(EvalScope& scope, base::Diagnostics& diagnostics) const {
   return !root_ || checkNode(*root_, scope, diagnostics);
 }
 
-Value Expr::evaluateFolded(const std::function<double(std::uint32_t key)>& age) const {
-  return root_ ? evaluateNode(*root_, age, nullptr) : Value{};
+Value Expr::evaluateFolded(const std::function<double(std::uint32_t key)>& age,
+                           std::span<const Value> parameters) const {
+  return root_ ? evaluateNode(*root_, age, parameters, nullptr) : Value{};
 }
 
 }  // namespace weft::graph

@@ -1,4 +1,4 @@
-// Folding: everything that is known before the frame runs becomes a constant, age() becomes a key.
+// Folding: everything that stays while a plan runs becomes a constant, age() and live parameters become keys.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,8 +21,10 @@ bool isConstantNumeric(const ExprPtr& node) {
 ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
   if (node->op == ExprOp::variable) {
     const Expr* folded = scope.folded(node->name);
-    if (!folded || !folded->present()) return node;
-    return folded->root()->shared_from_this();
+    if (folded && !folded->present()) return nullptr;  // told where it was folded
+    if (folded) return folded->root()->shared_from_this();
+    const std::optional<std::uint32_t> key = scope.parameterKey(node->name);
+    return key ? Expr::parameter(*key, node->place).root()->shared_from_this() : node;
   }
   bool changed = false;
   std::vector<ExprPtr> children;
@@ -33,14 +35,14 @@ ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& dia
     children.push_back(std::move(other));
   }
   if (!changed) return node;
-  const int height = heightOver(children);
-  if (height > kMaxExprHeight) {
+  if (heightOver(children) > kMaxExprHeight) {
     diagnostics.error(Code::W20, node->place,
                       "the expression and the \"let\" it uses chain too many operators");
     return nullptr;
   }
-  const std::uint32_t terms = termsOver(children);
-  if (terms > kMaxFoldedTerms) {
+  auto copy = std::make_shared<ExprNode>(*node);
+  setChildren(*copy, std::move(children));
+  if (copy->terms > kMaxFoldedTerms) {
     diagnostics
         .error(Code::W20, node->place,
                fmt::format("the expression and the \"let\" it uses have more than {} operators and operands",
@@ -48,21 +50,16 @@ ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& dia
         .hint = "age() changes in every frame, and all of it is evaluated then: use it fewer times";
     return nullptr;
   }
-  auto copy = std::make_shared<ExprNode>(*node);
-  copy->terms = terms;
-  copy->height = static_cast<std::uint8_t>(height);
-  copy->dynamic = std::any_of(children.begin(), children.end(), [](const ExprPtr& c) { return c->dynamic; });
-  copy->children = std::move(children);
   return copy;
 }
 
 // Null after an error.
 ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
-  if (!node->dynamic) {
+  if (node->folded) return node;
+  if (!node->dynamic && !node->live) {
     Value value = evaluateNode(*node, scope, diagnostics);
     return value.type == Value::Type::none ? nullptr : makeConstant(std::move(value), node->place);
   }
-  if (node->op == ExprOp::age_key) return node;
   if (node->op == ExprOp::fact) {
     const std::optional<std::uint32_t> key = scope.ageKey(node->name);
     if (!key) {
@@ -74,6 +71,7 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
     auto folded = std::make_shared<ExprNode>(*node);
     folded->op = ExprOp::age_key;
     folded->key = *key;
+    folded->folded = true;
     return folded;
   }
   std::vector<ExprPtr> children;
@@ -90,11 +88,9 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
     children.push_back(std::move(child));
   }
   auto folded = std::make_shared<ExprNode>(*node);
-  folded->children = std::move(children);
-  folded->terms = termsOver(folded->children);
-  folded->dynamic = std::any_of(folded->children.begin(), folded->children.end(),
-                                [](const ExprPtr& c) { return c->dynamic; });
-  if (folded->dynamic) return folded;
+  setChildren(*folded, std::move(children));
+  folded->folded = true;
+  if (folded->dynamic || folded->live) return folded;
   Value value = evaluateNode(*folded, scope, diagnostics);
   return value.type == Value::Type::none ? nullptr : makeConstant(std::move(value), node->place);
 }
@@ -106,10 +102,9 @@ Expr Expr::fold(EvalScope& scope, base::Diagnostics& diagnostics) const {
   const ExprPtr whole = root_ ? substitute(root_, scope, diagnostics) : nullptr;
   const ExprPtr folded = whole ? foldNode(whole, scope, diagnostics) : nullptr;
   if (!folded) return out;
-  if (folded->dynamic) {
-    // Shapes and types are the same at every age; a value that no formula singles out shows them.
-    const AgeFunction trialAge = [](std::uint32_t) { return 0.61803398874989485; };
-    if (evaluateNode(*folded, trialAge, &diagnostics).type == Value::Type::none) return out;
+  if (folded->dynamic && !folded->live) {  // else the caller knows the values of the parameters
+    const AgeFunction trialAge = [](std::uint32_t) { return kTrialAge; };
+    if (evaluateNode(*folded, trialAge, {}, &diagnostics).type == Value::Type::none) return out;
   }
   out.root_ = withStart(folded, root_->start);
   return out;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ enum class ExprOp : std::uint8_t {
   builtin,     // name: "screen", "device.software"
   fact,        // name: the resource, with its @ if written; fact
   age_key,     // key: a folded age()
+  parameter_key,  // key: a live parameter, folded
   component,   // children: the list; key: 0..3
   negate,
   logical_not,
@@ -53,6 +55,8 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
   Fact fact = Fact::size;
   std::uint8_t height = 1;  // 1 for leaves; never above kMaxExprHeight
   bool dynamic = false;     // contains age()
+  bool live = false;        // contains a live parameter, folded
+  bool folded = false;      // nothing in it is left to fold
   std::uint32_t key = 0;
   std::uint32_t terms = 1;  // this one and all below it; one that stands in several places counts in each
   base::Place place;  // of the token to blame: the operator, the name, the function
@@ -65,7 +69,8 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
 using ExprPtr = std::shared_ptr<const ExprNode>;
 
 constexpr int kMaxExprHeight = 200;
-// Of an expression with the `let` it uses in its place: it is evaluated in every frame.
+// Of an expression with the `let` it uses in its place: it is evaluated as a tree, in every frame or with every
+// move of a slider.
 constexpr std::uint32_t kMaxFoldedTerms = 10'000;
 
 struct OpInfo {
@@ -90,6 +95,8 @@ ExprPtr makeConstant(Value value, base::Place place);
 int heightOver(const std::vector<ExprPtr>& children);
 // 1 + all terms of `children`.
 std::uint32_t termsOver(const std::vector<ExprPtr>& children);
+// Sets what a node's children decide: height (which the caller has checked), dynamic, live, terms.
+void setChildren(ExprNode& node, std::vector<ExprPtr> children);
 // A copy of `root` that knows where the whole expression starts.
 ExprPtr withStart(const ExprPtr& root, const base::Place& start);
 
@@ -101,6 +108,7 @@ using AgeFunction = std::function<double(std::uint32_t key)>;
 
 // The value of a tree, or type none; with a scope before the frame runs, with an age function after folding.
 Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics);
-Value evaluateNode(const ExprNode& node, const AgeFunction& age, base::Diagnostics* diagnostics);
+Value evaluateNode(const ExprNode& node, const AgeFunction& age, std::span<const Value> parameters,
+                   base::Diagnostics* diagnostics);
 
 }  // namespace weft::graph

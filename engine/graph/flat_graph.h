@@ -75,8 +75,9 @@ struct SlotSpec {
 
 struct UniformSpec {
   std::string name;
-  Value value;                    // when `dynamic` is absent
-  Expr dynamic;                   // folded; age keys are FlatResource indices
+  Value value;                    // with the parameters as they are; of one that contains age(): at age 0
+  Expr dynamic;                   // folded; what changes it without another plan is still in it: age() by FlatResource
+                                  // index, live parameters by index into FlatGraph::parameters. Absent: nothing does
   std::string path;               // full name of the parameter behind it ("post.composite.vignette"), or empty
   Place place;
   bool define = false;            // dynamic, and no uniform but #define name 0 or 1: chooses the variant of a frame
@@ -133,7 +134,8 @@ struct ParameterSpec {
   ParameterDesc desc;
   std::string path;               // full name: "post.exposure", "post.composite.vignette"
   Value value;                    // after --set
-  bool structural = false;        // appears in a size, condition, define, repeat: a change recompiles
+  bool structural = false;        // a size, condition, define, repeat, state or import depends on it: a change makes
+                                  // another plan. Otherwise it is live: a change writes bytes of uniforms
 };
 
 struct HistorySpec {              // per FlatResource with history > 0

@@ -92,9 +92,9 @@ class Planner {
     for (const ParameterSpec& parameter : wanted_->parameters) paths_.push_back(parameter.path);
     for (const std::string& path : tweaked())
       if (!writeParameter(path)) return std::nullopt;
-    const std::vector<std::string> disables = out_.rest.disables;
-    for (const std::string& name : disables)
-      if (!writePass(name)) return std::nullopt;
+    const std::vector<Disable> disables = out_.rest.disables;
+    for (const Disable& disable : disables)
+      if (!writePass(disable.name)) return std::nullopt;
     const auto made = expand(*now_);
     if (!made || !sameParameters(*made, *wanted_) || !samePasses(*made, *wanted_) ||
         !sameUniforms(*made, *wanted_) || !sameResources(*made, *wanted_))
@@ -122,8 +122,8 @@ class Planner {
   // Full names behind the settings, each once.
   std::vector<std::string> tweaked() const {
     std::vector<std::string> paths;
-    for (const auto& [name, text] : out_.rest.sets)
-      for (const std::size_t i : suffixMatches(paths_, name))
+    for (const Setting& set : out_.rest.sets)
+      for (const std::size_t i : suffixMatches(paths_, set.name))
         if (std::ranges::find(paths, paths_[i]) == paths.end()) paths.push_back(paths_[i]);
     return paths;
   }
@@ -134,7 +134,7 @@ class Planner {
 
   bool writeParameter(const std::string& path) {
     std::erase_if(out_.rest.sets, [&](const auto& set) {
-      const auto found = suffixMatches(paths_, set.first);
+      const auto found = suffixMatches(paths_, set.name);
       return found.size() == 1 && paths_[found[0]] == path;
     });
     const ParameterSpec& wanted = wantedParameter(path);
@@ -168,7 +168,7 @@ class Planner {
     const std::string& pass = declared[found[0]];
     const auto before = expand(*now_);
     if (!before) return fail(fmt::format("pass '{}'", pass), "what is left without it is not valid"), false;
-    std::erase(out_.rest.disables, name);
+    std::erase_if(out_.rest.disables, [&](const Disable& each) { return each.name == name; });
     const auto good = [&](const FlatGraph& made) {
       return samePasses(made, *before) && sameParameters(made, *before);
     };

@@ -185,7 +185,7 @@ void Execution::refreshUniforms(bool alwaysOnly) {
     const bool timeless = graph.passes[plan_->steps[step].pass].cadence != graph::Cadence::always;
     if (alwaysOnly && timeless) continue;
     for (const DynamicUniform& uniform : pass.dynamics) {
-      const graph::Value value = uniform.expr.evaluateFolded([this](std::uint32_t key) { return ageOf(key); });
+      const graph::Value value = uniform.expr.evaluateFolded([this](std::uint32_t key) { return ageOf(key); }, parameters_);
       std::byte* at = uniformBytes_.data() + pass.parametersOffset;
       std::byte before[32];
       std::memcpy(before, at + uniform.member.offset, 16);

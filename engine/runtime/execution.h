@@ -10,6 +10,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/gl/context.h"
@@ -20,6 +22,7 @@
 #include "engine/runtime/cadence.h"
 #include "engine/runtime/framebuffer_cache.h"
 #include "engine/runtime/imports.h"
+#include "engine/runtime/pass_keeper.h"
 #include "engine/runtime/prepared_pass.h"
 #include "engine/runtime/read_back.h"
 #include "engine/runtime/resource_pool.h"
@@ -54,12 +57,27 @@ struct FrameReport {
   std::uint32_t slowRun = 0;  // of passesRun: those that are not `always`
 };
 
+// Whether shader files are looked at again for passes that stay as they are.
+enum class ShaderFiles : std::uint8_t { read, keep };
+
 class Execution {
  public:
-  // Prepares `plan`. Null after errors, and `before` (may be null) is untouched then; otherwise `before` has given up its
-  // storage and must not run again.
+  // Prepares `plan`: of passes that differ from those of `before` (may be null) everything, of the others what lies in
+  // other storage now. Null after errors, and `before` is untouched then; otherwise `before` has given up its storage
+  // and must not run again.
   static std::unique_ptr<Execution> create(Device& device, std::shared_ptr<const graph::Plan> plan, Execution* before,
-                                           base::Diagnostics& diagnostics);
+                                           ShaderFiles files, base::Diagnostics& diagnostics);
+
+  // The values of the plan's parameters, parallel to FlatGraph::parameters: as the plan was made, and since then
+  // as setParameter() set them.
+  std::span<const graph::Value> parameters() const { return parameters_; }
+  // Sets a live parameter: evaluates what reads it, and writes the bytes, which the next frame uploads. False, and
+  // nothing has changed, when that takes another plan, which may also say why not: the parameter is structural or
+  // unknown, it does not take the value, or an expression has no result with it. Allocates nothing for numbers,
+  // booleans and lists.
+  bool setParameter(std::string_view path, const graph::Value& value);
+  // Of all uniform blocks, as the last frame had them and setParameter() changed them; for tests.
+  std::span<const std::byte> uniformBytes() const { return uniformBytes_; }
 
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
@@ -68,6 +86,8 @@ class Execution {
   bool remembers(const World& world) const;
 
   const graph::Plan& plan() const { return *plan_; }
+  // Passes that were prepared when this was made; the others came prepared.
+  std::uint32_t passesPrepared() const { return passesPrepared_; }
   // What is presented: level and layer of a texture; id 0 when the graph presents nothing.
   gl::TextureRef presented();
   // The whole texture behind it, with all its levels.
@@ -95,8 +115,14 @@ class Execution {
 
  private:
   Execution(Device& device, std::shared_ptr<const graph::Plan> plan) : device_(device), plan_(std::move(plan)) {}
-  bool prepare(Execution* before, base::Diagnostics& diagnostics);
+  bool prepare(Execution* before, ShaderFiles files, base::Diagnostics& diagnostics);
   void layoutUniforms(base::Diagnostics& diagnostics);
+  bool isSettled(std::size_t step) const;
+  bool preparePasses(Execution* before, const std::vector<std::shared_ptr<const gl::Variant>>& variants,
+                     const PassKeeper* keeper, base::Diagnostics& diagnostics);
+  void fillUniforms();
+  void listReaders();
+  graph::Value valueOf(const graph::UniformSpec& uniform) const;
   void carryOver(Execution& before);
   void refreshImports(base::Diagnostics& diagnostics);
   void viewImports(base::Diagnostics& diagnostics);
@@ -128,6 +154,7 @@ class Execution {
   Device& device_;
   std::shared_ptr<const graph::Plan> plan_;
   std::unique_ptr<ResourcePool> pool_;
+  std::uint32_t passesPrepared_ = 0;
   std::vector<PreparedPass> passes_;             // per step, of the variant whose conditions hold
   struct Parked {
     std::size_t step = 0;
@@ -142,6 +169,17 @@ class Execution {
   gl::Buffer uniforms_;
   std::vector<std::byte> uniformBytes_;
   bool uniformsDirty_ = true;
+  std::vector<graph::Value> parameters_;         // parallel to FlatGraph::parameters
+  std::unordered_map<std::string_view, std::uint32_t> parameterOf_;  // by path, which the plan's graph holds
+  // A uniform that reads live parameters, of a pass or a parked one.
+  struct LiveUniform {
+    const gl::BlockMember* member = nullptr;
+    const graph::Expr* expr = nullptr;
+    std::uint32_t block = 0;                     // offset of its block in uniformBytes_
+  };
+  std::vector<LiveUniform> liveUniforms_;
+  std::vector<std::vector<std::uint32_t>> readers_;  // per parameter: into liveUniforms_
+  std::vector<graph::Value> results_;            // scratch of setParameter()
   std::vector<std::uint64_t> generations_;       // per resource
   std::vector<std::uint64_t> generationsBefore_; // as they were when the frame was decided
   std::uint64_t nextGeneration_ = 1;

@@ -50,26 +50,34 @@ base::Place placeOfResource(const graph::FlatGraph& graph, const std::string& la
 }  // namespace
 
 std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<const graph::Plan> plan, Execution* before,
-                                             base::Diagnostics& diagnostics) {
+                                             ShaderFiles files, base::Diagnostics& diagnostics) {
   std::unique_ptr<Execution> made(new Execution(device, std::move(plan)));
-  if (!made->prepare(before, diagnostics)) return nullptr;
+  if (!made->prepare(before, files, diagnostics)) return nullptr;
   return made;
 }
 
-bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
+bool Execution::prepare(Execution* before, ShaderFiles files, base::Diagnostics& diagnostics) {
   // Programs first: a shader that does not compile must cost the running execution nothing.
+  const auto keeper = before ? std::make_unique<PassKeeper>(*plan_, *before->plan_) : nullptr;
   base::Diagnostics problems;
   std::vector<std::shared_ptr<const gl::Variant>> variants;
-  for (const graph::Step& step : plan_->steps) {
-    const passes::PassType* type = device_.passTypes.find(plan_->graph->specs[step.pass].type);
+  for (std::size_t step = 0; step < plan_->steps.size(); ++step) {
+    const std::uint32_t pass = plan_->steps[step].pass;
+    const graph::PassSpec& spec = plan_->graph->specs[pass];
+    const std::uint32_t old = keeper && files == ShaderFiles::keep ? keeper->stepBefore(step) : graph::kNone;
+    variants.emplace_back();
+    if (old != graph::kNone && before->passes_[old].usable && before->isSettled(old) && keeper->isSame(step, old)) {
+      variants.back() = before->passes_[old].variant;
+      if (variants.back()) device_.programs.touch(variants.back());
+      continue;
+    }
+    const passes::PassType* type = device_.passTypes.find(spec.type);
     assert(type && "expansion accepts registered pass types only");
     const graph::PassType reflected = type->reflect();
-    variants.emplace_back();
     if (reflected.shader == graph::ShaderShape::none) continue;
-    const std::uint32_t settled = settledConditionsOf(plan_->graph->specs[step.pass]);
-    variants.back() =
-        device_.programs.get(programRequestOf(*plan_->graph, *plan_, step.pass, reflected, settled), problems);
-    if (variants.back()) checkProgram(*plan_, step.pass, *variants.back(), device_.context.device().limits, problems);
+    variants.back() = device_.programs.get(
+        programRequestOf(*plan_->graph, *plan_, pass, reflected, settledConditionsOf(spec)), problems);
+    if (variants.back()) checkProgram(*plan_, pass, *variants.back(), device_.context.device().limits, problems);
   }
   diagnostics.append(problems);
   if (problems.hasErrors()) return false;
@@ -90,13 +98,48 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
   publishing_.assign(resources, 0);
   resetState_.assign(plan_->graph->histories.size(), 0);
   findMakers();
+  if (before) framebuffers_.takeOver(before->framebuffers_, pool_->textureNames());
+  if (!preparePasses(before, variants, keeper.get(), diagnostics)) return false;
+  for (const graph::ParameterSpec& parameter : plan_->graph->parameters) {
+    parameterOf_.emplace(parameter.path, static_cast<std::uint32_t>(parameters_.size()));
+    parameters_.push_back(parameter.value);
+  }
+  made_.resize(resources);
+  for (std::size_t r = 0; r < resources; ++r) made_[r] = plan_->graph->resources[r].import != graph::kNone;
+  for (const PreparedPass& pass : passes_)
+    for (const std::uint32_t r : pass.written) made_[r] = 1;
+  if (before) uniforms_ = std::move(before->uniforms_);
+  layoutUniforms(diagnostics);
+  if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
+  if (before) carryOver(*before);
+  return !diagnostics.hasErrors();
+}
+
+// Whether a pass is prepared for the variant that time settles on.
+bool Execution::isSettled(std::size_t step) const {
+  const PreparedPass& pass = passes_[step];
+  return !pass.conditional || pass.conditions == settledConditionsOf(*pass.context.spec);
+}
+
+bool Execution::preparePasses(Execution* before, const std::vector<std::shared_ptr<const gl::Variant>>& variants,
+                              const PassKeeper* keeper, base::Diagnostics& diagnostics) {
+  base::Diagnostics refused;
   PrepareContext context = prepareContext(refused);
+  passes_.reserve(plan_->steps.size());
   for (std::size_t step = 0; step < plan_->steps.size(); ++step) {
+    const std::uint32_t old = keeper ? keeper->stepBefore(step) : graph::kNone;
+    if (old != graph::kNone && before->passes_[old].usable && before->isSettled(old) &&
+        before->passes_[old].variant == variants[step] && keeper->isSame(step, old) &&
+        keeper->isInPlace(step, old, *pool_, *before->pool_)) {
+      passes_.push_back(keeper->take(step, old, std::move(before->passes_[old])));
+      continue;
+    }
+    ++passesPrepared_;
+    const graph::PassSpec& spec = plan_->graph->specs[plan_->steps[step].pass];
     context.variant = variants[step];
-    context.conditions = settledConditionsOf(plan_->graph->specs[plan_->steps[step].pass]);
+    context.conditions = settledConditionsOf(spec);
     refused.clear();
     passes_.push_back(preparePass(context, step));
-    const graph::PassSpec& spec = plan_->graph->specs[plan_->steps[step].pass];
     const auto placePass = [&](base::Diagnostic& d) {
       d.place = spec.place;
       d.pass = spec.name;
@@ -105,14 +148,7 @@ bool Execution::prepare(Execution* before, base::Diagnostics& diagnostics) {
     std::copy_n(device_.context.device().limits.computeGroups, 3, passes_.back().context.maxGroups);
     if (!passes_.back().usable) return false;
   }
-  made_.resize(resources);
-  for (std::size_t r = 0; r < resources; ++r) made_[r] = plan_->graph->resources[r].import != graph::kNone;
-  for (const PreparedPass& pass : passes_)
-    for (const std::uint32_t r : pass.written) made_[r] = 1;
-  layoutUniforms(diagnostics);
-  if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
-  if (before) carryOver(*before);
-  return !diagnostics.hasErrors();
+  return true;
 }
 
 PrepareContext Execution::prepareContext(base::Diagnostics& diagnostics) {
@@ -148,21 +184,12 @@ void Execution::layoutUniforms(base::Diagnostics& diagnostics) {
   }
   uniformBytes_.assign(total, std::byte{0});
   uniformsDirty_ = true;
-  for (PreparedPass* each : all) {
-    PreparedPass& pass = *each;
-    pass.dynamics.clear();
-    if (!pass.parametersBlock) continue;
-    for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) {
-      if (uniform.define) continue;
-      const gl::BlockMember* member = pass.parametersBlock->find(uniform.name);
-      if (!member) continue;
-      if (uniform.dynamic.present()) pass.dynamics.push_back({*member, uniform.dynamic});
-      else writeValue(uniformBytes_.data() + pass.parametersOffset, *member, uniform.value);
-    }
-  }
+  fillUniforms();
+  listReaders();
   if (total == 0) return;
   // Padded so that comparing a 16-byte window of the last member stays inside.
   uniformBytes_.resize(total + 16);
+  if (uniforms_ && uniforms_.bytes() >= uniformBytes_.size()) return;
   auto buffer = gl::Buffer::create(uniformBytes_.size(), GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
   if (buffer) uniforms_ = std::move(*buffer);
 }
@@ -170,32 +197,34 @@ void Execution::layoutUniforms(base::Diagnostics& diagnostics) {
 // Storage moved with the pool; what a pass remembers of its last run moves by name, generations by storage.
 void Execution::carryOver(Execution& before) {
   framesRun_ = before.framesRun_;
+  std::unordered_map<std::string_view, std::size_t> resourceOf, stepOf, historyOf;
+  const graph::FlatGraph &mine = *plan_->graph, &theirs = *before.plan_->graph;
+  for (std::size_t r = 0; r < theirs.resourceNames.size(); ++r) resourceOf[theirs.resourceNames[r]] = r;
+  for (std::size_t step = 0; step < before.plan_->steps.size(); ++step)
+    stepOf[theirs.specs[before.plan_->steps[step].pass].name] = step;
+  for (std::size_t h = 0; h < before.resetState_.size(); ++h)
+    historyOf[theirs.resourceNames[theirs.histories[h].resource]] = h;
   for (std::size_t r = 0; r < generations_.size(); ++r) {
-    const GpuResource& mine = (*pool_)[r];
-    if (mine.fresh || mine.serial == 0) continue;
-    const auto& names = before.plan_->graph->resourceNames;
-    for (std::size_t o = 0; o < names.size(); ++o)
-      if (names[o] == plan_->graph->resourceNames[r] && (*before.pool_)[o].serial == mine.serial)
-        generations_[r] = before.generations_[o];
+    const GpuResource& resource = (*pool_)[r];
+    if (resource.fresh || resource.serial == 0) continue;
+    const auto old = resourceOf.find(mine.resourceNames[r]);
+    if (old != resourceOf.end() && (*before.pool_)[old->second].serial == resource.serial)
+      generations_[r] = before.generations_[old->second];
   }
-  for (std::size_t step = 0; step < passes_.size(); ++step) {
-    const std::string& name = passes_[step].context.spec->name;
-    for (std::size_t old = 0; old < before.passes_.size(); ++old)
-      if (before.plan_->graph->specs[before.plan_->steps[old].pass].name == name)
-        cadence_->memories()[step] = before.cadence_->memories()[old];
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    if (const auto old = stepOf.find(passes_[step].context.spec->name); old != stepOf.end())
+      cadence_->memories()[step] = before.cadence_->memories()[old->second];
+  std::vector<std::uint8_t> published(plan_->jobs.spread.begin(), plan_->jobs.spread.end());
+  for (std::uint32_t r = 0; r < generations_.size(); ++r) {
+    const GpuResource& resource = (*pool_)[r];
+    if (resource.job != graph::kNone && plan_->firstStep[r] != graph::kNone && resource.publications == 0)
+      published[resource.job] = 0;
   }
-  for (std::uint32_t job = 0; job < plan_->jobs.spread.size(); ++job) {
-    bool published = plan_->jobs.spread[job] != 0;
-    for (std::uint32_t r = 0; r < generations_.size(); ++r)
-      if ((*pool_)[r].job == job && plan_->firstStep[r] != graph::kNone) published &= (*pool_)[r].publications > 0;
-    if (published) cadence_->restorePublished(job);
-  }
+  for (std::uint32_t job = 0; job < published.size(); ++job)
+    if (published[job]) cadence_->restorePublished(job);
   for (std::size_t h = 0; h < resetState_.size(); ++h)
-    for (std::size_t o = 0; o < before.resetState_.size(); ++o) {
-      const auto& mine = plan_->graph->resourceNames[plan_->graph->histories[h].resource];
-      const auto& theirs = before.plan_->graph->resourceNames[before.plan_->graph->histories[o].resource];
-      if (mine == theirs) resetState_[h] = before.resetState_[o];
-    }
+    if (const auto old = historyOf.find(mine.resourceNames[mine.histories[h].resource]); old != historyOf.end())
+      resetState_[h] = before.resetState_[old->second];
   adoptStandIns(before);
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -16,7 +17,8 @@ class FramebufferCache {
   // 0 after an error. With no attachments, width and height say how much is rasterised.
   GLuint get(std::span<const gl::Attachment> attachments, const std::string& label, base::Diagnostics& diagnostics,
              std::uint32_t width = 0, std::uint32_t height = 0);
-  void clear() { entries_.clear(); }
+  // Those of `other` whose attachments are all among `alive`: names of textures and views that did not go.
+  void takeOver(FramebufferCache& other, const std::unordered_set<GLuint>& alive);
   std::size_t size() const { return entries_.size(); }
 
  private:

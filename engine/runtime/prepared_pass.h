@@ -70,6 +70,7 @@ struct ClearCommand {
   int attachment = -1;                   // index into PreparedPass::attachments: cleared through the framebuffer
 };
 
+// One that changes with time.
 struct DynamicUniform {
   gl::BlockMember member;
   graph::Expr expr;

@@ -203,14 +203,12 @@ class Checker {
         continue;
       }
       std::string expected;
-      graph::Value value = uniform.value;
-      if (uniform.dynamic.present()) value = uniform.dynamic.evaluateFolded([](std::uint32_t) { return 0.0; });
-      if (!memberTakes(*member, value, expected)) {
+      if (!memberTakes(*member, uniform.value, expected)) {
         base::Diagnostic& d = fail(Code::W184, uniform.place,
                                    fmt::format("parameter '{}' does not fit the shader's {}", uniform.name,
                                                gl::glslTypeName(member->type)));
         d.expected = expected;
-        d.found = graph::toText(value);
+        d.found = graph::toText(uniform.value);
       }
     }
   }

@@ -45,18 +45,19 @@ bool Renderer::load(const graph::Settings& settings, const World& world, base::D
   const auto desc = graph::readGraph(graphPath_, options_.presets, said);
   diagnostics.append(said);
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
+  refused_.clear();
   if (!desc) return false;
-  if (!said.hasErrors()) return switchTo(desc, settings, world, diagnostics);
-  // For what else is wrong.
-  graph::expandGraph(*desc, makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles()), settings,
-                     diagnostics);
+  if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;
+  const graph::Registry registry = makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles());
+  if (said.hasErrors()) graph::expandGraph(*desc, registry, settings, diagnostics);  // for what else is wrong
+  refused_ = graph::findRefused(*desc, registry, settings);
   return false;
 }
 
 bool Renderer::apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
   if (!desc_) return load(settings, world, diagnostics);
-  triedFiles_ = desc_->files;
-  return switchTo(desc_, settings, world, diagnostics);
+  triedFiles_ = runningFiles_;
+  return switchTo(desc_, ShaderFiles::keep, settings, world, diagnostics);
 }
 
 std::vector<std::string> Renderer::files() const {
@@ -65,18 +66,20 @@ std::vector<std::string> Renderer::files() const {
   return files;
 }
 
-bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, const graph::Settings& settings, const World& world,
-                        base::Diagnostics& all) {
+bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files, const graph::Settings& settings,
+                        const World& world, base::Diagnostics& all) {
   base::Diagnostics diagnostics;  // of this attempt alone
   device_.sources.forgetTouched();
   device_.programs.startTrials();
   LutFiles& luts = device_.imports.lutFiles();
   luts.forgetTouched();
-  auto made = makeExecution(*desc, settings, world, diagnostics);
+  auto made = makeExecution(*desc, files, settings, world, diagnostics);
   all.append(diagnostics);
   const std::set<std::string>& shaders = device_.sources.touched();
   triedFiles_.insert(triedFiles_.end(), shaders.begin(), shaders.end());
   triedFiles_.insert(triedFiles_.end(), luts.touched().begin(), luts.touched().end());
+  std::ranges::sort(triedFiles_);
+  triedFiles_.erase(std::ranges::unique(triedFiles_).begin(), triedFiles_.end());
   if (!made) return false;
   execution_ = std::move(made);
   desc_ = std::move(desc);
@@ -85,8 +88,9 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, const grap
   return true;
 }
 
-std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, const graph::Settings& settings,
-                                                   const World& world, base::Diagnostics& diagnostics) {
+std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
+                                                   const graph::Settings& settings, const World& world,
+                                                   base::Diagnostics& diagnostics) {
   const graph::Registry registry = makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles());
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
@@ -96,7 +100,7 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
   ++plansBuilt_;
   const bool standIn = !world.environment() && !world.environmentPending();
   if (standIn && readsEnvironment(*flat) && !prepareFallback(world, diagnostics)) return nullptr;
-  return Execution::create(device_, std::move(plan), execution_.get(), diagnostics);
+  return Execution::create(device_, std::move(plan), execution_.get(), files, diagnostics);
 }
 
 bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostics) {
@@ -110,7 +114,7 @@ bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostic
   if (!flat || diagnostics.hasErrors()) return false;
   fallbackDevice_ = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder), options_.cacheFolder, options_.trial);
   fallback_ = Execution::create(*fallbackDevice_, std::make_shared<const graph::Plan>(graph::compile(flat)), nullptr,
-                                diagnostics);
+                                ShaderFiles::read, diagnostics);
   if (!fallback_) return false;
   fallback_->frame(world, headlessFrame(world, 0, 60), diagnostics);
   device_.imports.setEnvironmentFallback(fallback_->presentedWhole(), 1);

@@ -33,9 +33,15 @@ class Renderer {
 
   // Reads the graph file again and switches to it. False after errors.
   bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
-  // The same without reading the graph files: the last description that ran, under other settings. Shaders that changed
-  // on disk are taken up.
+  // The same without reading files: the last description that ran, under other settings or in another world. Passes that
+  // stay what they are keep their programs, whatever is on disk.
   bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  // As Execution::setParameter(): a live parameter, at once.
+  bool setParameter(std::string_view path, const graph::Value& value) {
+    return execution_ && execution_->setParameter(path, value);
+  }
+  // Settings that the graph of the last load() does not take; empty when that was good.
+  std::span<const graph::Refusal> refused() const { return refused_; }
   // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes, tables).
   std::vector<std::string> files() const;
   // Runs nothing and presents black while the graph reads an environment that is still on its way (World::expectEnvironment).
@@ -63,10 +69,10 @@ class Renderer {
   void present(std::uint32_t width, std::uint32_t height);
 
  private:
-  bool switchTo(std::shared_ptr<const graph::GraphDesc> desc, const graph::Settings& settings, const World& world,
-                base::Diagnostics& diagnostics);
-  std::unique_ptr<Execution> makeExecution(const graph::GraphDesc& desc, const graph::Settings& settings, const World& world,
-                                           base::Diagnostics& diagnostics);
+  bool switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files, const graph::Settings& settings,
+                const World& world, base::Diagnostics& diagnostics);
+  std::unique_ptr<Execution> makeExecution(const graph::GraphDesc& desc, ShaderFiles files, const graph::Settings& settings,
+                                           const World& world, base::Diagnostics& diagnostics);
   // The embedded default environment: graphs/daylight.json, run once when a graph needs @environment and none is loaded.
   bool prepareFallback(const World& world, base::Diagnostics& diagnostics);
   void blackOut();
@@ -77,6 +83,7 @@ class Renderer {
   std::unique_ptr<Execution> execution_;
   std::shared_ptr<const graph::GraphDesc> desc_;        // what runs
   std::vector<std::string> runningFiles_, triedFiles_;
+  std::vector<graph::Refusal> refused_;
   std::unique_ptr<Device> fallbackDevice_;
   std::unique_ptr<Execution> fallback_;
   gl::Framebuffer presentSource_;

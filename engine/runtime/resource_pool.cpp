@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/runtime/formats.h"
 
 namespace weft::runtime {
@@ -52,6 +55,27 @@ std::unique_ptr<PhysicalTexture> PhysicalTexture::create(const Storage& storage,
     made->textures_.push_back(std::move(*texture));
   }
   return made;
+}
+
+namespace {
+
+std::uint64_t hashOf(const gl::TextureDesc& desc, std::uint32_t copies, const std::string& owner) {
+  std::uint64_t hash = base::hashBytes(owner);
+  for (const std::uint64_t part : {std::uint64_t{desc.target}, std::uint64_t{desc.format}, std::uint64_t{desc.width},
+                                   std::uint64_t{desc.height}, std::uint64_t{desc.depth}, std::uint64_t{desc.layers},
+                                   std::uint64_t{desc.mips}, std::uint64_t{desc.samples}, std::uint64_t{copies}})
+    hash = base::hashCombine(hash, part);
+  return hash;
+}
+
+}  // namespace
+
+std::uint64_t PhysicalTexture::key() const {
+  return hashOf(desc_, copies(), owner);
+}
+
+std::uint64_t PhysicalTexture::keyOf(const Storage& storage, const std::string& owner) {
+  return hashOf(descOf(storage), storage.copies, owner);
 }
 
 bool PhysicalTexture::fits(const Storage& storage) const {
@@ -109,6 +133,17 @@ bool checkBlocks(const Plan& plan, base::Diagnostics& diagnostics) {
 
 }  // namespace
 
+void PhysicalTexture::collectNames(std::unordered_set<GLuint>& names) const {
+  for (const gl::Texture& texture : textures_) names.insert(texture.id());
+  for (const View& view : views_) names.insert(view.view.id());
+}
+
+std::unordered_set<GLuint> ResourcePool::textureNames() const {
+  std::unordered_set<GLuint> names;
+  for (const auto& texture : textures_) texture->collectNames(names);
+  return names;
+}
+
 std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePool* before,
                                                    base::Diagnostics& diagnostics) {
   if (!checkBlocks(plan, diagnostics)) return nullptr;
@@ -118,17 +153,20 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
   if (!pool->createTextures(plan, before, diagnostics) || !pool->createBuffers(plan, before, diagnostics)) return nullptr;
   // Publication state follows persistent storage.
   if (before) {
+    std::unordered_map<std::uint64_t, const GpuResource*> bySerial;
+    for (const GpuResource& old : before->resources_) bySerial[old.serial] = &old;
     for (GpuResource& mine : pool->resources_) {
       if (mine.fresh || mine.serial == 0) continue;
-      for (const GpuResource& old : before->resources_)
-        if (old.serial == mine.serial && old.copies == mine.copies) {
-          mine.current = old.current;
-          mine.publications = old.publications;
-          mine.resets = old.resets;
-          mine.publishedAt = old.publishedAt;
-        }
+      const auto old = bySerial.find(mine.serial);
+      if (old == bySerial.end() || old->second->copies != mine.copies) continue;
+      mine.current = old->second->current;
+      mine.publications = old->second->publications;
+      mine.resets = old->second->resets;
+      mine.publishedAt = old->second->publishedAt;
     }
   }
+  std::unordered_map<std::uint32_t, const graph::Value*> clearOf;
+  for (const graph::ClearSpec& clear : plan.graph->clears) clearOf[clear.resource] = &clear.value;
   for (const graph::HistorySpec& history : plan.graph->histories)
     if ((*pool)[history.resource].fresh) pool->fill(plan, history.resource, history.first, diagnostics);
   // What others see of a spread job's resource before it is first published: version zero, else zeros.
@@ -136,10 +174,8 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
     GpuResource& mine = (*pool)[r];
     mine.job = plan.jobs.spreadWriterOf(r);
     if (mine.job == kNone || !mine.fresh || plan.graph->resources[r].history > 0) continue;
-    graph::Value zero = graph::Value::number(0);
-    for (const graph::ClearSpec& clear : plan.graph->clears)
-      if (clear.resource == r) zero = clear.value;
-    pool->fill(plan, r, zero, diagnostics);
+    const auto clear = clearOf.find(r);
+    pool->fill(plan, r, clear == clearOf.end() ? graph::Value::number(0) : *clear->second, diagnostics);
   }
   return pool;
 }
@@ -158,6 +194,42 @@ void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::V
   }
 }
 
+// First what a resource of the same name lies in, so that passes find their textures where they were; then whatever fits.
+void ResourcePool::takeTextures(const Plan& plan, const std::vector<std::string>& owners, ResourcePool& before) {
+  std::unordered_map<std::string_view, const PhysicalTexture*> byName;
+  std::unordered_map<const PhysicalTexture*, std::size_t> indexOf;
+  for (std::size_t i = 0; i < before.textures_.size(); ++i)
+    if (before.textures_[i]) indexOf[before.textures_[i].get()] = i;
+  for (std::size_t r = 0; r < before.resources_.size(); ++r)
+    if (before.resources_[r].texture) byName[before.names_[r]] = before.resources_[r].texture;
+  const auto take = [&](std::size_t s, std::size_t i) {
+    std::unique_ptr<PhysicalTexture>& old = before.textures_[i];
+    if (!old || old->owner != owners[s] || !old->fits(plan.storages[s])) return false;
+    textures_[s] = std::move(old);
+    return true;
+  };
+  for (std::size_t r = 0; r < resources_.size(); ++r) {
+    const std::uint32_t s = plan.storageOf[r];
+    if (s == kNone || textures_[s]) continue;
+    const auto old = byName.find(names_[r]);
+    if (old == byName.end()) continue;
+    if (const auto index = indexOf.find(old->second); index != indexOf.end()) take(s, index->second);
+  }
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> left;  // by shape and owner
+  for (std::size_t i = 0; i < before.textures_.size(); ++i)
+    if (before.textures_[i]) left[before.textures_[i]->key()].push_back(i);
+  for (std::size_t s = 0; s < plan.storages.size(); ++s) {
+    if (textures_[s]) continue;
+    const auto found = left.find(PhysicalTexture::keyOf(plan.storages[s], owners[s]));
+    if (found == left.end()) continue;
+    std::vector<std::size_t>& fitting = found->second;
+    while (!fitting.empty() && !textures_[s]) {
+      take(s, fitting.back());
+      fitting.pop_back();
+    }
+  }
+}
+
 bool ResourcePool::createTextures(const Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics) {
   std::vector<std::string> owners(plan.storages.size()), labels(plan.storages.size());
   for (std::size_t r = 0; r < resources_.size(); ++r) {
@@ -166,21 +238,14 @@ bool ResourcePool::createTextures(const Plan& plan, ResourcePool* before, base::
     if (plan.storages[s].persistent) owners[s] = names_[r];
     labels[s] += (labels[s].empty() ? "" : " | ") + names_[r];
   }
+  textures_.resize(plan.storages.size());
+  if (before) takeTextures(plan, owners, *before);
   std::vector<std::uint8_t> reused(plan.storages.size(), 0);
   for (std::size_t s = 0; s < plan.storages.size(); ++s) {
-    std::unique_ptr<PhysicalTexture> texture;
-    if (before) {
-      for (auto& old : before->textures_)
-        if (old && old->owner == owners[s] && old->fits(plan.storages[s])) {
-          texture = std::move(old);
-          reused[s] = 1;
-          break;
-        }
-    }
-    if (!texture) texture = PhysicalTexture::create(plan.storages[s], labels[s], diagnostics);
-    if (!texture) return false;
-    texture->owner = owners[s];
-    textures_.push_back(std::move(texture));
+    reused[s] = textures_[s] != nullptr;
+    if (!textures_[s]) textures_[s] = PhysicalTexture::create(plan.storages[s], labels[s], diagnostics);
+    if (!textures_[s]) return false;
+    textures_[s]->owner = owners[s];
   }
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const std::uint32_t s = plan.storageOf[r];
@@ -219,6 +284,9 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
       arenaSerial_ = nextSerial();
     }
   }
+  std::unordered_map<std::string, PersistentBuffer*> buffersBefore;
+  if (before)
+    for (PersistentBuffer& old : before->buffers_) buffersBefore[old.owner] = &old;
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const FlatResource& desc = plan.graph->resources[r];
     GpuResource& mine = resources_[r];
@@ -233,15 +301,13 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
     }
     const std::uint32_t copies = plan.copiesOf(static_cast<std::uint32_t>(r));
     PersistentBuffer buffer;
-    if (before) {
-      for (PersistentBuffer& old : before->buffers_)
-        if (old.owner == names_[r] && old.copies.size() == copies && old.copies[0].bytes() == desc.bytes) {
-          buffer = std::move(old);
-          old.owner.clear();
-          old.copies.clear();
-          mine.fresh = false;
-          break;
-        }
+    if (const auto found = buffersBefore.find(names_[r]); found != buffersBefore.end()) {
+      PersistentBuffer& old = *found->second;
+      if (old.copies.size() == copies && old.copies[0].bytes() == desc.bytes) {
+        buffer = std::move(old);
+        old.copies.clear();
+        mine.fresh = false;
+      }
     }
     while (buffer.copies.size() < copies) {
       auto copy = gl::Buffer::create(desc.bytes, kFlags, names_[r], diagnostics);

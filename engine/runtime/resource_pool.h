@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -26,8 +27,12 @@ class PhysicalTexture {
   // The texture itself when the view would be all of it in its own format, else a cached view. Id 0 after an error.
   gl::TextureRef view(std::uint32_t copy, const gl::ViewDesc& desc, base::Diagnostics& diagnostics);
   bool fits(const graph::Storage& storage) const;
+  // Equal for textures that fit each other's storage and have one owner.
+  std::uint64_t key() const;
+  static std::uint64_t keyOf(const graph::Storage& storage, const std::string& owner);
   // Gives a copy away; it must not be used through here any more.
   gl::Texture take(std::uint32_t copy) { return std::move(textures_[copy]); }
+  void collectNames(std::unordered_set<GLuint>& names) const;
   std::uint64_t serial() const { return serial_; }
   std::uint32_t copies() const { return static_cast<std::uint32_t>(textures_.size()); }
 
@@ -86,6 +91,9 @@ class ResourcePool {
   std::vector<GpuResource>& resources() { return resources_; }
   GpuResource& operator[](std::size_t resource) { return resources_[resource]; }
 
+  // Of the pool's own textures and their views.
+  std::unordered_set<GLuint> textureNames() const;
+
   // A view of levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
   gl::TextureRef view(const graph::Plan& plan, const graph::FlatUse& use, std::uint32_t copy, GLenum target,
                       base::Diagnostics& diagnostics);
@@ -94,6 +102,7 @@ class ResourcePool {
 
  private:
   bool createTextures(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);
+  void takeTextures(const graph::Plan& plan, const std::vector<std::string>& owners, ResourcePool& before);
   bool createBuffers(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);
   std::vector<std::unique_ptr<PhysicalTexture>> textures_;
   std::vector<PersistentBuffer> buffers_;

@@ -25,6 +25,12 @@ class Screen:
             rows.append(bytes(rgb))
         return width, height, rows
 
+    def pixel(self, x, y):
+        data = self.path.read_bytes()
+        header = struct.unpack(">25I", data[:100])
+        at = header[0] + header[19] * 12 + y * header[12] + x * 4
+        return tuple(data[at:at + 3])
+
     def pixels(self):
         """For comparing: everything, as bytes."""
         return self.path.read_bytes()

@@ -37,7 +37,8 @@ base::Diagnostics diagnose(const nlohmann::json& entry) {
   Settings settings;
   for (const std::string& set : entry.value("set", std::vector<std::string>{}))
     settings.sets.emplace_back(set.substr(0, set.find('=')), set.substr(set.find('=') + 1));
-  settings.disables = entry.value("disable", std::vector<std::string>{});
+  for (std::string& name : entry.value("disable", std::vector<std::string>{}))
+    settings.disables.emplace_back(std::move(name));
   base::Diagnostics diagnostics;
   const auto desc = readGraph((kFolder / entry.at("file").get<std::string>()).string(), diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());

@@ -102,8 +102,8 @@ inline Expanded expandText(std::string_view json, const Settings& settings = {},
   return result;
 }
 
-inline Settings with(std::vector<std::pair<std::string, std::string>> sets,
-                     std::vector<std::string> disables = {}) {
+inline Settings with(std::vector<Setting> sets,
+                     std::vector<Disable> disables = {}) {
   Settings settings;
   settings.sets = std::move(sets);
   settings.disables = std::move(disables);

@@ -46,7 +46,7 @@ void tryWithout(Stage& stage, std::vector<std::string> disables, Outcome& outcom
   std::string label = "without";
   for (const std::string& name : disables) label += " " + name;
   INFO(label);
-  stage.settings.disables = std::move(disables);
+  stage.settings.disables = {disables.begin(), disables.end()};
   if (stage.load()) {
     CHECK_MESSAGE(!stage.diagnostics.hasErrors(), stage.diagnostics.text());
     stage.run();

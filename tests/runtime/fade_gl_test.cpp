@@ -32,7 +32,7 @@ struct Live {
     stage.world.setEnvironment(std::move(map));
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   }
-  void set(std::vector<std::pair<std::string, std::string>> sets) {
+  void set(std::vector<weft::graph::Setting> sets) {
     stage.settings.sets = {stage.settings.sets[0]};
     stage.settings.sets.insert(stage.settings.sets.end(), sets.begin(), sets.end());
     REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());

@@ -28,7 +28,7 @@ std::vector<std::string> namesOf(Stage& stage) {
   return names;
 }
 
-void set(Stage& stage, std::vector<std::pair<std::string, std::string>> sets) {
+void set(Stage& stage, std::vector<weft::graph::Setting> sets) {
   stage.settings.sets = std::move(sets);
   REQUIRE_MESSAGE(stage.apply(), stage.diagnostics.text());
 }

@@ -16,8 +16,8 @@ constexpr const char* kGraph = "tests/runtime/graphs/slices.json";
 constexpr const char* kScene = "scenes/empty.json";
 
 struct Live {
-  explicit Live(std::vector<std::pair<std::string, std::string>> sets) : stage(kGraph, 8, 8, kScene) { load(std::move(sets)); }
-  void load(std::vector<std::pair<std::string, std::string>> sets) {
+  explicit Live(std::vector<weft::graph::Setting> sets) : stage(kGraph, 8, 8, kScene) { load(std::move(sets)); }
+  void load(std::vector<weft::graph::Setting> sets) {
     stage.settings.sets = std::move(sets);
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   }
@@ -122,7 +122,7 @@ TEST_CASE("slices: any number of them gives the bytes of the whole pass, and no 
   const auto some = [&](unsigned least) { return std::to_string(least + random() % 15); };
   for (int round = 0; round < 12; ++round) {
     const std::string size = std::to_string(1 + random() % 40);
-    std::vector<std::pair<std::string, std::string>> sets = {{"size", size}, {"seed", "3"}};
+    std::vector<weft::graph::Setting> sets = {{"size", size}, {"seed", "3"}};
     Live whole(sets);
     std::vector<float> expected = whole.settled();
     for (const char* each : {"n", "m", "k"}) sets.emplace_back(each, some(each[0] == 'k' ? 0 : 1));
@@ -131,7 +131,7 @@ TEST_CASE("slices: any number of them gives the bytes of the whole pass, and no 
     std::vector<float> last;
     for (int i = 0; i < 60; ++i) seen.insert(seedOf(last = sliced.frame()));
     CHECK(last == expected);
-    const bool spread = sets[2].second != "1" || sets[3].second != "1" || std::stoi(sets[4].second) > 1;
+    const bool spread = sets[2].text != "1" || sets[3].text != "1" || std::stoi(sets[4].text) > 1;
     CHECK(seen == (spread ? std::set<float>{-1, 3} : std::set<float>{3}));
   }
 }

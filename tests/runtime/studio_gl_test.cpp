@@ -42,7 +42,7 @@ void checkTextures(Stage& stage) {
   const auto shared = stage.pixels();
   graph::Plan apart = graph::compile(stage.execution().plan().graph, {.share = false});
   auto execution = runtime::Execution::create(stage.renderer().device(), std::make_shared<const graph::Plan>(std::move(apart)),
-                                              nullptr, stage.diagnostics);
+                                              nullptr, runtime::ShaderFiles::read, stage.diagnostics);
   REQUIRE_MESSAGE(execution, stage.diagnostics.text());
   execution->frame(stage.world, runtime::headlessFrame(stage.world, 0, 60), stage.diagnostics);
   CHECK_MESSAGE(stage.diagnostics.empty(), stage.diagnostics.text());

@@ -60,8 +60,8 @@ class Toggles {
     else
       on_[at] = !on_[at];
   }
-  std::vector<std::pair<std::string, std::string>> sets() const {
-    std::vector<std::pair<std::string, std::string>> all;
+  std::vector<weft::graph::Setting> sets() const {
+    std::vector<weft::graph::Setting> all;
     for (std::size_t i = 0; i < kSwitches.size(); ++i)
       all.emplace_back(kSwitches[i], on_[i] ? "true" : "false");
     all.emplace_back("curve", kCurves[curve_]);

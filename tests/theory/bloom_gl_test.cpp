@@ -13,7 +13,7 @@ using namespace weft::theory;
 
 namespace {
 
-using Sets = std::vector<std::pair<std::string, std::string>>;
+using Sets = std::vector<weft::graph::Setting>;
 
 constexpr std::uint32_t kWidth = 384, kHeight = 256;
 
@@ -136,7 +136,7 @@ TEST_CASE(
           const double difference = std::abs(found.at(x, y) - wanted.at(x, y));
           worst = difference <= worst ? worst : difference;  // a NaN stays
         }
-      CAPTURE(effect[0].first);
+      CAPTURE(effect[0].name);
       CAPTURE(bad);
       CHECK(worst < 1e-3);
     }

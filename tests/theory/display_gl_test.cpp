@@ -29,7 +29,7 @@ struct Levels {
 };
 
 // The presented picture of an empty scene under a constant sky, in 8-bit steps.
-Levels levelsOf(float radiance, std::vector<std::pair<std::string, std::string>> sets, const char* picture = "post.ldr") {
+Levels levelsOf(float radiance, std::vector<weft::graph::Setting> sets, const char* picture = "post.ldr") {
   Setup setup{.graph = "graphs/studio.json", .width = 64, .height = 48, .sets = std::move(sets)};
   setup.environment = constantEnvironment(radiance, radiance, radiance);
   Lab lab(setup);

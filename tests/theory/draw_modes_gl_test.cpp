@@ -40,7 +40,7 @@ std::vector<Ball> crowd() {
   return balls;
 }
 
-Setup studio(std::vector<std::pair<std::string, std::string>> sets) {
+Setup studio(std::vector<weft::graph::Setting> sets) {
   Setup setup{.graph = "tests/theory/draw_modes.json",
               .width = kWidth,
               .height = kHeight,

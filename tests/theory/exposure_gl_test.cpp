@@ -13,7 +13,7 @@ using namespace weft::theory;
 
 namespace {
 
-using Sets = std::vector<std::pair<std::string, std::string>>;
+using Sets = std::vector<weft::graph::Setting>;
 
 constexpr double kKey = 0.18;
 

@@ -25,8 +25,8 @@ struct Ball {
 struct Setup {
   std::string graph;                                           // relative to the source folder
   std::uint32_t width = 64, height = 64;
-  std::vector<std::pair<std::string, std::string>> sets;
-  std::vector<std::string> disables;
+  std::vector<weft::graph::Setting> sets;
+  std::vector<weft::graph::Disable> disables;
   std::vector<Ball> balls;
   scene::CameraPose camera{.position = {0, 0, 20}, .target = {0, 0, 0}, .fovDegrees = 60, .nearPlane = 0.1};
   double orbitDegreesPerSecond = 0;                            // of the camera about its target

@@ -14,7 +14,7 @@ using namespace weft::theory;
 
 namespace {
 
-using Sets = std::vector<std::pair<std::string, std::string>>;
+using Sets = std::vector<weft::graph::Setting>;
 using Color = std::array<double, 3>;
 
 constexpr std::uint32_t kWidth = 128, kHeight = 64;
@@ -154,7 +154,7 @@ TEST_CASE("every effect at its neutral values is the identity") {
         Sets{{"aberration", "true"}, {"aberration_px", "0"}}}) {
     Sets all = quiet;
     all.insert(all.end(), on.begin(), on.end());
-    CAPTURE(on[0].first);
+    CAPTURE(on[0].name);
     // One step where the exact value lies on the border between two of them.
     const Picture with = render(plain(left, right, all));
     CHECK(largestDifference(off, with) < 1.01);

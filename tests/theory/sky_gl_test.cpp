@@ -150,7 +150,7 @@ TEST_CASE("a camera with a focal length is the camera of that angle of view, and
     CAPTURE(focal);
     CHECK(draw(lens).texels == draw(setup).texels);
   }
-  lens.sets.back().second = "36";
+  lens.sets.back() = {"focal_length", "36"};
   lens.sets.emplace_back("sensor_height", "18");
   setup.camera.fovDegrees = 2 * std::atan(9.0 / 36) * 180 / 3.14159265358979323846;
   CHECK(draw(lens).texels == draw(setup).texels);

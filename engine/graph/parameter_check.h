@@ -1,0 +1,18 @@
+// Whether a parameter takes a value: its type, its choices, its range. Silent and without allocation, so that
+// a value can be set between two frames; expand_settings.cpp says what is wrong.
+#pragma once
+
+#include "engine/graph/desc.h"
+
+namespace weft::graph {
+
+// 2 to 4 of a list, else 0.
+int componentsOf(ParameterDesc::Type type);
+bool fitsType(const ParameterDesc& desc, const Value& value);
+// Of a value that fits the type. Of a list every component.
+bool fitsRange(const ParameterDesc& desc, const Value& value);
+inline bool takesValue(const ParameterDesc& desc, const Value& value) {
+  return fitsType(desc, value) && fitsRange(desc, value);
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""A slider of the viewer is moved two hundred times, each time until the picture has followed: no plan is built for it."""
+import json
+import os
+import pathlib
+import sys
+
+from program import Report, temporary_folder
+from screen import Screen
+from window import Session, inside_display
+
+MOVES = 200
+GRAB = (61, 133, 224)  # Dear ImGui's slider grab, dark style; brighter while it is held
+GRAPH = """{ "name": "slider",
+  "parameters": { "level": { "type": "float", "default": 0.5, "min": 0, "max": 1 } },
+  "resources": { "picture": { "texture": "rgba8", "size": "screen" } },
+  "passes": [ { "name": "fill", "type": "fullscreen", "shader": "level.frag.glsl", "write": { "result": "picture" },
+                "parameters": { "level": "$level" } } ],
+  "present": "picture" }"""
+SHADER = """layout(std140) uniform Parameters { float level; };
+out vec4 result;
+void main() { result = vec4(vec3(level), 1.0); }
+"""
+
+
+def find_grab(screen):
+    """The middle of the slider's grab, when it is on the screen."""
+    width, height, rows = screen.read()
+    found = [(x, y) for y in range(0, height, 3) for x in range(0, width // 2)
+             if all(abs(rows[y][3 * x + c] - GRAB[c]) <= 3 for c in range(3))]
+    return found[len(found) // 2] if found else None
+
+
+def session(weft, folder, display, report, moves):
+    """Counters of a session in which the slider was moved."""
+    live = Session(weft, folder, "--panels", "passes", "--stats", graph="slider.json", size="640x360", data=False)
+    screen = Screen(display)
+    try:
+        if not report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
+            return None
+        grab = live.until(lambda: find_grab(screen))
+        if not report.check(grab, "no slider on the screen"):
+            return None
+        x, y = grab
+        look = (560, 300)  # of the picture, beside the panels
+        if moves:
+            live.tool("mousemove", x, y)
+            live.tool("mousedown", 1)
+        for i in range(moves):
+            before = screen.pixel(*look)
+            live.tool("mousemove", x + 30 - abs(i % 120 - 60), y)
+            if not report.check(live.until(lambda: screen.pixel(*look) != before), f"move {i}: the picture stays {before}"):
+                return None
+        if moves:
+            live.tool("mouseup", 1)
+        live.leave(report)
+        text = live.said()
+        return json.loads(text[text.index("{"):])
+    finally:
+        live.stop()
+
+
+def main():
+    weft, report = os.path.abspath(sys.argv[1]), Report()
+    display = inside_display(report, weft, "none", __file__)
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        (folder / "shaders").mkdir()
+        (folder / "shaders/level.frag.glsl").write_text(SHADER)
+        (folder / "slider.json").write_text(GRAPH)
+        still = session(weft, folder, display, report, 0)
+        moved = session(weft, folder, display, report, MOVES)
+        if still and moved:
+            report.check(still["live_values_set"] == 0 and moved["live_values_set"] >= MOVES,
+                         f"values set: {still['live_values_set']}, {moved['live_values_set']}")
+            report.check(0 < moved["plans_built"] == still["plans_built"],
+                         f"plans built: {still['plans_built']} without a move, {moved['plans_built']} with {MOVES}")
+    report.end()
+
+
+main()
