@@ -1,5 +1,7 @@
 #include "engine/graph/expand.h"
 
+#include <algorithm>
+
 #include "engine/graph/expand_limits.h"
 #include "engine/graph/expand_live.h"
 #include "engine/graph/expand_passes.h"
@@ -38,6 +40,28 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   diagnostics.append(own);
   if (diagnostics.hasErrors()) return nullptr;
   return std::make_shared<const FlatGraph>(std::move(model.graph));
+}
+
+std::vector<Refusal> findRefused(const GraphDesc& desc, const Registry& registry, const Settings& settings) {
+  base::Diagnostics said;
+  expansion::Model model{desc, registry, settings, said};
+  expansion::buildScopes(model);
+  std::vector<Refusal> refused;
+  const auto note = [&](bool disable, std::size_t index) {
+    const auto error = std::ranges::find(said.items(), base::Severity::error, &base::Diagnostic::severity);
+    if (error != said.items().end()) refused.push_back({disable, index, *error});
+    said.clear();
+  };
+  said.clear();
+  for (std::size_t i = 0; i < settings.sets.size(); ++i) {
+    expansion::applySetting(model, settings.sets[i]);
+    note(false, i);
+  }
+  for (std::size_t i = 0; i < settings.disables.size(); ++i) {
+    expansion::applyDisable(model, settings.disables[i]);
+    note(true, i);
+  }
+  return refused;
 }
 
 }  // namespace weft::graph

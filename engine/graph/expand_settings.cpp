@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "engine/base/nearest.h"
@@ -12,58 +11,13 @@
 #include "engine/graph/parameter_check.h"
 #include "engine/graph/read_context.h"
 #include "engine/graph/suffix.h"
+#include "engine/graph/value_parse.h"
 
 namespace weft::graph {
 
 namespace {
 
 constexpr std::string_view kCommandLine = "command line: ";
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
-
-std::optional<double> parseNumber(std::string_view text) {
-  text = trim(text);
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(x)) return std::nullopt;
-  return x;
-}
-
-// What is wrong with a word that is spelled as a number and is none ("nan", "inf", "1e999"); null for any
-// other.
-const char* whyNoNumber(std::string_view text) {
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (text.empty() || end != text.data() + text.size()) return nullptr;
-  if (error == std::errc::result_out_of_range) return "beyond what a number can hold";
-  return error == std::errc{} && !std::isfinite(x) ? "not a finite number" : nullptr;
-}
-
-// A JSON scalar or list of numbers, else a word.
-Value parseValue(std::string_view text) {
-  text = trim(text);
-  if (text == "true" || text == "false") return Value::boolean(text == "true");
-  if (const auto number = parseNumber(text)) return Value::number(*number);
-  if (text.size() >= 2 && text.front() == '[' && text.back() == ']') {
-    Value list;
-    list.type = Value::Type::list;
-    std::string_view rest = text.substr(1, text.size() - 2);
-    while (list.count < 4) {
-      const std::size_t comma = rest.find(',');
-      const auto number = parseNumber(rest.substr(0, comma));
-      if (!number) break;
-      list.v[list.count++] = *number;
-      if (comma == std::string_view::npos) return list;
-      rest = rest.substr(comma + 1);
-    }
-  }
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  return Value::text(std::string(text));
-}
 
 }  // namespace
 
@@ -230,6 +184,8 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
   parameter.valuePlace = origin.valuePlace.file ? origin.valuePlace : origin.place;
 }
 
+}  // namespace
+
 void applySetting(Model& model, const Setting& set) {
   const std::string source = sourceOf(set);
   const SetPlace place{model.scopes.front(), "", placeOf(set.origin, source), {}, {}, prefixOf(set.origin, source)};
@@ -239,6 +195,8 @@ void applySetting(Model& model, const Setting& set) {
     return path ? Value::text(set.text) : set.value;
   });
 }
+
+namespace {
 
 // What files say first, the innermost first, so that an including file has the last word; then the command
 // line.
@@ -253,6 +211,8 @@ void applySets(Model& model) {
                  });
   for (const Setting& set : model.settings.sets) applySetting(model, set);
 }
+
+}  // namespace
 
 void applyDisable(Model& model, const Disable& disable) {
   const std::string& wanted = disable.name;
@@ -304,8 +264,6 @@ void applyDisable(Model& model, const Disable& disable) {
       model.diagnostics.error(Code::W45, place, fmt::format("{}no pass is called '{}'", before, wanted));
   d.hint = suffixHint(declared, names);
 }
-
-}  // namespace
 
 bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
                          const std::string& before) {
@@ -367,29 +325,3 @@ void applySettings(Model& model) {
 }
 
 }  // namespace weft::graph::expansion
-
-namespace weft::graph {
-
-std::vector<Refusal> findRefused(const GraphDesc& desc, const Registry& registry, const Settings& settings) {
-  base::Diagnostics said;
-  expansion::Model model{desc, registry, settings, said};
-  expansion::buildScopes(model);
-  std::vector<Refusal> refused;
-  const auto note = [&](bool disable, std::size_t index) {
-    const auto error = std::ranges::find(said.items(), base::Severity::error, &base::Diagnostic::severity);
-    if (error != said.items().end()) refused.push_back({disable, index, *error});
-    said.clear();
-  };
-  said.clear();
-  for (std::size_t i = 0; i < settings.sets.size(); ++i) {
-    expansion::applySetting(model, settings.sets[i]);
-    note(false, i);
-  }
-  for (std::size_t i = 0; i < settings.disables.size(); ++i) {
-    expansion::applyDisable(model, settings.disables[i]);
-    note(true, i);
-  }
-  return refused;
-}
-
-}  // namespace weft::graph

@@ -9,6 +9,8 @@ namespace weft::graph::expansion {
 
 // Sets Parameter::value, Scope::disabledBy and Model::disables.
 void applySettings(Model& model);
+void applySetting(Model& model, const Setting& set);
+void applyDisable(Model& model, const Disable& disable);
 
 // Whether `value` fits a parameter: its type, its choices, its range. Reports at `place`, in words that come after
 // `before`.
