@@ -2,10 +2,11 @@
 #include <string_view>
 #include <utility>
 
-#include "app/commands.h"
-#include "app/options.h"
-#include "app/standard_streams.h"
-#include "engine/gl/shader_trial.h"
+#include "app/commands/commands.h"
+#include "app/session/options.h"
+#include "app/session/standard_streams.h"
+#include "app/view/view.h"
+#include "engine/gl/programs/shader_trial.h"
 
 int main(int argc, char** argv) {
   using namespace weft::app;
@@ -16,8 +17,9 @@ int main(int argc, char** argv) {
   if (!options) return finishStreams(exitCode);
 
   static constexpr std::pair<const char*, int (*)(const Options&)> kCommands[] = {
-      {"render", runRender}, {"view", runView},       {"check", runCheck}, {"params", runParams}, {"presets", runPresets},
-      {"dot", runDot},       {"plan", runPlan},       {"bench", runBench}, {"schema", runSchema}, {"types", runTypes},
+      {"render", runRender},   {"view", runView},   {"check", runCheck}, {"params", runParams},
+      {"presets", runPresets}, {"dot", runDot},     {"plan", runPlan},   {"bench", runBench},
+      {"schema", runSchema},   {"types", runTypes},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));

@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""Holds every #include of engine/ and app/ against the room table of the design. Also: each header has #pragma once."""
+"""Holds every #include of engine/ and app/ against the tables below: rooms (folders of engine/, and app) and sub-rooms (folders inside a
+room, along its pipeline). Also: no folder with more than 25 source files, no file of more than 400 lines, no circle of #includes, #pragma once in every header.
+
+    rooms.py TOP
+"""
 import pathlib
 import re
 import sys
@@ -14,6 +18,47 @@ ROOMS = {
     "runtime": {"base", "graph", "gl", "assets", "scene", "passes"},
     "app": {"base", "graph", "gl", "assets", "scene", "passes", "runtime"},
 }
+# Sub-rooms and which others of their room each may include. "." is the door: files in the room's own folder. Each line may name
+# earlier lines only, so that no arrow runs upward.
+SUB_ROOMS = {
+    "base": {".": set(), "files": {"."}, "json": {".", "files"}},
+    "graph": {
+        "language": set(),
+        ".": {"language"},
+        "read": {".", "language"},
+        "expand/names": {".", "language"},
+        "expand": {".", "language", "expand/names"},
+        "compile": {".", "expand"},
+        "print": {".", "language", "compile"},
+        "edit": {".", "language", "read", "expand/names", "expand"},
+        "workload": {".", "language"},
+    },
+    "gl": {
+        "context": set(),
+        "objects": {"context"},
+        "shaders": set(),
+        "programs": {"context", "objects", "shaders"},
+    },
+    "runtime": {
+        "storage": set(),
+        "cadence": set(),
+        "imports": {"storage"},
+        "prepare": {"storage", "imports"},
+        "frame": {"storage", "cadence", "imports", "prepare"},
+        "inspection": {"frame", "storage"},
+    },
+    "app": {
+        "session": set(),
+        "live": {"session"},
+        "ui": {"session", "live"},
+        "view": {"session", "live", "ui"},
+        "bench": {"session", "live"},
+        "commands": {"session", "bench"},
+        ".": {"session", "commands", "view", "bench"},
+    },
+}
+MOST_FILES = 25
+MOST_LINES = 400
 # Third-party headers by prefix, and the rooms that may name them (directly).
 OUTSIDE = {
     "fmt/": set(ROOMS),
@@ -28,33 +73,102 @@ OUTSIDE = {
 }
 
 
+def check_tables() -> list[str]:
+    problems = []
+    for room, table in SUB_ROOMS.items():
+        earlier: set[str] = set()
+        for sub, allowed in table.items():
+            problems += [f"{room}/{sub}: the arrow to {room}/{other} runs upward" for other in sorted(allowed - earlier)]
+            earlier.add(sub)
+    return problems
+
+
+def room_of(name: str) -> tuple[str, str] | None:
+    """(room, sub-room) of an include or of a path below the top folder; the sub-room of a file at the door is '.'."""
+    parts = name.split("/")
+    if parts[0] == "engine" and len(parts) > 2:
+        return parts[1], "/".join(parts[2:-1]) or "."
+    if parts[0] == "app" and len(parts) > 1:
+        return "app", "/".join(parts[1:-1]) or "."
+    return None
+
+
+def includes_of(text: str) -> list[tuple[int, str]]:
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        match = re.match(r'\s*#\s*include\s+[<"]([^>"]+)[>"]', line)
+        if match:
+            found.append((number, match.group(1)))
+    return found
+
+
+def find_circle(edges: dict[str, list[str]]) -> list[str]:
+    """A circle of files that include each other, or nothing."""
+    done: set[str] = set()
+    for start in edges:
+        path: list[str] = []
+        work = [(start, iter(edges[start]))] if start not in done else []
+        path += [start] if work else []
+        while work:
+            following = next(work[-1][1], None)
+            if following is None:
+                done.add(work.pop()[0])
+                path.pop()
+            elif following in path:
+                return path[path.index(following):] + [following]
+            elif following in edges and following not in done:
+                path.append(following)
+                work.append((following, iter(edges[following])))
+    return []
+
+
+def check_file(name: str, text: str, arrows: set) -> list[str]:
+    room, sub = room_of(name) or ("", "")
+    if room not in ROOMS:
+        return [f"{name}: no room of that name in the table"]
+    problems, table = [], SUB_ROOMS.get(room, {})
+    if table and sub not in table:
+        problems.append(f"{name}: room '{room}' has no sub-room '{sub}' in the table")
+    if name.endswith(".h") and "#pragma once" not in text:
+        problems.append(f"{name}: header without #pragma once")
+    for number, included in includes_of(text):
+        other = room_of(included)
+        if other and other[0] != room and other[0] not in ROOMS[room]:
+            problems.append(f"{name}:{number}: room '{room}' may not include '{other[0]}'")
+        if other and other[0] == room and table and other[1] != sub:
+            arrows.add((room, sub, other[1]))
+            if other[1] not in table.get(sub, set()):
+                problems.append(f"{name}:{number}: sub-room '{room}/{sub}' may not include '{room}/{other[1]}'")
+        for prefix, rooms in OUTSIDE.items():
+            if included.startswith(prefix) and room not in rooms:
+                problems.append(f"{name}:{number}: room '{room}' may not include <{included}>")
+    return problems
+
+
 def main() -> int:
     top = pathlib.Path(sys.argv[1])
-    problems, seen = [], 0
-    for room, allowed in ROOMS.items():
-        folder = top / ("app" if room == "app" else f"engine/{room}")
-        for path in sorted(folder.rglob("*")):
-            if path.suffix not in {".h", ".cpp"}:
-                continue
-            seen += 1
-            text = path.read_text()
-            if path.suffix == ".h" and "#pragma once" not in text:
-                problems.append(f"{path}: header without #pragma once")
-            for number, line in enumerate(text.splitlines(), 1):
-                found = re.match(r'\s*#\s*include\s+[<"]([^>"]+)[>"]', line)
-                if not found:
-                    continue
-                name = found.group(1)
-                own = re.match(r"engine/(\w+)/|(app)/", name)
-                if own:
-                    other = own.group(1) or own.group(2)
-                    if other != room and other not in allowed:
-                        problems.append(f"{path}:{number}: room '{room}' may not include '{other}'")
-                for prefix, rooms in OUTSIDE.items():
-                    if name.startswith(prefix) and room not in rooms:
-                        problems.append(f"{path}:{number}: room '{room}' may not include <{name}>")
-    print("\n".join(problems) or f"rooms: {seen} files, every include allowed")
-    return 1 if problems or not seen else 0
+    problems, arrows = check_tables(), set()
+    edges: dict[str, list[str]] = {}
+    per_folder: dict[pathlib.Path, int] = {}
+    for path in sorted([*(top / "engine").rglob("*"), *(top / "app").rglob("*")]):
+        if path.suffix not in {".h", ".cpp"}:
+            continue
+        per_folder[path.parent] = per_folder.get(path.parent, 0) + 1
+        name, text = path.relative_to(top).as_posix(), path.read_text()
+        edges[name] = [included for _, included in includes_of(text)]
+        if text.count("\n") > MOST_LINES:
+            problems.append(f"{name}: {text.count(chr(10))} lines, more than {MOST_LINES}: split it by what it does")
+        problems += check_file(name, text, arrows)
+    for folder, count in per_folder.items():
+        if count > MOST_FILES:
+            problems.append(f"{folder.relative_to(top)}: {count} source files, more than {MOST_FILES}: split it along its pipeline")
+    circle = find_circle(edges)
+    if circle:
+        problems.append("files include each other: " + " -> ".join(circle))
+    print("\n".join(problems) or f"rooms: {len(edges)} files, every include allowed, {len(arrows)} arrows between sub-rooms, none upward, "
+          f"at most {max(per_folder.values())} files in a folder")
+    return 1 if problems or not edges else 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

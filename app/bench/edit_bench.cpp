@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/bench/allocation_counter.h"
-#include "app/device_session.h"
-#include "app/live_graph.h"
-#include "app/session.h"
+#include "app/live/live_graph.h"
+#include "app/session/device_session.h"
+#include "app/session/session.h"
 
 namespace weft::app {
 
@@ -96,9 +96,7 @@ class EditBench {
   }
 
  private:
-  void set(const std::string& path, const Value& value) {
-    live_.setParameter(path, value, diagnostics_);
-  }
+  void set(const std::string& path, const Value& value) { live_.setParameter(path, value, diagnostics_); }
 
   template <class Work>
   static double time(const Work& work) {

@@ -1,4 +1,4 @@
-// What an edit costs until the next frame may start, as the viewer makes it (app/live_graph.h): a live
+// What an edit costs until the next frame may start, as the viewer makes it (app/live/live_graph.h): a live
 // parameter, a structural one, a saved file. CPU time of the calling thread, with every program cached,
 // without drawing: only before the first edit are there frames. Does not: judge, or write a file.
 #pragma once
@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options.h"
+#include "app/session/options.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::app {

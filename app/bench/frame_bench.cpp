@@ -8,10 +8,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/device_session.h"
-#include "app/session.h"
-#include "app/standard_streams.h"
-#include "engine/graph/read.h"
+#include "app/session/device_session.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "engine/graph/read/read.h"
 
 namespace weft::app {
 
@@ -31,7 +31,8 @@ double cpuNow() {
 }
 
 double wallNow() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 template <class Work>
@@ -45,7 +46,8 @@ void measure(Cost& least, Work work) {
 }
 
 // The named effects, as far as the graph has parameters that end in these names.
-graph::Settings settingsWith(const Options& options, const graph::GraphDesc& desc, bool software, const char* variant) {
+graph::Settings settingsWith(const Options& options, const graph::GraphDesc& desc, bool software,
+                             const char* variant) {
   graph::Settings settings = settingsOf(options, software);
   if (std::string_view(variant) == "default") return settings;
   const bool all = std::string_view(variant) == "all";
@@ -73,10 +75,13 @@ std::optional<std::string> benchFrame(const Options& options, base::Diagnostics&
   const auto desc = graph::readGraph(options.graph, diagnostics);
   if (!desc || diagnostics.hasErrors()) return std::nullopt;
 
-  runtime::Renderer copy(*session->context, dataFolder() + "/graphs/bench_copy.json", {.dataFolder = dataFolder(), .cacheFolder = ""});
-  const graph::Settings plain{.screenWidth = options.width, .screenHeight = options.height, .software = software};
+  runtime::Renderer copy(*session->context, dataFolder() + "/graphs/bench_copy.json",
+                         {.dataFolder = dataFolder(), .cacheFolder = ""});
+  const graph::Settings plain{
+      .screenWidth = options.width, .screenHeight = options.height, .software = software};
   if (!copy.load(plain, *world, diagnostics)) return std::nullopt;
-  for (std::uint32_t frame = 0; frame < 2; ++frame) copy.frame(*world, runtime::headlessFrame(*world, frame, 60), diagnostics);
+  for (std::uint32_t frame = 0; frame < 2; ++frame)
+    copy.frame(*world, runtime::headlessFrame(*world, frame, 60), diagnostics);
 
   nlohmann::ordered_json out;
   out["graph"] = options.graph;
@@ -92,12 +97,16 @@ std::optional<std::string> benchFrame(const Options& options, base::Diagnostics&
   std::vector<Row> rows;
   const char* kVariants[] = {"plain", "default", "all"};
   for (const char* variant : kVariants) {
-    runtime::Renderer renderer(*session->context, options.graph, {.dataFolder = dataFolder(), .cacheFolder = ""});
-    if (!renderer.load(settingsWith(options, *desc, software, variant), *world, diagnostics)) return std::nullopt;
+    runtime::Renderer renderer(*session->context, options.graph,
+                               {.dataFolder = dataFolder(), .cacheFolder = ""});
+    if (!renderer.load(settingsWith(options, *desc, software, variant), *world, diagnostics))
+      return std::nullopt;
     Row row;
     Cost first;
     std::uint32_t frame = 0;
-    const auto next = [&] { renderer.frame(*world, runtime::headlessFrame(*world, frame++, 60), diagnostics); };
+    const auto next = [&] {
+      renderer.frame(*world, runtime::headlessFrame(*world, frame++, 60), diagnostics);
+    };
     measure(first, next);
     row.first = first.wall;
     next();
@@ -111,7 +120,8 @@ std::optional<std::string> benchFrame(const Options& options, base::Diagnostics&
       next();
       timers.finish();
       const graph::Plan& plan = renderer.execution()->plan();
-      if (row.passes.empty()) row.passes.resize(plan.steps.size(), {"", std::numeric_limits<double>::infinity()});
+      if (row.passes.empty())
+        row.passes.resize(plan.steps.size(), {"", std::numeric_limits<double>::infinity()});
       for (std::size_t step = 0; step < timers.results().size() && step < row.passes.size(); ++step) {
         if (!timers.results()[step].ran) continue;
         row.passes[step].first = plan.graph->passNames[plan.steps[step].pass];
@@ -121,13 +131,16 @@ std::optional<std::string> benchFrame(const Options& options, base::Diagnostics&
     rows.push_back(std::move(row));
     if (diagnostics.hasErrors()) return std::nullopt;
   }
-  const auto rounded = [](double x) { return static_cast<double>(static_cast<std::int64_t>(x * 1000 + 0.5)) / 1000; };
+  const auto rounded = [](double x) {
+    return static_cast<double>(static_cast<std::int64_t>(x * 1000 + 0.5)) / 1000;
+  };
   out["copy_ms"] = rounded(unit.wall);
   if (software) out["copy_cpu_ms"] = rounded(unit.cpu);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     nlohmann::ordered_json passes = nlohmann::ordered_json::array();
     for (const auto& [name, ms] : rows[i].passes)
-      if (!name.empty()) passes.push_back({{"pass", name}, {"ms", rounded(ms)}, {"copies", rounded(ms / unit.wall)}});
+      if (!name.empty())
+        passes.push_back({{"pass", name}, {"ms", rounded(ms)}, {"copies", rounded(ms / unit.wall)}});
     nlohmann::ordered_json row;
     row["name"] = kVariants[i];
     row["first_frame_ms"] = rounded(rows[i].first);

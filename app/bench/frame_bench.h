@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/options.h"
+#include "app/session/options.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::app {

@@ -8,12 +8,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/files/text_file.h"
 #include "engine/base/printable.h"
-#include "engine/base/text_file.h"
-#include "engine/graph/compile_scratch.h"
-#include "engine/graph/neutral.h"
+#include "engine/graph/compile/compile.h"
+#include "engine/graph/compile/scratch.h"
 #include "engine/graph/plan.h"
-#include "engine/graph/validate_flat.h"
+#include "engine/graph/workload/neutral.h"
+#include "engine/graph/workload/validate_flat.h"
 
 namespace weft::app {
 

@@ -1,4 +1,4 @@
-// Times the graph core on neutral workloads (engine/graph/neutral.h): read, validate and compile apart, and
+// Times the graph core on neutral workloads (engine/graph/workload/neutral.h): read, validate and compile apart, and
 // nlohmann's parse of the same bytes for scale. Everything runs on the calling thread; times are CPU time of
 // that thread (equal to wall time on an idle machine, and comparable on a busy one), the median of
 // repetitions. compile() keeps its CompileScratch between them, as a recompile does. Does not: touch GL, or

@@ -17,7 +17,8 @@ namespace {
 
 std::string describe(const FlatResource& resource) {
   if (resource.kind == ResourceKind::buffer) return fmt::format("buffer, {} bytes", resource.bytes);
-  std::string text = fmt::format("{} {}x{}", graph::infoOf(resource.format).name, resource.width, resource.height);
+  std::string text =
+      fmt::format("{} {}x{}", graph::infoOf(resource.format).name, resource.width, resource.height);
   if (resource.depth > 1) text += fmt::format("x{}", resource.depth);
   if (resource.mips > 1) text += fmt::format(", {} mips", resource.mips);
   if (resource.layers > 1) text += fmt::format(", {} layers", resource.layers);
@@ -26,7 +27,8 @@ std::string describe(const FlatResource& resource) {
 }
 
 bool canShow(const graph::Plan& plan, std::uint32_t resource) {
-  return plan.firstStep[resource] != graph::kNone && plan.graph->resources[resource].kind != ResourceKind::imported_buffer;
+  return plan.firstStep[resource] != graph::kNone &&
+         plan.graph->resources[resource].kind != ResourceKind::imported_buffer;
 }
 
 std::uint32_t indexOf(const graph::Plan& plan, const std::string& name) {
@@ -63,12 +65,14 @@ void InspectorPanel::beforeFrame(bool wanted) {
   if (resource == graph::kNone || !canShow(plan, resource)) {
     // What is presented, to begin with.
     target_ = {};
-    if (plan.graph->present.resource != graph::kNone) target_.resource = plan.graph->resourceNames[plan.graph->present.resource];
+    if (plan.graph->present.resource != graph::kNone)
+      target_.resource = plan.graph->resourceNames[plan.graph->present.resource];
   }
   if (target_.resource != shown_) {
     // Values that are encoded already are not encoded again.
     const std::uint32_t shown = indexOf(plan, target_.resource);
-    if (shown != graph::kNone) view_.encode = graph::infoOf(plan.graph->resources[shown].format).kind == graph::TexelKind::floating;
+    if (shown != graph::kNone)
+      view_.encode = graph::infoOf(plan.graph->resources[shown].format).kind == graph::TexelKind::floating;
     shown_ = target_.resource;
   }
   found_ = inspector_.watch(*execution, target_);
@@ -111,7 +115,10 @@ void InspectorPanel::chooseTarget(const graph::Plan& plan) {
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
       if (!canShow(plan, r)) continue;
       const bool current = graph.resourceNames[r] == target_.resource;
-      if (ImGui::Selectable(fmt::format("{}  ({})", graph.resourceNames[r], describe(graph.resources[r])).c_str(), current) && !current) {
+      if (ImGui::Selectable(
+              fmt::format("{}  ({})", graph.resourceNames[r], describe(graph.resources[r])).c_str(),
+              current) &&
+          !current) {
         target_ = {.resource = graph.resourceNames[r]};
         statistics_.reset();
       }
@@ -135,10 +142,12 @@ void InspectorPanel::chooseTarget(const graph::Plan& plan) {
 void InspectorPanel::choosePart(const FlatResource& resource) {
   ImGui::TextDisabled("%s", describe(resource).c_str());
   const bool volume = resource.target == graph::Target::texture_3d;
-  const std::uint32_t slices = volume ? std::max(1u, resource.depth >> std::min(target_.mip, resource.mips - 1u)) : resource.layers;
+  const std::uint32_t slices =
+      volume ? std::max(1u, resource.depth >> std::min(target_.mip, resource.mips - 1u)) : resource.layers;
   slide("mip", target_.mip, resource.mips);
   if (resource.mips > 1 && slices > 1) flow(ImGui::GetFontSize() * 12);
-  const bool cube = resource.target == graph::Target::texture_cube || resource.target == graph::Target::texture_cube_array;
+  const bool cube =
+      resource.target == graph::Target::texture_cube || resource.target == graph::Target::texture_cube_array;
   slide(volume ? "slice" : cube ? "face" : "layer", target_.layer, slices);
   slide("frames ago", target_.history, resource.history + 1u);
   if (graph::hasStencil(resource.format)) ImGui::Checkbox("stencil", &target_.stencil);
@@ -152,7 +161,8 @@ void InspectorPanel::chooseView(const FlatResource& resource) {
     static constexpr const char* kChannels[] = {"RGB", "R", "G", "B", "A"};
     int channel = std::min(static_cast<int>(view_.channel), channels);
     ImGui::SetNextItemWidth(em * 4);
-    if (ImGui::Combo("##channel", &channel, kChannels, channels + 1)) view_.channel = static_cast<runtime::InspectChannel>(channel);
+    if (ImGui::Combo("##channel", &channel, kChannels, channels + 1))
+      view_.channel = static_cast<runtime::InspectChannel>(channel);
     ImGui::SameLine();
   }
   float range[2] = {view_.low, view_.high};
@@ -165,8 +175,10 @@ void InspectorPanel::chooseView(const FlatResource& resource) {
   if (ImGui::Button("Fit")) statistics_ = inspector_.measure();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the range of what is there (waits for the GPU)");
   if (ImGui::IsItemDeactivated() && statistics_) {
-    view_.low = static_cast<float>(*std::min_element(statistics_->low.begin(), statistics_->low.begin() + channels));
-    view_.high = static_cast<float>(*std::max_element(statistics_->high.begin(), statistics_->high.begin() + channels));
+    view_.low =
+        static_cast<float>(*std::min_element(statistics_->low.begin(), statistics_->low.begin() + channels));
+    view_.high = static_cast<float>(
+        *std::max_element(statistics_->high.begin(), statistics_->high.begin() + channels));
     view_.ev = 0;
     view_.depth = false;
   }
@@ -199,9 +211,10 @@ void InspectorPanel::chooseView(const FlatResource& resource) {
   flow(em * 5);
   if (ImGui::Button("Whole")) fit_ = true;
   if (statistics_)
-    ImGui::TextDisabled("%s", fmt::format("mean {:.4g}, {:.4g}, {:.4g}, {:.4g}; {} NaN, {} infinite", statistics_->mean[0], statistics_->mean[1],
-                                          statistics_->mean[2], statistics_->mean[3], statistics_->nan, statistics_->infinite)
-                            .c_str());
+    ImGui::TextDisabled("%s", fmt::format("mean {:.4g}, {:.4g}, {:.4g}, {:.4g}; {} NaN, {} infinite",
+                                          statistics_->mean[0], statistics_->mean[1], statistics_->mean[2],
+                                          statistics_->mean[3], statistics_->nan, statistics_->infinite)
+                                  .c_str());
 }
 
 void InspectorPanel::drawPicture(base::Diagnostics& diagnostics) {
@@ -224,7 +237,8 @@ void InspectorPanel::drawPicture(base::Diagnostics& diagnostics) {
     fit_ = false;
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton("canvas", area, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton("canvas", area,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
   const ImGuiIO& io = ImGui::GetIO();
   const double px = io.MousePos.x - corner.x, py = corner.y + area.y - io.MousePos.y;  // from the lower left
   if (ImGui::IsItemActive()) {
@@ -238,11 +252,14 @@ void InspectorPanel::drawPicture(base::Diagnostics& diagnostics) {
     view_.x += px * (before - view_.texelsPerPixel);
     view_.y += py * (before - view_.texelsPerPixel);
   }
-  const GLuint canvas =
-      inspector_.draw(view_, static_cast<std::uint32_t>(area.x), static_cast<std::uint32_t>(area.y), diagnostics);
+  const GLuint canvas = inspector_.draw(view_, static_cast<std::uint32_t>(area.x),
+                                        static_cast<std::uint32_t>(area.y), diagnostics);
   const ImVec2 end(corner.x + area.x, corner.y + area.y);
-  if (canvas) ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(canvas)), corner, end, {0, 1}, {1, 0});
-  const double tx = std::floor(view_.x + px * view_.texelsPerPixel), ty = std::floor(view_.y + py * view_.texelsPerPixel);
+  if (canvas)
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(canvas)),
+                                         corner, end, {0, 1}, {1, 0});
+  const double tx = std::floor(view_.x + px * view_.texelsPerPixel),
+               ty = std::floor(view_.y + py * view_.texelsPerPixel);
   std::string text = fmt::format("{:.0f} %; values under the cursor", 100 / view_.texelsPerPixel);
   if (hovered && tx >= 0 && ty >= 0 && tx < width && ty < height)
     if (const auto texel = inspector_.texel(static_cast<std::uint32_t>(tx), static_cast<std::uint32_t>(ty)))
@@ -255,12 +272,15 @@ void InspectorPanel::drawNumbers() {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
   ImGui::Combo("as", &numbers_, kForms, 4);
   const std::uint64_t bytes = inspector_.bufferBytes();
-  if (!ImGui::BeginTable("numbers", 5, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchSame)) return;
+  if (!ImGui::BeginTable("numbers", 5,
+                         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchSame))
+    return;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>((bytes + 15) / 16));
   while (clipper.Step()) {
     const std::uint64_t first = static_cast<std::uint64_t>(clipper.DisplayStart) * 16;
-    const std::vector<std::byte> data = inspector_.bytes(first, static_cast<std::uint64_t>(clipper.DisplayEnd) * 16 - first);
+    const std::vector<std::byte> data =
+        inspector_.bytes(first, static_cast<std::uint64_t>(clipper.DisplayEnd) * 16 - first);
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();

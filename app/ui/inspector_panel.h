@@ -1,12 +1,12 @@
 // The texture inspector's window: which resource, where in the frame, which part, how shown; zoom, pan and the value under
-// the cursor. Does not: copy or draw texels (engine/runtime/inspector.h does).
+// the cursor. Does not: copy or draw texels (engine/runtime/inspection/inspector.h does).
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "engine/runtime/inspector.h"
-#include "engine/runtime/renderer.h"
+#include "engine/runtime/frame/renderer.h"
+#include "engine/runtime/inspection/inspector.h"
 
 namespace weft::app::ui {
 

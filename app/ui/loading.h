@@ -2,7 +2,7 @@
 // load.
 #pragma once
 
-#include "app/live_environment.h"
+#include "app/live/live_environment.h"
 
 namespace weft::app::ui {
 

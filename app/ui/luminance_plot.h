@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "engine/runtime/execution.h"
+#include "engine/runtime/frame/execution.h"
 
 namespace weft::app::ui {
 

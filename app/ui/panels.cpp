@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "app/standard_streams.h"
+#include "app/session/recorder.h"
+#include "app/session/standard_streams.h"
 #include "app/ui/loading.h"
 #include "app/ui/log_layout.h"
-#include "app/view/recorder.h"
 #include "engine/base/printable.h"
 
 namespace weft::app::ui {

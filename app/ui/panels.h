@@ -1,6 +1,6 @@
 // The viewer's panels: parameters, passes, texture inspector, frame profiler, storage, histogram, log. Each
 // is made anew every frame from what it shows and keeps what a person chose in it; changes go straight into
-// the LiveGraph. Does not: know the window, or draw what the inspector shows (engine/runtime/inspector.h
+// the LiveGraph. Does not: know the window, or draw what the inspector shows (engine/runtime/inspection/inspector.h
 // does).
 #pragma once
 
@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "app/live_graph.h"
-#include "app/trace_recorder.h"
+#include "app/live/live_graph.h"
+#include "app/session/trace_recorder.h"
 #include "app/ui/inspector_panel.h"
 #include "app/ui/log.h"
-#include "engine/graph/explain.h"
-#include "engine/runtime/picture_histogram.h"
+#include "engine/graph/print/explain.h"
+#include "engine/runtime/inspection/picture_histogram.h"
 
 namespace weft::app::ui {
 

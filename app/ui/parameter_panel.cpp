@@ -52,8 +52,10 @@ std::optional<Value> editColor(const char* label, const Value& now) {
   float color[4] = {0, 0, 0, 1};
   for (std::size_t i = 0; i < value.count; ++i) color[i] = static_cast<float>(value.v[i]);
   const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float;
-  if (!(value.count == 4 ? ImGui::ColorEdit4(label, color, flags) : ImGui::ColorEdit3(label, color, flags))) return std::nullopt;
-  for (std::size_t i = 0; i < value.count; ++i) value.v[i] = std::round(static_cast<double>(color[i]) * 1000) / 1000;
+  if (!(value.count == 4 ? ImGui::ColorEdit4(label, color, flags) : ImGui::ColorEdit3(label, color, flags)))
+    return std::nullopt;
+  for (std::size_t i = 0; i < value.count; ++i)
+    value.v[i] = std::round(static_cast<double>(color[i]) * 1000) / 1000;
   return value;
 }
 
@@ -92,20 +94,27 @@ std::optional<Value> edit(const char* label, const ParameterDesc& desc, const Va
       return ImGui::Checkbox(label, &on) ? std::optional(Value::boolean(on)) : std::nullopt;
     }
     case Type::integer:
-    case Type::number: return editNumber(label, desc, now);
+    case Type::number:
+      return editNumber(label, desc, now);
     case Type::vec2:
     case Type::vec3:
-    case Type::vec4: return editVector(label, desc, now);
-    case Type::choice: return editChoice(label, desc, now);
-    case Type::file: return editFile(label, now);
+    case Type::vec4:
+      return editVector(label, desc, now);
+    case Type::choice:
+      return editChoice(label, desc, now);
+    case Type::file:
+      return editFile(label, now);
   }
   return std::nullopt;
 }
 
 // Whether every letter of `wanted` stands in `text`, in one piece, in whatever case.
 bool matches(const std::string& wanted, const std::string& text) {
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
-  return wanted.empty() || std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), same) != text.end();
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  return wanted.empty() ||
+         std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), same) != text.end();
 }
 
 }  // namespace
@@ -162,8 +171,9 @@ void Panels::drawParameters(base::Diagnostics& diagnostics) {
       ImGui::BeginTooltip();
       ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
       ImGui::TextUnformatted((label + "\n" + parameter.path + " = " + graph::toText(now) +
-                              (parameter.structural ? "\nchanges the plan" : "") + (parameter.desc.doc.empty() ? "" : "\n") +
-                              parameter.desc.doc + (tweaked ? "\n* changed here; right click: as the files say" : ""))
+                              (parameter.structural ? "\nchanges the plan" : "") +
+                              (parameter.desc.doc.empty() ? "" : "\n") + parameter.desc.doc +
+                              (tweaked ? "\n* changed here; right click: as the files say" : ""))
                                  .c_str());
       ImGui::PopTextWrapPos();
       ImGui::EndTooltip();
@@ -173,8 +183,10 @@ void Panels::drawParameters(base::Diagnostics& diagnostics) {
   }
   if (table) ImGui::EndTable();
   ImGui::EndChild();
-  if (changedTo) live_.setParameter(changed, *changedTo, diagnostics);
-  else if (!reset.empty()) live_.resetParameter(reset, diagnostics);
+  if (changedTo)
+    live_.setParameter(changed, *changedTo, diagnostics);
+  else if (!reset.empty())
+    live_.resetParameter(reset, diagnostics);
 }
 
 }  // namespace weft::app::ui

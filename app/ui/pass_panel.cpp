@@ -19,7 +19,8 @@ std::string disabledBy(const graph::DisabledPass& pass) {
 
 // "3/24" of a pass that is spread over frames, else nothing.
 std::string sliceText(const runtime::SliceRange& range) {
-  return range.of > 1 && range.count < range.of ? fmt::format("{}/{}", range.first + 1, range.of) : std::string();
+  return range.of > 1 && range.count < range.of ? fmt::format("{}/{}", range.first + 1, range.of)
+                                                : std::string();
 }
 
 void explain(const std::string& text) {
@@ -70,8 +71,12 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
         if (ImGui::Checkbox(name.c_str(), &on)) pass = graph.specs[index].declared;
         if (!ran) ImGui::PopStyleColor();
         const bool timed = profile && step < timers.results().size() && timers.results()[step].ran;
-        explain(name + (timed ? fmt::format(": GPU {:.2f} ms, CPU {:.2f} ms", timers.results()[step].gpu, timers.results()[step].cpu) : "") + "\n" +
-                (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") + explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
+        explain(name +
+                (timed ? fmt::format(": GPU {:.2f} ms, CPU {:.2f} ms", timers.results()[step].gpu,
+                                     timers.results()[step].cpu)
+                       : "") +
+                "\n" + (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") +
+                explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
                 (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
         if (!narrow) {
           ImGui::TableNextColumn();

@@ -19,10 +19,13 @@ constexpr std::size_t kAveraged = 30;  // frames
 
 ImU32 colorOf(const std::string& name) {
   const std::uint64_t hash = base::hashBytes(name, base::kHashSeed);
-  return ImColor::HSV(static_cast<float>(hash % 997) / 997.0f, 0.55f, 0.65f + static_cast<float>(hash / 997 % 3) * 0.12f);
+  return ImColor::HSV(static_cast<float>(hash % 997) / 997.0f, 0.55f,
+                      0.65f + static_cast<float>(hash / 997 % 3) * 0.12f);
 }
 
-double timeOf(const gl::PassTime& time, bool gpu) { return !time.ran ? 0 : gpu ? time.gpu : time.cpu; }
+double timeOf(const gl::PassTime& time, bool gpu) {
+  return !time.ran ? 0 : gpu ? time.gpu : time.cpu;
+}
 
 double totalOf(const runtime::FrameProfile& profile, bool gpu) {
   double total = 0;
@@ -47,16 +50,19 @@ std::vector<Mean> meansOf(const std::deque<runtime::FrameProfile>& history, bool
     }
   std::vector<Mean> means;
   for (auto& [name, mean] : byName) means.push_back(std::move(mean));
-  std::ranges::stable_sort(means, [&](const Mean& a, const Mean& b) { return gpu ? a.gpu > b.gpu : a.cpu > b.cpu; });
+  std::ranges::stable_sort(means,
+                           [&](const Mean& a, const Mean& b) { return gpu ? a.gpu > b.gpu : a.cpu > b.cpu; });
   return means;
 }
 
 void explainFrame(const runtime::FrameProfile& profile, bool gpu) {
   std::vector<std::pair<double, std::string>> passes;
   for (std::size_t step = 0; step < profile.passes.size() && step < profile.names->size(); ++step)
-    if (profile.passes[step].ran) passes.emplace_back(timeOf(profile.passes[step], gpu), (*profile.names)[step]);
+    if (profile.passes[step].ran)
+      passes.emplace_back(timeOf(profile.passes[step], gpu), (*profile.names)[step]);
   std::ranges::sort(passes, std::greater<>());
-  std::string text = fmt::format("frame {}: {:.2f} ms, passes {:.2f} ms", profile.frame, profile.end - profile.start, totalOf(profile, gpu));
+  std::string text = fmt::format("frame {}: {:.2f} ms, passes {:.2f} ms", profile.frame,
+                                 profile.end - profile.start, totalOf(profile, gpu));
   for (std::size_t i = 0; i < std::min<std::size_t>(8, passes.size()); ++i)
     text += fmt::format("\n{:7.2f}  {}", passes[i].first, passes[i].second);
   ImGui::SetTooltip("%s", text.c_str());
@@ -79,28 +85,36 @@ void Panels::drawProfiler(base::Diagnostics& diagnostics) {
   if (ImGui::Button(trace_.recording() ? "End trace" : "Trace")) toggleTrace(diagnostics);
   if (history.empty()) return;
   const runtime::FrameProfile& last = history.back();
-  ImGui::TextDisabled("%s", fmt::format("frame {:.2f} ms{}", last.end - last.start,
-                                        last.passes.empty() ? std::string()
-                                                            : fmt::format(", passes: GPU {:.2f} ms, CPU {:.2f} ms", totalOf(last, true), totalOf(last, false)))
-                                .c_str());
+  ImGui::TextDisabled(
+      "%s", fmt::format("frame {:.2f} ms{}", last.end - last.start,
+                        last.passes.empty() ? std::string()
+                                            : fmt::format(", passes: GPU {:.2f} ms, CPU {:.2f} ms",
+                                                          totalOf(last, true), totalOf(last, false)))
+                .c_str());
 
   const float em = ImGui::GetFontSize();
-  const ImVec2 area(std::max(32.0f, ImGui::GetContentRegionAvail().x), std::max(3 * em, ImGui::GetContentRegionAvail().y * 0.45f));
+  const ImVec2 area(std::max(32.0f, ImGui::GetContentRegionAvail().x),
+                    std::max(3 * em, ImGui::GetContentRegionAvail().y * 0.45f));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("history", area);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, {corner.x + area.x, corner.y + area.y}, IM_COL32(20, 20, 24, 255));
   // A few frames that took much longer (the first, a reload) may stand out of the picture.
   std::vector<double> totals;
-  for (const auto& profile : history) totals.push_back(std::max(profile.end - profile.start, totalOf(profile, gpuStack_)));
+  for (const auto& profile : history)
+    totals.push_back(std::max(profile.end - profile.start, totalOf(profile, gpuStack_)));
   std::ranges::sort(totals);
   const double highest = std::max(1e-3, totals[(totals.size() - 1) * 19 / 20] * 1.25);
   const float bar = area.x / 240.0f;
   for (std::size_t f = 0; f < history.size(); ++f) {
     const runtime::FrameProfile& profile = history[f];
-    const float right = corner.x + area.x - bar * static_cast<float>(history.size() - 1 - f), left = right - bar;
-    const auto level = [&](double ms) { return corner.y + area.y * (1 - static_cast<float>(std::min(1.0, ms / highest))); };
-    draw.AddRectFilled({left, level(profile.end - profile.start)}, {right, corner.y + area.y}, IM_COL32(60, 60, 68, 255));
+    const float right = corner.x + area.x - bar * static_cast<float>(history.size() - 1 - f),
+                left = right - bar;
+    const auto level = [&](double ms) {
+      return corner.y + area.y * (1 - static_cast<float>(std::min(1.0, ms / highest)));
+    };
+    draw.AddRectFilled({left, level(profile.end - profile.start)}, {right, corner.y + area.y},
+                       IM_COL32(60, 60, 68, 255));
     double sum = 0;
     for (std::size_t step = 0; step < profile.passes.size() && step < profile.names->size(); ++step) {
       const double time = timeOf(profile.passes[step], gpuStack_);
@@ -109,7 +123,8 @@ void Panels::drawProfiler(base::Diagnostics& diagnostics) {
       sum += time;
     }
   }
-  draw.AddText({corner.x + 4, corner.y + 2}, IM_COL32(230, 230, 230, 255), fmt::format("{:.1f} ms", highest).c_str());
+  draw.AddText({corner.x + 4, corner.y + 2}, IM_COL32(230, 230, 230, 255),
+               fmt::format("{:.1f} ms", highest).c_str());
   if (ImGui::IsItemHovered()) {
     const float from = (corner.x + area.x - ImGui::GetIO().MousePos.x) / bar;
     const auto back = static_cast<std::size_t>(std::max(0.0f, from));
@@ -120,7 +135,9 @@ void Panels::drawProfiler(base::Diagnostics& diagnostics) {
     ImGui::TextDisabled("P measures each pass");
     return;
   }
-  if (!ImGui::BeginTable("means", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
+  if (!ImGui::BeginTable("means", 3,
+                         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
+    return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("mean of the last 30 frames", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("GPU ms");

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "app/standard_streams.h"
+#include "app/session/standard_streams.h"
 
 namespace weft::app {
 

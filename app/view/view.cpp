@@ -1,4 +1,6 @@
 // weft view: a graph in a window, with a camera to move; files that change on disk take effect at once.
+#include "app/view/view.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,11 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands.h"
-#include "app/live_environment.h"
-#include "app/output_files.h"
-#include "app/session.h"
-#include "app/standard_streams.h"
+#include "app/live/live_environment.h"
+#include "app/session/output_files.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
 #include "app/view/viewer.h"
 #include "engine/base/limits.h"
 
@@ -39,7 +40,8 @@ bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
   const std::uint64_t limit = base::limitOf(base::Limit::frames);
   if (options.maxFrames > limit)
     diagnostics
-        .error(base::Code::W201, graph::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
+        .error(base::Code::limitExceeded,
+               graph::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
                fmt::format("{} frames would run, the limit 'frames' is {}", options.maxFrames, limit))
         .hint = base::hintToRaise(base::Limit::frames, options.maxFrames) +
                 ", or leave --max-frames out: the window then stays until it is closed";

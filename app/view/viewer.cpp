@@ -10,7 +10,7 @@
 #include <cassert>
 #include <utility>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "app/view/key_bindings.h"
 
 namespace weft::app {
@@ -22,7 +22,8 @@ Viewer::Viewer(const Options& options, DeviceSession& session, LiveGraph& live, 
       renderer_(session.renderer),
       live_(live),
       input_(window_),
-      alarm_(live.watchDescriptor(), [&live] { return live.lookAtFiles(); }, [] { glfwPostEmptyEvent(); }),
+      alarm_(
+          live.watchDescriptor(), [&live] { return live.lookAtFiles(); }, [] { glfwPostEmptyEvent(); }),
       panels_(live, session.renderer, log_),
       events_(options.events),
       diagnostics_(std::move(said)),

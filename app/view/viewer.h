@@ -8,8 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "app/device_session.h"
-#include "app/live_graph.h"
+#include "app/live/live_graph.h"
+#include "app/session/device_session.h"
+#include "app/session/recorder.h"
 #include "app/ui/overlay.h"
 #include "app/ui/panels.h"
 #include "app/view/actions.h"
@@ -18,7 +19,6 @@
 #include "app/view/file_alarm.h"
 #include "app/view/frame_clock.h"
 #include "app/view/picture_rest.h"
-#include "app/view/recorder.h"
 #include "app/view/window_input.h"
 
 namespace weft::app {
@@ -93,7 +93,7 @@ class Viewer {
   std::string title_;
   std::uint32_t frame_ = 0, redraws_ = 0;
   std::uint64_t inputs_ = 0, switches_ = 0, livesSet_ = 0;  // as they were when they were last looked at
-  int restless_ = 0;                         // redraws that the panels still want
+  int restless_ = 0;                                        // redraws that the panels still want
   float uiScale_ = 1;
   gl::Size size_;  // of the window, as it was said last
   double renderScale_ = 1;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/base/text_file.h"
+#include "engine/base/files/text_file.h"
 
 namespace weft::assets {
 
@@ -57,7 +57,8 @@ class Reader {
  private:
   void fail(std::uint32_t column, std::string message, std::string found = "") {
     ++errors_;
-    diagnostics_.error(Code::W154, {file_, line_, column}, std::move(message)).found = std::move(found);
+    diagnostics_.error(Code::notACubeTable, {file_, line_, column}, std::move(message)).found =
+        std::move(found);
   }
 
   void readLine(std::string_view line) {

@@ -10,7 +10,7 @@
 
 #include "engine/assets/half.h"
 #include "engine/assets/image_codecs.h"
-#include "engine/base/file.h"
+#include "engine/base/files/file.h"
 
 namespace weft::assets {
 
@@ -58,8 +58,8 @@ std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::
   if (!goOn(LoadStage::reading, 0)) return {};
   std::optional<ImageF> image;
   {
-    const auto bytes =
-        base::readFile(path, diagnostics, base::Code::W150, {}, [&](std::uint64_t done, std::uint64_t total) {
+    const auto bytes = base::readFile(
+        path, diagnostics, base::Code::unreadableImage, {}, [&](std::uint64_t done, std::uint64_t total) {
           const double size =
               total == 0 ? static_cast<double>(done) + kTypicalBytes : static_cast<double>(total);
           return goOn(LoadStage::reading, std::min(1.0, static_cast<double>(done) / size));

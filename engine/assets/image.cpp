@@ -10,7 +10,7 @@
 
 #include "engine/assets/half.h"
 #include "engine/assets/image_codecs.h"
-#include "engine/base/file.h"
+#include "engine/base/files/file.h"
 
 namespace weft::assets {
 
@@ -34,7 +34,7 @@ std::string extensionOf(const std::string& name) {
 }
 
 void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  base::Diagnostic& d = diagnostics.error(Code::W151, placeOf(name),
+  base::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
                                           fmt::format("'{}' is no kind of image that is known", name));
   d.expected = std::move(expected);
   d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
@@ -69,15 +69,17 @@ ImageKind kindOfName(const std::string& name) {
 }
 
 void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const std::string& why) {
-  diagnostics.error(Code::W150, placeOf(name), fmt::format("cannot read image '{}': {}", name, why));
+  diagnostics.error(Code::unreadableImage, placeOf(name),
+                    fmt::format("cannot read image '{}': {}", name, why));
 }
 
 bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
   const bool tooLarge = width > kMaxImageSide || height > kMaxImageSide ||
                         width * height > static_cast<long long>(kMaxImageTexels);
   if (width >= 1 && height >= 1 && !tooLarge) return true;
-  base::Diagnostic& d = diagnostics.error(
-      Code::W152, placeOf(name), fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"));
+  base::Diagnostic& d =
+      diagnostics.error(Code::badImageSize, placeOf(name),
+                        fmt::format("image '{}' is {}", name, tooLarge ? "too large" : "empty"));
   d.expected = fmt::format("1 to {} texels a side, at most {} in all", kMaxImageSide, kMaxImageTexels);
   d.found = fmt::format("{} x {}", width, height);
   return false;
@@ -99,13 +101,13 @@ std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& nam
 }
 
 std::optional<ImageF> loadImage(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::W150);
+  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
   if (!bytes) return {};
   return decodeImage(*bytes, path, diagnostics);
 }
 
 std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::W150);
+  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
   if (!bytes) return {};
   if (kindOfName(path) != ImageKind::eight_bit) {
     reportUnknownKind(diagnostics, path, ".png, .jpg, .jpeg or .tga");
@@ -115,7 +117,7 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, Diagnost
 }
 
 std::optional<ImageF> loadEnvironment(const std::string& path, Diagnostics& diagnostics) {
-  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::W150);
+  const std::optional<std::string> bytes = base::readFile(path, diagnostics, Code::unreadableImage);
   if (!bytes) return {};
   return decodeEnvironment(*bytes, path, diagnostics);
 }
@@ -152,7 +154,7 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
   const std::size_t colours = image.texels.size() / channels * std::min<std::size_t>(channels, 3);
   base::Diagnostic& d =
       diagnostics.add({.severity = undefined + negative > 0 ? base::Severity::warning : base::Severity::note,
-                       .code = Code::W153,
+                       .code = Code::texelsReplaced,
                        .message = fmt::format("{} of {} colour values are no radiance and were replaced",
                                               undefined + negative + tooBright, colours),
                        .place = placeOf(name)});

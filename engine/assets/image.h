@@ -46,7 +46,8 @@ std::optional<Image8> loadImage8(const std::string& path, int channels, base::Di
 // become 65504. Adds one W153 with the counts when anything was replaced.
 std::optional<ImageF> loadEnvironment(const std::string& path, base::Diagnostics& diagnostics);
 // The same for bytes in memory, as decodeImage.
-std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
+std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
+                                        base::Diagnostics& diagnostics);
 // The cleaning step alone: the colour channels of `image`, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
 

@@ -12,7 +12,7 @@
 
 #include "engine/assets/image_check.h"
 #include "engine/assets/image_codecs.h"
-#include "engine/base/file.h"
+#include "engine/base/files/file.h"
 
 namespace weft::assets {
 
@@ -177,7 +177,7 @@ bool saveExr(const std::string& path, const ImageF& image, Diagnostics& diagnost
   const std::size_t size = SaveEXRImageToMemory(&picture, &header, &bytes, &message);
   const std::unique_ptr<unsigned char, decltype(&std::free)> memory(bytes, &std::free);
   if (size > 0) return base::writeFile(path, {reinterpret_cast<const char*>(bytes), size}, diagnostics);
-  diagnostics.error(base::Code::W180, {std::make_shared<const std::string>(path)},
+  diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
                     fmt::format("cannot encode '{}' as OpenEXR: {}", path, takeMessage(message)));
   return false;
 }

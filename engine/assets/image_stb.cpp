@@ -9,7 +9,7 @@
 
 #include "engine/assets/image_check.h"
 #include "engine/assets/image_codecs.h"
-#include "engine/base/file.h"
+#include "engine/base/files/file.h"
 
 namespace weft::assets {
 
@@ -175,7 +175,7 @@ bool savePng8(const std::string& path, int width, int height, int channels,
   const int done =
       stbi_write_png_to_func(appendBytes, &bytes, width, height, channels, texels.data(), width * channels);
   if (done) return base::writeFile(path, bytes, diagnostics);
-  diagnostics.error(base::Code::W180, {std::make_shared<const std::string>(path)},
+  diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
                     fmt::format("cannot encode '{}' as PNG", path));
   return false;
 }
@@ -187,7 +187,7 @@ bool saveHdr(const std::string& path, const ImageF& image, Diagnostics& diagnost
   const int done =
       stbi_write_hdr_to_func(appendBytes, &bytes, image.width, image.height, 3, image.texels.data());
   if (done) return base::writeFile(path, bytes, diagnostics);
-  diagnostics.error(base::Code::W180, {std::make_shared<const std::string>(path)},
+  diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
                     fmt::format("cannot encode '{}' as .hdr", path));
   return false;
 }

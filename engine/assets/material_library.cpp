@@ -6,8 +6,8 @@
 #include <memory>
 #include <unordered_map>
 
-#include "engine/base/text_file.h"
-#include "engine/base/json_fields.h"
+#include "engine/base/files/text_file.h"
+#include "engine/base/json/fields.h"
 
 namespace weft::assets {
 
@@ -25,7 +25,7 @@ MaterialPreset readPreset(const JsonValue& value, std::size_t index, Diagnostics
   const std::string what = named && named->is(JsonValue::Type::string)
                                ? fmt::format("material '{}'", named->text)
                                : fmt::format("material {}", index);
-  JsonFields fields(value, what, Code::W155, diagnostics);
+  JsonFields fields(value, what, Code::badMaterialValue, diagnostics);
   fields.require({"name", "albedo", "metallic", "roughness"});
   MaterialPreset preset;
   preset.name = fields.text("name").value_or("");
@@ -46,14 +46,14 @@ void appendCapped(const Diagnostics& said, Diagnostics& diagnostics) {
   std::size_t outOfRange = 0;
   base::Place last;
   for (const base::Diagnostic& d : said.items())
-    if (d.code != Code::W155 || ++outOfRange <= kOutOfRangeTold) {
+    if (d.code != Code::badMaterialValue || ++outOfRange <= kOutOfRangeTold) {
       diagnostics.add(d);
       last = d.place;
     }
   if (outOfRange > kOutOfRangeTold)
     diagnostics.add(
         {.severity = base::Severity::note,
-         .code = Code::W155,
+         .code = Code::badMaterialValue,
          .message = fmt::format("and {} more values out of range in this file", outOfRange - kOutOfRangeTold),
          .place = last});
 }
@@ -85,8 +85,8 @@ std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const 
     MaterialPreset preset = readPreset(value, i, said);
     const auto [before, fresh] = places.try_emplace(preset.name, value.place);
     if (!fresh && !preset.name.empty()) {
-      base::Diagnostic& d =
-          said.error(Code::W156, value.place, fmt::format("a second material '{}'", preset.name));
+      base::Diagnostic& d = said.error(Code::duplicateMaterial, value.place,
+                                       fmt::format("a second material '{}'", preset.name));
       d.pointer = value.pointer;
       d.hint = fmt::format("rename one; the first stands in line {}", before->second.line);
     }

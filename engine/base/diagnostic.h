@@ -25,7 +25,8 @@ enum class Severity : std::uint8_t { note, warning, error };
 struct Diagnostic {
   Severity severity = Severity::error;
   Code code{};
-  std::string message;   // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
+  std::string
+      message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
   Place place;
   std::string pointer{};   // JSON pointer of the value, e.g. "/passes/3/read/source"; may be empty
   std::string pass{};      // full instance name of the pass concerned, or empty

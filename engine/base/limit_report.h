@@ -1,4 +1,4 @@
-// The report of a limit that is exceeded, the same everywhere: Code::W201 with the limit's name, its value
+// The report of a limit that is exceeded, the same everywhere: Code::limitExceeded with the limit's name, its value
 // and how to raise it. Does not: count.
 #pragma once
 

@@ -18,7 +18,9 @@ std::string countText(std::size_t count, const char* one, const char* many) {
 
 }  // namespace
 
-std::uint64_t mostErrors() { return std::max<std::uint64_t>(1000, limitOf(Limit::diagnostics)); }
+std::uint64_t mostErrors() {
+  return std::max<std::uint64_t>(1000, limitOf(Limit::diagnostics));
+}
 
 Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   Diagnostics sorted = all;
@@ -46,7 +48,7 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   if (const std::size_t rest = at(Severity::error) + at(Severity::warning) + at(Severity::note); rest > 0) {
     Diagnostic& d =
         chosen.add({.severity = Severity::note,
-                    .code = Code::W208,
+                    .code = Code::messagesLeftOut,
                     .message = fmt::format(
                         "{} left out: {}, {}, {}",
                         rest == 1 ? "1 further message is" : fmt::format("{} further messages are", rest),
@@ -59,14 +61,14 @@ Diagnostics chooseMessages(const Diagnostics& all, bool notes) {
   if (all.errorCount() >= mostErrors())
     chosen
         .add({.severity = Severity::note,
-              .code = Code::W208,
+              .code = Code::messagesLeftOut,
               .message = fmt::format("after {} errors no more were looked for", all.errorCount()),
               .place = {}})
         .hint = "correct these first; there may be many more";
   if (const std::size_t names = takeUncompared(); names > 0)
     chosen
         .add({.severity = Severity::note,
-              .code = Code::W208,
+              .code = Code::messagesLeftOut,
               .message =
                   fmt::format("{} without a hint at the nearest one: too many names are unknown",
                               names == 1 ? "1 unknown name is" : fmt::format("{} unknown names are", names)),

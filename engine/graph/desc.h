@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/json_pointer.h"
-#include "engine/graph/expr.h"
-#include "engine/graph/value.h"
+#include "engine/base/json/pointer.h"
+#include "engine/graph/language/expr.h"
+#include "engine/graph/language/value.h"
 
 namespace weft::graph {
 
@@ -21,13 +21,25 @@ using base::Place;
 // How a pass touches a resource.
 enum class Access : std::uint8_t { read, write, modify };
 // What the hardware does with it (design: Kinds).
-enum class Kind : std::uint8_t { sampled, image, uniform, storage, vertex, index, indirect, color, depth, copy };
+enum class Kind : std::uint8_t {
+  sampled,
+  image,
+  uniform,
+  storage,
+  vertex,
+  index,
+  indirect,
+  color,
+  depth,
+  copy
+};
 enum class Cadence : std::uint8_t { always, on_change, once };
 
 struct Sampler {
-  bool linear = false;   // else nearest; with more than one level the levels are filtered the same way
-  bool wrap = false;     // repeat in s, t and r; else clamp to edge
-  bool compare = false;  // depth comparison (GL_LEQUAL... the pass's depth_test decides at run time), implies linear
+  bool linear = false;  // else nearest; with more than one level the levels are filtered the same way
+  bool wrap = false;    // repeat in s, t and r; else clamp to edge
+  bool compare =
+      false;  // depth comparison (GL_LEQUAL... the pass's depth_test decides at run time), implies linear
 };
 
 // `a..b` inside a selector; both ends inclusive; absent ends mean the first and the last.
@@ -38,19 +50,19 @@ struct SpanDesc {
 
 // source = name selectors @-n as words if condition ?
 struct RefDesc {
-  std::string text;            // as written
+  std::string text;  // as written
   Place place;
   JsonPointer pointer;
-  std::string name;            // dotted, without the leading @
-  bool import = false;         // written with @
+  std::string name;     // dotted, without the leading @
+  bool import = false;  // written with @
   std::optional<SpanDesc> mip, layer, face;
-  std::optional<Expr> element; // [k]
+  std::optional<Expr> element;  // [k]
   bool stencil = false;
-  int history = 0;             // n of @-n
-  std::optional<Kind> kind;    // `as depth`
-  Sampler sampler;             // `as linear wrap`
-  Expr condition;              // `if …`; absent means true
-  bool optional = false;       // trailing ?
+  int history = 0;           // n of @-n
+  std::optional<Kind> kind;  // `as depth`
+  Sampler sampler;           // `as linear wrap`
+  Expr condition;            // `if …`; absent means true
+  bool optional = false;     // trailing ?
 };
 
 struct ParameterDesc {
@@ -60,23 +72,23 @@ struct ParameterDesc {
   JsonPointer pointer;
   Type type = Type::number;
   Value initial;
-  Place initialPlace;          // of the default's value, perhaps in an overlay
+  Place initialPlace;  // of the default's value, perhaps in an overlay
   JsonPointer initialPointer;
   std::optional<double> min, max, step;
   std::string label, doc;
   std::vector<std::string> choices;
-  bool define = false;         // selects a variant instead of being a uniform
+  bool define = false;  // selects a variant instead of being a uniform
 };
 
 struct NamedExpr {
   std::string name;
-  Place place;                 // of the name
+  Place place;  // of the name
   JsonPointer pointer;
   Expr expr;
 };
 
 struct ImportDesc {
-  std::string type;            // "probes", "camera", "draw_order"
+  std::string type;  // "probes", "camera", "draw_order"
   std::vector<NamedExpr> arguments;
 };
 
@@ -89,23 +101,23 @@ struct ResourceDesc {
   // texture
   std::string format;
   Place formatPlace;
-  Expr size;                   // number or list of 2 (or 3: a 3D texture), texels
-  Expr mips;                   // absent: 1
-  bool fullMips = false;       // "mips": "full"
-  Expr layers, array, samples; // absent: none
-  std::string view;            // "", "2d_array", "cube", "cube_array", "3d"
+  Expr size;                    // number or list of 2 (or 3: a 3D texture), texels
+  Expr mips;                    // absent: 1
+  bool fullMips = false;        // "mips": "full"
+  Expr layers, array, samples;  // absent: none
+  std::string view;             // "", "2d_array", "cube", "cube_array", "3d"
   Place viewPlace;
   // buffer
   Expr bytes;
   // both
-  Expr clear;                  // version zero
-  Expr history;                // depth n, absent: 0
-  Expr first;                  // what @-n holds before n publications
-  std::vector<RefDesc> resetRefs;   // "@cut", "camera if $progressive"
-  std::vector<Expr> resetValues;    // "size(hdr)"
+  Expr clear;                      // version zero
+  Expr history;                    // depth n, absent: 0
+  Expr first;                      // what @-n holds before n publications
+  std::vector<RefDesc> resetRefs;  // "@cut", "camera if $progressive"
+  std::vector<Expr> resetValues;   // "size(hdr)"
   // others
   ImportDesc import;
-  std::string input;           // "texture" or "buffer"
+  std::string input;  // "texture" or "buffer"
   std::vector<RefDesc> alternatives;
 };
 
@@ -120,7 +132,7 @@ struct SlotDesc {
 struct RangeDesc {
   std::string index;
   Place place;
-  Expr first, last, step;      // step absent: 1
+  Expr first, last, step;  // step absent: 1
 };
 
 // A pass parameter is either a value computed by the graph or a parameter declared on the spot.
@@ -128,21 +140,21 @@ struct PassParameterDesc {
   std::string name;
   Place place;
   JsonPointer pointer;
-  Expr value;                              // when not declared
+  Expr value;  // when not declared
   std::optional<ParameterDesc> declared;
 };
 
 struct IncludeDesc {
-  std::string file;            // as written, relative to the including file
-  std::string as;              // prefix; never empty after reading
-  std::string group;           // which its passes that are not `always` and name none join; may be empty
+  std::string file;   // as written, relative to the including file
+  std::string as;     // prefix; never empty after reading
+  std::string group;  // which its passes that are not `always` and name none join; may be empty
   std::vector<std::pair<std::string, RefDesc>> binds;
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
 };
 
 struct PassDesc {
-  std::string name;            // for an include: its prefix
-  Place place;                 // of the stanza's opening brace
+  std::string name;  // for an include: its prefix
+  Place place;       // of the stanza's opening brace
   Place namePlace;
   JsonPointer pointer;
   std::optional<IncludeDesc> include;
@@ -150,18 +162,18 @@ struct PassDesc {
   Place typePlace;
   std::string shader;
   Place shaderPlace;
-  Expr enabled;                // absent: true
+  Expr enabled;  // absent: true
   std::vector<RangeDesc> repeat;
-  std::vector<SlotDesc> slots; // in file order
+  std::vector<SlotDesc> slots;  // in file order
   std::vector<PassParameterDesc> parameters;
   std::vector<NamedExpr> defines;
-  std::vector<NamedExpr> state;            // "depth_test", "cull", "blend" (all slots), "blend.radiance" (one slot), …
+  std::vector<NamedExpr> state;  // "depth_test", "cull", "blend" (all slots), "blend.radiance" (one slot), …
   Cadence cadence = Cadence::always;
   std::string group;
   Expr slices, threads, instances;
   std::string list;
   Place listPlace;
-  std::string geometry;        // "quad", "mesh", "icosphere"
+  std::string geometry;  // "quad", "mesh", "icosphere"
   std::vector<Expr> geometryArguments;
   Place geometryPlace;
   std::optional<RefDesc> view;
@@ -176,7 +188,7 @@ struct OutputDesc {
 
 // A value that the file, or an overlay on it, gives to a parameter of its own or of a file it includes.
 struct SetDesc {
-  std::string name;            // any unique suffix
+  std::string name;  // any unique suffix
   Place place;
   Place valuePlace;
   JsonPointer pointer;
@@ -187,7 +199,7 @@ struct SetDesc {
 using FileTexts = std::map<std::string, std::shared_ptr<const std::string>>;
 
 struct GraphDesc {
-  std::string path;            // as opened; "" for text without a file
+  std::string path;  // as opened; "" for text without a file
   std::string name;
   Place place;
   std::vector<ParameterDesc> parameters;
@@ -196,12 +208,12 @@ struct GraphDesc {
   std::vector<PassDesc> passes;
   std::optional<RefDesc> present;
   std::vector<OutputDesc> outputs;
-  std::vector<SetDesc> sets;               // in order: the last wins
-  std::vector<std::string> unread;         // names declared in this file that were reported as wrong and left out:
-                                           // a use of one is no second error
-  std::vector<std::string> files;          // this file, what it extends, its presets, and all of every file
-                                           // included below it, for watching
-  FileTexts texts;                         // of the graph that was asked for: all these files; included ones: some
+  std::vector<SetDesc> sets;        // in order: the last wins
+  std::vector<std::string> unread;  // names declared in this file that were reported as wrong and left out:
+                                    // a use of one is no second error
+  std::vector<std::string> files;   // this file, what it extends, its presets, and all of every file
+                                    // included below it, for watching
+  FileTexts texts;                  // of the graph that was asked for: all these files; included ones: some
 };
 
 }  // namespace weft::graph

@@ -11,14 +11,21 @@
 #include <vector>
 
 #include "engine/graph/desc.h"
-#include "engine/graph/format.h"
+#include "engine/graph/language/format.h"
 #include "engine/graph/registry.h"
 
 namespace weft::graph {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-enum class Target : std::uint8_t { texture_2d, texture_2d_array, texture_cube, texture_cube_array, texture_3d, texture_2d_multisample };
+enum class Target : std::uint8_t {
+  texture_2d,
+  texture_2d_array,
+  texture_cube,
+  texture_cube_array,
+  texture_3d,
+  texture_2d_multisample
+};
 enum class ResourceKind : std::uint8_t { texture, buffer, imported_texture, imported_buffer };
 
 // One storage's worth of a resource: a rename or a whole rewrite makes another FlatResource ("hdr#2").
@@ -27,34 +34,34 @@ struct FlatResource {
   Format format = Format::none;
   Target target = Target::texture_2d;
   std::uint8_t samples = 1;
-  std::uint16_t layers = 1;       // faces included (6 per cube); 1 for 3D
+  std::uint16_t layers = 1;  // faces included (6 per cube); 1 for 3D
   std::uint16_t mips = 1;
   std::uint32_t width = 1, height = 1, depth = 1;
-  std::uint64_t bytes = 0;        // of one copy, all levels and layers; history multiplies by n + 1
-  std::uint8_t history = 0;       // depth n: n + 1 copies, persistent
-  bool hasClear = false;          // has a version zero: whatever touches a sub-resource first in a frame finds it
-                                  // cleared, a first `write` too (it need not cover everything)
-  std::uint32_t import = kNone;   // index into FlatGraph::imports
+  std::uint64_t bytes = 0;   // of one copy, all levels and layers; history multiplies by n + 1
+  std::uint8_t history = 0;  // depth n: n + 1 copies, persistent
+  bool hasClear = false;     // has a version zero: whatever touches a sub-resource first in a frame finds it
+                             // cleared, a first `write` too (it need not cover everything)
+  std::uint32_t import = kNone;  // index into FlatGraph::imports
 };
 
 // One access of one pass to a rectangle of sub-resources. Buffers and 3D depth count as one sub-resource.
 struct FlatUse {
   std::uint32_t resource = 0;
   std::uint16_t mip = 0, mips = 1, layer = 0, layers = 1;
-  std::uint8_t planes = 1;        // bit 0: colour or depth, bit 1: stencil (whole depth-stencil: 3)
-  std::uint8_t history = 0;       // n of @-n: reads an earlier publication, orders nothing
+  std::uint8_t planes = 1;   // bit 0: colour or depth, bit 1: stencil (whole depth-stencil: 3)
+  std::uint8_t history = 0;  // n of @-n: reads an earlier publication, orders nothing
   Kind kind = Kind::sampled;
   Access access = Access::read;
-  bool keep = false;              // a write that stays attached even when nobody reads it
-  bool feedback = false;          // modify that also samples its own texel (glTextureBarrier)
+  bool keep = false;      // a write that stays attached even when nobody reads it
+  bool feedback = false;  // modify that also samples its own texel (glTextureBarrier)
 };
 
 struct FlatPass {
   std::uint32_t firstUse = 0, useCount = 0;
   Cadence cadence = Cadence::always;
   bool sideEffect = false;
-  std::uint16_t touches = 0;      // as PassType::touches
-  std::uint32_t group = kNone;    // passes of one group publish together
+  std::uint16_t touches = 0;    // as PassType::touches
+  std::uint32_t group = kNone;  // passes of one group publish together
   std::uint32_t slices = 1;
 };
 
@@ -66,45 +73,54 @@ struct SlotSpec {
   Access access = Access::read;
   Kind kind = Kind::sampled;
   Sampler sampler;
-  std::uint32_t firstUse = 0;     // into FlatGraph::uses
-  std::uint32_t useCount = 0;     // more than one: an array of samplers, elements in order
-  bool array = false;             // true when the resource was declared with "array", even of one element
+  std::uint32_t firstUse = 0;  // into FlatGraph::uses
+  std::uint32_t useCount = 0;  // more than one: an array of samplers, elements in order
+  bool array = false;          // true when the resource was declared with "array", even of one element
   bool optional = false;
   Place place;
 };
 
 struct UniformSpec {
   std::string name;
-  Value value;                    // with the parameters as they are; of one that contains age(): at age 0
-  Expr dynamic;                   // folded; what changes it without another plan is still in it: age() by FlatResource
-                                  // index, live parameters by index into FlatGraph::parameters. Absent: nothing does
-  std::string path;               // full name of the parameter behind it ("post.composite.vignette"), or empty
+  Value value;       // with the parameters as they are; of one that contains age(): at age 0
+  Expr dynamic;      // folded; what changes it without another plan is still in it: age() by FlatResource
+                     // index, live parameters by index into FlatGraph::parameters. Absent: nothing does
+  std::string path;  // full name of the parameter behind it ("post.composite.vignette"), or empty
   Place place;
-  bool define = false;            // dynamic, and no uniform but #define name 0 or 1: chooses the variant of a frame
+  bool define = false;  // dynamic, and no uniform but #define name 0 or 1: chooses the variant of a frame
 };
 
 struct DefineSpec {
-  std::string name, text;         // #define name text; a choice CURVE adds CURVE_<CHOICE> for all its choices
+  std::string name, text;  // #define name text; a choice CURVE adds CURVE_<CHOICE> for all its choices
 };
 
 enum class Blend : std::uint8_t { none, add, alpha, premultiplied, multiply, min, max };
-enum class Compare : std::uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
+enum class Compare : std::uint8_t {
+  never,
+  less,
+  equal,
+  less_equal,
+  greater,
+  not_equal,
+  greater_equal,
+  always
+};
 enum class Cull : std::uint8_t { none, front, back };
 
 struct StateSpec {
   std::vector<std::pair<std::string, Blend>> blend;  // per colour slot; absent slots do not blend
   bool depthTest = false;
   Compare depthCompare = Compare::always;
-  bool depthWrite = true;         // only with a writable depth attachment
+  bool depthWrite = true;  // only with a writable depth attachment
   Cull cull = Cull::none;
-  bool lines = false;             // polygon: line
+  bool lines = false;  // polygon: line
   bool scissor = false;
   double offsetFactor = 0, offsetUnits = 0;
 };
 
 struct PassSpec {
-  std::string name;               // full instance name: "bloom.glow_down[3]"
-  std::string declared;           // without the index: "bloom.glow_down"
+  std::string name;      // full instance name: "bloom.glow_down[3]"
+  std::string declared;  // without the index: "bloom.glow_down"
   std::string type, shader;
   Place place, shaderPlace;
   std::uint32_t firstSlot = 0, slotCount = 0;
@@ -112,38 +128,39 @@ struct PassSpec {
   std::vector<UniformSpec> uniforms;
   StateSpec state;
   std::uint32_t threads[3] = {1, 1, 1};
-  Place threadsPlace;             // of "threads", else of the pass
-  std::uint32_t instances = 1;    // of a draw without a list
-  std::string list;               // draw list or ""
+  Place threadsPlace;           // of "threads", else of the pass
+  std::uint32_t instances = 1;  // of a draw without a list
+  std::string list;             // draw list or ""
   std::string geometry;
   std::vector<double> geometryArguments;
-  std::uint32_t view = kNone;     // import index; kNone: the default camera
+  std::uint32_t view = kNone;  // import index; kNone: the default camera
   std::uint16_t viewLayer = 0, viewFace = 0;
 };
 
 struct ImportSpec {
   ImportRequest request;
   ImportKind kind = ImportKind::texture;
-  std::string name;               // resource name in the graph, or "@environment"
-  bool instances = false;         // as ImportType::instances
-  bool before = false;            // as ImportType::before
+  std::string name;                   // resource name in the graph, or "@environment"
+  bool instances = false;             // as ImportType::instances
+  bool before = false;                // as ImportType::before
   std::vector<std::string> standIns;  // names of own textures that a list of alternatives offers in its place
 };
 
 struct ParameterSpec {
   ParameterDesc desc;
-  std::string path;               // full name: "post.exposure", "post.composite.vignette"
-  Value value;                    // after --set
-  bool structural = false;        // a size, condition, define, repeat, state or import depends on it: a change makes
-                                  // another plan. Otherwise it is live: a change writes bytes of uniforms
+  std::string path;  // full name: "post.exposure", "post.composite.vignette"
+  Value value;       // after --set
+  bool structural =
+      false;  // a size, condition, define, repeat, state or import depends on it: a change makes
+              // another plan. Otherwise it is live: a change writes bytes of uniforms
 };
 
-struct HistorySpec {              // per FlatResource with history > 0
+struct HistorySpec {  // per FlatResource with history > 0
   std::uint32_t resource = 0;
   Value first;
-  std::vector<std::uint32_t> resetImports;     // imports whose change resets it ("@cut", camera)
-  std::vector<std::uint32_t> resetResources;   // resources whose new version resets it
-  std::vector<Value> resetValues;              // a change of any resets it
+  std::vector<std::uint32_t> resetImports;    // imports whose change resets it ("@cut", camera)
+  std::vector<std::uint32_t> resetResources;  // resources whose new version resets it
+  std::vector<Value> resetValues;             // a change of any resets it
 };
 
 struct ClearSpec {
@@ -153,30 +170,30 @@ struct ClearSpec {
 
 struct DisabledPass {
   std::string name;
-  std::string why;                // "--disable fxaa", "enabled: $bloom is false"
+  std::string why;  // "--disable fxaa", "enabled: $bloom is false"
 };
 
 struct FlatGraph {
   // the compiler's input
-  std::vector<FlatPass> passes;         // declared order
-  std::vector<FlatUse> uses;            // grouped by pass, in slot order
+  std::vector<FlatPass> passes;  // declared order
+  std::vector<FlatUse> uses;     // grouped by pass, in slot order
   std::vector<FlatResource> resources;
-  FlatUse present;                      // resource kNone: nothing is presented
-  std::vector<FlatUse> outputs;         // read-backs; keep nothing alive
+  FlatUse present;               // resource kNone: nothing is presented
+  std::vector<FlatUse> outputs;  // read-backs; keep nothing alive
   // names and places, parallel to passes and resources
   std::vector<std::string> passNames, resourceNames;
-  std::vector<Place> resourcePlaces;    // of their declarations; empty for neutral graphs
+  std::vector<Place> resourcePlaces;  // of their declarations; empty for neutral graphs
   // the executor's
-  std::vector<PassSpec> specs;          // parallel to passes, or empty for neutral graphs
+  std::vector<PassSpec> specs;  // parallel to passes, or empty for neutral graphs
   std::vector<SlotSpec> slots;
   std::vector<ImportSpec> imports;
   std::vector<ParameterSpec> parameters;
   std::vector<HistorySpec> histories;
-  std::vector<ClearSpec> clears;        // values of version zero
-  std::vector<std::string> outputNames; // parallel to outputs
+  std::vector<ClearSpec> clears;         // values of version zero
+  std::vector<std::string> outputNames;  // parallel to outputs
   std::vector<DisabledPass> disabled;
   std::vector<std::string> groupNames;
-  std::vector<std::string> files;       // to watch
+  std::vector<std::string> files;  // to watch
   std::string name;
   std::uint32_t screenWidth = 0, screenHeight = 0;
 };

@@ -1,16 +1,14 @@
 // Plan: what will happen in a frame. Immutable; equal inputs give equal plans, byte for byte.
-// compile() is linear in passes + uses and touches only the flat arrays of FlatGraph.
 // Does not: know GL enums (barrier bits are the graph's own), own GL objects, or read the clock.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "engine/graph/barrier_bit.h"
 #include "engine/graph/flat_graph.h"
+#include "engine/graph/language/barrier_bit.h"
 
 namespace weft::graph {
 
@@ -21,14 +19,15 @@ namespace weft::graph {
 // A history resource rotates (x becomes x@-1) at the start of every frame in which one of its writers runs; what a spread job
 // writes rotates when the job publishes.
 struct Step {
-  std::uint32_t pass = 0;                       // index into FlatGraph::passes
+  std::uint32_t pass = 0;  // index into FlatGraph::passes
   std::uint16_t barriers = 0;
   std::uint16_t barriersAfterClears = 0;
-  std::uint32_t firstClear = 0, clearCount = 0; // into Plan::clears: version zero of what this step touches first
+  std::uint32_t firstClear = 0,
+                clearCount = 0;  // into Plan::clears: version zero of what this step touches first
 };
 
 struct ClearOp {
-  FlatUse use;                                  // range to clear; kind copy, access write
+  FlatUse use;  // range to clear; kind copy, access write
   // The use of the pass that attaches exactly this range (an index into FlatGraph::uses): the clear goes through the
   // pass's framebuffer. kNone: it is a texture update.
   std::uint32_t attachment = kNone;
@@ -41,11 +40,11 @@ struct Storage {
   std::uint16_t layers = 1, mips = 1;
   std::uint32_t width = 1, height = 1, depth = 1;
   std::uint16_t viewClass = 0;
-  Format format = Format::none;                 // of its first resource; others are views
+  Format format = Format::none;  // of its first resource; others are views
   std::uint8_t copies = 1;
-  bool shared = false;                          // used by more than one resource
-  bool persistent = false;                      // history, or written by a pass that is not always
-  std::uint64_t bytes = 0;                      // of all copies
+  bool shared = false;      // used by more than one resource
+  bool persistent = false;  // history, or written by a pass that is not always
+  std::uint64_t bytes = 0;  // of all copies
 };
 
 // Passes that run all or none and publish together (compile_jobs.cpp says which). A job that is spread runs
@@ -62,34 +61,33 @@ struct Jobs {
     return ofResource.empty() ? kNone : ofResource[resource];
   }
 };
-// Of all passes that `isLive` accepts, through the writes that `isAttached` does. Linear but for a factor of
-// next to nothing.
-Jobs formJobs(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
-              const std::function<bool(std::uint32_t use)>& isAttached);
-
 enum class CullReason : std::uint8_t { live, no_reader };
 
 struct Plan {
   std::shared_ptr<const FlatGraph> graph;
-  std::vector<Step> steps;                      // execution order
+  std::vector<Step> steps;  // execution order
   std::vector<ClearOp> clears;
-  std::vector<std::uint32_t> stepOf;            // per pass: index into steps, kNone when culled
-  std::vector<std::uint8_t> attached;           // per use: 1 when the use is live (a dead output is not attached)
-  std::vector<std::uint8_t> outputLive;         // per output: 1 when its final version is made; 0: nothing to read back
-  std::vector<std::uint32_t> storageOf;         // per resource: index into storages, kNone for buffers, imports, dead
-  std::vector<std::uint64_t> bufferOffsetOf;    // per resource: offset in the transient arena; kNoOffset otherwise
+  std::vector<std::uint32_t> stepOf;   // per pass: index into steps, kNone when culled
+  std::vector<std::uint8_t> attached;  // per use: 1 when the use is live (a dead output is not attached)
+  std::vector<std::uint8_t>
+      outputLive;  // per output: 1 when its final version is made; 0: nothing to read back
+  std::vector<std::uint32_t>
+      storageOf;  // per resource: index into storages, kNone for buffers, imports, dead
+  std::vector<std::uint64_t>
+      bufferOffsetOf;  // per resource: offset in the transient arena; kNoOffset otherwise
   // Per resource: the steps that touch it first (write, clear) and last; steps.size() means present or read-back after
   // the last step; kNone when dead. A transient's storage holds nothing before firstStep: invalidate it there.
   std::vector<std::uint32_t> firstStep, lastStep;
-  std::vector<std::uint8_t> persistent;         // per resource: own storage kept across frames
+  std::vector<std::uint8_t> persistent;  // per resource: own storage kept across frames
   std::vector<Storage> storages;
   Jobs jobs;
-  std::uint64_t arenaBytes = 0;                 // transient buffers, packed by offset (alignment 256)
-  std::uint16_t finalBarriers = 0;              // before present blit and read-back of outputs
-  std::uint64_t bytesDeclared = 0;              // all transient and persistent resources of live passes, each with storage of its own
+  std::uint64_t arenaBytes = 0;     // transient buffers, packed by offset (alignment 256)
+  std::uint16_t finalBarriers = 0;  // before present blit and read-back of outputs
+  std::uint64_t bytesDeclared =
+      0;  // all transient and persistent resources of live passes, each with storage of its own
   std::uint64_t bytesAllocated = 0;
-  std::uint64_t bytesLowerBound = 0;            // sum over classes of the greatest number alive at once
-  std::uint64_t bytesBound = 0;                 // sum over steps of the bytes a pass touches
+  std::uint64_t bytesLowerBound = 0;  // sum over classes of the greatest number alive at once
+  std::uint64_t bytesBound = 0;       // sum over steps of the bytes a pass touches
   static constexpr std::uint64_t kNoOffset = ~0ull;
 
   // Physical copies of a resource: itself, its history, and the one a spread job is writing.
@@ -97,17 +95,5 @@ struct Plan {
     return graph->resources[resource].history + 1u + (jobs.spreadWriterOf(resource) != kNone ? 1u : 0u);
   }
 };
-
-struct CompileOptions {
-  bool share = true;                            // false: every resource its own storage (fuzz)
-  std::uint64_t orderSeed = 0;                  // not 0: a random legal order instead of the declared one (fuzz)
-};
-
-// The graph must be valid (expandGraph, or validateFlat for neutral graphs): every read has a version, a pass writes what
-// it presents (version zero alone is not enough), imports are not written. The order is the declared order of the live passes: it is always legal, because a use refers to the latest
-// version before it, and the person reads it in the file. The second form reuses the working memory of earlier calls.
-struct CompileScratch;  // compile_scratch.h
-Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});
-Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options, CompileScratch& scratch);
 
 }  // namespace weft::graph

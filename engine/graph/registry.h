@@ -8,28 +8,28 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/graph/barrier_bit.h"
 #include "engine/graph/desc.h"
-#include "engine/graph/format.h"
+#include "engine/graph/language/barrier_bit.h"
+#include "engine/graph/language/format.h"
 
 namespace weft::graph {
 
 enum class ShaderShape : std::uint8_t { none, fragment, compute, draw };
 
-struct FixedSlot {              // for pass types without a shader (blit, mipmap)
+struct FixedSlot {  // for pass types without a shader (blit, mipmap)
   std::string name;
   Access access = Access::read;
   std::string doc;
 };
 
 struct PassType {
-  std::string name;             // "fullscreen"
-  std::string doc;              // one paragraph
+  std::string name;  // "fullscreen"
+  std::string doc;   // one paragraph
   ShaderShape shader = ShaderShape::none;
   Kind defaultReadTexture = Kind::sampled;
-  Kind defaultWriteTexture = Kind::color;   // a depth format becomes Kind::depth when this is color
-  std::vector<std::string> keys;            // pass keys it takes besides those every pass takes: "threads", "list", …
-  std::vector<FixedSlot> fixedSlots;        // empty: slots are the author's
+  Kind defaultWriteTexture = Kind::color;  // a depth format becomes Kind::depth when this is color
+  std::vector<std::string> keys;  // pass keys it takes besides those every pass takes: "threads", "list", …
+  std::vector<FixedSlot> fixedSlots;  // empty: slots are the author's
   // Of types without a shader. `framebuffers`: its slots are bound as framebuffers, as a blit needs.
   // `fromSource`: the view of what it writes begins at the level it reads.
   bool framebuffers = false, fromSource = false;
@@ -42,13 +42,13 @@ enum class ImportKind : std::uint8_t { texture, buffer, view, list, event };
 
 struct ImportArgument {
   std::string name;
-  Value initial;                // default; type none means required
+  Value initial;  // default; type none means required
   std::vector<std::string> choices;
   std::string doc;
 };
 
 struct ImportType {
-  std::string name;             // "environment", "spheres", "camera", "cut"
+  std::string name;  // "environment", "spheres", "camera", "cut"
   ImportKind kind = ImportKind::texture;
   std::string doc;
   std::vector<ImportArgument> arguments;
@@ -59,18 +59,19 @@ struct ImportType {
 // An import with its arguments evaluated. Two requests with equal type and arguments are one import.
 struct ImportRequest {
   std::string type;
-  std::vector<std::pair<std::string, Value>> arguments;   // in the order of ImportType::arguments, defaults filled in
+  std::vector<std::pair<std::string, Value>>
+      arguments;  // in the order of ImportType::arguments, defaults filled in
   friend bool operator==(const ImportRequest&, const ImportRequest&) = default;
 };
 
 // What is known of an import before anything runs.
 struct ImportFacts {
-  bool exists = false;          // false: has() is 0, `?` slots lose it, alternatives skip it
-  bool fallback = false;        // the runtime has a stand-in that plain reads accept, as they accept a version zero
-  Format format = Format::none; // textures
+  bool exists = false;    // false: has() is 0, `?` slots lose it, alternatives skip it
+  bool fallback = false;  // the runtime has a stand-in that plain reads accept, as they accept a version zero
+  Format format = Format::none;  // textures
   std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
-  std::uint64_t bytes = 0;      // buffers; 0 when not yet known
-  double count = 0;             // count(x): rows of a list or buffer
+  std::uint64_t bytes = 0;                   // buffers; 0 when not yet known
+  double count = 0;                          // count(x): rows of a list or buffer
   std::vector<base::Diagnostic> problems{};  // reported with the import; an error makes it unusable
 };
 
@@ -78,7 +79,7 @@ struct ImportFacts {
 struct GeometryArgument {
   std::string name;
   int min = 0, max = 0;
-  int initial = 0;              // when it is left out
+  int initial = 0;  // when it is left out
 };
 
 struct GeometryType {
@@ -89,8 +90,8 @@ struct GeometryType {
 struct Registry {
   std::vector<PassType> passTypes;
   std::vector<ImportType> imports;
-  std::vector<std::string> drawLists;       // "spheres", "opaque", …
-  std::vector<GeometryType> geometries;     // "quad", "icosphere", "mesh", "triangle"
+  std::vector<std::string> drawLists;    // "spheres", "opaque", …
+  std::vector<GeometryType> geometries;  // "quad", "icosphere", "mesh", "triangle"
   std::function<ImportFacts(const ImportRequest&)> factsOf;
 };
 

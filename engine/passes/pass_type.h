@@ -14,8 +14,8 @@ namespace weft::passes {
 
 // A range of levels and layers of a texture, as bound for a pass type without a shader.
 struct BoundTexture {
-  GLuint name = 0;               // a view of exactly the levels and layers below, or the texture itself
-  GLuint framebuffer = 0;        // with level 0 of that range attached; 0 when the type does not blit
+  GLuint name = 0;         // a view of exactly the levels and layers below, or the texture itself
+  GLuint framebuffer = 0;  // with level 0 of that range attached; 0 when the type does not blit
   std::uint32_t width = 1, height = 1;
   GLbitfield planes = GL_COLOR_BUFFER_BIT;
 };
@@ -24,18 +24,18 @@ struct BoundTexture {
 struct Geometry {
   GLuint vertexArray = 0;
   GLenum mode = GL_TRIANGLES;
-  GLsizei count = 0;             // indices, or vertices when indexType is 0
+  GLsizei count = 0;  // indices, or vertices when indexType is 0
   GLenum indexType = 0;
 };
 
 struct PassContext {
   const graph::PassSpec* spec = nullptr;
-  std::uint32_t groupSize[3] = {1, 1, 1};    // compute: the program's local size
+  std::uint32_t groupSize[3] = {1, 1, 1};  // compute: the program's local size
   std::uint32_t maxGroups[3] = {65535, 65535, 65535};
-  BoundTexture source, destination;          // blit, mipmap
-  bool linear = false;                       // blit: filter of the source slot
+  BoundTexture source, destination;  // blit, mipmap
+  bool linear = false;               // blit: filter of the source slot
   Geometry geometry;
-  std::uint32_t instances = 0;               // draw
+  std::uint32_t instances = 0;  // draw
   // Slices [slice, slice + sliceCount) of `slices`. Rows of pixels are the executor's scissor; compute takes rows of groups.
   std::uint32_t slice = 0, sliceCount = 1, slices = 1;
 };

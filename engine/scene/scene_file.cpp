@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "engine/assets/material_library.h"
-#include "engine/base/text_file.h"
-#include "engine/base/json_fields.h"
+#include "engine/base/files/text_file.h"
+#include "engine/base/json/fields.h"
 #include "engine/base/nearest.h"
 
 namespace weft::scene {
@@ -49,7 +49,7 @@ class Reader {
     const auto root = base::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
     if (!root) return {};
     scene_.files.push_back(name_);
-    JsonFields fields(*root, "the scene", Code::W160, diagnostics_);
+    JsonFields fields(*root, "the scene", Code::badSceneValue, diagnostics_);
     scene_.name = fields.text("name").value_or(std::filesystem::path(name_).stem().string());
     if (const JsonValue* library = fields.find("library")) readLibrary(*library, "'library' of the scene");
     if (const JsonValue* materials = fields.object("materials"))
@@ -62,7 +62,7 @@ class Reader {
     const JsonValue* grid = fields.find("grid");
     if (grid) readGrid(*grid);
     if (!grid && !choice_.materials.empty())
-      fail(Code::W161, *root,
+      fail(Code::unknownMaterial, *root,
            fmt::format("there is no grid to give the materials of '{}' to", choice_.materials));
     if (const JsonValue* spheres = fields.array("spheres"))
       for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
@@ -106,16 +106,17 @@ class Reader {
   std::vector<MaterialId> readLibraryFile(const std::string& path, const JsonValue& value) {
     if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
     std::vector<MaterialId>& ids = libraries_[path];
-    const auto text = base::readTextFile(path, diagnostics_, Code::W1, value.place);
+    const auto text = base::readTextFile(path, diagnostics_, Code::unreadableFile, value.place);
     if (!text) return {};
     scene_.files.push_back(path);
     const auto library = assets::readMaterialLibrary(*text, path, diagnostics_);
     if (!library) return {};
     if (library->materials.empty())
-      fail(Code::W161, value, fmt::format("the material library '{}' is empty", path));
+      fail(Code::unknownMaterial, value, fmt::format("the material library '{}' is empty", path));
     for (const assets::MaterialPreset& preset : library->materials) {
       if (byName_.contains(preset.name)) {
-        fail(Code::W156, value, fmt::format("a second material '{}', from '{}'", preset.name, path));
+        fail(Code::duplicateMaterial, value,
+             fmt::format("a second material '{}', from '{}'", preset.name, path));
         continue;
       }
       ids.push_back(add({preset.name,
@@ -127,8 +128,8 @@ class Reader {
   }
 
   MaterialId addMaterial(const std::string& name, const JsonValue& value, const base::Place& place) {
-    JsonFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name), Code::W155,
-                      diagnostics_);
+    JsonFields fields(value, name.empty() ? "a material" : fmt::format("material '{}'", name),
+                      Code::badMaterialValue, diagnostics_);
     fields.require({"albedo"});
     Material material;
     material.name = name;
@@ -137,7 +138,7 @@ class Reader {
     material.roughness = static_cast<float>(fields.number("roughness", kUnit).value_or(0.5));
     fields.finish();
     if (byName_.contains(name)) {
-      diagnostics_.error(Code::W156, place, fmt::format("a second material '{}'", name)).hint =
+      diagnostics_.error(Code::duplicateMaterial, place, fmt::format("a second material '{}'", name)).hint =
           "rename it; the library has one of this name";
       return byName_[name];
     }
@@ -151,7 +152,7 @@ class Reader {
     if (const auto found = byName_.find(*name); found != byName_.end()) return found->second;
     std::vector<std::string> names;
     for (const auto& [known, id] : byName_) names.push_back(known);
-    fail(Code::W161, value, fmt::format("unknown material '{}'", *name)).hint =
+    fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name)).hint =
         names.empty() ? "name a \"library\", or define it under \"materials\""
                       : base::nearestHint(*name, names);
     return {};
@@ -167,14 +168,14 @@ class Reader {
       if (const auto list = findDrawList(*name))
         mask = static_cast<std::uint8_t>(mask | maskOf(*list));
       else
-        fail(Code::W162, item, fmt::format("unknown draw list '{}'", *name)).hint =
+        fail(Code::unknownSceneList, item, fmt::format("unknown draw list '{}'", *name)).hint =
             base::nearestHint(*name, drawListNames());
     }
     return mask;
   }
 
   void readGrid(const JsonValue& value) {
-    JsonFields fields(value, "the grid", Code::W160, diagnostics_);
+    JsonFields fields(value, "the grid", Code::badSceneValue, diagnostics_);
     fields.require({"count", "materials"});
     const auto count = fields.triple("count", kGridCount);
     const float spacing = static_cast<float>(fields.number("spacing", kSize).value_or(2.5));
@@ -190,7 +191,7 @@ class Reader {
     if (!choice_.materials.empty()) {
       ids = readLibraryFile(choice_.materials, value);
     } else if (materials && materials->is(JsonValue::Type::array)) {
-      if (materials->items.empty()) fail(Code::W161, *materials, "the grid names no material");
+      if (materials->items.empty()) fail(Code::unknownMaterial, *materials, "the grid names no material");
       for (const JsonValue& item : materials->items)
         ids.push_back(findMaterial(item, "a material of the grid"));
     } else if (materials) {
@@ -199,7 +200,7 @@ class Reader {
     if (!count || ids.empty()) return;
     const double total = (*count)[0] * (*count)[1] * (*count)[2];
     if (total > kMaxSpheres) {
-      base::Diagnostic& d = fail(Code::W160, *value.find("count"), "the grid has too many spheres");
+      base::Diagnostic& d = fail(Code::badSceneValue, *value.find("count"), "the grid has too many spheres");
       d.expected = fmt::format("at most {} in all", kMaxSpheres);
       d.found = fmt::format("{}", total);
       return;
@@ -223,7 +224,7 @@ class Reader {
 
   void readSphere(const JsonValue& value, std::size_t index) {
     const std::string what = fmt::format("sphere {}", index);
-    JsonFields fields(value, what, Code::W160, diagnostics_);
+    JsonFields fields(value, what, Code::badSceneValue, diagnostics_);
     fields.require({"center", "material"});
     Sphere sphere;
     sphere.center = toVec3(fields.triple("center", kWorld).value_or(std::array<double, 3>{}));
@@ -249,13 +250,13 @@ class Reader {
   void failCamera(const JsonValue& where) {
     std::vector<std::string> names;
     for (const Camera& camera : scene_.cameras.rows()) names.push_back(camera.name);
-    fail(Code::W160, where, fmt::format("the scene has no camera '{}'", choice_.camera)).hint =
+    fail(Code::badSceneValue, where, fmt::format("the scene has no camera '{}'", choice_.camera)).hint =
         names.empty() ? "name one under \"cameras\"" : base::nearestHint(choice_.camera, names);
   }
 
   void readCamera(const std::string& name, const JsonValue& value) {
     const std::string what = fmt::format("camera '{}'", name);
-    JsonFields fields(value, what, Code::W160, diagnostics_);
+    JsonFields fields(value, what, Code::badSceneValue, diagnostics_);
     Camera camera{.name = name};
     if (const auto position = fields.triple("position", kWorld)) camera.pose.position = toDvec3(*position);
     if (const auto target = fields.triple("target", kWorld)) camera.pose.target = toDvec3(*target);
@@ -267,7 +268,7 @@ class Reader {
     fields.finish();
     if (!path) checkDirection(value, what, camera.pose.position, camera.pose.target);
     if (path && camera.orbitDegreesPerSecond != 0)
-      fail(Code::W160, *path, fmt::format("{} has both 'path' and 'orbit'", what)).hint = "keep one";
+      fail(Code::badSceneValue, *path, fmt::format("{} has both 'path' and 'orbit'", what)).hint = "keep one";
     if (path) readPath(*path, what, camera);
     scene_.cameras.add(std::move(camera));
   }
@@ -275,15 +276,15 @@ class Reader {
   void checkDirection(const JsonValue& value, const std::string& what, glm::dvec3 position,
                       glm::dvec3 target) {
     if (glm::length(position - target) < 1e-6)
-      fail(Code::W160, value, fmt::format("{} stands on its target", what)).hint =
+      fail(Code::badSceneValue, value, fmt::format("{} stands on its target", what)).hint =
           "move 'position' or 'target'";
   }
 
   void readPath(const JsonValue& path, const std::string& what, Camera& camera) {
-    if (path.items.empty()) fail(Code::W160, path, fmt::format("the path of {} is empty", what));
+    if (path.items.empty()) fail(Code::badSceneValue, path, fmt::format("the path of {} is empty", what));
     for (std::size_t i = 0; i < path.items.size(); ++i) {
       const std::string keyName = fmt::format("key {} of {}", i, what);
-      JsonFields fields(path.items[i], keyName, Code::W160, diagnostics_);
+      JsonFields fields(path.items[i], keyName, Code::badSceneValue, diagnostics_);
       fields.require({"time", "position"});
       CameraKey key{.target = camera.pose.target, .fovDegrees = camera.pose.fovDegrees};
       key.time = fields.number("time", kWorld).value_or(0);
@@ -293,7 +294,8 @@ class Reader {
       fields.finish();
       checkDirection(path.items[i], keyName, key.position, key.target);
       if (!camera.path.empty() && key.time <= camera.path.back().time)
-        fail(Code::W160, path.items[i], fmt::format("{} is not later than the one before it", keyName));
+        fail(Code::badSceneValue, path.items[i],
+             fmt::format("{} is not later than the one before it", keyName));
       camera.path.push_back(key);
     }
     if (camera.path.empty()) return;
@@ -303,7 +305,7 @@ class Reader {
   }
 
   void readPointLight(const std::string& name, const JsonValue& value) {
-    JsonFields fields(value, fmt::format("point light '{}'", name), Code::W160, diagnostics_);
+    JsonFields fields(value, fmt::format("point light '{}'", name), Code::badSceneValue, diagnostics_);
     fields.require({"position", "intensity"});
     PointLight light;
     light.name = name;
@@ -316,14 +318,14 @@ class Reader {
   }
 
   void readSun(const JsonValue& value) {
-    JsonFields fields(value, "the sun", Code::W160, diagnostics_);
+    JsonFields fields(value, "the sun", Code::badSceneValue, diagnostics_);
     fields.require({"direction", "irradiance"});
     Sun sun;
     const auto direction = fields.triple("direction", kWorld);
     if (direction) {
       const double length = glm::length(toDvec3(*direction));
       if (length < 1e-6)
-        fail(Code::W160, *value.find("direction"), "the sun's direction has no length");
+        fail(Code::badSceneValue, *value.find("direction"), "the sun's direction has no length");
       else
         sun.direction = glm::vec3(toDvec3(*direction) / length);
     }

@@ -2,13 +2,13 @@
 //   weft_compare ACTUAL EXPECTED STEP FRACTION [DIFFERENCE.png]   exit 0 when at most FRACTION of the pixels have a channel
 //                                                                 that differs, and none by more than STEP (of 255)
 //   weft_compare --describe FILE                                  width, height, mean and standard deviation of the colours
+#include "engine/assets/compare.h"
+
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
-
-#include "engine/assets/compare.h"
 
 using namespace weft;
 
@@ -27,7 +27,8 @@ int describe(const std::string& path) {
     squares += double(x) * x;
   }
   const double count = static_cast<double>(image->texels.size());
-  std::printf("%d %d %.3f %.3f\n", image->width, image->height, sum / count, std::sqrt(squares / count - sum / count * sum / count));
+  std::printf("%d %d %.3f %.3f\n", image->width, image->height, sum / count,
+              std::sqrt(squares / count - sum / count * sum / count));
   return 0;
 }
 
@@ -50,12 +51,14 @@ int main(int argc, char** argv) {
     return 1;
   }
   const double share = static_cast<double>(found.differingPixels) / (double(actual->width) * actual->height);
-  std::printf("%zu pixels differ (%.4f %%), at most by %.0f, at %d,%d\n", found.differingPixels, share * 100, found.maxDifference,
-              found.worstX, found.worstY);
-  if (found.maxDifference <= std::atof(arguments[2].c_str()) && share <= std::atof(arguments[3].c_str())) return 0;
+  std::printf("%zu pixels differ (%.4f %%), at most by %.0f, at %d,%d\n", found.differingPixels, share * 100,
+              found.maxDifference, found.worstX, found.worstY);
+  if (found.maxDifference <= std::atof(arguments[2].c_str()) && share <= std::atof(arguments[3].c_str()))
+    return 0;
   if (arguments.size() > 4) {
     const assets::Image8 difference = assets::makeDifference(*actual, *expected);
-    assets::savePng8(arguments[4], difference.width, difference.height, difference.channels, difference.texels, diagnostics);
+    assets::savePng8(arguments[4], difference.width, difference.height, difference.channels,
+                     difference.texels, diagnostics);
   }
   return 1;
 }

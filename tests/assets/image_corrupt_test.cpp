@@ -8,7 +8,7 @@
 #include <random>
 
 #include "engine/assets/image.h"
-#include "engine/base/file.h"
+#include "engine/base/files/file.h"
 #include "tests/assets/temporary.h"
 
 using namespace weft;
@@ -85,17 +85,18 @@ std::vector<Sample> makeSamples(const TemporaryFolder& folder) {
 
 TEST_CASE("missing, directory, empty, unknown and foreign files") {
   const TemporaryFolder folder;
-  CHECK(failureOf(folder.at("missing.hdr")).code == base::Code::W150);
+  CHECK(failureOf(folder.at("missing.hdr")).code == base::Code::unreadableImage);
   std::filesystem::create_directory(folder.at("folder.hdr"));
   CHECK(failureOf(folder.at("folder.hdr")).message.find("directory") != std::string::npos);
   for (const char* name : {"empty.hdr", "empty.exr", "empty.png", "empty.jpg", "empty.tga"})
     CHECK(failureOf(folder.write(name, "")).message.find("empty") != std::string::npos);
   const base::Diagnostic unknown = failureOf(folder.write("a.webp", "RIFF"));
-  CHECK(unknown.code == base::Code::W151);
+  CHECK(unknown.code == base::Code::unknownImageKind);
   CHECK(unknown.found == ".webp");
-  CHECK(failureOf(folder.write("noextension", "x")).code == base::Code::W151);
+  CHECK(failureOf(folder.write("noextension", "x")).code == base::Code::unknownImageKind);
   for (const char* name : {"text.hdr", "text.exr", "text.png", "text.jpg", "text.tga"})
-    CHECK(failureOf(folder.write(name, "this is a text, and not a picture at all")).code == base::Code::W150);
+    CHECK(failureOf(folder.write(name, "this is a text, and not a picture at all")).code ==
+          base::Code::unreadableImage);
   CHECK(failureOf(folder.write("radiance.png", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd"))
             .message.find("Radiance") != std::string::npos);
 }
@@ -104,7 +105,7 @@ TEST_CASE("an 8-bit load of a float file says what it takes") {
   const TemporaryFolder folder;
   base::Diagnostics diagnostics;
   CHECK_FALSE(loadImage8(folder.write("a.exr", "x"), 3, diagnostics));
-  CHECK(diagnostics.contains(base::Code::W151));
+  CHECK(diagnostics.contains(base::Code::unknownImageKind));
 }
 
 TEST_CASE("the samples are sound, and each cut anywhere is refused") {
@@ -129,12 +130,13 @@ TEST_CASE("absurd sizes in a header are refused before anything is allocated") {
   const auto hdr = [](const char* size) {
     return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nabcd";
   };
-  CHECK(failureOf(folder.write("a.hdr", hdr("-Y 1000000000 +X 1000000000"))).code == base::Code::W152);
-  CHECK(failureOf(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == base::Code::W152);
-  CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == base::Code::W152);
-  CHECK(failureOf(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == base::Code::W150);
-  CHECK(failureOf(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == base::Code::W150);
-  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == base::Code::W152);
+  CHECK(failureOf(folder.write("a.hdr", hdr("-Y 1000000000 +X 1000000000"))).code ==
+        base::Code::badImageSize);
+  CHECK(failureOf(folder.write("b.hdr", hdr("-Y 30000 +X 30000"))).code == base::Code::badImageSize);
+  CHECK(failureOf(folder.write("c.hdr", hdr("-Y 0 +X 10"))).code == base::Code::badImageSize);
+  CHECK(failureOf(folder.write("d.hdr", hdr("-Y 16384 +X 8192"))).code == base::Code::unreadableImage);
+  CHECK(failureOf(folder.write("e.hdr", hdr("+X 4 -Y 4"))).code == base::Code::unreadableImage);
+  CHECK(failureOf(folder.write("f.hdr", hdr("-Y -4 +X -4"))).code == base::Code::badImageSize);
 }
 
 TEST_CASE(

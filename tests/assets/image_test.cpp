@@ -114,7 +114,7 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   CHECK(environment->texels[5] == kHalfMax);
   CHECK(environment->texels[6] == kHalfMax);
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::W153);
+  CHECK(diagnostics.items()[0].code == base::Code::texelsReplaced);
   CHECK(diagnostics.items()[0].message ==
         "5 of 24 colour values are no radiance and were replaced");  // 4x2 of RGB
   CHECK_FALSE(diagnostics.hasErrors());
@@ -129,7 +129,7 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   REQUIRE(saveExr(folder.at("sun.exr"), image, diagnostics));
   CHECK(loadEnvironment(folder.at("sun.exr"), diagnostics));
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::W153);
+  CHECK(diagnostics.items()[0].code == base::Code::texelsReplaced);
   CHECK(diagnostics.items()[0].severity == base::Severity::note);
 
   diagnostics.clear();
@@ -145,7 +145,7 @@ TEST_CASE("an output that cannot be written is W180") {
   CHECK_FALSE(saveExr("/no_such_folder/a.exr", makeRamp(1, 1, 3), diagnostics));
   CHECK_FALSE(saveHdr("/no_such_folder/a.hdr", makeRamp(1, 1, 3), diagnostics));
   CHECK(diagnostics.errorCount() == 3);
-  for (const base::Diagnostic& d : diagnostics.items()) CHECK(d.code == base::Code::W180);
+  for (const base::Diagnostic& d : diagnostics.items()) CHECK(d.code == base::Code::outputNotWritten);
 }
 
 TEST_CASE("the real environment loads clean") {

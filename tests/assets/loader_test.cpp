@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "engine/assets/half.h"
-#include "engine/base/file_access.h"
+#include "engine/base/files/file_access.h"
 #include "tests/assets/temporary.h"
 
 using namespace weft;

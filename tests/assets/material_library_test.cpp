@@ -115,18 +115,18 @@ TEST_CASE("every mistake is reported with its place") {
   const auto with = [](const char* rest) {
     return std::string("[\n  {\"name\": \"a\", \"metallic\": 0, \"roughness\": 0, ") + rest + "}\n]";
   };
-  CHECK(failureOf("[").code == base::Code::W2);
-  CHECK(failureOf("{}").code == base::Code::W3);
-  CHECK(failureOf("[3]").code == base::Code::W3);
+  CHECK(failureOf("[").code == base::Code::notJson);
+  CHECK(failureOf("{}").code == base::Code::wrongType);
+  CHECK(failureOf("[3]").code == base::Code::wrongType);
   const base::Diagnostic range = failureOf(with("\"albedo\": [0, 1.5, 0]"));
-  CHECK(range.code == base::Code::W155);
+  CHECK(range.code == base::Code::badMaterialValue);
   CHECK(range.place.line == 2);
   CHECK(range.place.column > 50);
   CHECK(range.pointer == "/0/albedo/1");
-  CHECK(failureOf(with("\"albedo\": [0, 1]")).code == base::Code::W3);
-  CHECK(failureOf(with("\"albedo\": [0, 1, \"x\"]")).code == base::Code::W3);
+  CHECK(failureOf(with("\"albedo\": [0, 1]")).code == base::Code::wrongType);
+  CHECK(failureOf(with("\"albedo\": [0, 1, \"x\"]")).code == base::Code::wrongType);
   const base::Diagnostic unknown = failureOf(with("\"albedo\": [0, 0, 0], \"sorce\": \"x\""));
-  CHECK(unknown.code == base::Code::W4);
+  CHECK(unknown.code == base::Code::unknownKey);
   CHECK(unknown.hint == "did you mean 'source'?");
 }
 
@@ -138,8 +138,8 @@ TEST_CASE("duplicate names are errors, and all problems come at once") {
   ])",
                                   "m.json", diagnostics));
   CHECK(diagnostics.errorCount() == 2);
-  CHECK(diagnostics.contains(base::Code::W155));
-  CHECK(diagnostics.contains(base::Code::W156));
+  CHECK(diagnostics.contains(base::Code::badMaterialValue));
+  CHECK(diagnostics.contains(base::Code::duplicateMaterial));
 }
 
 TEST_CASE("a library whose values are all out of range is not told value by value") {

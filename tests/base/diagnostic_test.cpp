@@ -10,7 +10,7 @@ static Place at(std::uint32_t line, std::uint32_t column) {
 
 TEST_CASE("a diagnostic prints place, code, message and its details") {
   Diagnostics all;
-  Diagnostic& d = all.error(Code::W40, at(12, 7), "pass 'fxaa' reads unknown resource 'ldrr'");
+  Diagnostic& d = all.error(Code::unknownResource, at(12, 7), "pass 'fxaa' reads unknown resource 'ldrr'");
   d.pass = "fxaa";
   d.hint = "did you mean 'ldr'?";
   CHECK(format(all.items()[0]) ==
@@ -18,28 +18,27 @@ TEST_CASE("a diagnostic prints place, code, message and its details") {
         "    pass: fxaa\n"
         "    fix: did you mean 'ldr'?");
   CHECK(all.hasErrors());
-  CHECK(all.contains(Code::W40));
+  CHECK(all.contains(Code::unknownResource));
 }
 
 TEST_CASE("a text longer than a screen is cut between two characters, and says so") {
   Diagnostics all;
-  Diagnostic& d = all.error(Code::W20, at(1, 1), "short");
+  Diagnostic& d = all.error(Code::badExpression, at(1, 1), "short");
   std::string words = "aaaa";
   for (int i = 0; i < 71; ++i) words += " aaaa";  // 359 bytes
   d.found = words;
   for (int i = 0; i < 100; ++i) d.found += "é";
   const std::string text = format(all.items()[0]);
-  CHECK(text ==
-        "a.json:1:1: error[W020]: short\n    found: " + words + "… (559 bytes in all)");
+  CHECK(text == "a.json:1:1: error[W020]: short\n    found: " + words + "… (559 bytes in all)");
 }
 
 TEST_CASE("warnings are no errors; sorting drops repeats and keeps the count right") {
   Diagnostics all;
-  all.warning(Code::W40, at(1, 1), "w");
+  all.warning(Code::unknownResource, at(1, 1), "w");
   CHECK_FALSE(all.hasErrors());
-  all.error(Code::W1, at(9, 1), "late");
-  all.error(Code::W1, at(2, 1), "early");
-  all.error(Code::W1, at(9, 1), "late");
+  all.error(Code::unreadableFile, at(9, 1), "late");
+  all.error(Code::unreadableFile, at(2, 1), "early");
+  all.error(Code::unreadableFile, at(9, 1), "late");
   all.sortByPlace();
   REQUIRE(all.size() == 3);
   CHECK(all.errorCount() == 2);

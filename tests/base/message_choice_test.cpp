@@ -24,20 +24,21 @@ struct LimitSet {
 
 TEST_CASE("up to the limit everything is told, in order") {
   Diagnostics all;
-  for (std::uint32_t i = 100; i > 0; --i) all.warning(Code::W90, at(i), "warning");
+  for (std::uint32_t i = 100; i > 0; --i) all.warning(Code::culledOverwritten, at(i), "warning");
   const Diagnostics chosen = chooseMessages(all);
   CHECK(chosen.size() == 100);
   CHECK(chosen.items().front().place.line == 1);
-  CHECK_FALSE(chosen.contains(Code::W208));
+  CHECK_FALSE(chosen.contains(Code::messagesLeftOut));
 }
 
 TEST_CASE("beyond it errors stay before warnings, from the first place on, and the rest is counted") {
   Diagnostics all;
   for (std::uint32_t i = 1; i <= 500; ++i) {
-    all.warning(Code::W90, at(2 * i), "warning");
-    all.error(Code::W4, at(2 * i + 1), "error");
+    all.warning(Code::culledOverwritten, at(2 * i), "warning");
+    all.error(Code::unknownKey, at(2 * i + 1), "error");
     if (i <= 7)
-      all.add({.severity = Severity::note, .code = Code::W40, .message = "note", .place = at(2 * i)});
+      all.add(
+          {.severity = Severity::note, .code = Code::unknownResource, .message = "note", .place = at(2 * i)});
   }
   const Diagnostics chosen = chooseMessages(all);
   REQUIRE(chosen.size() == 101);
@@ -45,7 +46,7 @@ TEST_CASE("beyond it errors stay before warnings, from the first place on, and t
   CHECK(chosen.items()[0].place.line == 3);
   CHECK(chosen.items()[99].place.line == 201);
   const Diagnostic& last = chosen.items().back();
-  CHECK(last.code == Code::W208);
+  CHECK(last.code == Code::messagesLeftOut);
   CHECK(last.severity == Severity::note);
   CHECK(last.message == "907 further messages are left out: 400 errors, 500 warnings, 7 notes");
   CHECK(last.hint == "correct these first, or raise it with --limit diagnostics=200, if that is meant");
@@ -65,10 +66,10 @@ TEST_CASE("names that were too many to be compared are told once") {
   for (int i = 0; i < 2000; ++i) names.push_back(fmt::format("{:0>100}{:0>100}", i * 7919, i * 104729));
   for (int i = 0; i < 2000; ++i) nearestHint(fmt::format("{:x>200}", i), names);
   Diagnostics all;
-  all.error(Code::W40, at(1), "unknown");
+  all.error(Code::unknownResource, at(1), "unknown");
   const Diagnostics chosen = chooseMessages(all);
   REQUIRE(chosen.size() == 2);
-  CHECK(chosen.items()[1].code == Code::W208);
+  CHECK(chosen.items()[1].code == Code::messagesLeftOut);
   CHECK(chosen.items()[1].message.find("unknown names are without a hint") != std::string::npos);
   CHECK(chooseMessages(all).size() == 1);
   CHECK(nearestName("scne", std::vector<std::string>{"scene"}) == "scene");  // a new budget

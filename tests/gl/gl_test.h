@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "engine/gl/context.h"
-#include "engine/gl/objects.h"
+#include "engine/gl/context/context.h"
+#include "engine/gl/objects/objects.h"
 
 namespace weft::gl::test {
 

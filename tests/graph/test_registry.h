@@ -120,7 +120,11 @@ inline Registry testRegistry(const World& world = {}) {
   registry.passTypes = testPassTypes();
   registry.imports = testImports();
   registry.drawLists = {"spheres", "opaque", "shadow_casters", "transparent_spheres", "ui"};
-  registry.geometries = {{"quad", {}}, {"icosphere", {{"subdivision", 0, 6, 2}}}, {"mesh", {}}, {"octagon", {}}, {"triangle", {}}};
+  registry.geometries = {{"quad", {}},
+                         {"icosphere", {{"subdivision", 0, 6, 2}}},
+                         {"mesh", {}},
+                         {"octagon", {}},
+                         {"triangle", {}}};
   registry.factsOf = [world](const ImportRequest& request) { return testFacts(world, request); };
   return registry;
 }

@@ -18,7 +18,8 @@ void* takeOrNull(std::size_t size, std::size_t alignment) noexcept {
     backtrace_symbols_fd(frames, backtrace(frames, 16), 2);
     counting = true;
   }
-  return alignment ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment) : std::malloc(size);
+  return alignment ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
+                   : std::malloc(size);
 }
 
 void* take(std::size_t size, std::size_t alignment) {
@@ -44,14 +45,28 @@ std::size_t stopCountingAllocations() {
 
 }  // namespace weft::runtime::test
 
-void* operator new(std::size_t size) { return take(size, 0); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return take(size, static_cast<std::size_t>(alignment)); }
+void* operator new(std::size_t size) {
+  return take(size, 0);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return take(size, static_cast<std::size_t>(alignment));
+}
 // The library's own nothrow forms would come from elsewhere under a sanitizer, and not match the delete below.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return takeOrNull(size, 0); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return takeOrNull(size, 0);
+}
 void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
   return takeOrNull(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}

@@ -28,11 +28,15 @@ void note(const std::string& key, const std::string& value) {
 }
 
 // One entry of glad's table: what it was, and a function that records how many leading arguments name the state.
-#define WEFT_RECORDED(X)                                                                                     \
-  X(UseProgram, 0) X(BindTextureUnit, 1) X(BindSampler, 1) X(BindImageTexture, 1) X(BindBufferBase, 2)       \
-  X(BindBufferRange, 2) X(BindVertexArray, 0) X(Viewport, 0) X(Scissor, 0) X(DepthFunc, 0) X(DepthMask, 0)   \
-  X(ColorMask, 0) X(StencilMask, 0) X(CullFace, 0) X(PolygonMode, 0) X(PolygonOffset, 0)                     \
-  X(BlendEquationi, 1) X(BlendFuncSeparatei, 1) X(BlendFunci, 1) X(BlendColor, 0)
+// (clang-format never settles on where the backslashes go.)
+// clang-format off
+#define WEFT_RECORDED(X)                                                                           \
+  X(UseProgram, 0) X(BindTextureUnit, 1) X(BindSampler, 1) X(BindImageTexture, 1)                  \
+  X(BindBufferBase, 2) X(BindBufferRange, 2) X(BindVertexArray, 0) X(Viewport, 0) X(Scissor, 0)    \
+  X(DepthFunc, 0) X(DepthMask, 0) X(ColorMask, 0) X(StencilMask, 0) X(CullFace, 0)                 \
+  X(PolygonMode, 0) X(PolygonOffset, 0) X(BlendEquationi, 1) X(BlendFuncSeparatei, 1)              \
+  X(BlendFunci, 1) X(BlendColor, 0)
+// clang-format on
 
 template <std::size_t keys, class... Arguments>
 void noteCall(const char* name, Arguments... arguments) {
@@ -49,7 +53,8 @@ void noteCall<2, GLenum, GLuint, GLuint>(const char*, GLenum target, GLuint inde
 }
 template <>
 void noteCall<2, GLenum, GLuint, GLuint, GLintptr, GLsizeiptr>(const char*, GLenum target, GLuint index,
-                                                              GLuint buffer, GLintptr offset, GLsizeiptr size) {
+                                                               GLuint buffer, GLintptr offset,
+                                                               GLsizeiptr size) {
   note(fmt::format("buffer {} {}", target, index), fmt::format("{} {} {}", buffer, offset, size));
 }
 
@@ -154,9 +159,17 @@ GlRecorder::~GlRecorder() {
   delete std::exchange(recording, nullptr);
 }
 
-void GlRecorder::start() { *recording = Recording{}; }
-const std::vector<GLbitfield>& GlRecorder::barriers() const { return recording->barriers; }
-const std::vector<std::string>& GlRecorder::redundant() const { return recording->redundant; }
-std::size_t GlRecorder::stateCalls() const { return recording->stateCalls; }
+void GlRecorder::start() {
+  *recording = Recording{};
+}
+const std::vector<GLbitfield>& GlRecorder::barriers() const {
+  return recording->barriers;
+}
+const std::vector<std::string>& GlRecorder::redundant() const {
+  return recording->redundant;
+}
+std::size_t GlRecorder::stateCalls() const {
+  return recording->stateCalls;
+}
 
 }  // namespace weft::runtime::test

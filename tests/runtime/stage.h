@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gl/context.h"
-#include "engine/runtime/renderer.h"
-#include "engine/runtime/world.h"
+#include "engine/gl/context/context.h"
+#include "engine/runtime/frame/renderer.h"
+#include "engine/runtime/imports/world.h"
 
 namespace weft::runtime::test {
 

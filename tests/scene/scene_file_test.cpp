@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/base/file.h"
+#include "engine/base/files/file.h"
 #include "tests/assets/temporary.h"
 
 using namespace weft;
@@ -171,53 +171,59 @@ TEST_CASE("an empty scene has the default camera and its file's name") {
 
 TEST_CASE("every mistake has its code and place") {
   using base::Code;
-  CHECK(failureOf("").code == Code::W2);
-  CHECK(failureOf("[]").code == Code::W3);
+  CHECK(failureOf("").code == Code::notJson);
+  CHECK(failureOf("[]").code == Code::wrongType);
   const base::Diagnostic key = failureOf("{\n  \"sphere\": []\n}");
-  CHECK(key.code == Code::W4);
+  CHECK(key.code == Code::unknownKey);
   CHECK(key.place.line == 2);
   CHECK(key.place.column == 3);
   CHECK(key.hint == "did you mean 'spheres'?");
   CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fovv": 3}}})").hint == "did you mean 'fov'?");
-  CHECK(failureOf(R"({"cameras": {"a": {}}})").code == Code::W5);
+  CHECK(failureOf(R"({"cameras": {"a": {}}})").code == Code::missingKey);
   CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 0]}}})").message.find("target") !=
         std::string::npos);
-  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fov": 180}}})").code == Code::W160);
-  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "near": 0}}})").code == Code::W160);
-  CHECK(failureOf(R"({"cameras": {"a": {"path": []}}})").code == Code::W160);
+  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fov": 180}}})").code == Code::badSceneValue);
+  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "near": 0}}})").code == Code::badSceneValue);
+  CHECK(failureOf(R"({"cameras": {"a": {"path": []}}})").code == Code::badSceneValue);
   CHECK(failureOf(R"({"cameras": {"a": {"orbit": 1, "path": [{"time": 0, "position": [0, 0, 1]}]}}})").code ==
-        Code::W160);
+        Code::badSceneValue);
   CHECK(
       failureOf(
           R"({"cameras": {"a": {"path": [{"time": 1, "position": [0, 0, 1]}, {"time": 1, "position": [0, 0, 2]}]}}})")
-          .code == Code::W160);
-  CHECK(failureOf(R"({"materials": {"a": {"albedo": [0, 0, 2]}}})").code == Code::W155);
-  CHECK(failureOf(R"({"grid": {"count": [1, 1, 1], "materials": "nowhere.json"}})").code == Code::W1);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1]})")).code == Code::W5);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [0, 1, 1], "materials": ["a"]})")).code == Code::W160);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1.5, 1, 1], "materials": ["a"]})")).code == Code::W160);
+          .code == Code::badSceneValue);
+  CHECK(failureOf(R"({"materials": {"a": {"albedo": [0, 0, 2]}}})").code == Code::badMaterialValue);
+  CHECK(failureOf(R"({"grid": {"count": [1, 1, 1], "materials": "nowhere.json"}})").code ==
+        Code::unreadableFile);
+  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1]})")).code == Code::missingKey);
+  CHECK(failureOf(withMaterials(R"("grid": {"count": [0, 1, 1], "materials": ["a"]})")).code ==
+        Code::badSceneValue);
+  CHECK(failureOf(withMaterials(R"("grid": {"count": [1.5, 1, 1], "materials": ["a"]})")).code ==
+        Code::badSceneValue);
   CHECK(failureOf(withMaterials(R"("grid": {"count": [60000, 60000, 60000], "materials": ["a"]})")).code ==
-        Code::W160);
+        Code::badSceneValue);
   CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "radius": -1, "materials": ["a"]})")).code ==
-        Code::W160);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": []})")).code == Code::W161);
+        Code::badSceneValue);
+  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": []})")).code ==
+        Code::unknownMaterial);
   const base::Diagnostic material =
       failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": ["c"]})"));
-  CHECK(material.code == Code::W161);
+  CHECK(material.code == Code::unknownMaterial);
   CHECK(material.hint.find("a, b") != std::string::npos);
-  CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": "gold"}]})").code == Code::W161);
-  CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": 3}]})").code == Code::W3);
-  CHECK(failureOf(R"({"spheres": [3]})").code == Code::W3);
+  CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": "gold"}]})").code ==
+        Code::unknownMaterial);
+  CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": 3}]})").code == Code::wrongType);
+  CHECK(failureOf(R"({"spheres": [3]})").code == Code::wrongType);
   const base::Diagnostic list = failureOf(
       R"({"spheres": [{"center": [0, 0, 0], "material": {"albedo": [1, 1, 1]}, "lists": ["sphere"]}]})");
-  CHECK(list.code == Code::W162);
+  CHECK(list.code == Code::unknownSceneList);
   CHECK(list.hint == "did you mean 'spheres'?");
   CHECK(failureOf(R"({"point_lights": {"a": {"position": [0, 0, 0], "intensity": [-1, 0, 0]}}})").code ==
-        Code::W160);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 0, 0], "irradiance": [1, 1, 1]}})").code == Code::W160);
-  CHECK(failureOf(R"({"sun": 3})").code == Code::W3);
+        Code::badSceneValue);
+  CHECK(failureOf(R"({"sun": {"direction": [0, 0, 0], "irradiance": [1, 1, 1]}})").code ==
+        Code::badSceneValue);
+  CHECK(failureOf(R"({"sun": 3})").code == Code::wrongType);
   CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "direction": [0, 1, 0], "irradiance": [1, 1, 1]}})")
-            .code == Code::W6);
+            .code == Code::duplicateKey);
 }
 
 TEST_CASE("a name in both the library and the scene, a broken library, a missing scene, a directory") {
@@ -228,7 +234,7 @@ TEST_CASE("a name in both the library and the scene, a broken library, a missing
   CHECK_FALSE(
       loadScene(folder.write("a.json", R"({"library": "m.json", "materials": {"x": {"albedo": [0, 0, 0]}}})"),
                 diagnostics));
-  CHECK(diagnostics.contains(base::Code::W156));
+  CHECK(diagnostics.contains(base::Code::duplicateMaterial));
   diagnostics.clear();
   std::vector<std::string> files;
   CHECK_FALSE(loadScene(folder.write("b.json", R"({"library": "broken.json"})"), diagnostics, &files));
@@ -262,16 +268,16 @@ TEST_CASE("a camera and a material library chosen from outside the file") {
 
   CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.camera = "tpo"}));
   REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::W160);
+  CHECK(diagnostics.items()[0].code == base::Code::badSceneValue);
   CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");
   diagnostics.clear();
   CHECK_FALSE(
       loadScene(folder.write("e.json", "{}"), diagnostics, nullptr, {.camera = "c", .materials = library}));
-  CHECK(diagnostics.contains(base::Code::W160));
-  CHECK(diagnostics.contains(base::Code::W161));
+  CHECK(diagnostics.contains(base::Code::badSceneValue));
+  CHECK(diagnostics.contains(base::Code::unknownMaterial));
   diagnostics.clear();
   CHECK_FALSE(loadScene(path, diagnostics, nullptr, {.materials = folder.at("missing.json")}));
-  CHECK(diagnostics.contains(base::Code::W1));
+  CHECK(diagnostics.contains(base::Code::unreadableFile));
 }
 
 TEST_CASE("everything wrong is reported at once") {

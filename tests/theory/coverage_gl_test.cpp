@@ -16,7 +16,7 @@ constexpr std::uint32_t kWidth = 480, kHeight = 360;
 
 struct Sum {
   double alpha = 0;
-  double border = 0;     // alpha on the picture's rim
+  double border = 0;  // alpha on the picture's rim
   bool finite = true;
 };
 
@@ -33,7 +33,8 @@ Sum sumOf(const Picture& picture) {
 }
 
 Setup scene(std::vector<Ball> balls, double fov) {
-  Setup setup{.graph = "tests/theory/coverage.json", .width = kWidth, .height = kHeight, .balls = std::move(balls)};
+  Setup setup{
+      .graph = "tests/theory/coverage.json", .width = kWidth, .height = kHeight, .balls = std::move(balls)};
   setup.camera = {.position = {0, 0, 0}, .target = {0, 0, -1}, .fovDegrees = fov, .nearPlane = 0.1};
   return setup;
 }
@@ -45,9 +46,10 @@ TEST_CASE("coverage: alpha sums to the projected area within 0.2 %") {
     double x, y, z, radius, fov;
   };
   // Centred, towards the corners (strongly stretched), close, and down to a few pixels.
-  const Case cases[] = {{0, 0, 20, 1, 60},        {0.013, 0.02, 20, 1, 60}, {9, 6, 20, 1, 60},   {6, -5, 14, 1, 60},
-                        {0.1, 0.2, 1.8, 1, 90},   {2.5, 1.2, 3.5, 1, 100},  {5, -3.9, 5.2, 0.7, 120}, {0.31, 0.7, 60, 1, 60},
-                        {-11.3, 7.1, 100, 1, 60}, {100, 50, 2000, 40, 60}};
+  const Case cases[] = {{0, 0, 20, 1, 60},        {0.013, 0.02, 20, 1, 60}, {9, 6, 20, 1, 60},
+                        {6, -5, 14, 1, 60},       {0.1, 0.2, 1.8, 1, 90},   {2.5, 1.2, 3.5, 1, 100},
+                        {5, -3.9, 5.2, 0.7, 120}, {0.31, 0.7, 60, 1, 60},   {-11.3, 7.1, 100, 1, 60},
+                        {100, 50, 2000, 40, 60}};
   double worst = 0;
   for (const Case& c : cases) {
     const Ball ball{.center = {c.x, c.y, -c.z}, .radius = static_cast<float>(c.radius)};
@@ -109,7 +111,8 @@ TEST_CASE("coverage: two spheres side by side, each with its own area") {
   Lab lab(scene({left, right}, 60));
   lab.frame();
   const double f = kHeight / 2.0 / std::tan(std::numbers::pi / 6);
-  const double area = projectedSphereArea(f, 1, std::sqrt(9.0 + 144), 12) + projectedSphereArea(f, 1.5, std::sqrt(9.0 + 1 + 225), 15);
+  const double area = projectedSphereArea(f, 1, std::sqrt(9.0 + 144), 12) +
+                      projectedSphereArea(f, 1.5, std::sqrt(9.0 + 1 + 225), 15);
   CHECK(sumOf(lab.read("hdr")).alpha == doctest::Approx(area).epsilon(0.002));
 }
 
@@ -123,12 +126,13 @@ TEST_CASE("coverage: the eye inside, the sphere behind, across the eye's plane, 
     CHECK(lab.complaints() == "");
     return sum.alpha;
   };
-  CHECK(alphaOf({.center = {0.2, 0.1, 0.3}, .radius = 2}) == whole);         // inside: its inner surface everywhere
-  CHECK(alphaOf({.center = {0, 0, 5}, .radius = 2}) == 0);                   // behind
-  CHECK(alphaOf({.center = {0, 0, -0.02}, .radius = 0.05f}) == 0);           // wholly before the near plane
-  CHECK(alphaOf({.center = {0, 0, -5}, .radius = 0}) == 0);                  // no extent
-  CHECK(alphaOf({.center = {300, 0, -5}, .radius = 2}) == 0);                // outside the frame
-  CHECK(alphaOf({.center = {0, 0, -1.05f}, .radius = 1}) == whole);          // near hit before the near plane: inside seen
+  CHECK(alphaOf({.center = {0.2, 0.1, 0.3}, .radius = 2}) == whole);  // inside: its inner surface everywhere
+  CHECK(alphaOf({.center = {0, 0, 5}, .radius = 2}) == 0);            // behind
+  CHECK(alphaOf({.center = {0, 0, -0.02}, .radius = 0.05f}) == 0);    // wholly before the near plane
+  CHECK(alphaOf({.center = {0, 0, -5}, .radius = 0}) == 0);           // no extent
+  CHECK(alphaOf({.center = {300, 0, -5}, .radius = 2}) == 0);         // outside the frame
+  CHECK(alphaOf({.center = {0, 0, -1.05f}, .radius = 1}) ==
+        whole);  // near hit before the near plane: inside seen
 
   // Beside the eye and across its plane: the silhouette is a hyperbola. Covered is what lies right of a curve: between
   // nothing and half of the picture, and symmetric about the horizontal.

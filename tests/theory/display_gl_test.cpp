@@ -49,7 +49,9 @@ Levels levelsOf(float radiance, std::vector<weft::graph::Setting> sets, const ch
 
 }  // namespace
 
-TEST_CASE("display: the filmic curve and sRGB, in the mean within a tenth of a step, no pixel off by more than one") {
+TEST_CASE(
+    "display: the filmic curve and sRGB, in the mean within a tenth of a step, no pixel off by more than "
+    "one") {
   for (const float radiance : {0.02f, 0.18f, 1.0f, 4.0f}) {
     const Levels levels = levelsOf(radiance, {{"bloom", "false"}});
     const double truth = 255 * encode(filmic(radiance));

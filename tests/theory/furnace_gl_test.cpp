@@ -39,7 +39,8 @@ struct Hit {
 
 Hit hitAt(const Setup& setup, std::uint32_t x, std::uint32_t y) {
   const double slope = std::tan(kFov * std::numbers::pi / 360), aspect = double(setup.width) / setup.height;
-  const Vec3 ray{((x + 0.5) / setup.width * 2 - 1) * slope * aspect, ((y + 0.5) / setup.height * 2 - 1) * slope, -1};
+  const Vec3 ray{((x + 0.5) / setup.width * 2 - 1) * slope * aspect,
+                 ((y + 0.5) / setup.height * 2 - 1) * slope, -1};
   for (std::size_t i = 0; i < setup.balls.size(); ++i) {
     const Vec3 to{setup.balls[i].center.x, 0, -kDistance};
     const double along = dot(to, ray), root2 = along * along - dot(ray, ray) * (dot(to, to) - 1);
@@ -87,7 +88,8 @@ void checkInvisible(const Setup& setup) {
 }  // namespace
 
 TEST_CASE("white furnace: compensated metals give 1 within 0.3 % from roughness 0 to 1") {
-  checkInvisible(row({0.0f, 0.03f, 0.1f, 0.2f, 0.25f, 0.37f, 0.5f, 0.61f, 0.75f, 0.9f, 0.97f, 1.0f}, 1, true));
+  checkInvisible(
+      row({0.0f, 0.03f, 0.1f, 0.2f, 0.25f, 0.37f, 0.5f, 0.61f, 0.75f, 0.9f, 0.97f, 1.0f}, 1, true));
 }
 
 TEST_CASE("white furnace: compensated dielectrics neither lose nor gain") {

@@ -22,11 +22,15 @@ gl::Context& sharedContext() {
 
 scene::Scene sceneOf(const Setup& setup) {
   scene::Scene scene;
-  scene.cameras.add({.name = "camera", .pose = setup.camera, .orbitDegreesPerSecond = setup.orbitDegreesPerSecond, .path = {}});
+  scene.cameras.add({.name = "camera",
+                     .pose = setup.camera,
+                     .orbitDegreesPerSecond = setup.orbitDegreesPerSecond,
+                     .path = {}});
   for (const Ball& ball : setup.balls) {
     const auto material = scene.materials.add(
         {.name = "", .albedo = ball.albedo, .metallic = ball.metallic, .roughness = ball.roughness});
-    scene.spheres.add({.center = ball.center, .radius = ball.radius, .velocity = ball.velocity, .material = material});
+    scene.spheres.add(
+        {.center = ball.center, .radius = ball.radius, .velocity = ball.velocity, .material = material});
   }
   return scene;
 }
@@ -38,7 +42,8 @@ std::shared_ptr<const assets::ImageF> constantEnvironment(float r, float g, floa
   image->width = 256;
   image->height = 128;
   image->channels = 4;
-  for (int i = 0; i < image->width * image->height; ++i) image->texels.insert(image->texels.end(), {r, g, b, 1.0f});
+  for (int i = 0; i < image->width * image->height; ++i)
+    image->texels.insert(image->texels.end(), {r, g, b, 1.0f});
   return image;
 }
 
@@ -71,7 +76,8 @@ Picture Lab::read(const std::string& resource, std::uint32_t mip, std::uint32_t 
   INFO(resource);
   REQUIRE(texture.id != 0);
   const gl::Extent extent = gl::extentOf(texture.desc, mip);
-  return {extent.width, extent.height, gl::floatChannelsOf(texture.desc.format), gl::readFloats(texture, mip, layer)};
+  return {extent.width, extent.height, gl::floatChannelsOf(texture.desc.format),
+          gl::readFloats(texture, mip, layer)};
 }
 
 std::vector<std::uint32_t> Lab::readBuffer(const std::string& resource, std::size_t words) {
@@ -98,7 +104,8 @@ std::string Lab::complaints() {
 }
 
 scene::ViewData Lab::view() const {
-  return scene::makeView({.pose = setup_.camera, .previousPose = setup_.camera, .viewport = {setup_.width, setup_.height}});
+  return scene::makeView(
+      {.pose = setup_.camera, .previousPose = setup_.camera, .viewport = {setup_.width, setup_.height}});
 }
 
 scene::ViewData Lab::viewAt(std::uint32_t number) const {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gl/context.h"
-#include "engine/runtime/renderer.h"
-#include "engine/runtime/world.h"
+#include "engine/gl/context/context.h"
+#include "engine/runtime/frame/renderer.h"
+#include "engine/runtime/imports/world.h"
 
 namespace weft::theory {
 
@@ -19,32 +19,35 @@ struct Ball {
   float radius = 1;
   glm::vec3 albedo{1};
   float metallic = 1, roughness = 0.5f;
-  glm::vec3 velocity{0};                                       // units per second
+  glm::vec3 velocity{0};  // units per second
 };
 
 struct Setup {
-  std::string graph;                                           // relative to the source folder
+  std::string graph;  // relative to the source folder
   std::uint32_t width = 64, height = 64;
   std::vector<weft::graph::Setting> sets;
   std::vector<weft::graph::Disable> disables;
   std::vector<Ball> balls;
   scene::CameraPose camera{.position = {0, 0, 20}, .target = {0, 0, 0}, .fovDegrees = 60, .nearPlane = 0.1};
-  double orbitDegreesPerSecond = 0;                            // of the camera about its target
-  std::shared_ptr<const assets::ImageF> environment;           // null: a white one
+  double orbitDegreesPerSecond = 0;                   // of the camera about its target
+  std::shared_ptr<const assets::ImageF> environment;  // null: a white one
 };
 
 std::shared_ptr<const assets::ImageF> constantEnvironment(float r, float g, float b);
 
 struct Picture {
   std::uint32_t width = 0, height = 0, channels = 4;
-  std::vector<float> texels;                                   // row 0 first, as stored
-  const float* at(std::uint32_t x, std::uint32_t y) const { return &texels[(std::size_t{y} * width + x) * channels]; }
+  std::vector<float> texels;  // row 0 first, as stored
+  const float* at(std::uint32_t x, std::uint32_t y) const {
+    return &texels[(std::size_t{y} * width + x) * channels];
+  }
 };
 
 class Lab {
  public:
   explicit Lab(const Setup& setup);
-  void frame(std::uint32_t number = 0, bool headless = true);  // not headless: work in slices takes its frames
+  void frame(std::uint32_t number = 0,
+             bool headless = true);  // not headless: work in slices takes its frames
   Picture read(const std::string& resource, std::uint32_t mip = 0, std::uint32_t layer = 0);
   std::vector<std::uint32_t> readBuffer(const std::string& resource, std::size_t words);
   std::string passNames() const;  // of what runs, in order, a line each

@@ -46,7 +46,8 @@ TEST_CASE("irradiance: within 0.5 % of its greatest value") {
   double worst = 0;
   for (std::uint32_t y = 1; y < map.height; y += 7)
     for (std::uint32_t x = 0; x < map.width; x += 9) {
-      const Vec3 normal = equirectDirection(static_cast<int>(x), static_cast<int>(y), static_cast<int>(map.width), static_cast<int>(map.height));
+      const Vec3 normal = equirectDirection(static_cast<int>(x), static_cast<int>(y),
+                                            static_cast<int>(map.width), static_cast<int>(map.height));
       worst = std::max(worst, std::abs(map.at(x, y)[0] - lobeIrradiance(normal, kLobe, kPower, 150)));
     }
   MESSAGE("worst error, relative to the peak: ", worst / peak);
@@ -54,7 +55,8 @@ TEST_CASE("irradiance: within 0.5 % of its greatest value") {
   CHECK(lab.complaints() == "");
 }
 
-TEST_CASE("prefilter: each level matches its roughness within 2.5 % of the lobe's peak, and the mirror is a copy") {
+TEST_CASE(
+    "prefilter: each level matches its roughness within 2.5 % of the lobe's peak, and the mirror is a copy") {
   Lab lab(lit());
   lab.frame();
   for (std::uint32_t level = 0; level < 5; ++level) {
@@ -62,7 +64,8 @@ TEST_CASE("prefilter: each level matches its roughness within 2.5 % of the lobe'
     double worst = 0;
     for (std::uint32_t y = 2; y < map.height; y += map.height / 16)
       for (std::uint32_t x = 1; x < map.width; x += map.width / 16) {
-        const Vec3 normal = equirectDirection(static_cast<int>(x), static_cast<int>(y), static_cast<int>(map.width), static_cast<int>(map.height));
+        const Vec3 normal = equirectDirection(static_cast<int>(x), static_cast<int>(y),
+                                              static_cast<int>(map.width), static_cast<int>(map.height));
         const double truth = level == 0 ? std::pow(std::max(0.0, dot(normal, kLobe)), kPower)
                                         : lobeReflection(normal, kLobe, kPower, level / 4.0, 120);
         worst = std::max(worst, std::abs(map.at(x, y)[0] - truth));
@@ -82,7 +85,8 @@ TEST_CASE("no seam: the first and the last column of every map continue each oth
       // The step across the seam is no larger than its neighbours' steps, give or take rounding.
       const auto value = [&](std::uint32_t x) { return map.at(x % map.width, y)[0]; };
       const float across = std::abs(value(map.width) - value(map.width - 1));
-      const float beside = std::max(std::abs(value(map.width - 1) - value(map.width - 2)), std::abs(value(1) - value(0)));
+      const float beside =
+          std::max(std::abs(value(map.width - 1) - value(map.width - 2)), std::abs(value(1) - value(0)));
       CAPTURE(y);
       CHECK(across <= 1.5f * beside + 0.002f);
     }

@@ -8,8 +8,8 @@
 #include <functional>
 #include <string>
 
-#include "engine/graph/expand.h"
-#include "engine/graph/read.h"
+#include "engine/graph/expand/expand.h"
+#include "engine/graph/read/read.h"
 #include "engine/passes/pass_registry.h"
 #include "tests/assets/temporary.h"
 #include "tests/theory/lab.h"

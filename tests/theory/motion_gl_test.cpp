@@ -15,14 +15,20 @@ constexpr std::uint32_t kWidth = 240, kHeight = 160;
 
 struct Panels {
   Picture all;
-  const float* at(std::uint32_t panel, std::uint32_t x, std::uint32_t y) const { return all.at(panel * kWidth + x, y); }
+  const float* at(std::uint32_t panel, std::uint32_t x, std::uint32_t y) const {
+    return all.at(panel * kWidth + x, y);
+  }
   const float* before(std::uint32_t x, std::uint32_t y) const { return at(0, x, y); }
   const float* after(std::uint32_t x, std::uint32_t y) const { return at(1, x, y); }
   const float* velocity(std::uint32_t x, std::uint32_t y) const { return at(2, x, y); }
 };
 
 Setup scene(std::vector<Ball> balls) {
-  return {.graph = "tests/theory/lens.json", .width = kWidth, .height = kHeight, .sets = {{"motion_blur", "true"}}, .balls = std::move(balls)};
+  return {.graph = "tests/theory/lens.json",
+          .width = kWidth,
+          .height = kHeight,
+          .sets = {{"motion_blur", "true"}},
+          .balls = std::move(balls)};
 }
 
 Panels panelsOf(const Setup& setup) {
@@ -75,7 +81,9 @@ TEST_CASE("motion blur of a frame in which nothing moves is the identity, bit fo
   CHECK(panels.before(kWidth / 2, kHeight / 2)[1] < 0.5);
 }
 
-TEST_CASE("motion blur: a moving sphere smears along its motion, past its silhouette, and keeps the light within 1 %") {
+TEST_CASE(
+    "motion blur: a moving sphere smears along its motion, past its silhouette, and keeps the light within 1 "
+    "%") {
   for (const bool upwards : {false, true}) {
     Setup setup = scene({kGrey});
     const float speed = speedOf(24);
@@ -84,8 +92,8 @@ TEST_CASE("motion blur: a moving sphere smears along its motion, past its silhou
     const Panels panels = panelsOf(setup);
     const Dark sharp = darkOf(panels, 0), blurred = darkOf(panels, 1);
     CAPTURE(upwards);
-    MESSAGE("light kept: ", blurred.mass / sharp.mass, ", of the whole picture: ",
-            (kWidth * kHeight - blurred.mass) / (kWidth * kHeight - sharp.mass));
+    MESSAGE("light kept: ", blurred.mass / sharp.mass,
+            ", of the whole picture: ", (kWidth * kHeight - blurred.mass) / (kWidth * kHeight - sharp.mass));
     CHECK(blurred.mass == doctest::Approx(sharp.mass).epsilon(0.01));
     // It stays where it is, and the variance along the motion grows by that of a box 24 pixels wide.
     CHECK(blurred.x / blurred.mass == doctest::Approx(sharp.x / sharp.mass).epsilon(0.005));
@@ -97,7 +105,8 @@ TEST_CASE("motion blur: a moving sphere smears along its motion, past its silhou
   }
 }
 
-TEST_CASE("motion blur reaches 15 pixels whatever the tiles, and no pixel is missed beside one that is reached") {
+TEST_CASE(
+    "motion blur reaches 15 pixels whatever the tiles, and no pixel is missed beside one that is reached") {
   // Five positions, so that the silhouette falls differently into the tiles. Along the row through the centre darkness
   // falls off towards both ends; a tile that was missed would cut it off at a multiple of 16.
   for (int step = 0; step < 5; ++step) {
@@ -111,7 +120,8 @@ TEST_CASE("motion blur reaches 15 pixels whatever the tiles, and no pixel is mis
     REQUIRE(edge > 20);
     CAPTURE(edge);
     for (std::uint32_t out = 1; out < 13; ++out) {
-      const double expected = 0.8 * (15.0 - out) / 30;  // share of the shutter in which the sphere covers this pixel
+      const double expected =
+          0.8 * (15.0 - out) / 30;  // share of the shutter in which the sphere covers this pixel
       CHECK(std::abs(1 - panels.after(edge - out, kHeight / 2)[1] - expected) < 0.05);
     }
     CHECK(panels.after(edge - 18, kHeight / 2)[1] == 1);
@@ -129,7 +139,8 @@ TEST_CASE("motion blur of one colour is that colour, whatever moves") {
   CHECK(worst < 2e-3);
 }
 
-TEST_CASE("the sky's velocity under a turning camera is the difference of both projections of its direction") {
+TEST_CASE(
+    "the sky's velocity under a turning camera is the difference of both projections of its direction") {
   Setup setup = scene({});
   setup.orbitDegreesPerSecond = 60;  // one degree per frame
   Lab lab(setup);
@@ -137,7 +148,8 @@ TEST_CASE("the sky's velocity under a turning camera is the difference of both p
   lab.frame(1);
   const Panels panels{lab.read("panels")};
   const weft::scene::ViewData view = lab.viewAt(1);
-  const glm::dmat4 now(view.view_projection), before(view.previous_view_projection), inverse = glm::inverse(now);
+  const glm::dmat4 now(view.view_projection), before(view.previous_view_projection),
+      inverse = glm::inverse(now);
   double largest = 0;
   for (std::uint32_t y = 5; y < kHeight; y += 30)
     for (std::uint32_t x = 5; x < kWidth; x += 30) {

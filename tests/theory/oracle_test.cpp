@@ -25,7 +25,8 @@ TEST_CASE("directional albedo: a mirror loses nothing and its bias is Schlick's 
 TEST_CASE("directional albedo: never gains energy, and converges") {
   for (const double roughness : {0.1, 0.4, 0.7, 1.0})
     for (const double nv : {0.01, 0.1, 0.5, 1.0}) {
-      const Albedo coarse = directionalAlbedo(nv, roughness, 250), fine = directionalAlbedo(nv, roughness, 500);
+      const Albedo coarse = directionalAlbedo(nv, roughness, 250),
+                   fine = directionalAlbedo(nv, roughness, 500);
       CHECK(fine.sum() <= 1.0);
       CHECK(std::abs(coarse.sum() - fine.sum()) < 1.5e-3);
       CHECK(std::abs(coarse.bias - fine.bias) < 1e-4);

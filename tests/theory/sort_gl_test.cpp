@@ -19,7 +19,8 @@ std::vector<std::uint32_t> sortedByTheory(const std::vector<Ball>& balls, const 
   for (const Ball& ball : balls) depth.push_back(weft::scene::viewDepth(view, ball.center));
   std::vector<std::uint32_t> order(balls.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return depth[a] > depth[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return depth[a] > depth[b]; });
   return order;
 }
 
@@ -45,9 +46,10 @@ std::vector<Ball> randomBalls(std::size_t count, std::uint32_t seed, bool specia
     ball.center = {place(random), place(random), place(random)};
     if (!special) continue;
     const std::uint32_t kind = random() % 8;
-    if (kind == 0) ball.center = balls[random() % count].center;             // equal keys
+    if (kind == 0) ball.center = balls[random() % count].center;  // equal keys
     if (kind == 1) ball.center = {1, 2, 3};
-    if (kind == 2) ball.center.y = std::numeric_limits<float>::infinity();   // depth becomes infinite, either sign
+    if (kind == 2)
+      ball.center.y = std::numeric_limits<float>::infinity();  // depth becomes infinite, either sign
     if (kind == 3) ball.center.z = -std::numeric_limits<float>::infinity();
   }
   return balls;
@@ -56,7 +58,8 @@ std::vector<Ball> randomBalls(std::size_t count, std::uint32_t seed, bool specia
 }  // namespace
 
 TEST_CASE("sort: any count, not only powers of two") {
-  for (const std::size_t count : {1u, 2u, 3u, 5u, 17u, 100u, 511u, 1000u, 1023u, 1024u, 1025u, 2047u, 2048u, 2049u, 5000u})
+  for (const std::size_t count :
+       {1u, 2u, 3u, 5u, 17u, 100u, 511u, 1000u, 1023u, 1024u, 1025u, 2047u, 2048u, 2049u, 5000u})
     compare(randomBalls(count, static_cast<std::uint32_t>(count), false));
 }
 
@@ -65,8 +68,14 @@ TEST_CASE("sort: equal keys and infinities keep their order") {
     compare(randomBalls(count, static_cast<std::uint32_t>(count) + 1, true));
 }
 
-TEST_CASE("sort: 100,000 random instances") { compare(randomBalls(100000, 42, true)); }
+TEST_CASE("sort: 100,000 random instances") {
+  compare(randomBalls(100000, 42, true));
+}
 
-TEST_CASE("sort: more than a million") { compare(randomBalls(1000001, 7, true)); }
+TEST_CASE("sort: more than a million") {
+  compare(randomBalls(1000001, 7, true));
+}
 
-TEST_CASE("sort: all equal") { compare(std::vector<Ball>(3000)); }
+TEST_CASE("sort: all equal") {
+  compare(std::vector<Ball>(3000));
+}

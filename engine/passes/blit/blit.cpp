@@ -4,7 +4,9 @@ namespace weft::passes {
 
 graph::PassType Blit::reflect() const {
   return {.name = "blit",
-          .doc = "Copies `source` to `destination`, scaling when the sizes differ (`\"source\": \"x as linear\"` filters).",
+          .doc =
+              "Copies `source` to `destination`, scaling when the sizes differ (`\"source\": \"x as "
+              "linear\"` filters).",
           .shader = graph::ShaderShape::none,
           .defaultReadTexture = graph::Kind::copy,
           .defaultWriteTexture = graph::Kind::copy,
@@ -19,7 +21,8 @@ void Blit::execute(const PassContext& context) const {
   const bool linear = context.linear && from.planes == GL_COLOR_BUFFER_BIT;
   glBlitNamedFramebuffer(from.framebuffer, to.framebuffer, 0, 0, static_cast<GLint>(from.width),
                          static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(to.width),
-                         static_cast<GLint>(to.height), from.planes & to.planes, linear ? GL_LINEAR : GL_NEAREST);
+                         static_cast<GLint>(to.height), from.planes & to.planes,
+                         linear ? GL_LINEAR : GL_NEAREST);
 }
 
 }  // namespace weft::passes

@@ -4,8 +4,10 @@ namespace weft::passes {
 
 graph::PassType Draw::reflect() const {
   return {.name = "draw",
-          .doc = "Draws the instances of `list` (or `instances` copies) as `geometry`, seen from `view`, with NAME.vert.glsl and "
-                 "NAME.frag.glsl. Written slots are attachments; a depth format is the depth attachment.",
+          .doc =
+              "Draws the instances of `list` (or `instances` copies) as `geometry`, seen from `view`, with "
+              "NAME.vert.glsl and "
+              "NAME.frag.glsl. Written slots are attachments; a depth format is the depth attachment.",
           .shader = graph::ShaderShape::draw,
           .keys = {"list", "geometry", "instances", "view", "state", "feedback"}};
 }

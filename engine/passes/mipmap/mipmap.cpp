@@ -3,20 +3,25 @@
 namespace weft::passes {
 
 graph::PassType Mipmap::reflect() const {
-  return {.name = "mipmap",
-          .doc = "Fills the levels of `result` from the level `source` above them: `\"source\": \"x.mip[0]\"`, `\"result\": "
-                 "\"x.mip[1..]\"`. Both name the same texture and the levels follow each other.",
-          .shader = graph::ShaderShape::none,
-          .defaultReadTexture = graph::Kind::copy,
-          .defaultWriteTexture = graph::Kind::copy,
-          .fixedSlots = {{"source", graph::Access::read, "the finest level, already written"},
-                         {"result", graph::Access::write, "the levels below it"}},
-          .fromSource = true,
-          // The specification names no bit for glGenerateTextureMipmap; drivers fetch, render or copy: all three.
-          .touches = graph::kBarrierFramebuffer | graph::kBarrierTexture | graph::kBarrierTextureUpdate};
+  return {
+      .name = "mipmap",
+      .doc =
+          "Fills the levels of `result` from the level `source` above them: `\"source\": \"x.mip[0]\"`, "
+          "`\"result\": "
+          "\"x.mip[1..]\"`. Both name the same texture and the levels follow each other.",
+      .shader = graph::ShaderShape::none,
+      .defaultReadTexture = graph::Kind::copy,
+      .defaultWriteTexture = graph::Kind::copy,
+      .fixedSlots = {{"source", graph::Access::read, "the finest level, already written"},
+                     {"result", graph::Access::write, "the levels below it"}},
+      .fromSource = true,
+      // The specification names no bit for glGenerateTextureMipmap; drivers fetch, render or copy: all three.
+      .touches = graph::kBarrierFramebuffer | graph::kBarrierTexture | graph::kBarrierTextureUpdate};
 }
 
 // The executor hands over one view that starts at the source level and ends at the last level written.
-void Mipmap::execute(const PassContext& context) const { glGenerateTextureMipmap(context.destination.name); }
+void Mipmap::execute(const PassContext& context) const {
+  glGenerateTextureMipmap(context.destination.name);
+}
 
 }  // namespace weft::passes

@@ -1,9 +1,10 @@
 // The graph core alone, without OpenGL: text in, every mistake with its place, or the plan of a frame.
 #include <cstdio>
 
-#include "engine/graph/dump_text.h"
-#include "engine/graph/expand.h"
-#include "engine/graph/read.h"
+#include "engine/graph/compile/compile.h"
+#include "engine/graph/expand/expand.h"
+#include "engine/graph/print/text.h"
+#include "engine/graph/read/read.h"
 
 int main() {
   using namespace weft;

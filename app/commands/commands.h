@@ -1,0 +1,19 @@
+// One function per command; each returns the exit code: 0 done, 1 something is wrong with the input, 2 usage, 3 the
+// machine cannot (no context).
+#pragma once
+
+#include "app/session/options.h"
+
+namespace weft::app {
+
+int runRender(const Options& options);
+int runCheck(const Options& options);
+int runParams(const Options& options);
+int runPresets(const Options& options);
+int runDot(const Options& options);
+int runPlan(const Options& options);
+int runBench(const Options& options);
+int runSchema(const Options& options);
+int runTypes(const Options& options);
+
+}  // namespace weft::app

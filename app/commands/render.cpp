@@ -1,0 +1,145 @@
+// weft render: frames of a graph to image files, reproducible to the byte.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/session/device_session.h"
+#include "app/session/output_files.h"
+#include "app/session/picture_writer.h"
+#include "app/session/progress.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "app/session/trace_recorder.h"
+#include "engine/base/limits.h"
+
+namespace weft::app {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void showProgress(const Progress& progress) {
+  printError(
+      fmt::format("\r{}\033[K{}", progressText(progress), progress.done == progress.total ? "\n" : ""));
+}
+
+// Whether so many frames may run: the limit `frames`. `why`: more than asked for.
+bool checkFrameCount(const Options& options, std::uint64_t count, const char* why,
+                     base::Diagnostics& diagnostics) {
+  const std::uint64_t limit = base::limitOf(base::Limit::frames);
+  if (count <= limit) return true;
+  auto& d = diagnostics.error(
+      base::Code::limitExceeded,
+      graph::placeOfOption(options.firstFrame == options.lastFrame
+                               ? fmt::format("--frames {}", options.firstFrame)
+                               : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame)),
+      fmt::format("{} frames would run{}, the limit 'frames' is {}", count, why, limit));
+  d.hint = base::hintToRaise(base::Limit::frames, count);
+  return false;
+}
+
+// What is read: none of it is to be written over.
+std::vector<std::string> inputsOf(const Options& options, const runtime::Renderer& renderer,
+                                  const runtime::World& world) {
+  std::vector<std::string> files = renderer.files();
+  files.insert(files.end(), world.scene().files.begin(), world.scene().files.end());
+  for (const std::string& file : {options.graph, scenePathOf(options), options.environment})
+    files.push_back(file);
+  return files;
+}
+
+}  // namespace
+
+int runRender(const Options& options) {
+  const double start = now();
+  base::Diagnostics diagnostics;
+  checkOutput(options.output, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
+  checkFrameCount(options, std::uint64_t{options.lastFrame} - options.firstFrame + 1, "", diagnostics);
+  auto world = loadWorld(options, diagnostics);
+  if (!world || diagnostics.hasErrors()) {
+    // The graph's own mistakes are reported in the same run.
+    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+    return report(diagnostics);
+  }
+  auto session = openDevice(options, diagnostics);
+  if (!session) {
+    // The graph's own mistakes are no matter of the machine.
+    makePlan(options, world->facts(), true, diagnostics);
+    report(diagnostics);
+    return 3;
+  }
+  if (!session->renderer.load(settingsOf(options, session->context->device().software), *world, diagnostics))
+    return report(diagnostics);
+  if (session->renderer.execution()->presented().id == 0) {
+    diagnostics
+        .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
+               "the graph presents nothing to write")
+        .hint = "add \"present\": \"<texture>\"";
+    return report(diagnostics);
+  }
+  const double prepared = now();
+  double firstFrame = 0;
+  // Frames before the first one written run too when it may look back at them.
+  const std::uint32_t begin = session->renderer.execution()->remembers(*world) ? 0 : options.firstFrame;
+  const std::uint64_t total = std::uint64_t{options.lastFrame} - begin + 1;
+  const OutputFile outputs[] = {{"-o", options.output, options.firstFrame, options.lastFrame},
+                                {"--trace", options.trace}};
+  if (!checkFrameCount(options, total, ", because the graph remembers what came before", diagnostics) ||
+      !checkDistinct(outputs, inputsOf(options, session->renderer, *world), diagnostics) ||
+      !makeFolders(options.output, options.firstFrame, options.lastFrame, diagnostics))
+    return report(diagnostics);
+  const bool progress = total > 1 && !options.quiet;
+  session->renderer.device().timers.setEnabled(options.profile);
+  auto recorder = std::make_unique<TraceRecorder>(session->renderer.device().timers);
+  if (!options.trace.empty() && !recorder->start(options.trace, diagnostics)) return report(diagnostics);
+  runtime::FrameReport last;
+  PictureWriter writer;
+  // So that frame N does not depend on where the range starts.
+  for (std::uint64_t done = 1; done <= total; ++done) {
+    const auto frame = static_cast<std::uint32_t>(begin + (done - 1));
+    const double before = now();
+    recorder->begin(session->renderer.execution()->plan(), frame);
+    last = session->renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
+    recorder->end(last);
+    session->renderer.dropUploaded(*world);
+    session->context->debugLog().drain(diagnostics);
+    if (done == 1) {
+      glFinish();
+      firstFrame = now() - before;
+    }
+    if (progress)
+      showProgress(
+          {.done = done, .total = total, .lead = options.firstFrame - begin, .seconds = now() - prepared});
+    if (frame < options.firstFrame) continue;
+    if (diagnostics.hasErrors() ||
+        !writer.save(session->renderer, *outputNameOf(options.output, frame), diagnostics)) {
+      writer.tell(diagnostics);
+      return report(diagnostics);
+    }
+  }
+  session->context->debugLog().drain(diagnostics);
+  writer.tell(diagnostics);
+  recorder->stop(diagnostics);
+  recorder.reset();
+  if (options.stats) {
+    auto stats = statsOf(*session, {{"setup_ms", (prepared - start) * 1e3},
+                                    {"first_frame_ms", firstFrame * 1e3},
+                                    {"total_ms", (now() - start) * 1e3},
+                                    {"frames_run", total},
+                                    {"passes_run_last_frame", last.passesRun},
+                                    {"passes_skipped_last_frame", last.passesSkipped},
+                                    {"barriers_last_frame", last.barriers}});
+    stats["pictures"] = {{"written", writer.counts().pictures},
+                         {"with_nan_or_infinity", writer.counts().broken},
+                         {"pixels_nan_or_infinite", writer.counts().pixels}};
+    stats["gl_objects_left"] = closeDevice(std::move(session));
+    printStats(stats);
+  }
+  return report(diagnostics, !options.quiet);
+}
+
+}  // namespace weft::app

@@ -1,0 +1,115 @@
+#include "app/live/live_environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+namespace weft::app {
+
+namespace {
+
+constexpr std::uint32_t kChannel = 1;  // a request replaces the one before
+constexpr float kLoadingShare = 0.8f;  // of the bar; the rest is sending
+
+std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  std::error_code ec, ignored;
+  for (auto entry = std::filesystem::directory_iterator(folder, ec);
+       !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec))
+    if (assets::isEnvironmentName(entry->path().string()) && entry->is_regular_file(ignored))
+      files.push_back(entry->path().string());
+  std::ranges::sort(files);
+  return files;
+}
+
+const char* nameOf(assets::LoadStage stage) {
+  switch (stage) {
+    case assets::LoadStage::reading:
+      return "reading";
+    case assets::LoadStage::decoding:
+      return "decoding";
+    case assets::LoadStage::converting:
+      return "converting";
+    default:
+      return "waiting";
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, base::Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(fileOrFolder, ignored)) return fileOrFolder;
+  const std::vector<std::string> files = listEnvironments(fileOrFolder);
+  if (!files.empty()) return files.front();
+  base::Diagnostic& d =
+      diagnostics.error(base::Code::unreadableImage, {std::make_shared<const std::string>(fileOrFolder)},
+                        fmt::format("there is no environment in the folder '{}'", fileOrFolder));
+  d.expected = "a .hdr or .exr file in it";
+  return std::nullopt;
+}
+
+void LiveEnvironment::request(std::string path) {
+  wanted_ = std::move(path);
+  incoming_ = nullptr;
+  sent_ = 0;
+  ticket_ = loader_.request(wanted_, kChannel);
+}
+
+bool LiveEnvironment::step(int by) {
+  if (wanted_.empty()) return false;
+  const std::filesystem::path folder = std::filesystem::path(wanted_).parent_path();
+  const std::vector<std::string> files = listEnvironments(folder.empty() ? "." : folder);
+  const auto same = [this](const std::string& file) {
+    return std::filesystem::path(file).lexically_normal() ==
+           std::filesystem::path(wanted_).lexically_normal();
+  };
+  const auto here = std::ranges::find_if(files, same);
+  if (files.empty() || (files.size() == 1 && here != files.end())) return false;
+  const auto count = static_cast<std::ptrdiff_t>(files.size());
+  // A file that has gone stands before the one that follows its name.
+  const std::ptrdiff_t at =
+      here != files.end() ? here - files.begin() + by
+                          : std::ranges::lower_bound(files, wanted_) - files.begin() + (by > 0 ? by - 1 : by);
+  request(files[static_cast<std::size_t>((at % count + count) % count)]);
+  return true;
+}
+
+std::optional<LiveEnvironment::Event> LiveEnvironment::poll(runtime::EnvironmentTextures& textures,
+                                                            base::Diagnostics& diagnostics) {
+  if (auto result = loader_.poll()) {
+    ticket_ = 0;
+    incoming_ = std::move(result->map);
+    said_ = std::move(result->diagnostics);
+    if (!incoming_) {
+      diagnostics.append(said_);
+      textures.stopSending();
+      return Event{};
+    }
+  }
+  if (!incoming_) return std::nullopt;
+  const std::optional<float> sent = textures.send(incoming_, diagnostics);
+  if (!sent) {
+    incoming_ = nullptr;
+    textures.stopSending();
+    return Event{};
+  }
+  sent_ = *sent;
+  if (sent_ < 1) return std::nullopt;
+  diagnostics.append(said_);
+  shown_ = wanted_;
+  return Event{std::exchange(incoming_, nullptr)};
+}
+
+std::optional<LiveEnvironment::Status> LiveEnvironment::status() const {
+  const std::string name = std::filesystem::path(wanted_).filename().string();
+  if (incoming_) return Status{name, "sending", kLoadingShare + (1 - kLoadingShare) * sent_};
+  if (ticket_ == 0) return std::nullopt;
+  const assets::LoadProgress progress = loader_.progress(ticket_);
+  return Status{name, nameOf(progress.stage), kLoadingShare * progress.done};
+}
+
+}  // namespace weft::app

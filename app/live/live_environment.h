@@ -1,0 +1,62 @@
+// The environment of a window: the file that is shown, the one on its way, and the others of its folder.
+// Loads on the loader thread and sends to the GPU a portion per frame; nothing here waits for the disk, a
+// decoder or the GPU. (Going on to another file lists the folder: names only.) A failed load changes nothing
+// but what is said. Does not: switch the world to what arrived, or watch files (LiveGraph does both).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/assets/loader.h"
+#include "engine/runtime/imports/environment_texture.h"
+
+namespace weft::app {
+
+// The file that `--environment` means: itself, or of a folder the first that can be read, in the order of
+// names. Empty after an error (W150): there is none. A path that does not exist is left to whoever loads it.
+std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, base::Diagnostics& diagnostics);
+
+class LiveEnvironment {
+ public:
+  using Map = runtime::EnvironmentTextures::Map;
+
+  // `path` is already shown.
+  void assume(std::string path) { wanted_ = shown_ = std::move(path); }
+  // Loads `path`, instead of whatever is on its way.
+  void request(std::string path);
+  // The one `by` files after the last one asked for, in the order of names, round and round. False when there
+  // is no other.
+  bool step(int by);
+
+  // Once per frame: something came of the last request. A map is whole on the GPU and to be taken into use at
+  // once; none: it failed, and `diagnostics` says why.
+  struct Event {
+    Map map;
+  };
+  std::optional<Event> poll(runtime::EnvironmentTextures& textures, base::Diagnostics& diagnostics);
+
+  // What is on its way.
+  struct Status {
+    std::string name;   // of the file, without folders
+    const char* stage;  // "reading"
+    float done = 0;     // 0 to 1
+  };
+  std::optional<Status> status() const;
+
+  // To watch: the file that is shown and the one last asked for; empty names for none.
+  const std::string& shown() const { return shown_; }
+  const std::string& wanted() const { return wanted_; }
+
+ private:
+  std::string shown_, wanted_;
+  std::uint64_t ticket_ = 0;  // of the request that is loading, or 0
+  Map incoming_;              // decoded, being sent
+  base::Diagnostics said_;    // while it was decoded
+  float sent_ = 0;
+  assets::Loader loader_;
+};
+
+}  // namespace weft::app

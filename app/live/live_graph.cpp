@@ -1,0 +1,287 @@
+#include "app/live/live_graph.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <ranges>
+#include <utility>
+
+#include "app/session/session.h"
+#include "engine/base/files/file_access.h"
+#include "engine/graph/edit/write_back.h"
+#include "engine/graph/language/suffix.h"
+#include "engine/scene/scene_file.h"
+
+namespace weft::app {
+
+namespace {
+
+// Editors and version control write several files, or one in several steps: what is wrong may be so no longer
+// when nothing was written for so long.
+constexpr double kQuietSeconds = 0.03;
+// The same for a file that went away: some programs write it anew only a while later.
+constexpr double kGoneSeconds = 0.3;
+
+}  // namespace
+
+LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world,
+                     graph::Settings settings)
+    : renderer_(renderer),
+      world_(std::move(world)),
+      settings_(std::move(settings)),
+      scenePath_(scenePathOf(options)),
+      sceneChoice_(sceneChoiceOf(options)),
+      sceneFiles_(world_.scene().files),
+      sceneStale_(world_.scene().cameras.rows().empty()) {
+  if (world_.environmentPending())
+    environment_.request(options.environment);
+  else if (!options.environment.empty())
+    environment_.assume(options.environment);
+}
+
+bool LiveGraph::load(base::Diagnostics& diagnostics) {
+  graphStale_ = false;
+  good_ = tryLoad(Attempt::final, diagnostics);
+  return good_;
+}
+
+bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
+  runtime::World world = world_;
+  base::Diagnostics said;
+  const bool good = tryScene(world, said) && tryGraph(attempt, world, said);
+  if (good || attempt == Attempt::final) diagnostics.append(said);
+  if (good) {
+    world_ = std::move(world);
+    sceneStale_ = false;
+    ++switches_;
+  }
+  watch(&diagnostics);
+  return good;
+}
+
+bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics) {
+  graph::Settings wanted = settings_;
+  wanted.sets.insert(wanted.sets.end(), lostSets_.begin(), lostSets_.end());
+  wanted.disables.insert(wanted.disables.end(), lostDisables_.begin(), lostDisables_.end());
+  base::Diagnostics said;
+  if (renderer_.load(wanted, world, said)) {
+    diagnostics.append(said);
+    settings_ = std::move(wanted);
+    lostSets_.clear();
+    lostDisables_.clear();
+    return true;
+  }
+  if (attempt == Attempt::early) return false;
+  // What the graph as it is has no use for.
+  std::vector<graph::Setting> sets;
+  std::vector<graph::Disable> disables;
+  base::Diagnostics warnings;
+  for (const graph::Refusal& refusal : renderer_.refused()) {
+    base::Diagnostic warning = refusal.why;
+    warning.severity = base::Severity::warning;
+    warning.message += "; left out until the files take it";
+    warnings.add(std::move(warning));
+    if (refusal.disable)
+      disables.push_back(wanted.disables[refusal.index]);
+    else
+      sets.push_back(wanted.sets[refusal.index]);
+  }
+  for (const graph::Refusal& refusal : std::views::reverse(renderer_.refused())) {
+    const auto at = static_cast<std::ptrdiff_t>(refusal.index);
+    if (refusal.disable)
+      wanted.disables.erase(wanted.disables.begin() + at);
+    else
+      wanted.sets.erase(wanted.sets.begin() + at);
+  }
+  if (warnings.empty() || !running()) {
+    diagnostics.append(said);
+    return false;
+  }
+  diagnostics.append(warnings);
+  if (!renderer_.load(wanted, world, diagnostics)) return false;
+  settings_ = std::move(wanted);
+  lostSets_ = std::move(sets);
+  lostDisables_ = std::move(disables);
+  return true;
+}
+
+bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) {
+  if (sceneStale_) {
+    auto scene = scene::loadScene(scenePath_, diagnostics, &sceneFiles_, sceneChoice_);
+    if (!scene) return false;
+    world.setScene(std::move(*scene));
+  }
+  return true;
+}
+
+std::vector<std::string> LiveGraph::files() const {
+  std::vector<std::string> files = renderer_.files();
+  files.insert(files.end(), sceneFiles_.begin(), sceneFiles_.end());
+  files.insert(files.end(), world_.scene().files.begin(), world_.scene().files.end());
+  for (const std::string& file : {environment_.shown(), environment_.wanted()})
+    if (!file.empty()) files.push_back(file);
+  return files;
+}
+
+// What there is to say of how files are watched goes to `diagnostics`, or waits for the next call that has one.
+void LiveGraph::watch(base::Diagnostics* diagnostics) {
+  std::vector<std::string> watched = files();
+  std::erase_if(watched, [](const std::string& file) { return !base::mayRead(file); });
+  watcher_.watch(watched);
+  if (diagnostics) diagnostics->append(watcher_.takeNotices());
+}
+
+bool LiveGraph::wantsLoad(double now) {
+  const std::vector<std::string> changed = watcher_.poll();
+  if (!changed.empty()) {
+    const auto gone = [](const std::string& file) {
+      std::error_code ignored;
+      return !std::filesystem::exists(file, ignored);
+    };
+    changedAt_ = now;
+    untried_ = std::ranges::none_of(changed, gone);
+    quiet_ = untried_ ? kQuietSeconds : kGoneSeconds;
+  }
+  for (const std::string& file : changed) {
+    sceneStale_ |= std::ranges::find(sceneFiles_, file) != sceneFiles_.end() || file == scenePath_;
+    const bool environment = file == environment_.shown() || file == environment_.wanted();
+    if (environment)
+      changedEnvironment_ = file;
+    else
+      graphStale_ = true;
+  }
+  return graphStale_ && (untried_ || now - changedAt_ >= quiet_);
+}
+
+bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
+  const bool wants = wantsLoad(now);
+  const bool quiet = now - changedAt_ >= quiet_;
+  if (quiet && !changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
+  if (!wants) return false;
+  untried_ = false;
+  if (quiet) {
+    load(diagnostics);
+    return true;
+  }
+  if (!tryLoad(Attempt::early, diagnostics)) return false;
+  good_ = true;
+  graphStale_ = false;
+  return true;
+}
+
+bool LiveGraph::pollEnvironment(base::Diagnostics& diagnostics) {
+  const auto event = environment_.poll(renderer_.device().imports.environments(), diagnostics);
+  if (!event) return false;
+  runtime::World world = world_;
+  if (event->map) world.setEnvironment(event->map);
+  environmentGood_ = event->map && tryWorld(world, diagnostics);
+  if (!environmentGood_ && world_.environmentPending()) {
+    world = world_;
+    world.expectEnvironment(false);
+    tryWorld(world, diagnostics);
+  }
+  watch(&diagnostics);
+  return true;
+}
+
+// Takes up another world; the graph is expanded again when it would be another one.
+bool LiveGraph::tryWorld(runtime::World world, base::Diagnostics& diagnostics) {
+  if (!running()) {  // for when the files are good
+    world_ = std::move(world);
+    return true;
+  }
+  const bool same = world.facts() == world_.facts();
+  if (!same && !renderer_.apply(settings_, world, diagnostics)) return false;
+  switches_ += same ? 0 : 1;
+  world_ = std::move(world);
+  return true;
+}
+
+void LiveGraph::stepEnvironment(int by) {
+  if (environment_.step(by)) watch();
+}
+
+bool LiveGraph::resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics) {
+  if (width == settings_.screenWidth && height == settings_.screenHeight) return false;
+  settings_.screenWidth = width;
+  settings_.screenHeight = height;
+  if (!running()) return false;
+  if (renderer_.apply(settings_, world_, diagnostics)) ++switches_;
+  watch();
+  return true;
+}
+
+bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnostics) {
+  ++changes_;
+  base::Diagnostics said;
+  const bool taken = renderer_.apply(settings, world_, said);
+  diagnostics.append(said);
+  if (!taken) return false;
+  settings_ = std::move(settings);
+  ++switches_;
+  watch();
+  return true;
+}
+
+bool LiveGraph::setParameter(const std::string& name, const graph::Value& value,
+                             base::Diagnostics& diagnostics) {
+  if (renderer_.setParameter(name, value)) {
+    ++changes_;
+    ++livesSet_;
+    remember(name, value);
+    return true;
+  }
+  graph::Settings settings = settings_;
+  const auto same = [&](const graph::Setting& set) { return set.name == name; };
+  std::erase_if(settings.sets, same);
+  std::erase_if(lostSets_, same);
+  settings.sets.emplace_back(name, value, graph::Origin::panel);
+  return trySettings(std::move(settings), diagnostics);
+}
+
+// In place where that is the last word on the parameter: a slider that moves allocates nothing.
+void LiveGraph::remember(const std::string& name, const graph::Value& value) {
+  auto& sets = settings_.sets;
+  const auto last = std::find_if(sets.rbegin(), sets.rend(),
+                                 [&](const graph::Setting& set) { return graph::hasSuffix(name, set.name); });
+  if (last != sets.rend() && last->name == name && last->origin == graph::Origin::panel) {
+    last->value = value;
+    return;
+  }
+  const auto same = [&](const graph::Setting& set) { return set.name == name; };
+  std::erase_if(sets, same);
+  std::erase_if(lostSets_, same);
+  sets.emplace_back(name, value, graph::Origin::panel);
+}
+
+bool LiveGraph::resetParameter(const std::string& name, base::Diagnostics& diagnostics) {
+  graph::Settings settings = settings_;
+  std::erase_if(settings.sets, [&](const auto& set) { return graph::hasSuffix(name, set.name); });
+  return trySettings(std::move(settings), diagnostics);
+}
+
+bool LiveGraph::isChanged(const std::string& parameter) const {
+  return std::ranges::any_of(settings_.sets,
+                             [&](const auto& set) { return graph::hasSuffix(parameter, set.name); });
+}
+
+bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics) {
+  ++changes_;
+  if (!renderer_.desc()) return false;
+  const graph::Registry registry = runtime::makeRegistry(renderer_.device().passTypes, world_.facts());
+  const auto plan =
+      graph::planWriteBack(*renderer_.desc(), renderer_.presets(), registry, settings_, diagnostics);
+  if (!plan || !graph::saveWriteBack(*plan, diagnostics)) return false;
+  for (const graph::WriteBack::File& file : plan->files) files.push_back(file.path);
+  settings_ = plan->rest;
+  return load(diagnostics);
+}
+
+bool LiveGraph::setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics) {
+  graph::Settings settings = settings_;
+  std::erase_if(settings.disables, [&](const graph::Disable& each) { return each.name == pass; });
+  if (!enabled) settings.disables.emplace_back(pass, graph::Origin::panel);
+  return trySettings(std::move(settings), diagnostics);
+}
+
+}  // namespace weft::app

@@ -1,0 +1,108 @@
+// A graph that follows its files: what the viewer shows, the settings it shows it with, and the watch on
+// everything that was read for it. A change is validated whole; after an error the last good frame goes on,
+// and the settings that led to it are taken back when a person made them here. Does not: draw, own the
+// window, or know the camera.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/live/live_environment.h"
+#include "app/session/options.h"
+#include "engine/base/files/file_watcher.h"
+#include "engine/graph/expand/expand.h"
+#include "engine/runtime/frame/renderer.h"
+#include "engine/scene/scene_file.h"
+
+namespace weft::app {
+
+class LiveGraph {
+ public:
+  // Reads nothing yet; a scene without cameras is read with the first load(). `renderer` must outlive this.
+  // An environment that `world` expects is asked for: options.environment, a file.
+  LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world,
+            graph::Settings settings);
+
+  // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
+  // A set or disable that the graph does not take any more is left out with a warning, and comes back when it
+  // does; only the first time, when there is nothing to keep running, is it an error.
+  bool load(base::Diagnostics& diagnostics);
+  // Loads when watched files changed: at once when they are good as they are, else when they have been quiet
+  // for a moment, as more may come. `now` in seconds. True when something came of it that is to be told.
+  bool poll(double now, base::Diagnostics& diagnostics);
+  // Files changed, and poll() has not loaded them yet.
+  bool pending() const { return graphStale_ || !changedEnvironment_.empty(); }
+  // They did, and poll() would load them now. Looks, and costs one system call when there is nothing new.
+  bool wantsLoad(double now);
+  // For whoever wants to sleep until a watched file changes: readable then. -1: nothing is ever reported.
+  int watchDescriptor() const { return watcher_.descriptor(); }
+  // Looks at the files that no descriptor tells of; true when poll() has something new. From any thread, about twice a second.
+  bool lookAtFiles() { return watcher_.poller().look(); }
+  // Once per frame: takes up an environment that has arrived. True when something came of the last request;
+  // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
+  bool pollEnvironment(base::Diagnostics& diagnostics);
+  // After a frame: what the GPU has is not kept here.
+  void dropUploaded() { renderer_.dropUploaded(world_); }
+  // Asks for the next (1) or previous (-1) environment of the folder.
+  void stepEnvironment(int by);
+  // The size of the screen. False when it is what it was.
+  bool resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
+  // By the full name of a parameter, of a pass. A live parameter is set at once; everything else takes another
+  // plan. False after errors, and nothing has changed.
+  bool setParameter(const std::string& name, const graph::Value& value, base::Diagnostics& diagnostics);
+  bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
+
+  // What the files say again, instead of what setParameter said. False after errors.
+  bool resetParameter(const std::string& name, base::Diagnostics& diagnostics);
+  bool isChanged(const std::string& parameter) const;
+  // Writes changed parameters and disabled passes into the files they come from (engine/graph/edit/write_back.h);
+  // `files` are those that were written. False after errors: nothing was.
+  bool writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics);
+
+  // Everything that was read, or missed.
+  std::vector<std::string> files() const;
+
+  const runtime::World& world() const { return world_; }
+  const graph::Settings& settings() const { return settings_; }
+  const LiveEnvironment& environment() const { return environment_; }
+  // Whether there is something to draw: some load was good.
+  bool running() const { return renderer_.execution() != nullptr; }
+  // Whether the files as they are on disk are what is shown.
+  bool good() const { return good_ && environmentGood_; }
+  // Count switches to another plan, live parameters that were set, and calls of setParameter and setEnabled.
+  std::uint64_t switches() const { return switches_; }
+  std::uint64_t livesSet() const { return livesSet_; }
+  std::uint64_t changes() const { return changes_; }
+
+ private:
+  // What a load that is not `final` finds wrong may come right by the next file that is saved: settings stay.
+  enum class Attempt { early, final };
+  bool tryLoad(Attempt attempt, base::Diagnostics& diagnostics);
+  bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
+  bool tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics);
+  bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
+  void remember(const std::string& name, const graph::Value& value);
+  bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
+  void watch(base::Diagnostics* diagnostics = nullptr);
+
+  runtime::Renderer& renderer_;
+  runtime::World world_;
+  graph::Settings settings_;
+  // What the graph as it is has no use for.
+  std::vector<graph::Setting> lostSets_;
+  std::vector<graph::Disable> lostDisables_;
+  std::string scenePath_;
+  scene::SceneChoice sceneChoice_;
+  LiveEnvironment environment_;
+  std::vector<std::string> sceneFiles_;
+  base::FileWatcher watcher_;
+  bool sceneStale_ = false, graphStale_ = false, good_ = false, environmentGood_ = true;
+  bool untried_ = false;              // as the files are since the last change
+  std::string changedEnvironment_;    // to be loaded again, or empty
+  double changedAt_ = 0, quiet_ = 0;  // seconds
+  std::uint64_t switches_ = 0, livesSet_ = 0, changes_ = 0;
+};
+
+}  // namespace weft::app

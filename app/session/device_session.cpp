@@ -1,0 +1,116 @@
+#include "app/session/device_session.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "engine/base/files/file_access.h"
+#include "engine/gl/objects/objects.h"
+
+namespace weft::app {
+
+namespace {
+
+std::string cacheFolderOf(const Options& options) {
+  if (options.cacheFolder == "none") return {};
+  if (!options.cacheFolder.empty()) return options.cacheFolder;
+  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)
+    return std::string(folder) + "/weft/programs";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::string(home) + "/.cache/weft/programs";
+  return {};
+}
+
+}  // namespace
+
+std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics) {
+  const bool window = options.command == "view";
+  gl::ContextOptions wanted;
+  wanted.backend = gl::findBackend(options.backend).value_or(gl::Backend::automatic);
+  if (window && wanted.backend == gl::Backend::automatic) wanted.backend = gl::Backend::glfw;
+  base::allowFolder(cacheFolderOf(options));
+  wanted.title = "weft: " + options.graph;
+  wanted.width = options.width;
+  wanted.height = options.height;
+  wanted.visible = window;
+  wanted.vsync = options.vsync;
+  auto context = gl::createContext(wanted, diagnostics);
+  if (!context) return nullptr;
+  gl::Context& current = *context;
+  return std::unique_ptr<DeviceSession>(
+      new DeviceSession{std::move(context), runtime::Renderer(current, options.graph,
+                                                              {.dataFolder = dataFolder(),
+                                                               .cacheFolder = cacheFolderOf(options),
+                                                               .trial = {"/proc/self/exe"},
+                                                               .presets = options.presets})});
+}
+
+nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {
+  const gl::ProgramCacheStats& programs = session.renderer.device().programs.stats();
+  const gl::DeviceInfo& device = session.context->device();
+  nlohmann::ordered_json out;
+  out["device"] = {{"renderer", device.renderer},
+                   {"version", device.version},
+                   {"platform", device.platform},
+                   {"software", device.software}};
+  out["times"] = std::move(times);
+  out["programs"] = {{"hits", programs.hits},
+                     {"misses", programs.misses},
+                     {"evictions", programs.evictions},
+                     {"revivals", programs.revivals},
+                     {"compilations", programs.compilations},
+                     {"refusals", programs.refusals},
+                     {"trials", programs.trials},
+                     {"binary_loads", programs.binaryLoads},
+                     {"binary_rejects", programs.binaryRejects}};
+  out["plans_built"] = session.renderer.plansBuilt();
+  runtime::Execution* execution = session.renderer.execution();
+  if (!execution) return out;
+  const graph::Plan& plan = execution->plan();
+  out["bytes"] = {{"declared", plan.bytesDeclared},
+                  {"allocated", plan.bytesAllocated},
+                  {"lower_bound", plan.bytesLowerBound}};
+  execution->finishReadBack();
+  nlohmann::ordered_json outputs = nlohmann::ordered_json::object();
+  for (const runtime::Output& output : execution->outputs()) {
+    nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < output.count(); ++i)
+      if (output.kind == runtime::NumberKind::floating)
+        numbers.push_back(output.number(i));
+      else
+        numbers.push_back(static_cast<std::int64_t>(output.number(i)));
+    outputs[output.name] = std::move(numbers);
+  }
+  out["outputs"] = std::move(outputs);
+  gl::PassTimers& timers = session.renderer.device().timers;
+  if (timers.enabled()) {
+    timers.finish();
+    nlohmann::ordered_json passes;
+    for (std::size_t step = 0; step < timers.results().size() && step < plan.steps.size(); ++step) {
+      const gl::PassTime& time = timers.results()[step];
+      if (time.ran)
+        passes.push_back({{"pass", plan.graph->passNames[plan.steps[step].pass]},
+                          {"gpu_ms", time.gpu},
+                          {"cpu_ms", time.cpu}});
+    }
+    out["passes"] = std::move(passes);
+  }
+  return out;
+}
+
+void printStats(const nlohmann::ordered_json& stats) {
+  printError(dumpJson(stats) + "\n");
+}
+
+std::string closeDevice(std::unique_ptr<DeviceSession> session) {
+  const std::unique_ptr<gl::Context> context = std::move(session->context);
+  session.reset();
+  // Fences have no names; owners count them.
+  gl::LiveObjects left = gl::namedObjects();
+  const auto fence = static_cast<std::size_t>(gl::ObjectKind::fence);
+  left.counts[fence] = gl::liveObjects().counts[fence];
+  return gl::toText(left);
+}
+
+}  // namespace weft::app

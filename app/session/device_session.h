@@ -1,0 +1,30 @@
+// A GL context and a renderer on it, as the commands that draw need them.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/session/options.h"
+#include "engine/gl/context/context.h"
+#include "engine/runtime/frame/renderer.h"
+
+namespace weft::app {
+
+struct DeviceSession {
+  std::unique_ptr<gl::Context> context;  // destroyed last
+  runtime::Renderer renderer;
+};
+
+// Headless unless options.command is "view". Null after errors.
+std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics);
+
+// --stats: one JSON object. Waits for the outputs of the last frame.
+nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
+void printStats(const nlohmann::ordered_json& stats);  // on standard error
+
+// Destroys the renderer, then asks the driver which objects still exist: "none", unless one was forgotten.
+// The context goes last. What the overlay made must be gone by then.
+std::string closeDevice(std::unique_ptr<DeviceSession> session);
+
+}  // namespace weft::app

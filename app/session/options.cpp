@@ -1,0 +1,311 @@
+#include "app/session/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "engine/base/files/file_access.h"
+#include "engine/base/limits.h"
+#include "engine/base/nearest.h"
+
+namespace weft::app {
+
+namespace {
+
+bool parseNumber(const std::string& text, std::uint32_t& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b) {
+  const std::size_t at = text.find(separator);
+  return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
+}
+
+std::string checkSize(const std::string& text) {
+  std::uint32_t width = 0, height = 0;
+  const bool good =
+      parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= 16384 && height <= 16384;
+  return good ? "" : "expected WIDTHxHEIGHT, each from 1 to 16384, found '" + text + "'";
+}
+
+// A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
+CLI::Validator numberFrom(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    const bool good = error == std::errc{} && end == text.data() + text.size() && x >= low && x <= high;
+    return good ? "" : fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
+  };
+  return {check, fmt::format("{} to {}", low, high)};
+}
+
+std::string checkFrames(const std::string& text) {
+  std::uint32_t first = 0, last = 0;
+  const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
+                                                        : parsePair(text, ':', first, last) && first <= last;
+  return good ? ""
+              : "expected FRAME or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to 4294967295, found "
+                "'" +
+                    text + "'";
+}
+
+std::string checkCount(const std::string& text) {
+  std::uint32_t count = 0;
+  return parseNumber(text, count)
+             ? ""
+             : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
+}
+
+// Sets the limit, for this process.
+std::string takeLimit(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) return "expected NAME=VALUE, found '" + text + "'";
+  return base::setLimit(text.substr(0, at), text.substr(at + 1)).value_or("");
+}
+
+// Confines reading, for this process.
+std::string takeConfinement(const std::string& folder) {
+  return base::confineTo(folder).value_or("");
+}
+
+// What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
+void chooseFiles(const Options& options) {
+  for (const std::string* file :
+       {&options.graph, &options.scene, &options.environment, &options.materials, &options.frameGraph})
+    base::chooseFile(*file);
+  for (const std::string& preset : options.presets) base::chooseFile(preset);
+  for (const std::string& workload : options.workloads) base::chooseFile(workload);
+  for (const graph::Setting& set : options.sets) base::chooseFile(set.text);  // where the parameter is a file
+  for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
+    base::allowFolder(dataFolder() + "/" + folder);
+}
+
+std::string checkSet(const std::string& text) {
+  const std::size_t at = text.find('=');
+  return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
+}
+
+// A preset that is no file is the name of a bundled one, also of one that is not there: the message has the nearest.
+std::string presetFile(const std::string& preset) {
+  std::error_code ignored;
+  const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
+  return name && !std::filesystem::exists(preset, ignored) ? presetsFolder() + "/" + preset + ".json"
+                                                           : preset;
+}
+
+// Whether there was one.
+bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  bool told = false;
+  for (int i = 2; i < argc; ++i) {
+    const std::string argument = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!argument.starts_with("--") || std::ranges::find(names, argument) != names.end()) continue;
+    const std::string near = base::nearestName(argument, names);
+    printError(
+        fmt::format("weft {}: unknown option '{}'; {}\n", command.get_name(), argument,
+                    near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near)));
+    told = true;
+  }
+  return told;
+}
+
+// Help, the version, or what is wrong. 0 when it was asked for.
+int tell(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  print(out.str());
+  printError(err.str());
+  return code;
+}
+
+struct Raw {
+  std::string size = "1280x720", frames = "0";
+  std::vector<std::string> sets, limits, folders;
+};
+
+constexpr const char* kWaitForAssets = "--wait-for-assets";
+
+void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
+  command.add_option("graph", options.graph, "graph file (JSON)")->required();
+  command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
+  command.add_option("--camera", options.camera, "camera of the scene to look through (default: its first)");
+  command.add_option("--materials", options.materials,
+                     "material library for the scene's grid, instead of the one it names");
+  command.add_option("--environment", options.environment,
+                     "environment map, .hdr or .exr; for view also a folder of them");
+  command.add_option("--size", raw.size, "size of the screen in pixels")
+      ->check(CLI::Validator(checkSize, "WxH"));
+  command.add_option(
+      "--preset", options.presets,
+      "lay an overlay over the graph: a file, or the name of one in graphs/presets; repeatable");
+  command.add_option("--disable", options.disables,
+                     "disable a pass (any unique suffix of its name); repeatable");
+  command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
+      ->check(CLI::Validator(checkSet, "NAME=VALUE"));
+}
+
+void addDeviceOptions(CLI::App& command, Options& options) {
+  command.add_option("--backend", options.backend, "where OpenGL comes from")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
+  command.add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'");
+  command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
+  command.add_option("--trace", options.trace,
+                     "write a Chrome trace of the frames, for ui.perfetto.dev (measures each pass)");
+  command.add_flag("--profile", options.profile,
+                   "measure each pass (slower: waits for the GPU after every pass on software)");
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
+  Options options;
+  Raw raw;
+  CLI::App app("Weft: a frame is a JSON file", "weft");
+  app.require_subcommand(1);
+  const auto asJson = [&options] { options.format = "json"; };
+  app.set_version_flag("--version", "weft 0.1.0");
+
+  CLI::App* render =
+      app.add_subcommand("render", "render frames of a graph to image files, without a display");
+  addGraphOptions(*render, options, raw);
+  addDeviceOptions(*render, options);
+  render
+      ->add_option("-o,--output", options.output,
+                   "image to write, .png or .exr; for several frames a pattern: f_%04d.png")
+      ->required();
+  render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")
+      ->check(CLI::Validator(checkFrames, "A:B"));
+  render->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
+  render->add_flag(kWaitForAssets, options.waitForAssets,
+                   "the first frame waits for everything it needs; always so without a window");
+  render->add_flag("--quiet", options.quiet, "no progress bar and no notes");
+
+  CLI::App* view =
+      app.add_subcommand("view", "open a window and run a graph in it (without a display: xvfb-run -a)");
+  addGraphOptions(*view, options, raw);
+  addDeviceOptions(*view, options);
+  view->add_option("--max-frames", options.maxFrames,
+                   "close after this many frames (0: when the window is closed)")
+      ->check(CLI::Validator(checkCount, "FRAMES"));
+  view->add_flag(kWaitForAssets, options.waitForAssets,
+                 "open the window when the environment is there, not before");
+  view->add_option("--panels", options.panels,
+                   "show (or hide) at the start: parameters, passes, inspector, profiler, storage, histogram")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"parameters", "passes", "inspector", "profiler", "storage", "histogram"}));
+  view->add_flag("--events", options.events, "say on standard output what happens, a line each, for scripts");
+  view->add_flag("!--no-ui", options.ui, "no panels over the picture");
+  view->add_option("--screenshot", options.screenshot,
+                   "picture to write of the last frame before closing, .png or .exr");
+  view->add_option("--record", options.record,
+                   "write every frame from the first on, at a fixed step: f_%04d.png, or .exr");
+  view->add_option("--fps", options.fps, "frames per second of recordings")->check(numberFrom(1, 1000));
+  view->add_flag("!--no-vsync", options.vsync, "do not wait for the screen's refresh");
+  view->add_flag("--idle", options.idle, "draw only when something changed");
+  view->add_option("--render-scale", options.renderScale,
+                   "pixels of the scene per pixel of the window, each way")
+      ->check(numberFrom(0.1, 4));
+  view->add_option("--ui-scale", options.uiScale, "size of the panels (default: as the screen says)")
+      ->check(numberFrom(0.25, 8));
+
+  CLI::App* check =
+      app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");
+  addGraphOptions(*check, options, raw);
+  check->add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
+
+  CLI::App* params =
+      app.add_subcommand("params", "list the parameters of a graph: name, type, value, range, label");
+  addGraphOptions(*params, options, raw);
+  params->add_flag_callback("--json", asJson, "as JSON");
+
+  CLI::App* presets = app.add_subcommand("presets", "list the bundled presets, for --preset");
+  presets->add_flag_callback("--json", asJson, "as JSON");
+
+  CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
+  addGraphOptions(*dot, options, raw);
+
+  CLI::App* plan = app.add_subcommand("plan", "print the compiled plan: order, barriers, storage, bytes");
+  addGraphOptions(*plan, options, raw);
+  plan->add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  plan->add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
+
+  CLI::App* bench = app.add_subcommand("bench", "measure; prints JSON");
+  bench->add_option("--workload", options.workloads,
+                    "neutral workload files ({textures, passes}); repeatable");
+  bench
+      ->add_option("--frame", options.frameGraph, "a graph file: the cost of its frame in full-screen copies")
+      ->excludes("--workload");
+  bench
+      ->add_option("--edit", options.editGraph,
+                   "a graph file: what a changed parameter and a saved file cost before the next frame")
+      ->excludes("--workload")
+      ->excludes("--frame");
+  bench->add_option("--environment", options.environment,
+                    "environment map for --frame and --edit, .hdr or .exr");
+  bench->add_option("--scene", options.scene, "scene file for --frame and --edit");
+  bench->add_option("--camera", options.camera, "camera of the scene for --frame and --edit");
+  bench->add_option("--materials", options.materials, "material library for --frame and --edit");
+  bench->add_option("--size", raw.size, "size of the screen for --frame and --edit")
+      ->check(CLI::Validator(checkSize, "WxH"));
+  bench->add_option("--backend", options.backend, "where OpenGL comes from, for --frame and --edit")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
+
+  app.add_subcommand("schema", "print the JSON Schema of graph files");
+  app.add_subcommand("types", "print the pass types and imports a graph may use");
+
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    command
+        ->add_option("--confine", raw.folders,
+                     "read only below this folder and those named on the command line, whatever files name; "
+                     "repeatable")
+        ->check(CLI::Validator(takeConfinement, "FOLDER"));
+    command
+        ->add_option("--limit", raw.limits,
+                     "raise or lower a limit of docs/limits.md for this run; repeatable")
+        ->check(CLI::Validator(takeLimit, "NAME=VALUE"));
+  }
+  std::vector<std::string> commands;
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {
+    printError(
+        fmt::format("weft: unknown command '{}'; {}\n", argv[1], base::nearestHint(argv[1], commands)));
+    exitCode = 2;
+    return std::nullopt;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty() || !tellUnknownOption(*chosen.front(), argc, argv)) tell(app, error);
+    exitCode = 2;
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    exitCode = tell(app, error) == 0 ? 0 : 2;
+    return std::nullopt;
+  }
+  options.command = app.get_subcommands().front()->get_name();
+  parsePair(raw.size, 'x', options.width, options.height);
+  if (!parsePair(raw.frames, ':', options.firstFrame, options.lastFrame)) {
+    parseNumber(raw.frames, options.firstFrame);
+    options.lastFrame = options.firstFrame;
+  }
+  for (std::string& preset : options.presets) preset = presetFile(preset);
+  for (const std::string& set : raw.sets) {
+    const std::size_t at = set.find('=');
+    options.sets.emplace_back(set.substr(0, at), set.substr(at + 1));
+  }
+  chooseFiles(options);
+  return options;
+}
+
+}  // namespace weft::app

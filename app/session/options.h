@@ -1,0 +1,51 @@
+// The command line as plain data. Parsing, help and the messages for wrong arguments are CLI11's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/graph/expand/expand.h"
+
+namespace weft::app {
+
+struct Options {
+  std::string command;  // "render", "view", "check", "dot", "plan", "params", "presets", "bench", …
+  std::string graph;    // path of the graph file
+  std::string scene, environment;            // empty: the bundled spheres, no environment
+  std::string camera, materials;             // of the scene; empty: its first camera, the materials it names
+  std::string output;                        // -o
+  std::uint32_t width = 1280, height = 720;  // --size
+  std::uint32_t firstFrame = 0, lastFrame = 0;
+  double fps = 60;
+  std::vector<std::string> disables;
+  std::vector<std::string> presets;  // overlay files
+  std::vector<graph::Setting> sets;
+  std::string backend = "auto";
+  std::string cacheFolder;  // program binaries; empty: the user's cache folder, "none": none
+  bool stats = false, profile = false, quiet = false;
+  bool shaders = true;                 // check: compile every shader too
+  std::string format = "text";         // plan, params, presets: text or json
+  bool explain = false;                // plan: say why
+  std::vector<std::string> workloads;  // bench
+  std::string frameGraph;              // bench --frame
+  std::string editGraph;               // bench --edit
+  std::uint32_t maxFrames = 0;         // view: stop after this many frames; 0: until closed
+  std::string screenshot;              // view: written at the end
+  bool waitForAssets = false;          // view: before the first frame; without a window always
+  std::string trace;                   // render, view: Chrome trace to write
+  std::vector<std::string> panels;     // view: shown or hidden at the start
+  bool ui = true;                      // view: panels over the picture
+  bool vsync = true, idle = false;     // view
+  double renderScale = 1,
+         uiScale = 0;   // view: pixels of the scene per pixel of the window; 0: as the screen says
+  bool events = false;  // view: says what happens, for scripts
+  std::string record;   // view: pattern of a recording from the first frame on; empty: none
+};
+
+// Empty and `exitCode` set when the program should stop (help, a wrong argument; the text is already printed).
+std::optional<Options> parseOptions(int argc, char** argv, int& exitCode);
+
+}  // namespace weft::app

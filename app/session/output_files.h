@@ -1,0 +1,40 @@
+// Files that commands write: names with frame numbers, their folders, and that none of them is a file that is
+// read. Does not: write them (app/session/picture_writer.h does), or decide which frames.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/base/diagnostic.h"
+
+namespace weft::app {
+
+// "f_%04d.png" with the frame number; the name as it is when it has no pattern. Empty when the pattern is no
+// such pattern.
+std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_t frame);
+
+// Whether pictures can be written under `pattern`, from number `first` on; makes the first one's folder. W180
+// if not.
+bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,
+                 base::Diagnostics& diagnostics);
+
+// Makes the folder of one file. False after W180.
+bool makeFolderOf(const std::string& path, base::Diagnostics& diagnostics);
+// The folders of all frames, where the number is part of a folder's name.
+bool makeFolders(const std::string& pattern, std::uint32_t first, std::uint32_t last,
+                 base::Diagnostics& diagnostics);
+
+// What one option has a run write: a file, or the frames of a pattern.
+struct OutputFile {
+  std::string option;   // "-o", as it stands in messages
+  std::string pattern;  // empty: nothing
+  std::uint32_t first = 0, last = 0;
+};
+// That no output is one of the files that the run reads, or another output, by whatever name or link. Only
+// files count: devices and pipes are nobody's. False after W180.
+bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
+                   base::Diagnostics& diagnostics);
+
+}  // namespace weft::app

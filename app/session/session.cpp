@@ -1,0 +1,89 @@
+#include "app/session/session.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/session/standard_streams.h"
+#include "data_places.h"
+#include "engine/assets/loader.h"
+#include "engine/base/message_choice.h"
+#include "engine/graph/compile/compile.h"
+#include "engine/graph/compile/plan_memory.h"
+#include "engine/graph/read/read.h"
+#include "engine/scene/scene_file.h"
+
+namespace weft::app {
+
+std::string dataFolder() {
+  if (const char* folder = std::getenv("WEFT_DATA")) return folder;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(WEFT_DATA_SOURCE, ignored)) return WEFT_DATA_SOURCE;
+  return WEFT_DATA_INSTALLED;
+}
+
+std::string presetsFolder() {
+  return dataFolder() + "/graphs/presets";
+}
+
+runtime::WorldFacts factsWithoutWorld() {
+  runtime::WorldFacts facts;
+  for (const std::string& list : scene::drawListNames()) facts.lists.push_back({list, 0});
+  return facts;
+}
+
+graph::Settings settingsOf(const Options& options, bool software) {
+  return {.screenWidth = options.width,
+          .screenHeight = options.height,
+          .software = software,
+          .sets = options.sets,
+          .disables = {options.disables.begin(), options.disables.end()}};
+}
+
+std::string scenePathOf(const Options& options) {
+  return options.scene.empty() ? dataFolder() + "/scenes/spheres.json" : options.scene;
+}
+
+scene::SceneChoice sceneChoiceOf(const Options& options) {
+  return {.camera = options.camera, .materials = options.materials};
+}
+
+std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics) {
+  std::optional<scene::Scene> scene;
+  std::shared_ptr<const assets::EnvironmentMap> environment;
+  if (!options.environment.empty()) {
+    assets::Loader loader;  // beside the scene
+    const std::uint64_t ticket = loader.request(options.environment);
+    scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
+    if (auto loaded = loader.wait(ticket)) {
+      diagnostics.append(loaded->diagnostics);
+      environment = std::move(loaded->map);
+    }
+  } else {
+    scene = scene::loadScene(scenePathOf(options), diagnostics, nullptr, sceneChoiceOf(options));
+  }
+  if (!scene || diagnostics.hasErrors()) return std::nullopt;
+  runtime::World world(std::move(*scene));
+  if (environment) world.setEnvironment(std::move(environment));
+  return world;
+}
+
+std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
+                                            bool software, base::Diagnostics& diagnostics) {
+  const auto desc = graph::readGraph(options.graph, options.presets, diagnostics);
+  if (!desc) return nullptr;
+  const auto registry = runtime::makeRegistry(passes::PassRegistry::builtin(), facts);
+  const auto flat = graph::expandGraph(*desc, registry, settingsOf(options, software), diagnostics);
+  if (!flat || diagnostics.hasErrors()) return nullptr;
+  auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+  return graph::checkMemory(*plan, diagnostics) ? plan : nullptr;
+}
+
+int report(base::Diagnostics& diagnostics, bool notes) {
+  diagnostics.sortByPlace();
+  printError(base::chooseMessages(diagnostics, notes).text());
+  return diagnostics.hasErrors() ? 1 : 0;
+}
+
+}  // namespace weft::app

@@ -1,0 +1,44 @@
+// From command-line options to the things every command starts with: the world, the graph's description, its plan.
+// All of it without a GL context.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/session/options.h"
+#include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/expand/expand.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/imports/world.h"
+#include "engine/scene/scene_file.h"
+
+namespace weft::app {
+
+// The folder that holds graphs/, shaders/, materials/ and scenes/: beside the build, or where it was installed.
+std::string dataFolder();
+
+// The folder of the bundled presets, in it.
+std::string presetsFolder();
+
+graph::Settings settingsOf(const Options& options, bool software);
+
+// Path of the scene file: the one the options name, or the bundled one.
+std::string scenePathOf(const Options& options);
+scene::SceneChoice sceneChoiceOf(const Options& options);
+
+// The scene and the environment that the options name, read before this returns: what waits for assets.
+std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);
+
+// Facts to go on with when the scene could not be read: every draw list, empty.
+runtime::WorldFacts factsWithoutWorld();
+
+// Reads, expands and compiles. Null after errors.
+std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
+                                            bool software, base::Diagnostics& diagnostics);
+
+// Prints the diagnostics to standard error, or all but notes; of very many, as engine/base/message_choice.h says. Returns 1 when there is an error among them, else 0.
+int report(base::Diagnostics& diagnostics, bool notes = true);
+
+}  // namespace weft::app

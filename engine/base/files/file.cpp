@@ -1,0 +1,158 @@
+#include "engine/base/files/file.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "engine/base/files/file_access.h"
+#include "engine/base/files/folder_names.h"
+#include "engine/base/nearest.h"
+
+namespace weft::base {
+
+namespace {
+
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
+
+// A pipe may be read, an endless one must not fill the memory.
+constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
+
+// The first folder that is not there, or the file of the nearest name.
+std::string hintForMissing(const std::filesystem::path& path) {
+  std::error_code ec;
+  const std::filesystem::path folder = path.parent_path().empty() ? "." : path.parent_path();
+  if (!std::filesystem::is_directory(folder, ec)) {
+    std::filesystem::path missing = folder;
+    while (missing.has_relative_path() && !missing.parent_path().empty() &&
+           !std::filesystem::exists(missing.parent_path(), ec))
+      missing = missing.parent_path();
+    return fmt::format("check the path: there is no folder '{}'", missing.string());
+  }
+  const std::shared_ptr<const std::vector<std::string>> names = namesIn(folder.string());
+  const std::string near = nearestName(path.filename().string(), *names);
+  return near.empty() ? "check the path"
+                      : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
+}
+
+// Whether a pipe has bytes or its end; false after a moment without, so that whoever waits can be asked.
+bool hasMore(int descriptor) {
+  constexpr int kMilliseconds = 50;
+  pollfd one{descriptor, POLLIN, 0};
+  return ::poll(&one, 1, kMilliseconds) > 0;
+}
+
+}  // namespace
+
+std::string besideFile(const Place& place, const std::string& path) {
+  if (path.empty() || !place.file) return path;
+  return (std::filesystem::path(*place.file).parent_path() / path).lexically_normal().string();
+}
+
+std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
+                                    const Place& place) {
+  return readFile(path, diagnostics, code, place, {});
+}
+
+std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
+                                    const Place& place, const ReadProgress& goOn) {
+  const auto fail = [&](std::string_view reason, const std::string& hint) {
+    Place where = place;
+    if (!where.file) where.file = std::make_shared<const std::string>(path);
+    diagnostics.error(code, where, fmt::format("cannot read '{}': {}", path, reason)).hint = hint;
+    return std::nullopt;
+  };
+  const OpenedFile opened = openFile(path);
+  switch (opened.state) {
+    case OpenedFile::State::open:
+      break;
+    case OpenedFile::State::outside:
+      reportOutside(path, diagnostics, place);
+      return std::nullopt;
+    case OpenedFile::State::missing:
+      return fail("no such file", hintForMissing(path));
+    case OpenedFile::State::directory:
+      return fail("it is a directory", "name a file inside it");
+    case OpenedFile::State::device:
+      return fail("it is a device", "name a file");
+    case OpenedFile::State::pipe:
+      return fail("it is a pipe", "name a file; only a path on the command line may be a pipe");
+    case OpenedFile::State::pipe_again:
+      return fail("it is a pipe, which can be read only once", "name a file, to have it read again");
+    case OpenedFile::State::socket:
+      return fail("it is a socket", "name a file");
+    case OpenedFile::State::unreadable:
+      return fail(std::strerror(opened.error), "");
+  }
+  const FilePtr file(::fdopen(opened.descriptor, "rb"));
+  if (!file) {
+    ::close(opened.descriptor);
+    return fail(std::strerror(ENOMEM), "");
+  }
+  std::string bytes;
+  char chunk[65536];
+  // Not fread: a slow pipe is told of as it comes.
+  for (;;) {
+    if (opened.endless && !hasMore(opened.descriptor)) {
+      if (goOn && !goOn(bytes.size(), 0)) return std::nullopt;
+      continue;
+    }
+    const ssize_t got = ::read(opened.descriptor, chunk, sizeof chunk);
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (got < 0) return fail(std::strerror(errno), "");
+    if (got == 0) break;
+    bytes.append(chunk, static_cast<std::size_t>(got));
+    if (goOn && !goOn(bytes.size(), opened.bytes)) return std::nullopt;
+    if (bytes.size() > kMaxBytes) return fail("it is larger than 4 GiB", "name a smaller file");
+  }
+  return bytes;
+}
+
+bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics) {
+  const auto fail = [&](const std::string& reason) {
+    diagnostics
+        .error(Code::outputNotWritten, {std::make_shared<const std::string>(path), 0, 0},
+               fmt::format("cannot write '{}': {}", path, reason))
+        .hint = reason == std::strerror(ENOSPC) ? "free some space, or name a file on another disk"
+                                                : "name a file in an existing folder that can be written to";
+    return false;
+  };
+  std::error_code ec;
+  if (std::filesystem::is_directory(path, ec)) return fail("it is a directory");
+  // Behind a link stands the file that is meant.
+  const auto canonical = std::filesystem::canonical(path, ec);
+  const std::string target = ec ? path : canonical.string();
+  const auto before = std::filesystem::status(target, ec);
+  // A device or a pipe is written to, not replaced.
+  const bool special = std::filesystem::exists(before) && !std::filesystem::is_regular_file(before);
+  const std::string temporary = special ? target : fmt::format("{}.{}.tmp", target, ::getpid());
+  FilePtr file(std::fopen(temporary.c_str(), "wb"));
+  if (!file) return fail(std::strerror(errno));
+  const bool written =
+      std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
+  const int error = errno;
+  file.reset();
+  ec.clear();
+  if (written && std::filesystem::is_regular_file(before))
+    std::filesystem::permissions(temporary, before.permissions(), ec);
+  ec.clear();
+  if (written && !special) std::filesystem::rename(temporary, target, ec);
+  if (!written || ec) {
+    std::error_code ignored;
+    if (!special) std::filesystem::remove(temporary, ignored);
+    return fail(written ? ec.message() : std::strerror(error));
+  }
+  return true;
+}
+
+}  // namespace weft::base

@@ -1,0 +1,32 @@
+#include "engine/base/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "engine/base/files/file.h"
+#include "engine/base/limit_report.h"
+
+namespace weft::base {
+
+void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics) {
+  reportLimit(diagnostics, Limit::json_bytes, place, "the file is too large", bytes).found =
+      fmt::format("{} bytes", bytes);
+}
+
+std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics, Code code,
+                                        const Place& place) {
+  bool tooLarge = false;
+  std::uint64_t found = 0;  // of a pipe: so far
+  const auto within = [&](std::uint64_t bytes, std::uint64_t total) {
+    found = std::max(bytes, total);
+    tooLarge = found > limitOf(Limit::json_bytes);
+    return !tooLarge;
+  };
+  std::optional<std::string> bytes = readFile(path, diagnostics, code, place, within);
+  if (tooLarge) reportTooLarge({std::make_shared<const std::string>(path), 0, 0}, found, diagnostics);
+  return bytes;
+}
+
+}  // namespace weft::base

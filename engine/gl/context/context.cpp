@@ -1,0 +1,162 @@
+#include "engine/gl/context/context.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "engine/base/hash.h"
+#include "engine/gl/context/context_backends.h"
+
+namespace weft::gl {
+
+namespace {
+
+constexpr std::array<std::pair<Backend, const char*>, 4> kBackends{{
+    {Backend::automatic, "auto"},
+    {Backend::osmesa, "osmesa"},
+    {Backend::egl, "egl"},
+    {Backend::glfw, "glfw"},
+}};
+
+std::string textOf(GLenum name) {
+  const auto* text = reinterpret_cast<const char*>(glGetString(name));
+  return text ? text : "";
+}
+
+std::int32_t integerOf(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+bool isSoftware(std::string renderer) {
+  std::transform(renderer.begin(), renderer.end(), renderer.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "software rasterizer", "swiftshader"})
+    if (renderer.find(name) != std::string::npos) return true;
+  return false;
+}
+
+Limits readLimits() {
+  Limits l;
+  l.textureSize = integerOf(GL_MAX_TEXTURE_SIZE);
+  l.texture3dSize = integerOf(GL_MAX_3D_TEXTURE_SIZE);
+  l.arrayLayers = integerOf(GL_MAX_ARRAY_TEXTURE_LAYERS);
+  l.cubeSize = integerOf(GL_MAX_CUBE_MAP_TEXTURE_SIZE);
+  l.colorAttachments = integerOf(GL_MAX_COLOR_ATTACHMENTS);
+  l.drawBuffers = integerOf(GL_MAX_DRAW_BUFFERS);
+  l.samples = integerOf(GL_MAX_SAMPLES);
+  l.textureUnits = integerOf(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS);
+  l.imageUnits = integerOf(GL_MAX_IMAGE_UNITS);
+  l.uniformBindings = integerOf(GL_MAX_UNIFORM_BUFFER_BINDINGS);
+  l.storageBindings = integerOf(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS);
+  l.uniformOffsetAlignment = integerOf(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+  l.storageOffsetAlignment = integerOf(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
+  GLint64 wide = 0;
+  glGetInteger64v(GL_MAX_UNIFORM_BLOCK_SIZE, &wide);
+  l.uniformBlockBytes = wide;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &wide);
+  l.storageBlockBytes = wide;
+  for (GLuint axis = 0; axis < 3; ++axis) {
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &l.computeGroups[axis]);
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_SIZE, axis, &l.computeGroupSize[axis]);
+  }
+  l.computeInvocations = integerOf(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS);
+  return l;
+}
+
+DeviceInfo describeDevice(Backend backend, const std::string& platform) {
+  DeviceInfo d;
+  d.vendor = textOf(GL_VENDOR);
+  d.renderer = textOf(GL_RENDERER);
+  d.version = textOf(GL_VERSION);
+  d.backend = backend;
+  d.platform = platform;
+  d.software = isSoftware(d.renderer);
+  d.hasProgramBinaries = integerOf(GL_NUM_PROGRAM_BINARY_FORMATS) > 0;
+  GLint bits = 0;
+  glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+  d.hasTimerQueries = !d.software && bits >= 30;
+  d.limits = readLimits();
+  // The backend is in the key because of binaries-per-backend (workarounds.h).
+  const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", d.vendor, d.renderer, d.version,
+                                      textOf(GL_SHADING_LANGUAGE_VERSION), nameOf(backend));
+  d.driverKey = fmt::format("{:016x}", base::hashBytes(all));
+  return d;
+}
+
+void setConventions() {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDisable(GL_DITHER);
+  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+struct Attempt {
+  Backend backend;
+  bool hardwareOnly = false;
+};
+
+std::vector<Attempt> attemptsFor(Backend backend) {
+  if (backend == Backend::automatic) return {{Backend::egl, true}, {Backend::osmesa}, {Backend::egl, false}};
+  return {{backend}};
+}
+
+OpenedContext open(const Attempt& attempt, const ContextOptions& options,
+                   std::vector<std::string>& failures) {
+  if (attempt.backend == Backend::osmesa) return openOsmesa(options, failures);
+  if (attempt.backend == Backend::glfw) return openGlfw(options, failures);
+  return openEgl(options, attempt.hardwareOnly, failures);
+}
+
+}  // namespace
+
+const char* nameOf(Backend backend) {
+  for (const auto& [value, name] : kBackends)
+    if (value == backend) return name;
+  return "";
+}
+
+std::optional<Backend> findBackend(std::string_view name) {
+  for (const auto& [value, text] : kBackends)
+    if (name == text) return value;
+  return std::nullopt;
+}
+
+std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diagnostics& diagnostics) {
+  std::vector<std::string> failures;
+  for (const Attempt& attempt : attemptsFor(options.backend)) {
+    OpenedContext opened = open(attempt, options, failures);
+    if (!opened.context) continue;
+    const int version = gladLoadGL(opened.load);
+    if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 45) {
+      failures.push_back(fmt::format("{}: gives OpenGL {}.{}, not 4.5", opened.platform,
+                                     GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
+      continue;
+    }
+    opened.context->device_ = describeDevice(attempt.backend, opened.platform);
+    if (attempt.hardwareOnly && opened.context->device_.software) {
+      failures.push_back(fmt::format("{}: is a software rasteriser", opened.platform));
+      continue;
+    }
+    if (options.debug) opened.context->debugLog_.install();
+    setConventions();
+    return std::move(opened.context);
+  }
+  base::Diagnostic& error = diagnostics.error(
+      base::Code::noContext, {},
+      fmt::format("no OpenGL 4.5 core context could be opened (backend '{}')", nameOf(options.backend)));
+  error.found = fmt::format("{}", fmt::join(failures, "; "));
+  error.hint = options.backend == Backend::glfw
+                   ? "start it in a graphical session or under `xvfb-run -a`; `weft render` needs no display"
+                   : "install libosmesa6 for the software backend, or the GPU's EGL driver";
+  return nullptr;
+}
+
+}  // namespace weft::gl

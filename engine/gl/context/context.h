@@ -1,0 +1,98 @@
+// OpenGL 4.5 core contexts behind one interface: OSMesa (software, no window system), EGL (a GPU or llvmpipe
+// without a display) and GLFW (a window). createContext leaves the context current, glad loaded and the
+// engine's conventions set: lower-left origin with [0,1] clip depth, GL_FRAMEBUFFER_SRGB off, seamless cube
+// maps, pixel store alignment 1. glad's function pointers are one set per process, so one process uses one
+// backend at a time; every GL call goes through them and never through symbols of a linked libGL or
+// libOSMesa. Does not: poll input, own a frame loop, or keep a global "current context".
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/context/debug.h"
+
+namespace weft::gl {
+
+enum class Backend : std::uint8_t { automatic, osmesa, egl, glfw };
+
+// "auto", "osmesa", "egl", "glfw".
+const char* nameOf(Backend backend);
+std::optional<Backend> findBackend(std::string_view name);
+
+struct ContextOptions {
+  // automatic, for headless use: an EGL device if it is hardware, else OSMesa, else any EGL. OSMesa goes
+  // before a software EGL because it needs no device files or vendor configuration: with both on llvmpipe, it
+  // has fewer ways to fail and the same pixels.
+  Backend backend = Backend::automatic;
+  std::string title = "weft";                // GLFW
+  std::uint32_t width = 1280, height = 720;  // window size in screen coordinates; headless: framebufferSize()
+  bool visible = false;                      // GLFW
+  bool vsync = true;                         // GLFW
+  bool debug = true;                         // a debug context with its messages in debugLog()
+};
+
+struct Limits {
+  std::int32_t textureSize = 0, texture3dSize = 0, arrayLayers = 0, cubeSize = 0;
+  std::int32_t colorAttachments = 0, drawBuffers = 0, samples = 0;
+  std::int32_t textureUnits = 0, imageUnits = 0, uniformBindings = 0, storageBindings = 0;
+  std::int32_t uniformOffsetAlignment = 256, storageOffsetAlignment = 256;
+  std::int64_t uniformBlockBytes = 0, storageBlockBytes = 0;
+  std::int32_t computeGroups[3] = {}, computeGroupSize[3] = {}, computeInvocations = 0;
+};
+
+struct DeviceInfo {
+  std::string vendor, renderer, version;
+  Backend backend = Backend::osmesa;  // never automatic
+  std::string platform;   // how it was opened: "OSMesa", "EGL device 0 (/dev/dri/renderD128)", "GLFW"
+  bool software = false;  // llvmpipe, softpipe, swrast: timer queries are not to be believed
+  bool hasProgramBinaries = false;
+  bool hasTimerQueries = false;  // hardware with timestamp counters of at least 30 bits
+  Limits limits;
+  std::string driverKey;  // 16 hex digits over vendor, renderer, version and backend: keys caches on disk
+};
+
+struct Size {
+  std::uint32_t width = 0, height = 0;
+};
+
+class Context {
+ public:
+  virtual ~Context() = default;
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  // False when the platform refuses (lost device).
+  virtual bool makeCurrent() = 0;
+  // GLFW only; a no-op elsewhere.
+  virtual void swapBuffers() {}
+  virtual void setVsync(bool) {}
+  // GLFWwindow* of the GLFW backend, else null. Owned by the context.
+  virtual void* window() const { return nullptr; }
+  // Pixels of framebuffer 0 (GLFW), or the size asked for. Framebuffer 0 exists only when
+  // hasFramebufferZero().
+  virtual Size framebufferSize() const = 0;
+  virtual bool hasFramebufferZero() const { return false; }
+  // Screen scale for the UI, 1 when there is no screen.
+  virtual float contentScale() const { return 1.0f; }
+
+  const DeviceInfo& device() const { return device_; }
+  DebugLog& debugLog() { return debugLog_; }
+  const DebugLog& debugLog() const { return debugLog_; }
+
+ protected:
+  Context() = default;
+  DeviceInfo device_;
+  DebugLog debugLog_;
+  friend std::unique_ptr<Context> createContext(const ContextOptions& options,
+                                                base::Diagnostics& diagnostics);
+};
+
+// A current context, or null with a W110 diagnostic that lists every platform that was tried and why it
+// failed. Destroy GL objects before the context.
+std::unique_ptr<Context> createContext(const ContextOptions& options, base::Diagnostics& diagnostics);
+
+}  // namespace weft::gl

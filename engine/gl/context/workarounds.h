@@ -1,0 +1,42 @@
+// Everything this room does because of how drivers behave rather than because of what OpenGL says, each with
+// a name, a reason and the date it was last seen; the code it causes names it. Remove an entry by undoing it
+// and watching the tests.
+#pragma once
+
+#include "engine/gl/context/context.h"
+
+namespace weft::gl::workarounds {
+
+// timer-queries-lie: llvmpipe counts submission, not execution: a 250 ms draw reads 1 ms. Profile such
+// devices with the wall clock between glFinish. Mesa 22.3.6, 2026-11-21.
+inline bool timerQueriesLie(const DeviceInfo& device) {
+  return device.software;
+}
+
+// binaries-per-backend: EGL and OSMesa give identical GL_VERSION and GL_RENDERER strings and reject each
+// other's program binaries, so the backend is part of every cache key. Mesa 22.3.6, 2026-11-21.
+
+// stencil-view: viewing stencil as R8UI (or D32F as R32F) is invalid everywhere (they are classes of their
+// own), so a stencil view has the same format and DEPTH_STENCIL_TEXTURE_MODE set to STENCIL_INDEX.
+// OpenGL 4.5 8.18, 2026-11-21.
+
+// view-names-from-gen: glTextureView wants a name that has never been bound; glCreateTextures binds.
+// OpenGL 4.5 8.18, enforced by Mesa 22.3.6, 2026-11-21.
+
+// source-numbers-lost: Mesa's log names source string 0 for some expressions whatever #line said, beside the
+// right line (seen; the cause was not looked for); so lines are numbered through the whole text
+// (shader_source.h). Mesa 22.3.6, 2026-11-21.
+
+// columns-after-preprocessing: the columns of Mesa's log count a run of blanks as one (seen on lines with and
+// without such runs), as its preprocessor would leave them; mapLog counts back, in lines without macros.
+// Mesa 22.3.6, 2026-11-21.
+
+// storage-flag-without-storage: after glNamedBufferStorage ran out of memory Mesa still answers GL_TRUE for
+// GL_BUFFER_IMMUTABLE_STORAGE (for textures the flag is true to fact), so Buffer asks glGetError.
+// Mesa 22.3.6, 2026-11-21.
+
+// compiler-messages-twice: Mesa sends every error of a shader's log also as a KHR_debug message of the shader
+// compiler (type error, above notification), besides the log that Program reads and maps. Its messages of
+// type error and other are therefore switched off; those about performance stay. Mesa 22.3.6, 2026-11-21.
+
+}  // namespace weft::gl::workarounds

@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "engine/gl/context/debug.h"
+#include "engine/gl/objects/objects.h"
+
+namespace weft::gl {
+
+namespace {
+
+bool isLayered(GLenum target) {
+  return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY ||
+         target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+}
+
+bool isMultisample(GLenum target) {
+  return target == GL_TEXTURE_2D_MULTISAMPLE || target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+}
+
+GLint limitOf(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+std::string sizeText(const TextureDesc& d) {
+  std::string text = fmt::format("{}x{}", d.width, d.height);
+  if (d.target == GL_TEXTURE_3D) text += fmt::format("x{}", d.depth);
+  if (d.layers > 1) text += fmt::format(", {} layers", d.layers);
+  if (d.mips > 1) text += fmt::format(", {} mips", d.mips);
+  if (d.samples > 1) text += fmt::format(", {} samples", d.samples);
+  return text + " " + enumName(d.format);
+}
+
+// Why the driver would refuse, or "". Checked before the driver is asked so that the message can say which
+// number.
+std::string refusal(const TextureDesc& d) {
+  const bool cube = d.target == GL_TEXTURE_CUBE_MAP || d.target == GL_TEXTURE_CUBE_MAP_ARRAY;
+  const auto largest = static_cast<std::uint32_t>(limitOf(d.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
+                                                          : cube ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
+                                                                 : GL_MAX_TEXTURE_SIZE));
+  const std::uint32_t depth = d.target == GL_TEXTURE_3D ? d.depth : 1;
+  const std::uint32_t side = std::max({d.width, d.height, depth});
+  if (std::min({d.width, d.height, depth, d.layers, d.mips, d.samples}) == 0)
+    return "a size, layer, mip or sample count is zero";
+  if (side > largest) return fmt::format("the largest side is {} texels here", largest);
+  if (d.mips > static_cast<std::uint32_t>(std::bit_width(side)))
+    return fmt::format("this size has at most {} mips", std::bit_width(side));
+  if (isLayered(d.target)) {
+    const GLint most = limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    if (d.layers > static_cast<std::uint32_t>(most))
+      return fmt::format("at most {} layers are allowed here", most);
+  } else if (d.layers != (d.target == GL_TEXTURE_CUBE_MAP ? 6u : 1u)) {
+    return fmt::format("{} layers do not fit {}", d.layers, enumName(d.target));
+  }
+  if (cube && d.width != d.height) return "cube faces must be square";
+  if (d.target == GL_TEXTURE_CUBE_MAP_ARRAY && d.layers % 6 != 0)
+    return "a cube array needs a multiple of six layers";
+  if (isMultisample(d.target)) {
+    const GLint most = limitOf(GL_MAX_SAMPLES);
+    if (d.samples > static_cast<std::uint32_t>(most))
+      return fmt::format("at most {} samples are allowed here", most);
+    if (d.mips > 1) return "a multisampled texture has one mip";
+  } else if (d.samples > 1) {
+    return fmt::format("{} has no samples", enumName(d.target));
+  }
+  return "";
+}
+
+std::string statusReason(GLenum status) {
+  switch (status) {
+    case GL_FRAMEBUFFER_UNDEFINED:
+      return "the default framebuffer does not exist";
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+      return "an attachment has no such mip or layer, or a format that cannot be rendered to at that point";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+      return "it has no attachment and no size of its own";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+      return "its attachments differ in sample count";
+    case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+      return "some attachments are layered and some are not, or they differ in target";
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+      return "this driver does not render to this combination of formats";
+    default:
+      return "the driver gives no reason";
+  }
+}
+
+}  // namespace
+
+std::optional<Texture> Texture::create(const TextureDesc& desc, std::string_view label,
+                                       base::Diagnostics& diagnostics) {
+  const auto fail = [&](const std::string& reason) {
+    diagnostics
+        .error(base::Code::textureNotCreated, {},
+               fmt::format("texture '{}' ({}) cannot be created: {}", label, sizeText(desc), reason))
+        .resource = label;
+    return std::nullopt;
+  };
+  if (const std::string reason = refusal(desc); !reason.empty()) return fail(reason);
+  GLuint id = 0;
+  glCreateTextures(desc.target, 1, &id);
+  Texture texture(id);
+  texture.desc_ = desc;
+  const auto [mips, width, height, depth, layers, samples] =
+      std::array{static_cast<GLsizei>(desc.mips),   static_cast<GLsizei>(desc.width),
+                 static_cast<GLsizei>(desc.height), static_cast<GLsizei>(desc.depth),
+                 static_cast<GLsizei>(desc.layers), static_cast<GLsizei>(desc.samples)};
+  switch (desc.target) {
+    case GL_TEXTURE_2D:
+    case GL_TEXTURE_CUBE_MAP:
+      glTextureStorage2D(id, mips, desc.format, width, height);
+      break;
+    case GL_TEXTURE_2D_ARRAY:
+    case GL_TEXTURE_CUBE_MAP_ARRAY:
+      glTextureStorage3D(id, mips, desc.format, width, height, layers);
+      break;
+    case GL_TEXTURE_3D:
+      glTextureStorage3D(id, mips, desc.format, width, height, depth);
+      break;
+    case GL_TEXTURE_2D_MULTISAMPLE:
+      glTextureStorage2DMultisample(id, samples, desc.format, width, height, GL_TRUE);
+      break;
+    case GL_TEXTURE_2D_MULTISAMPLE_ARRAY:
+      glTextureStorage3DMultisample(id, samples, desc.format, width, height, layers, GL_TRUE);
+      break;
+    default:
+      return fail(fmt::format("{} is no target of this engine", enumName(desc.target)));
+  }
+  GLint stored = 0;
+  glGetTextureParameteriv(id, GL_TEXTURE_IMMUTABLE_FORMAT, &stored);
+  if (!stored) return fail(takeErrors());
+  if (!isMultisample(desc.target)) {
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, desc.mips > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+      glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id, GL_TEXTURE_MAX_LEVEL, mips - 1);
+  }
+  labelObject(GL_TEXTURE, id, label);
+  return texture;
+}
+
+std::optional<TextureView> TextureView::create(const TextureRef& of, const ViewDesc& view,
+                                               std::string_view label, base::Diagnostics& diagnostics) {
+  GLuint id = 0;
+  glGenTextures(1, &id);  // workarounds.h: view-names-from-gen
+  TextureView texture(id);
+  const GLenum format = view.format == 0 ? of.desc.format : view.format;
+  glTextureView(id, view.target, of.id, format, view.mip, view.mips, view.layer, view.layers);
+  if (!glIsTexture(id)) {
+    diagnostics
+        .error(base::Code::viewNotCreated, {},
+               fmt::format("view '{}' of a texture ({}) cannot be created: {}", label, sizeText(of.desc),
+                           takeErrors()))
+        .found =
+        fmt::format("{} as {}, mips {} to {}, layers {} to {}", enumName(view.target), enumName(format),
+                    view.mip, view.mip + view.mips - 1, view.layer, view.layer + view.layers - 1);
+    return std::nullopt;
+  }
+  texture.desc_ = of.desc;
+  texture.desc_.target = view.target;
+  texture.desc_.format = format;
+  texture.desc_.width = std::max(1u, of.desc.width >> view.mip);
+  texture.desc_.height = std::max(1u, of.desc.height >> view.mip);
+  texture.desc_.depth = std::max(1u, of.desc.depth >> view.mip);
+  texture.desc_.layers = view.layers;
+  texture.desc_.mips = view.mips;
+  if (!isMultisample(view.target)) {
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, view.mips > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+      glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(view.mips) - 1);
+  }
+  if (view.stencil)
+    glTextureParameteri(id, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);  // workarounds.h: stencil-view
+  labelObject(GL_TEXTURE, id, label);
+  return texture;
+}
+
+std::optional<Framebuffer> Framebuffer::create(std::span<const Attachment> attachments,
+                                               std::string_view label, base::Diagnostics& diagnostics,
+                                               std::uint32_t width, std::uint32_t height) {
+  GLuint id = 0;
+  glCreateFramebuffers(1, &id);
+  Framebuffer framebuffer(id);
+  std::array<GLenum, 32> draws{};
+  GLsizei drawCount = 0;
+  for (const Attachment& a : attachments) {
+    if (a.layer < 0)
+      glNamedFramebufferTexture(id, a.point, a.texture, static_cast<GLint>(a.mip));
+    else
+      glNamedFramebufferTextureLayer(id, a.point, a.texture, static_cast<GLint>(a.mip), a.layer);
+    if (a.point >= GL_COLOR_ATTACHMENT0 && a.point < GL_COLOR_ATTACHMENT0 + draws.size()) {
+      const auto index = static_cast<GLsizei>(a.point - GL_COLOR_ATTACHMENT0);
+      draws[static_cast<std::size_t>(index)] = a.point;
+      drawCount = std::max(drawCount, index + 1);
+    }
+  }
+  glNamedFramebufferDrawBuffers(id, drawCount, draws.data());  // absent ones are GL_NONE, which is 0
+  glNamedFramebufferReadBuffer(id, drawCount > 0 && draws[0] != GL_NONE ? draws[0] : GL_NONE);
+  if (width > 0) glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_WIDTH, static_cast<GLint>(width));
+  if (height > 0) glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, static_cast<GLint>(height));
+  labelObject(GL_FRAMEBUFFER, id, label);
+  const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return framebuffer;
+
+  std::string parts;
+  for (const Attachment& a : attachments) {
+    GLint w = 0, h = 0, format = 0, samples = 0;
+    if (glIsTexture(a.texture)) {
+      const auto mip = static_cast<GLint>(a.mip);
+      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_WIDTH, &w);
+      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_HEIGHT, &h);
+      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_INTERNAL_FORMAT, &format);
+      glGetTextureLevelParameteriv(a.texture, mip, GL_TEXTURE_SAMPLES, &samples);
+    }
+    parts += fmt::format("{}{}: {}x{} {} mip {}{}{}", parts.empty() ? "" : "; ", enumName(a.point), w, h,
+                         enumName(static_cast<GLenum>(format)), a.mip,
+                         a.layer < 0 ? "" : fmt::format(" layer {}", a.layer),
+                         samples > 1 ? fmt::format(", {} samples", samples) : "");
+  }
+  const std::string errors = takeErrors();
+  diagnostics
+      .error(base::Code::incompleteFramebuffer, {},
+             fmt::format("framebuffer '{}' is incomplete: {} ({}{}{})", label, statusReason(status),
+                         enumName(status), errors.empty() ? "" : ", ", errors))
+      .found = parts.empty() ? "no attachments" : parts;
+  return std::nullopt;
+}
+
+}  // namespace weft::gl

@@ -1,0 +1,104 @@
+#include "engine/gl/objects/timers.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+
+#include "engine/gl/context/workarounds.h"
+
+namespace weft::gl {
+
+double steadyMs() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+PassTimers::PassTimers(const DeviceInfo& device)
+    : queries_(device.hasTimerQueries && !workarounds::timerQueriesLie(device)) {}
+
+void PassTimers::setEnabled(bool enabled) {
+  if (enabled_ && !enabled) finish();
+  if (!enabled_ && enabled && queries_) {
+    GLint64 gpu = 0;
+    glGetInteger64v(GL_TIMESTAMP, &gpu);
+    clockOffset_ = steadyMs() - static_cast<double>(gpu) * 1e-6;
+  }
+  enabled_ = enabled;
+}
+
+void PassTimers::beginFrame(std::uint32_t passes) {
+  if (!enabled_) return;
+  current_ = (current_ + 1) % kFramesInFlight;
+  Frame& frame = frames_[current_];
+  if (frame.number != 0) collect(frame);
+  frame.times.assign(passes, PassTime{});
+  if (!queries_) return;
+  while (frame.starts.size() < passes) {
+    frame.starts.push_back(Query::create(GL_TIMESTAMP, "pass start"));
+    frame.ends.push_back(Query::create(GL_TIMESTAMP, "pass end"));
+  }
+}
+
+void PassTimers::begin(std::uint32_t pass) {
+  if (!enabled_) return;
+  Frame& frame = frames_[current_];
+  assert(pass < frame.times.size());
+  if (queries_)
+    glQueryCounter(frame.starts[pass].id(), GL_TIMESTAMP);
+  else
+    glFinish();
+  cpuStart_ = steadyMs();
+  if (!frame.times[pass].ran) frame.times[pass].cpuAt = frame.times[pass].gpuAt = cpuStart_;
+}
+
+void PassTimers::end(std::uint32_t pass) {
+  if (!enabled_) return;
+  Frame& frame = frames_[current_];
+  PassTime& time = frame.times[pass];
+  time.ran = true;
+  time.cpu += steadyMs() - cpuStart_;
+  frame.last = pass;
+  if (queries_) {
+    glQueryCounter(frame.ends[pass].id(), GL_TIMESTAMP);
+  } else {
+    glFinish();
+    time.gpu += steadyMs() - cpuStart_;
+  }
+}
+
+void PassTimers::endFrame() {
+  if (!enabled_) return;
+  frames_[current_].number = ++counter_;
+  // Oldest first, so that results() only moves forward.
+  for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
+    Frame& frame = frames_[(current_ + i) % kFramesInFlight];
+    if (frame.number == 0) continue;
+    const bool any =
+        std::any_of(frame.times.begin(), frame.times.end(), [](const PassTime& t) { return t.ran; });
+    if (queries_ && any && !frame.ends[frame.last].available()) break;
+    collect(frame);
+  }
+}
+
+void PassTimers::collect(Frame& frame) {
+  if (queries_)
+    for (std::size_t i = 0; i < frame.times.size(); ++i)
+      if (frame.times[i].ran) {
+        const std::uint64_t start = frame.starts[i].result();
+        frame.times[i].gpu = static_cast<double>(frame.ends[i].result() - start) * 1e-6;
+        frame.times[i].gpuAt = static_cast<double>(start) * 1e-6 + clockOffset_;
+      }
+  results_.assign(frame.times.begin(), frame.times.end());
+  resultFrame_ = frame.number;
+  frame.number = 0;
+  if (listener_) listener_(resultFrame_, results_);
+}
+
+void PassTimers::finish() {
+  for (std::size_t i = 1; i <= kFramesInFlight; ++i) {
+    Frame& frame = frames_[(current_ + i) % kFramesInFlight];
+    if (frame.number != 0) collect(frame);
+  }
+}
+
+}  // namespace weft::gl

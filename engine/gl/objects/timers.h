@@ -1,0 +1,74 @@
+// Time per pass of a frame, in milliseconds. On hardware by timestamp queries that are collected some frames
+// later and never stall; on software rasterisers, whose timer queries lie, by the wall clock between
+// glFinish. Off until enabled: then begin() and end() do nothing. No heap allocation in a frame once its
+// number of passes was seen. Does not: smooth, aggregate or name anything.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/gl/context/context.h"
+#include "engine/gl/objects/objects.h"
+
+namespace weft::gl {
+
+struct PassTime {
+  bool ran = false;
+  double gpu = 0;               // ms
+  double cpu = 0;               // ms between begin() and end() on this thread, without the finish
+  double gpuAt = 0, cpuAt = 0;  // when they began: ms of the steady clock, the GPU's clock set to it
+};
+
+// The steady clock in ms: what PassTime counts in.
+double steadyMs();
+
+class PassTimers {
+ public:
+  explicit PassTimers(const DeviceInfo& device);
+
+  void setEnabled(bool enabled);
+  // Called with every frame's number and times once they are complete, in order, from within beginFrame(), endFrame(),
+  // setEnabled() or finish(). Empty: nobody. Must not call back.
+  using Listener = std::function<void(std::uint64_t number, std::span<const PassTime> times)>;
+  void setListener(Listener listener) { listener_ = std::move(listener); }
+  bool enabled() const { return enabled_; }
+  bool usesQueries() const { return queries_; }
+
+  // passes: how many indices begin() may name. Every begin(i) is followed by end(i); they do not nest.
+  void beginFrame(std::uint32_t passes);
+  void begin(std::uint32_t pass);
+  void end(std::uint32_t pass);
+  void endFrame();
+
+  // The newest frame whose times are complete (with queries some frames old); empty before the first.
+  std::span<const PassTime> results() const { return results_; }
+  // Its number, counting endFrame() calls while enabled from 1; 0 before the first.
+  std::uint64_t resultFrame() const { return resultFrame_; }
+  // The number that the frame to begin next will have.
+  std::uint64_t nextFrame() const { return counter_ + 1; }
+  // Waits for all frames in flight; results() is then the last one.
+  void finish();
+
+ private:
+  static constexpr std::size_t kFramesInFlight = 4;
+  struct Frame {
+    std::vector<Query> starts, ends;
+    std::vector<PassTime> times;
+    std::uint64_t number = 0;  // 0: nothing pending
+    std::uint32_t last = 0;    // the pass that ended last
+  };
+  void collect(Frame& frame);  // waits when it must
+  bool queries_ = false, enabled_ = false;
+  Frame frames_[kFramesInFlight];
+  std::size_t current_ = 0;
+  std::uint64_t counter_ = 0, resultFrame_ = 0;
+  double cpuStart_ = 0;
+  double clockOffset_ = 0;  // ms from the GPU's clock to the steady one
+  Listener listener_;
+  std::vector<PassTime> results_;
+};
+
+}  // namespace weft::gl

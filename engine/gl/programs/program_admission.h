@@ -1,0 +1,40 @@
+// Whether a program may be handed to the driver: its stages held against their bounds, tried in a process of
+// its own when they are unusual, and functions that call each other in a circle told with their place. Parts
+// of ProgramCache, not for others.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/context/context.h"
+#include "engine/gl/programs/program.h"
+#include "engine/gl/shaders/bounds.h"
+
+namespace weft::gl {
+
+struct ProgramSize {
+  std::vector<ShaderSize> stages;
+  bool unusual = false;
+};
+
+// Errors (W203) for what is beyond a bound.
+ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const Define> defines,
+                           base::Diagnostics& diagnostics);
+
+// Processor time that trials have taken since a graph began to load: all of them together have shader_seconds.
+struct TrialTime {
+  double spent = 0;
+};
+
+// False after an error (W204): the driver did not survive the program, or no time is left to try it.
+bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
+                   std::span<const StageSource> stages, std::span<const Define> defines,
+                   std::span<const std::string> outputs, const ProgramSize& size, TrialTime& time,
+                   base::Diagnostics& diagnostics);
+
+// Drivers say that there is recursion, and not where.
+void placeCircles(std::span<const StageSource> stages, const ProgramSize& size, base::Diagnostics& log);
+
+}  // namespace weft::gl

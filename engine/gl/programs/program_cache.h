@@ -1,0 +1,117 @@
+// Variants by (source text, defines, outputs, stages, driver, backend): in memory the most recently used
+// ones and, beyond them, those that somebody still holds (a graph of more programs than the cache has room
+// for loses none when it is loaded again), on disk all of them as program binaries. A broken, foreign or
+// rejected binary is a miss and is written anew. A variant that does not compile gives its diagnostics and
+// null, and the caller keeps the program it has; the failure is remembered until the sources change, so that
+// asking again compiles nothing. What is too large for the driver is refused, and what is unusually large tried in
+// a process of its own first (shader_bounds.h, shader_trial.h). The folder is kept below program_cache_bytes.
+// Does not: compile in the background, or watch files (SourceLoader looks at times).
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/context/context.h"
+#include "engine/gl/programs/program.h"
+#include "engine/gl/programs/program_admission.h"
+#include "engine/gl/shaders/source.h"
+
+namespace weft::gl {
+
+struct ProgramRequest {
+  struct Stage {
+    GLenum stage = GL_FRAGMENT_SHADER;
+    std::string file;  // found by SourceLoader; a name for messages when `text` is given
+    std::string text;  // not empty: GLSL that the engine itself supplies
+  };
+  std::vector<Stage> stages;
+  std::vector<Define> defines;
+  std::vector<std::string> outputs;  // see Program::compile
+  std::string label;                 // debug label; not part of the key
+  base::Place place;                 // of the graph's "shader" value
+  std::string pass;                  // written into diagnostics
+};
+
+// A program and the sources it was made from, for checking names against them.
+struct Variant {
+  Program program;
+  std::vector<StageSource> stages;
+  std::string key{};  // of the cache
+  // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no
+  // error).
+  bool mentions(std::string_view name) const;
+};
+
+// hits + misses: calls whose sources could be read. A remembered failure is a hit. A binary that is absent is
+// neither load nor reject; a rejected one is compiled and written anew.
+struct ProgramCacheStats {
+  std::uint64_t hits = 0, misses = 0, evictions = 0;
+  std::uint64_t compilations = 0;  // from source, failed ones included
+  std::uint64_t failures = 0;      // of those
+  std::uint64_t refusals =
+      0;  // not compiled: too large (W203), or the driver did not survive the trial (W204)
+  std::uint64_t trials = 0;
+  std::uint64_t binaryLoads = 0, binaryRejects = 0, binaryWrites = 0, binaryRemovals = 0;
+  std::uint64_t revivals = 0;  // misses for a variant that had been evicted and was still held elsewhere
+};
+
+class ProgramCache {
+ public:
+  struct Options {
+    std::size_t capacity = 32;  // at least 1
+    std::string folder;         // of binaries, made when absent; "": no disk cache
+    // Starts a process that compiles first what is unusually large (shader_trial.h); empty: none, and what kills the
+    // driver kills this process.
+    std::vector<std::string> trial{};
+  };
+  // `device` and `loader` must outlive the cache.
+  ProgramCache(const DeviceInfo& device, SourceLoader& loader, Options options);
+
+  // The variant, or null after errors. It stays valid when evicted or when its sources change.
+  std::shared_ptr<const Variant> get(const ProgramRequest& request, base::Diagnostics& diagnostics);
+
+  // A graph begins to load: trials have all of shader_seconds again.
+  void startTrials() { trialTime_ = {}; }
+
+  // As get() of the request that `variant` is the answer to, without a look at its sources: for a pass that is known to
+  // be what it was.
+  void touch(const std::shared_ptr<const Variant>& variant);
+
+  const ProgramCacheStats& stats() const { return stats_; }
+  std::size_t size() const { return order_.size(); }
+  // Drops the variants in memory; those held elsewhere live on.
+  void clear();
+
+ private:
+  struct Entry {
+    std::string key;
+    std::shared_ptr<const Variant> variant;
+  };
+  std::shared_ptr<const Variant> refuse(std::string key, const ProgramRequest& request,
+                                        base::Diagnostics said, base::Diagnostics& diagnostics);
+  std::shared_ptr<const Variant> remember(std::string key, std::shared_ptr<const Variant> variant);
+  std::shared_ptr<const Variant> revive(const std::string& key);
+  std::optional<Program> loadBinary(const std::string& key, bool compute, std::string_view label);
+  void storeBinary(const std::string& key, bool compute, const Program& program);
+  void boundFolder(std::uint64_t written);
+  std::string pathOf(const std::string& key) const;
+
+  const DeviceInfo& device_;
+  SourceLoader& loader_;
+  Options options_;
+  ProgramCacheStats stats_;
+  TrialTime trialTime_;
+  std::optional<std::uint64_t> folderBytes_;  // of binaries, as far as is known here
+  std::list<Entry> order_;                    // most recently used first
+  std::unordered_map<std::string, std::list<Entry>::iterator> index_;
+  std::unordered_map<std::string, std::weak_ptr<const Variant>> evicted_;
+  std::unordered_map<std::string, base::Diagnostics> failures_;
+};
+
+}  // namespace weft::gl

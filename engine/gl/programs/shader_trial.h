@@ -1,0 +1,37 @@
+// Compiling a program in a process of its own first, so that a driver that crashes over it, takes all memory
+// or does not come to an end takes nothing else along. The process is this executable again, started with
+// kTrialWord, or whatever an embedder names. It opens a context of the same driver, compiles, links and makes
+// the machine code of a draw or a dispatch that covers nothing, so that no loop of the shader runs. Nothing
+// of it comes back but how it ended. Does not: decide which programs to try (shader_bounds.h does).
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/gl/context/context.h"
+#include "engine/gl/programs/program.h"
+
+namespace weft::gl {
+
+// First argument of the process that is started; its main() hands over to runTrial().
+constexpr const char* kTrialWord = "try-program";
+
+struct TrialResult {
+  bool survived = true;     // also when no process or context could be had: then nothing is known
+  std::string what;         // "signal 11 (Segmentation fault)"
+  std::string during;       // "linking"
+  double seconds = 0;       // of processor time
+  std::uint64_t bytes = 0;  // of memory at most
+};
+
+// `command`: the executable and what comes before kTrialWord; empty: nothing is tried. Waits for the process,
+// which is gone when this returns: it is ended after `seconds` of processor time, or six times that by the clock.
+TrialResult tryProgram(std::span<const std::string> command, Backend backend,
+                       std::span<const StageSource> stages, std::span<const Define> defines,
+                       std::span<const std::string> outputs, std::uint64_t seconds);
+
+// The other end: `argv` from kTrialWord on, the program on standard input. Does not return.
+[[noreturn]] void runTrial(int argc, char** argv);
+
+}  // namespace weft::gl

@@ -1,0 +1,187 @@
+// A driver's compile or link log to diagnostics with true places.
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "engine/gl/shaders/source.h"
+#include "engine/gl/shaders/words.h"
+
+namespace weft::gl {
+
+namespace {
+
+// One message of a log: "file:line(column)" as numbers, severity and text.
+struct LogLine {
+  bool placed = false;
+  std::uint32_t file = 0, line = 0, column = 0;
+  base::Severity severity = base::Severity::error;
+  std::string_view text;
+};
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() &&
+         (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\0'))
+    text.remove_suffix(1);
+  return text;
+}
+
+bool takeNumber(std::string_view& text, std::uint32_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+bool take(std::string_view& text, std::string_view token) {
+  if (!text.starts_with(token)) return false;
+  text.remove_prefix(token.size());
+  return true;
+}
+
+// "error: text", "preprocessor warning: text", "error C1234: text", "ERROR: text"; false when no severity
+// stands there.
+bool takeSeverity(std::string_view& text, base::Severity& severity) {
+  std::string_view rest = trim(text);
+  take(rest, "preprocessor ");
+  if (take(rest, "error") || take(rest, "ERROR") || take(rest, "fatal error")) {
+    severity = base::Severity::error;
+  } else if (take(rest, "warning") || take(rest, "WARNING")) {
+    severity = base::Severity::warning;
+  } else if (take(rest, "note")) {
+    severity = base::Severity::note;
+  } else {
+    return false;
+  }
+  const std::size_t colon = rest.find(':');
+  if (colon == std::string_view::npos || colon > 8) return false;
+  const std::string_view number = trim(rest.substr(0, colon));
+  if (!number.empty() && number.front() != 'C') return false;
+  text = trim(rest.substr(colon + 1));
+  return true;
+}
+
+std::optional<LogLine> parseLine(std::string_view raw) {
+  LogLine line;
+  std::string_view rest = raw;
+  // Mesa: 0:12(5): error: text
+  if (takeNumber(rest, line.file) && take(rest, ":") && takeNumber(rest, line.line) && take(rest, "(") &&
+      takeNumber(rest, line.column) && take(rest, "):") && takeSeverity(rest, line.severity)) {
+    line.placed = true;
+    line.text = rest;
+    return line;
+  }
+  // NVIDIA: 0(12) : error C1234: text
+  line = {};
+  rest = raw;
+  if (takeNumber(rest, line.file) && take(rest, "(") && takeNumber(rest, line.line) && take(rest, ")")) {
+    rest = trim(rest);
+    if (take(rest, ":") && takeSeverity(rest, line.severity)) {
+      line.placed = true;
+      line.text = rest;
+      return line;
+    }
+  }
+  // ERROR: 0:12: text, or a severity without a place
+  line = {};
+  rest = raw;
+  if (takeSeverity(rest, line.severity)) {
+    std::string_view after = rest;
+    if (takeNumber(after, line.file) && take(after, ":") && takeNumber(after, line.line) &&
+        take(after, ":")) {
+      line.placed = true;
+      line.text = trim(after);
+    } else {
+      line.file = line.line = 0;
+      line.text = rest;
+    }
+    return line;
+  }
+  return std::nullopt;
+}
+
+// workarounds.h: columns-after-preprocessing. The column in `line` of what stands in `column` once every run
+// of blanks is one; 0 when there is no such column (a macro was expanded).
+std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
+  std::uint32_t collapsed = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto blank = [&](std::size_t at) { return line[at] == ' ' || line[at] == '\t'; };
+    if (i > 0 && blank(i) && blank(i - 1)) continue;
+    if (++collapsed == column) {
+      while (i + 1 < line.size() && blank(i) && blank(i + 1)) ++i;
+      return static_cast<std::uint32_t>(i + 1);
+    }
+  }
+  return 0;
+}
+
+// Headings and rules of NVIDIA's logs.
+bool isOrnament(std::string_view text) {
+  return text.empty() || text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
+         text == "Fragment info" || text == "Compute info" || text == "Link info";
+}
+
+}  // namespace
+
+std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
+                   base::Diagnostics& diagnostics) {
+  static const auto defines = std::make_shared<const std::string>("<defines>");
+  std::vector<LogMessage> messages;
+  LogMessage message;
+  base::Diagnostic& pending = message.diagnostic;
+  // Mesa gives each overload that does not fit a line of its own, at the place of the call: they are counted,
+  // not told.
+  constexpr std::string_view kCandidates = "; candidates are:";
+  std::uint32_t candidates = 0, callLine = 0, callColumn = 0;
+  std::string only;
+  const auto flush = [&] {
+    if (candidates > 0) {
+      pending.message.resize(pending.message.size() - kCandidates.size());
+      pending.expected = candidates == 1 ? only : fmt::format("one of its {} forms", candidates);
+      candidates = 0;
+    }
+    if (!pending.message.empty()) messages.push_back(message);
+    message = {};
+  };
+  while (!log.empty()) {
+    const std::size_t end = log.find('\n');
+    const std::string_view raw = trim(log.substr(0, end));
+    log = end == std::string_view::npos ? std::string_view() : log.substr(end + 1);
+    if (isOrnament(raw)) continue;
+    const std::optional<LogLine> line = parseLine(raw);
+    if (!line && !pending.message.empty()) {
+      pending.message += fmt::format(" {}", raw);
+      continue;
+    }
+    if (line && line->placed && line->line == callLine && line->column == callColumn &&
+        pending.message.ends_with(kCandidates)) {
+      ++candidates;
+      only = trim(line->text);
+      continue;
+    }
+    flush();
+    callLine = line ? line->line : 0;
+    callColumn = line ? line->column : 0;
+    pending.code = code;
+    pending.severity = line ? line->severity : base::Severity::error;
+    pending.message = std::string(line ? line->text : raw);
+    if (line && line->placed && line->line >= kTextLine) {
+      message.textLine = line->line - kTextLine + 1;
+      pending.place =
+          source.placeOf(message.textLine, trueColumn(lineOf(source.text, message.textLine), line->column));
+    } else if (line && line->placed) {
+      pending.place = {defines, line->line, line->column};
+    } else {
+      pending.place = {source.file, 0, 0};
+    }
+  }
+  flush();
+  dropConsequences(messages);
+  for (LogMessage& known : messages) {
+    explainMessage(known, source);
+    diagnostics.add(std::move(known.diagnostic));
+  }
+  return messages.size();
+}
+
+}  // namespace weft::gl

@@ -1,0 +1,345 @@
+#include "engine/gl/shaders/source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <span>
+
+#include "engine/base/files/file.h"
+#include "engine/base/files/file_access.h"
+#include "engine/base/hash.h"
+#include "engine/base/nearest.h"
+#include "engine/gl/shaders/scan.h"
+
+namespace weft::gl {
+
+namespace fs = std::filesystem;
+using base::Code;
+using base::Diagnostics;
+using base::Place;
+
+namespace {
+
+constexpr std::size_t kMostText = std::size_t{16}
+                                  << 20;  // of one stage; a guarded include may repeat its text
+
+std::int64_t timeOf(const std::string& path) {
+  std::error_code ec;
+  const auto time = fs::last_write_time(path, ec);
+  return ec ? -1 : static_cast<std::int64_t>(time.time_since_epoch().count());
+}
+
+std::uint64_t bytesOf(const std::string& path) {
+  std::error_code ec;
+  const auto size = fs::file_size(path, ec);
+  return ec ? ~0ull : size;
+}
+
+std::string folderOf(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+// A file that may be read, and is one of those that readFile() reads.
+bool isReadable(const fs::path& path) {
+  std::error_code ec;
+  return base::mayRead(path.string()) && fs::is_regular_file(path, ec);
+}
+
+// The first that may not be read, where nothing is said of whether it is there.
+std::optional<std::string> outsideOf(std::span<const fs::path> candidates) {
+  for (const fs::path& candidate : candidates)
+    if (const std::string path = candidate.lexically_normal().string(); !base::mayRead(path)) return path;
+  return std::nullopt;
+}
+
+}  // namespace
+
+// One expansion: the text built so far, the files met, and the chain of includes that leads to the current
+// one.
+class IncludeExpander {
+ public:
+  IncludeExpander(const std::vector<std::string>& roots, ShaderNames& names, Diagnostics& diagnostics)
+      : roots_(roots), names_(names), diagnostics_(diagnostics) {}
+
+  // `folder` is where includes are searched first; "" for text without a file.
+  void expandRoot(const std::string& path, const std::string& folder, std::string_view text) {
+    const std::size_t number = addFile(path);
+    source_->file = source_->files[number];
+    expandFile(number, folder, text, 0);
+  }
+
+  std::shared_ptr<ShaderSource> finish() {
+    source_->hash = base::hashBytes(source_->text);
+    scanNames(source_->text, source_->identifiers, source_->declared);
+    return source_;
+  }
+
+  const std::vector<std::string>& paths() const { return paths_; }
+  // Where includes that were not found would have been.
+  const std::vector<std::string>& missing() const { return missing_; }
+
+ private:
+  std::size_t addFile(const std::string& path) {
+    source_->files.push_back(std::make_shared<const std::string>(path));
+    paths_.push_back(path);
+    unconditional_.push_back(false);
+    return source_->files.size() - 1;
+  }
+
+  // `depth`: how many #if surround the whole file.
+  void expandFile(std::size_t number, const std::string& folder, std::string_view text, int depth) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+      reportZero(number, text, zero);
+    stack_.push_back(number);
+    LineScanner scanner(text);
+    while (scanner.next()) {
+      const Directive directive = scanner.directive();
+      const Place place{source_->files[number], scanner.number(), directive.column};
+      if (directive.name == "include") {
+        include(directive, place, folder, depth + scanner.depth());
+        continue;
+      }
+      if (directive.name == "version")
+        diagnostics_.error(Code::versionInShader, place, "a shader file has no #version").hint =
+            "remove the line; the engine writes '#version 450 core'";
+      if (directive.name == "version" || (directive.name == "pragma" && directive.rest == "once")) continue;
+      emit(scanner.line(), number, scanner.number());
+    }
+    stack_.pop_back();
+  }
+
+  // One line of the text, which stands at `line` of a file.
+  void emit(std::string_view code, std::size_t file, std::uint32_t line) {
+    ++textLine_;
+    std::vector<ShaderSource::Run>& runs = source_->runs;
+    const bool follows = !runs.empty() && runs.back().file == file &&
+                         line - runs.back().line == textLine_ - runs.back().textLine;
+    if (!follows) runs.push_back({textLine_, static_cast<std::uint32_t>(file), line});
+    source_->text.append(code).append("\n");
+  }
+
+  void include(const Directive& directive, const Place& place, const std::string& folder, int depth) {
+    std::string_view rest = directive.rest;
+    if (rest.size() < 3 || rest.front() != '"' || rest.find('"', 1) != rest.size() - 1) {
+      base::Diagnostic& error =
+          diagnostics_.error(Code::malformedInclude, place, "#include needs a file name in double quotes");
+      error.expected = "#include \"common/view.glsl\"";
+      error.found = fmt::format("#include {}", rest);
+      return;
+    }
+    const std::string name(rest.substr(1, rest.size() - 2));
+    const std::optional<std::string> path = resolve(name, folder);
+    if (!path) {
+      for (const fs::path& candidate : candidatesOf(name, folder))
+        missing_.push_back(candidate.lexically_normal().string());
+      if (const auto outside = outsideOf(candidatesOf(name, folder)))
+        return base::reportOutside(*outside, diagnostics_, place);
+      std::vector<std::string> folders = roots_;
+      if (!folder.empty()) folders.push_back(folder);
+      base::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
+                                                   fmt::format("included file '{}' not found", name));
+      error.expected = fmt::format("a file beside the including one or below {}", fmt::join(roots_, ", "));
+      error.hint = base::nearestHint(name, names_.below(folders));
+      return;
+    }
+    const auto position = std::find(paths_.begin(), paths_.end(), *path);
+    const bool known = position != paths_.end();
+    std::size_t number = static_cast<std::size_t>(position - paths_.begin());
+    if (known) {
+      if (const auto at = std::find(stack_.begin(), stack_.end(), number); at != stack_.end())
+        return reportCycle(at, place);
+      if (unconditional_[number]) return;
+    }
+    const std::optional<std::string> text =
+        base::readFile(*path, diagnostics_, Code::missingShaderInclude, place);
+    if (!text) return;
+    if (source_->text.size() + text->size() > kMostText) {
+      diagnostics_
+          .error(Code::malformedInclude, place,
+                 fmt::format("includes expand to more than {} MiB", kMostText >> 20))
+          .hint = "include the file once, outside #if";
+      return;
+    }
+    if (!known) number = addFile(*path);
+    unconditional_[number] = depth == 0;
+    // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the
+    // first text outside every #if asks for that guard and makes all later ones superfluous.
+    const std::size_t by = stack_.back();
+    if (known || depth > 0) emit(fmt::format("#ifndef WEFT_INCLUDED_{}", number), by, place.line);
+    if (depth > 0) emit(fmt::format("#define WEFT_INCLUDED_{}", number), by, place.line);
+    expandFile(number, folderOf(*path), *text, depth);
+    if (known || depth > 0) emit("#endif", by, place.line);
+  }
+
+  // Drivers take the text up to it and say nothing.
+  void reportZero(std::size_t number, std::string_view text, std::size_t at) {
+    const auto line = static_cast<std::uint32_t>(1 + std::ranges::count(text.substr(0, at), '\n'));
+    const std::size_t before = text.rfind('\n', at);
+    const std::size_t column = before == std::string_view::npos ? at + 1 : at - before;
+    diagnostics_
+        .error(Code::shaderDoesNotCompile, {source_->files[number], line, static_cast<std::uint32_t>(column)},
+               "a zero byte stands in the shader")
+        .hint = "remove it, or save the file as plain text (UTF-8, not UTF-16)";
+  }
+
+  void reportCycle(std::vector<std::size_t>::const_iterator first, const Place& place) {
+    std::string chain;
+    for (auto it = first; it != stack_.end(); ++it) chain += *source_->files[*it] + " -> ";
+    chain += *source_->files[*first];
+    diagnostics_
+        .error(Code::shaderIncludeCycle, place,
+               fmt::format("shaders include each other in a cycle: {}", chain))
+        .hint = "move what both need into a third file";
+  }
+
+  std::vector<fs::path> candidatesOf(const std::string& name, const std::string& folder) const {
+    std::vector<fs::path> candidates;
+    if (!folder.empty()) candidates.push_back(fs::path(folder) / name);
+    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / name);
+    return candidates;
+  }
+
+  std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
+    for (const fs::path& candidate : candidatesOf(name, folder))
+      if (const fs::path normal = candidate.lexically_normal(); isReadable(normal)) return normal.string();
+    return std::nullopt;
+  }
+
+  const std::vector<std::string>& roots_;
+  ShaderNames& names_;
+  Diagnostics& diagnostics_;
+  std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
+  std::vector<std::string> paths_;  // by file number
+  std::vector<std::string> missing_;
+  std::vector<bool> unconditional_;  // by file number: stands in the text outside every #if
+  std::vector<std::size_t> stack_;   // file numbers, from the stage's own to the current one
+  std::uint32_t textLine_ = 0;
+};
+
+void SourceLoader::touch(std::span<const std::string> read, std::span<const std::string> missing) {
+  touched_.insert(read.begin(), read.end());
+  touched_.insert(missing.begin(), missing.end());
+}
+
+std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) {
+  const auto found = cache_.find(key);
+  if (found == cache_.end()) return nullptr;
+  const auto same = [](const Stamp& s) { return timeOf(s.path) == s.time && bytesOf(s.path) == s.bytes; };
+  if (!std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same)) return nullptr;
+  for (const Stamp& stamp : found->second.stamps) touched_.insert(stamp.path);
+  return found->second.source;
+}
+
+namespace {
+
+// Those that differ in stage and ending only, else those of nearly that name.
+std::string hintForShader(const std::string& path, const std::vector<std::string>& known) {
+  const std::string stem = path.substr(0, path.find('.', path.rfind('/') + 1)) + ".";
+  std::string same;
+  for (const std::string& each : known)
+    if (each.starts_with(stem)) same += fmt::format("{}'{}'", same.empty() ? "" : " or ", each);
+  return same.empty() ? base::nearestHint(path, known) : fmt::format("did you mean {}?", same);
+}
+
+}  // namespace
+
+std::vector<fs::path> SourceLoader::candidatesOf(const std::string& path) const {
+  std::vector<fs::path> candidates;
+  if (!fs::path(path).is_absolute())
+    for (const std::string& root : roots_) candidates.push_back(fs::path(root) / path);
+  candidates.emplace_back(path);
+  return candidates;
+}
+
+std::optional<std::string> SourceLoader::locate(const std::string& path) const {
+  for (const fs::path& candidate : candidatesOf(path)) {
+    std::error_code ec;
+    const std::string normal = candidate.lexically_normal().string();
+    if (base::mayRead(normal) && fs::exists(normal, ec)) return normal;
+  }
+  return std::nullopt;
+}
+
+std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, Diagnostics& diagnostics,
+                                                       const Place& place) {
+  const std::optional<std::string> where = locate(path);
+  if (!where) {
+    if (fs::path(path).is_absolute() || roots_.empty())
+      touched_.insert(path);
+    else
+      for (const std::string& root : roots_)
+        touched_.insert((fs::path(root) / path).lexically_normal().string());
+    std::vector<fs::path> candidates = candidatesOf(path);
+    // As it is, a path is from the current folder: where nobody looks for shaders on purpose.
+    if (candidates.size() > 1) candidates.pop_back();
+    if (const auto outside = outsideOf(candidates)) {
+      base::reportOutside(*outside, diagnostics, place);
+      return nullptr;
+    }
+    base::Diagnostic& error =
+        diagnostics.error(Code::unreadableShader, place, fmt::format("shader '{}' not found", path));
+    error.expected =
+        roots_.empty() ? "an existing file" : fmt::format("a file below {}", fmt::join(roots_, ", "));
+    error.hint = hintForShader(path, names_.below(roots_));
+    return nullptr;
+  }
+  if (auto source = answer(*where)) return source;
+  // The stamps are taken before reading: a file that changes meanwhile is read again next time.
+  const Stamp own{*where, timeOf(*where), bytesOf(*where)};
+  const std::optional<std::string> text = base::readFile(*where, diagnostics, Code::unreadableShader, place);
+  if (!text) return nullptr;
+  ++expansions_;
+  Diagnostics found;
+  IncludeExpander expander(roots_, names_, found);
+  expander.expandRoot(*where, folderOf(*where), *text);
+  touch(expander.paths(), expander.missing());
+  if (text->find_first_not_of(" \t\r\n") == std::string::npos)
+    found
+        .error(Code::shaderDoesNotCompile, {std::make_shared<const std::string>(*where), 1, 1},
+               fmt::format("shader '{}' is empty", path))
+        .hint = "the least a shader can hold is 'void main() {}'";
+  diagnostics.append(found);
+  if (found.hasErrors()) return nullptr;
+  Entry entry{expander.finish(), {own}};
+  for (std::size_t i = 1; i < expander.paths().size(); ++i)
+    entry.stamps.push_back({expander.paths()[i], timeOf(expander.paths()[i]), bytesOf(expander.paths()[i])});
+  return (cache_[*where] = std::move(entry)).source;
+}
+
+std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text, const std::string& name,
+                                                           Diagnostics& diagnostics) {
+  const std::string key = fmt::format("<text>{}:{:016x}", name, base::hashBytes(text));
+  if (auto source = answer(key)) return source;
+  ++expansions_;
+  Diagnostics found;
+  IncludeExpander expander(roots_, names_, found);
+  expander.expandRoot(name, "", text);
+  touch(std::span(expander.paths()).subspan(1), expander.missing());
+  diagnostics.append(found);
+  if (found.hasErrors()) return nullptr;
+  Entry entry{expander.finish(), {}};
+  for (std::size_t i = 1; i < expander.paths().size(); ++i)
+    entry.stamps.push_back({expander.paths()[i], timeOf(expander.paths()[i]), bytesOf(expander.paths()[i])});
+  return (cache_[key] = std::move(entry)).source;
+}
+
+base::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) const {
+  const auto after = std::upper_bound(runs.begin(), runs.end(), textLine,
+                                      [](std::uint32_t line, const Run& run) { return line < run.textLine; });
+  if (after == runs.begin()) return {file, 0, 0};
+  const Run& run = *std::prev(after);
+  return {files[run.file], run.line + (textLine - run.textLine), column};
+}
+
+std::string assembleSource(const ShaderSource& source, std::span<const Define> defines) {
+  std::string text = "#version 450 core\n";
+  for (const Define& define : defines) text += fmt::format("#define {} {}\n", define.name, define.value);
+  text += fmt::format("#line {}\n", kTextLine);
+  return text + source.text;
+}
+
+}  // namespace weft::gl

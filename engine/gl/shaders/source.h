@@ -1,0 +1,118 @@
+// GLSL files to text a driver takes: #include expansion, a table of lines, and the way back from a driver's
+// log to the true file, line and column (docs/shaders.md). Pure text work: needs no context and makes no GL
+// call. Lines are numbered through the expanded text, and the table knows their files; the file numbers of
+// #line are not relied on, because drivers lose them (workarounds.h: source-numbers-lost). A file enters a
+// stage once: a later #include of it is dropped, or guarded when the first stands inside an #if. Names are
+// checked by a conservative token scan, not by a preprocessor: an identifier counts as present when it stands
+// outside comments anywhere in the expanded text, also in a directive or inside an #if that is not taken.
+// Does not: evaluate conditionals or macros, compile, or watch files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/shaders/names.h"
+
+namespace weft::gl {
+
+struct Define {
+  std::string name, value;
+  friend bool operator==(const Define&, const Define&) = default;
+};
+
+// One stage's file with its includes expanded; immutable and shared between variants.
+struct ShaderSource {
+  struct Run {  // from `textLine` of the text on: `line`, `line` + 1, … of `file`
+    std::uint32_t textLine = 1, file = 0, line = 1;
+  };
+  std::shared_ptr<const std::string> file;  // the stage's own file, as opened
+  std::string text;                         // no #version, no defines, no #line
+  std::vector<std::shared_ptr<const std::string>> files;
+  std::vector<Run> runs;                           // by textLine
+  std::uint64_t hash = 0;                          // of text
+  std::set<std::string, std::less<>> identifiers;  // the token scan
+  std::set<std::string, std::less<>> declared;     // a subset: names that look like uniforms, blocks, block
+                                                   // members, ins and outs; for "did you mean"
+  bool mentions(std::string_view name) const { return identifiers.find(name) != identifiers.end(); }
+  // Where a line of the text (from 1) was written.
+  base::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
+};
+
+// Reads, expands and caches. One per set of roots; not thread-safe.
+class SourceLoader {
+ public:
+  // `roots` are searched in order for includes that are not found beside the including file.
+  explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
+
+  // The stage file `path`: below the first root that has it, else as it is; "../" and absolute paths lead where they lead
+  // (W200 where reading is confined and they lead out: engine/base/files/file_access.h). `place` is who asked (the graph
+  // file), used when the file itself cannot be read (W100). Problems inside (W101 include not found, W102
+  // include cycle, W103 malformed include, W106 #version) are reported all at once and give null. An
+  // unchanged file (size and modification time of every file that took part) is expanded once.
+  std::shared_ptr<const ShaderSource> load(const std::string& path, base::Diagnostics& diagnostics,
+                                           const base::Place& place = {});
+  // The same for text in memory, named `name` in messages; its includes are searched in the roots only.
+  // Cached by text.
+  std::shared_ptr<const ShaderSource> loadText(std::string_view text, const std::string& name,
+                                               base::Diagnostics& diagnostics);
+  // Where load() would find `path`, or nullopt.
+  std::optional<std::string> locate(const std::string& path) const;
+  // Forgets everything (files will be read again).
+  void clear() {
+    cache_.clear();
+    names_.forget();
+  }
+  const std::vector<std::string>& roots() const { return roots_; }
+  // Every path that an answer since forgetTouched() came from or would come from, existing or not: what to watch.
+  const std::set<std::string>& touched() const { return touched_; }
+  void forgetTouched() {
+    touched_.clear();
+    names_.forget();
+  }
+  // Files expanded so far, not answered from the cache.
+  std::uint64_t expansions() const { return expansions_; }
+
+ private:
+  struct Stamp {  // of a file that took part
+    std::string path;
+    std::int64_t time = 0;
+    std::uint64_t bytes = 0;
+  };
+  struct Entry {
+    std::shared_ptr<const ShaderSource> source;
+    std::vector<Stamp> stamps;
+  };
+  // Where `path` is looked for, in this order.
+  std::vector<std::filesystem::path> candidatesOf(const std::string& path) const;
+  std::shared_ptr<const ShaderSource> answer(const std::string& key);
+  void touch(std::span<const std::string> read, std::span<const std::string> missing);
+  std::vector<std::string> roots_;
+  std::unordered_map<std::string, Entry> cache_;
+  std::set<std::string> touched_;
+  ShaderNames names_;
+  std::uint64_t expansions_ = 0;
+};
+
+// "#version 450 core", the defines in the given order, then the source, whose first line the driver calls
+// kTextLine. Lower numbers in a log are those of the version and the defines.
+constexpr std::uint32_t kTextLine = 10001;
+std::string assembleSource(const ShaderSource& source, std::span<const Define> defines);
+
+// The log of an assembleSource() text to one diagnostic per message with its true place. Understands Mesa's
+// "0:12(5): error: text" and NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text"; other
+// lines become part of the message before them, or a message at the file itself. What is known is told in plain words
+// (shader_words.h), what only follows from another message is left out. `code` is W104 (compile) or W105 (link).
+// Returns how many were added.
+std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
+                   base::Diagnostics& diagnostics);
+
+}  // namespace weft::gl

@@ -1,0 +1,58 @@
+// A shader's text as the tokens that a compiler gets: comments and directives gone, conditionals decided,
+// macros expanded, each token with the line of the text that it comes from. The work is bounded, so that
+// macros which double again and again cost what the bound allows. Where a condition hangs on what only the
+// driver knows (a macro GL_…), all its branches are taken. Does not: check that the text is right; the
+// compiler does. Not for other rooms.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gl/shaders/source.h"
+
+namespace weft::gl {
+
+enum class TokenKind : std::uint8_t { word, number, sign };
+
+struct Token {
+  std::string_view text;
+  std::uint32_t line = 0, column = 0;  // in the text, from 1; of a macro's tokens: where the macro is used
+  TokenKind kind = TokenKind::sign;
+  bool first = false;  // of its line
+  bool inert = false;  // the name of a macro inside its own expansion
+  bool is(std::string_view what) const { return text == what; }
+};
+
+struct TokenList {
+  std::vector<Token> tokens;       // all of them, or as many as `most` allows
+  std::deque<std::string> pasted;  // what views of `tokens` may look into besides the text
+  bool exceeded = false;           // there are more than `most`
+  Token at;                        // the token of the text where that came to light
+  std::string macro;               // which was being expanded there, or empty
+  std::uint32_t nested = 0;  // the deepest use of a macro in an argument of a macro, or brackets of an #if
+  Token nestedAt;
+  // A call of a macro that a directive interrupts: how much it makes was not counted.
+  bool uncertain = false;
+};
+
+// `text` as ShaderSource::text; `defines` as assembleSource() puts them before it. Tokens that macros make on
+// the way count as well. `deepest`: nesting beyond it is cut off.
+TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint64_t most,
+                       std::uint32_t deepest);
+
+// The tokens of a text as it stands, directives included.
+std::vector<Token> splitTokens(std::string_view text);
+
+// The value of a constant expression of whole numbers, brackets and operators; `valueOf` knows names. Nothing
+// when it is none, or is nested more than `deepest` deep.
+std::optional<std::int64_t> evaluateTokens(
+    std::span<const Token> tokens,
+    const std::function<std::optional<std::int64_t>(std::string_view)>& valueOf, std::uint32_t deepest);
+
+}  // namespace weft::gl

@@ -1,0 +1,275 @@
+#include "engine/gl/shaders/words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "engine/base/nearest.h"
+#include "engine/gl/shaders/vocabulary.h"
+
+namespace weft::gl {
+
+namespace {
+
+bool isWordChar(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+bool isNumber(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.';
+}
+
+std::string_view withoutEnds(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+bool isKnownWord(std::string_view word) {
+  return std::ranges::find(kWords, word) != std::end(kWords);
+}
+
+bool isPunctuation(std::string_view token) {
+  return token.size() >= 3 && token.front() == '\'' && token.back() == '\'';
+}
+
+// "ELSE" to "'else'", "';'" to itself; nothing for a token that nobody knows.
+std::string wordFor(std::string_view token) {
+  for (const auto& [name, word] : kTokens)
+    if (name == token) return std::string(word);
+  if (isPunctuation(token)) return std::string(token);
+  std::string lower(token.substr(0, token.size() - (token.ends_with("_TOK") ? 4 : 0)));
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return isKnownWord(lower) ? fmt::format("'{}'", lower) : std::string();
+}
+
+// The token that stands in a line from `column` (from 1) on; empty when it cannot be the one that is meant:
+// in a line with macros the driver counts what they stand for.
+std::string_view tokenAt(std::string_view line, std::uint32_t column, std::string_view token) {
+  if (column == 0 || column > line.size()) return {};
+  const std::string_view rest = line.substr(column - 1);
+  if (isPunctuation(token)) {
+    const std::string_view sign = token.substr(1, token.size() - 2);
+    return rest.starts_with(sign) ? sign : std::string_view();
+  }
+  const bool number = token.ends_with("CONSTANT") && token != "BOOLCONSTANT";
+  const bool invalid = token == "invalid token" || token == "ERROR_TOK";
+  if (invalid) return isWordChar(rest[0]) || isBlank(rest[0]) ? std::string_view() : rest.substr(0, 1);
+  if (number != isNumber(rest[0]) || !(isWordChar(rest[0]) || number)) return {};
+  std::size_t end = 1;
+  while (end < rest.size() && (isWordChar(rest[end]) || (number && rest[end] == '.'))) ++end;
+  return rest.substr(0, end);
+}
+
+// The word that ends right before `column`, blanks apart.
+std::string_view wordBefore(std::string_view line, std::uint32_t column) {
+  std::string_view before = withoutEnds(line.substr(0, column - 1));
+  std::size_t at = before.size();
+  while (at > 0 && isWordChar(before[at - 1])) --at;
+  return before.substr(at);
+}
+
+std::string nearestOf(std::string_view name, bool function, const ShaderSource& source) {
+  std::vector<std::string> names(source.declared.begin(), source.declared.end());
+  if (std::string near = base::nearestName(name, names); !near.empty()) return near;
+  names.assign(std::begin(kWords), std::end(kWords));
+  if (function) names.assign(std::begin(kFunctions), std::end(kFunctions));
+  // Names of variables and functions of its own are not told apart from other words of the text.
+  for (const std::string& word : source.identifiers)
+    if (word != name) names.push_back(word);
+  return base::nearestName(name, names);
+}
+
+// What stands between two texts.
+std::optional<std::string_view> between(std::string_view text, std::string_view before,
+                                        std::string_view after) {
+  if (!text.starts_with(before) || !text.ends_with(after) || text.size() < before.size() + after.size())
+    return std::nullopt;
+  return text.substr(before.size(), text.size() - before.size() - after.size());
+}
+
+// The name in Mesa's "`name' undeclared", NVIDIA's and AMD's words for it.
+std::optional<std::string_view> undeclaredIn(std::string_view message) {
+  for (const auto& [before, after] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"`", "' undeclared"}, {"undefined variable \"", "\""}, {"'", "' : undeclared identifier"}})
+    if (const auto name = between(message, before, after); name && std::ranges::all_of(*name, isWordChar))
+      return name;
+  return std::nullopt;
+}
+
+struct SyntaxError {
+  std::string_view token;  // as the grammar calls it
+  std::string_view text;   // of the token, when the driver says it
+  std::vector<std::string_view> expected;
+  bool expects(std::string_view what) const { return std::ranges::find(expected, what) != expected.end(); }
+};
+
+std::optional<SyntaxError> syntaxErrorIn(std::string_view message) {
+  constexpr std::string_view kUnexpected = "syntax error, unexpected ", kExpecting = ", expecting ",
+                             kOr = " or ", kAtToken = " at token \"";
+  SyntaxError error;
+  if (message.starts_with("'' :")) message = withoutEnds(message.substr(4));  // glslang
+  if (!message.starts_with(kUnexpected)) return std::nullopt;
+  message.remove_prefix(kUnexpected.size());
+  if (const std::size_t token = message.rfind(kAtToken);
+      token != std::string_view::npos && message.ends_with('"')) {  // NVIDIA
+    error.text = message.substr(token + kAtToken.size());
+    error.text.remove_suffix(1);
+    message = message.substr(0, token);
+  }
+  const std::size_t at = message.find(kExpecting);
+  error.token = message.substr(0, at);
+  if (at == std::string_view::npos) return error;
+  for (std::string_view rest = message.substr(at + kExpecting.size()); !rest.empty();) {
+    const std::size_t end = rest.find(kOr);
+    error.expected.push_back(rest.substr(0, end));
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + kOr.size());
+  }
+  return error;
+}
+
+// The last line before `textLine` that is more than blanks and a comment, or 0.
+std::uint32_t codeBefore(const ShaderSource& source, std::uint32_t textLine) {
+  while (textLine > 1) {
+    const std::string_view line = withoutEnds(lineOf(source.text, --textLine));
+    if (!line.empty() && !line.starts_with("//")) return line.starts_with("#") ? 0 : textLine;
+  }
+  return 0;
+}
+
+std::string fixFor(const SyntaxError& error, const LogMessage& message, const ShaderSource& source) {
+  const base::Place& place = message.diagnostic.place;
+  if (error.token == "end of file" || error.token == "$end") return "a '{' is never closed";
+  if (error.expects("end of file") || error.expects("$end"))
+    return fmt::format("one {} too many", error.token);
+  if (place.column == 0 || message.textLine == 0) return {};
+  const std::string_view line = lineOf(source.text, message.textLine);
+  const std::string_view before = wordBefore(line, place.column);
+  // A type or a qualifier that is none: the name behind it is what does not fit.
+  if (!before.empty() && !std::isdigit(static_cast<unsigned char>(before[0])) && !isKnownWord(before) &&
+      (error.token == "NEW_IDENTIFIER" || error.token == "BASIC_TYPE_TOK")) {
+    const std::vector<std::string> words(std::begin(kWords), std::end(kWords));
+    const std::string hint = base::nearestName(before, words).empty() ? "" : base::nearestHint(before, words);
+    if (!hint.empty()) return fmt::format("'{}' is no type: {}", before, hint);
+    if (error.token == "NEW_IDENTIFIER")
+      return fmt::format("declare '{}', or end the statement before it with ';'", before);
+  }
+  if (error.token == "BASIC_TYPE_TOK" && isKnownWord(before)) return "choose a name that is no word of GLSL";
+  if (error.token == "invalid token" || error.token == "ERROR_TOK") return "take it away";
+  if (error.token == "'('" || error.token == "'<'") return {};
+  if (error.expects("';'")) {
+    if (error.token == "')'") return "one ')' too many";
+    const bool first = withoutEnds(line.substr(0, place.column - 1)).empty();
+    const std::uint32_t above = first ? codeBefore(source, message.textLine) : 0;
+    if (!above) return first ? "" : "put ';' before it";
+    const base::Place end = source.placeOf(above);
+    const bool same = end.file && place.file && *end.file == *place.file;
+    return same ? fmt::format("put ';' at the end of line {}", end.line)
+                : fmt::format("put ';' at the end of {}:{}", *end.file, end.line);
+  }
+  if (error.expects("','") && !error.token.starts_with('\'')) return "put ',' before it";
+  for (const char* bracket : {"')'", "']'"})
+    if (error.expects(bracket)) return fmt::format("put {} before it", bracket);
+  return {};
+}
+
+bool explainSyntax(LogMessage& message, const ShaderSource& source) {
+  base::Diagnostic& d = message.diagnostic;
+  const std::string raw = d.message;
+  const std::optional<SyntaxError> error = syntaxErrorIn(raw);
+  if (!error) return false;
+  const std::string word = wordFor(error->token);
+  std::vector<std::string> expected;
+  for (const std::string_view token : error->expected) expected.push_back(wordFor(token));
+  if (word.empty() || std::ranges::find(expected, std::string()) != expected.end()) return false;
+  const std::string_view there =
+      !error->text.empty() ? error->text
+      : message.textLine   ? tokenAt(lineOf(source.text, message.textLine), d.place.column, error->token)
+                           : std::string_view();
+  if (there.empty() || word == fmt::format("'{}'", there))
+    d.message = fmt::format("syntax error at {}", word);
+  else
+    d.message = word == "a name" ? fmt::format("syntax error at '{}'", there)
+                                 : fmt::format("syntax error at '{}', {}", there, word);
+  d.expected = fmt::format("{}", fmt::join(expected, " or "));
+  d.hint = fixFor(*error, message, source);
+  return true;
+}
+
+void explainNames(base::Diagnostic& d, const ShaderSource& source) {
+  const auto meant = [&](std::string_view name, bool function) {
+    if (const std::string near = nearestOf(name, function, source); !near.empty())
+      d.hint = fmt::format("did you mean '{}'?", near);
+  };
+  const std::string raw = d.message;
+  if (const auto name = undeclaredIn(raw)) {
+    d.message = fmt::format("'{}' is not declared", *name);
+    meant(*name, false);
+  } else if (const auto function = between(raw, "no function with name '", "'")) {
+    d.message = fmt::format("there is no function '{}'", *function);
+    meant(*function, true);
+  } else if (const auto swizzle = between(raw, "invalid swizzle / mask `", "'")) {
+    d.message = fmt::format("the value has no '.{}'", *swizzle);
+  } else if (raw.ends_with("shader lacks `main'")) {
+    d.hint = "each shader file has one void main()";
+  }
+}
+
+// Said of what an error beside it has made unknown.
+bool isConsequence(const std::string& text) {
+  for (const char* about : {"type mismatch", "operands to arithmetic operators must be numeric",
+                            "could not implicitly convert return value to"})
+    if (text.starts_with(about)) return true;
+  return text.ends_with("from a non-numeric data type");
+}
+
+// About an operand that another error is about.
+bool namesErrorType(const std::string& text) {
+  return text.ends_with("type error") || text.find("type error ") != std::string::npos ||
+         text.find("(error,") != std::string::npos || text.find("(error)") != std::string::npos ||
+         text.find(", error,") != std::string::npos || text.find(", error)") != std::string::npos;
+}
+
+}  // namespace
+
+std::string_view lineOf(std::string_view text, std::uint32_t number) {
+  for (; number > 1; --number) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  return text.substr(0, text.find('\n'));
+}
+
+void dropConsequences(std::vector<LogMessage>& messages) {
+  std::vector<std::uint32_t> causes;  // lines
+  for (const LogMessage& message : messages) {
+    const base::Diagnostic& d = message.diagnostic;
+    if (d.severity == base::Severity::error && !isConsequence(d.message) && !namesErrorType(d.message))
+      causes.push_back(message.textLine);
+  }
+  std::erase_if(messages, [&](const LogMessage& message) {
+    const std::string& text = message.diagnostic.message;
+    const bool beside = std::ranges::find(causes, message.textLine) != causes.end();
+    return (namesErrorType(text) && !causes.empty()) || (isConsequence(text) && beside);
+  });
+}
+
+void explainMessage(LogMessage& message, const ShaderSource& source) {
+  base::Diagnostic& d = message.diagnostic;
+  if (!explainSyntax(message, source)) explainNames(d, source);
+  std::ranges::replace(d.message, '`', '\'');
+  for (const auto& [side, words] : std::initializer_list<std::pair<std::string_view, const char*>>{
+           {"LHS of ", "left side of "}, {"RHS of ", "right side of "}})
+    if (d.message.starts_with(side)) d.message.replace(0, side.size(), words);
+}
+
+}  // namespace weft::gl

@@ -1,0 +1,31 @@
+// What shader compilers say, in plain words: tokens of Mesa's grammar become what they stand for, undeclared
+// names are told alike for every driver and get the nearest declared one, a syntax error says what is
+// probably missing. A message that is not known stays as the driver wrote it. Does not: find places (mapLog
+// in shader_log.cpp does).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/shaders/source.h"
+
+namespace weft::gl {
+
+// A message of a log with its true place. `textLine` counts in source.text; 0: nowhere in it.
+struct LogMessage {
+  base::Diagnostic diagnostic;
+  std::uint32_t textLine = 0;
+};
+
+// Rewrites message, expected and hint.
+void explainMessage(LogMessage& message, const ShaderSource& source);
+
+// Takes away errors that only follow from another one of the list: on the same line, or about the type
+// "error" that Mesa gives to what it could not understand. Before explainMessage.
+void dropConsequences(std::vector<LogMessage>& messages);
+
+// Line `number` (from 1) of a text.
+std::string_view lineOf(std::string_view text, std::uint32_t number);
+
+}  // namespace weft::gl

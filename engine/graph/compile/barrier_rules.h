@@ -1,0 +1,77 @@
+// Which glMemoryBarrier bit each kind of use needs (OpenGL 4.5 core, 7.12.2), as the compiler applies it. The
+// oracle in the tests has a table of its own, written from the specification.
+//
+// Two rules make every barrier of a plan:
+//  (a) an incoherent store (image or buffer store of a shader) before a later use of the same physical
+//  sub-resource
+//      needs that use's bit in between. A later overwrite excuses nothing: it may be skipped by its cadence,
+//      and need not cover every texel.
+//  (b) any access before a later image or buffer store to the same physical storage needs SHADER_IMAGE_ACCESS
+//  or
+//      SHADER_STORAGE in between, also when the two resources only share storage.
+//
+// Safe under every cadence, and none to spare while every pass runs. The two meet in one corner only: a
+// history none of whose writers is `always`, read after a first writer that does not store and before a later
+// one that does. There a frame without writers needs a bit that frames with all of them do not, and safety
+// wins. And what a spread job writes: its copies change places at times the plan does not know, so they count
+// as one.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/graph/plan.h"
+#include "engine/graph/subresource.h"
+
+namespace weft::graph {
+
+inline bool isStore(const FlatUse& use) {
+  const auto kind = 1u << static_cast<unsigned>(use.kind);
+  return use.access != Access::read && (kind & (1u << static_cast<unsigned>(Kind::image) |
+                                                1u << static_cast<unsigned>(Kind::storage))) != 0;
+}
+
+// The bit a store itself waits behind, rule (b).
+inline std::uint16_t storeBit(const FlatUse& use) {
+  return use.kind == Kind::storage ? kBarrierStorage : kBarrierImage;
+}
+
+// The bits a use of a pass needs after an earlier store, rule (a). `copy` on a texture means framebuffer
+// blits.
+inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
+  switch (use.kind) {
+    case Kind::sampled:
+      return kBarrierTexture;
+    case Kind::image:
+      return kBarrierImage;
+    case Kind::uniform:
+      return kBarrierUniform;
+    case Kind::storage:
+      return kBarrierStorage;
+    case Kind::vertex:
+      return kBarrierVertex;
+    case Kind::index:
+      return kBarrierIndex;
+    case Kind::indirect:
+      return kBarrierCommand;
+    case Kind::color:
+    case Kind::depth:
+      return use.feedback ? kBarrierFramebuffer | kBarrierTexture : kBarrierFramebuffer;
+    case Kind::copy:
+      return buffer ? kBarrierBufferUpdate : kBarrierFramebuffer;
+  }
+  return 0;
+}
+
+// glClearNamedFramebuffer of an attachment; glClearTexSubImage, glClearNamedBufferSubData
+inline std::uint16_t clearBit(const ClearOp& clear, bool buffer) {
+  return clear.attachment != kNone ? kBarrierFramebuffer
+         : buffer                  ? kBarrierBufferUpdate
+                                   : kBarrierTextureUpdate;
+}
+
+// The present blit and glReadPixels; a buffer is copied out.
+inline std::uint16_t readBackBit(bool buffer) {
+  return buffer ? kBarrierBufferUpdate : kBarrierFramebuffer;
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,24 @@
+// FlatGraph to Plan. Linear in passes + uses; touches only the flat arrays of FlatGraph; nothing can fail any more.
+// Does not: read names or texts, or say why (print/explain.h does).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/graph/plan.h"
+
+namespace weft::graph {
+
+struct CompileOptions {
+  bool share = true;            // false: every resource its own storage (fuzz)
+  std::uint64_t orderSeed = 0;  // not 0: a random legal order instead of the declared one (fuzz)
+};
+
+// The graph must be valid (expandGraph, or validateFlat for neutral graphs): every read has a version, a pass writes what
+// it presents (version zero alone is not enough), imports are not written. The order is the declared order of the live passes: it is always legal, because a use refers to the latest
+// version before it, and the person reads it in the file. The second form reuses the working memory of earlier calls.
+struct CompileScratch;  // scratch.h
+Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});
+Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options, CompileScratch& scratch);
+
+}  // namespace weft::graph

@@ -1,0 +1,62 @@
+#include "engine/graph/compile/dependencies.h"
+
+#include <algorithm>
+
+#include "engine/graph/subresource.h"
+
+namespace weft::graph {
+
+namespace {
+
+std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* attached) {
+  std::vector<std::uint32_t> base(graph.resources.size() + 1, 0);
+  for (std::size_t i = 0; i < graph.resources.size(); ++i)
+    base[i + 1] = base[i] + subresourceCount(graph.resources[i]);
+  std::vector<std::uint32_t> writer(base.back(), kNone);         // per sub-resource: pass
+  std::vector<std::vector<std::uint32_t>> readers(base.back());  // passes since that writer
+  std::vector<Dependency> edges;
+  const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint32_t resource, Dependency::Type type) {
+    if (from != kNone && from != to) edges.push_back({from, to, resource, type});
+  };
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    const auto block = static_cast<std::ptrdiff_t>(edges.size());
+    const std::uint32_t first = graph.passes[p].firstUse, end = first + graph.passes[p].useCount;
+    const auto eachCell = [&](bool writing, auto&& f) {
+      for (std::uint32_t u = first; u < end; ++u) {
+        const FlatUse& use = graph.uses[u];
+        if ((attached != nullptr && attached[u] == 0) || use.history > 0) continue;
+        if (writing ? use.access == Access::read : use.access == Access::write) continue;
+        forEachSubresource(use, graph.resources[use.resource],
+                           [&](std::uint32_t s) { f(use.resource, base[use.resource] + s); });
+      }
+    };
+    eachCell(false, [&](std::uint32_t r, std::uint32_t cell) {
+      add(writer[cell], p, r, Dependency::Type::read_after_write);
+    });
+    eachCell(true, [&](std::uint32_t r, std::uint32_t cell) {
+      add(writer[cell], p, r, Dependency::Type::write_after_write);
+      for (const std::uint32_t reader : readers[cell]) add(reader, p, r, Dependency::Type::write_after_read);
+    });
+    eachCell(false, [&](std::uint32_t, std::uint32_t cell) {
+      if (readers[cell].empty() || readers[cell].back() != p) readers[cell].push_back(p);
+    });
+    eachCell(true, [&](std::uint32_t, std::uint32_t cell) {
+      writer[cell] = p;
+      readers[cell].clear();
+    });
+    std::sort(edges.begin() + block, edges.end());
+    edges.erase(std::unique(edges.begin() + block, edges.end()), edges.end());
+  }
+  return edges;
+}
+
+}  // namespace
+
+std::vector<Dependency> dependencies(const FlatGraph& graph, const std::vector<std::uint8_t>& attached) {
+  return edgesOf(graph, attached.data());
+}
+std::vector<Dependency> dependencies(const FlatGraph& graph) {
+  return edgesOf(graph, nullptr);
+}
+
+}  // namespace weft::graph

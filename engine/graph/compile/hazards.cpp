@@ -1,0 +1,361 @@
+#include "engine/graph/compile/hazards.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <map>
+
+#include "engine/graph/compile/barrier_rules.h"
+
+namespace weft::graph {
+
+namespace {
+
+using Scratch = CompileScratch;
+constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min();
+
+// The first positions at which a barrier comes after the last store, and after the last access of any kind.
+struct Cell {
+  std::int32_t store = kNever, access = kNever;
+};
+
+std::int32_t back(std::int32_t position, std::int32_t by) {
+  return position == kNever ? kNever : position - by;
+}
+
+// A value per byte of the arena, as ranges of equal values.
+class RangeMap {
+ public:
+  RangeMap() { values_[0] = kNever; }
+  void paint(std::uint64_t from, std::uint64_t to, std::int32_t value) {
+    split(to);
+    const auto first = split(from);
+    values_.erase(std::next(first), values_.lower_bound(to));
+    first->second = value;
+  }
+  std::int32_t latest(std::uint64_t from, std::uint64_t to) const {
+    std::int32_t value = kNever;
+    for (auto it = std::prev(values_.upper_bound(from)); it != values_.end() && it->first < to; ++it)
+      value = std::max(value, it->second);
+    return value;
+  }
+  void shift(std::int32_t by) {
+    for (auto& [from, value] : values_) value = back(value, by);
+  }
+
+ private:
+  std::map<std::uint64_t, std::int32_t>::iterator split(std::uint64_t at) {
+    const auto it = std::prev(values_.upper_bound(at));
+    return it->first == at ? it : values_.emplace_hint(std::next(it), at, it->second);
+  }
+  std::map<std::uint64_t, std::int32_t> values_;
+};
+
+// How a resource's accesses are followed.
+enum class Mode : std::uint8_t {
+  ignored,  // nothing ever stores to its storage: no hazard can touch it
+  single,   // one cell
+  multi,    // one cell per sub-resource
+  history,  // two rows of cells: the copy that is written, and the oldest one
+  arena,    // one cell, which takes over what earlier owners of its bytes left
+};
+
+// Mode::history: `depth` is the number of copies behind the one that is written. What a spread job writes has
+// one more than its history, since everybody else's x is x@-1 of the job's passes; it rotates when the job
+// publishes, so it may stand still from one frame to the next although all its writers run.
+struct Track {
+  std::uint32_t base = 0;
+  std::uint32_t job = kNone;  // the spread job that writes it
+  std::uint16_t depth = 0;
+  Mode mode = Mode::ignored;
+};
+
+class Collector {
+ public:
+  Collector(const FlatGraph& graph, const Plan& plan, const Scratch& scratch, HazardIntervals& hazards)
+      : graph_(graph),
+        plan_(plan),
+        scratch_(scratch),
+        hazards_(hazards),
+        end_(static_cast<std::int32_t>(plan.steps.size())),
+        circle_(2 * (end_ + 1)) {
+    assignTracks();
+  }
+
+  void run() {
+    walk<false>();  // where each cell stands at the end of a frame
+    turn();
+    walk<true>();  // a frame after such a frame
+  }
+
+ private:
+  void assignTracks() {
+    const std::size_t count = graph_.resources.size();
+    tracks_.resize(count);
+    std::vector<std::uint8_t> storageFlags(plan_.storages.size(), 0);
+    std::vector<std::uint32_t> storageBase(plan_.storages.size(), kNone);
+    bool arenaStored = false;
+    for (const std::uint32_t r : scratch_.births) {
+      if (plan_.storageOf[r] != kNone) storageFlags[plan_.storageOf[r]] |= scratch_.flags[r];
+      if (plan_.bufferOffsetOf[r] != Plan::kNoOffset && (scratch_.flags[r] & Scratch::kStored) != 0)
+        arenaStored = true;
+    }
+    std::uint32_t next = 0;
+    for (const std::uint32_t r : scratch_.births) {
+      Track& track = tracks_[r];
+      const std::uint32_t storage = plan_.storageOf[r];
+      const std::uint8_t flags = storage == kNone ? scratch_.flags[r] : storageFlags[storage];
+      const bool arena = plan_.bufferOffsetOf[r] != Plan::kNoOffset;
+      if (arena ? !arenaStored : (flags & Scratch::kStored) == 0) continue;
+      const std::uint32_t cells =
+          (flags & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
+      track.job = plan_.jobs.spreadWriterOf(r);
+      track.depth = static_cast<std::uint16_t>(graph_.resources[r].history + (track.job != kNone ? 1 : 0));
+      track.mode = arena                               ? Mode::arena
+                   : track.depth > 0                   ? Mode::history
+                   : (flags & Scratch::kGranular) != 0 ? Mode::multi
+                                                       : Mode::single;
+      if (arena) anyArena_ = true;
+      if (track.mode == Mode::history) histories_.push_back(r);
+      if (storage != kNone && storageBase[storage] != kNone) {
+        track.base = storageBase[storage];
+        continue;
+      }
+      track.base = next;
+      if (storage != kNone) storageBase[storage] = next;
+      next += track.mode == Mode::history ? 2 * cells : cells;
+    }
+    cells_.assign(next, {});
+  }
+
+  std::uint32_t cellsOf(std::uint32_t r) const {
+    return (scratch_.flags[r] & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
+  }
+
+  // From the end of one frame to the start of the next. A history resource has rotated by then: what is now
+  // the current copy was the oldest, and was last stored to a whole rotation ago. What a spread job writes
+  // may have, or may not.
+  void turn() {
+    std::vector<Cell> ended;
+    if (!histories_.empty()) ended = cells_;
+    for (Cell& cell : cells_) cell = {back(cell.store, circle_), back(cell.access, circle_)};
+    for (const std::uint32_t r : histories_) {
+      const std::int32_t rotation = tracks_[r].job == kNone ? (tracks_[r].depth + 1) * circle_ : circle_;
+      const std::uint32_t count = cellsOf(r);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        Cell& current = cells_[tracks_[r].base + i];
+        Cell& oldest = cells_[tracks_[r].base + count + i];
+        const Cell wasCurrent = ended[tracks_[r].base + i], wasOldest = ended[tracks_[r].base + count + i];
+        current.store = back(wasCurrent.store, rotation);
+        current.access = std::max(back(wasCurrent.access, rotation), back(wasOldest.access, circle_));
+        oldest.store = wasCurrent.store;  // in its own frame: reads of x@-n subtract n frames
+      }
+    }
+    storeMap_.shift(circle_);
+    accessMap_.shift(circle_);
+  }
+
+  template <bool collecting>
+  void walk() {
+    birth_ = 0;
+    for (std::int32_t t = 0; t < end_; ++t) {
+      const Step& step = plan_.steps[static_cast<std::size_t>(t)];
+      const FlatPass& pass = graph_.passes[step.pass];
+      job_ = plan_.jobs.jobOf(step.pass);
+      if (anyArena_) inherit(t);
+      for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c) {
+        const FlatUse& use = plan_.clears[c].use;
+        if constexpr (collecting) need(use, clearBit(plan_.clears[c], isBufferUse(use)), false);
+        mark(use, false, 2 * t + 1);
+      }
+      const std::uint32_t last = pass.firstUse + pass.useCount;
+      if constexpr (collecting) {
+        for (std::uint32_t u = pass.firstUse; u < last; ++u) {
+          const FlatUse& use = graph_.uses[u];
+          if (plan_.attached[u] == 0 || tracks_[use.resource].mode == Mode::ignored) continue;
+          const bool store = isStore(use);
+          need(use, store ? storeBit(use) : useBits(use, isBufferUse(use)), store);
+          if (pass.touches != 0 && !isBufferUse(use)) need(use, pass.touches, false);
+        }
+        settle(t);
+      }
+      for (std::uint32_t u = pass.firstUse; u < last; ++u)
+        if (plan_.attached[u] != 0) mark(graph_.uses[u], isStore(graph_.uses[u]), 2 * t + 2);
+      if (anyArena_) bequeath(t);
+    }
+    job_ = kNone;
+    if (anyArena_) inherit(end_);
+    const auto atEnd = [&](auto&& f) {
+      if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone)
+        f(graph_.present);
+      for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
+        if (plan_.outputLive[i] != 0) f(graph_.outputs[i]);
+    };
+    if constexpr (collecting) {
+      atEnd([&](const FlatUse& use) { need(use, readBackBit(isBufferUse(use)), false); });
+      settle(end_);
+    }
+    atEnd([&](const FlatUse& use) { mark(use, false, 2 * end_ + 2); });
+    if (anyArena_) bequeath(end_);
+  }
+
+  bool isBufferUse(const FlatUse& use) const {
+    return (scratch_.flags[use.resource] & Scratch::kBuffer) != 0;
+  }
+
+  // Notes that each of `bits` must come after the last store (any access, for a store).
+  void need(const FlatUse& use, std::uint16_t bits, bool store) {
+    const Track track = tracks_[use.resource];
+    const auto from = [&](const Cell& cell) { demand(bits, store ? cell.access : cell.store); };
+    switch (track.mode) {
+      case Mode::ignored:
+        return;
+      case Mode::single:
+      case Mode::arena:
+        from(cells_[track.base]);
+        return;
+      case Mode::multi:
+        forEachSubresource(use, graph_.resources[use.resource],
+                           [&](std::uint32_t s) { from(cells_[track.base + s]); });
+        return;
+      case Mode::history:
+        needHistory(use, bits, store);
+        return;
+    }
+  }
+
+  // How far behind the copy that is written the current step looks.
+  std::uint32_t ageOf(const FlatUse& use, const Track& track) const {
+    return use.history + (track.job != job_ && track.job != kNone ? 1u : 0u);
+  }
+
+  void needHistory(const FlatUse& use, std::uint16_t bits, bool store) {
+    const FlatResource& r = graph_.resources[use.resource];
+    const Track& track = tracks_[use.resource];
+    const auto age = static_cast<std::int32_t>(ageOf(use, track));
+    const std::uint32_t base = tracks_[use.resource].base, count = cellsOf(use.resource);
+    const auto visit = [&](std::uint32_t s) {
+      const Cell& current = cells_[base + s];
+      const std::int32_t stored = cells_[base + count + s].store;
+      if (age > 0) {
+        demand(bits, back(stored, age * circle_));
+      } else if (store) {
+        demand(bits, current.access);
+      } else {
+        demand(bits, current.store);
+        // In a frame in which every writer is skipped nothing rotates, and the store was in the frame before.
+        if (track.job == kNone && use.access == Access::read && current.store < 0 &&
+            (scratch_.flags[use.resource] & Scratch::kWrittenAlways) == 0)
+          demand(bits, back(stored, circle_));
+      }
+    };
+    if (count == 1)
+      visit(0);
+    else
+      forEachSubresource(use, r, visit);
+  }
+
+  void demand(std::uint16_t bits, std::int32_t lo) {
+    if (lo == kNever) return;
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
+      if ((due_ >> bit & 1u) == 0 || lo > lo_[bit]) lo_[bit] = lo;
+    }
+    due_ |= bits;
+  }
+
+  // The demands of step t become intervals. Only a store after the step's own clear must wait for
+  // barriersAfterClears.
+  void settle(std::int32_t t) {
+    for (unsigned rest = due_; rest != 0; rest &= rest - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
+      const std::int32_t hi = lo_[bit] > 2 * t ? 2 * t + 1 : 2 * t;
+      hazards_[bit].push_back({std::max(lo_[bit], hi + 1 - circle_), hi});
+    }
+    due_ = 0;
+  }
+
+  void mark(const FlatUse& use, bool store, std::int32_t position) {
+    const Track track = tracks_[use.resource];
+    const auto set = [&](Cell& cell) {
+      cell.access = position;
+      if (store) cell.store = position;
+    };
+    switch (track.mode) {
+      case Mode::ignored:
+        return;
+      case Mode::single:
+      case Mode::arena:
+        set(cells_[track.base]);
+        return;
+      case Mode::multi:
+        forEachSubresource(use, graph_.resources[use.resource],
+                           [&](std::uint32_t s) { set(cells_[track.base + s]); });
+        return;
+      case Mode::history: {
+        const FlatResource& r = graph_.resources[use.resource];
+        const std::uint32_t count = cellsOf(use.resource);
+        const std::uint32_t age = ageOf(use, track);
+        if (age != 0 && age != track.depth) return;
+        const auto visit = [&](std::uint32_t s) {
+          if (age == 0)
+            set(cells_[track.base + s]);
+          else
+            cells_[track.base + count + s].access = position;
+        };
+        if (count == 1)
+          visit(0);
+        else
+          forEachSubresource(use, r, visit);
+      }
+    }
+  }
+
+  // Transient buffers: a first step takes over what was done to its bytes, a last step leaves what it did.
+  void inherit(std::int32_t t) {
+    for (; birth_ < scratch_.births.size(); ++birth_) {
+      const std::uint32_t r = scratch_.births[birth_];
+      if (plan_.firstStep[r] > static_cast<std::uint32_t>(t)) return;
+      if (tracks_[r].mode != Mode::arena) continue;
+      const std::uint64_t from = plan_.bufferOffsetOf[r],
+                          to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
+      cells_[tracks_[r].base] = {storeMap_.latest(from, to), accessMap_.latest(from, to)};
+    }
+  }
+  void bequeath(std::int32_t t) {
+    for (std::uint32_t r = scratch_.deathHead[static_cast<std::size_t>(t)]; r != kNone;
+         r = scratch_.deathNext[r]) {
+      if (tracks_[r].mode != Mode::arena) continue;
+      const std::uint64_t from = plan_.bufferOffsetOf[r],
+                          to = from + std::max<std::uint64_t>(1, graph_.resources[r].bytes);
+      const Cell& cell = cells_[tracks_[r].base];
+      accessMap_.paint(from, to, cell.access);
+      if (cell.store > 2 * static_cast<std::int32_t>(plan_.firstStep[r]))
+        storeMap_.paint(from, to, cell.store);
+    }
+  }
+
+  const FlatGraph& graph_;
+  const Plan& plan_;
+  const Scratch& scratch_;
+  HazardIntervals& hazards_;
+  const std::int32_t end_, circle_;
+  std::vector<Track> tracks_;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> histories_;
+  RangeMap storeMap_, accessMap_;
+  bool anyArena_ = false;
+  std::size_t birth_ = 0;
+  std::uint32_t job_ = kNone;  // of the step that is walked over
+  std::uint16_t due_ = 0;
+  std::array<std::int32_t, kBarrierBitCount> lo_{};
+};
+
+}  // namespace
+
+void collectHazards(const FlatGraph& graph, const Plan& plan, const CompileScratch& scratch,
+                    HazardIntervals& hazards) {
+  Collector(graph, plan, scratch, hazards).run();
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,161 @@
+// Lifetimes in steps, clears of version zero, persistence and the bytes each step binds: one scan of the live
+// uses in execution order.
+#include "engine/graph/compile/lifetimes.h"
+
+#include <algorithm>
+
+#include "engine/graph/compile/barrier_rules.h"
+
+namespace weft::graph {
+
+namespace steps {
+
+namespace {
+
+using Scratch = CompileScratch;
+
+// Clears what `use` touches and nothing cleared before: runs of levels per layer, equal layers merged.
+void clearCells(const FlatUse& use, const FlatResource& r, Plan& plan, Scratch& scratch) {
+  const std::uint32_t base = scratch.cellBase[use.resource];
+  if ((scratch.flags[use.resource] & Scratch::kGranular) == 0) {
+    if (scratch.cleared[base] != 0) return;
+    scratch.cleared[base] = 1;
+    plan.clears.push_back({wholeUse(use.resource, r, Kind::copy, Access::write)});
+    return;
+  }
+  const std::size_t first = plan.clears.size();
+  const std::uint32_t planes = planesOf(r);
+  const auto takePlanes = [&](std::uint32_t mip, std::uint32_t layer) {
+    std::uint8_t mask = 0;
+    for (std::uint32_t plane = 0; plane < planes; ++plane) {
+      if (planes == 2 && (use.planes >> plane & 1) == 0) continue;
+      std::uint8_t& cell = scratch.cleared[base + (layer * r.mips + mip) * planes + plane];
+      if (cell == 0) mask = static_cast<std::uint8_t>(mask | 1u << plane);
+      cell = 1;
+    }
+    return mask;
+  };
+  for (std::uint32_t layer = use.layer; layer < std::uint32_t{use.layer} + use.layers; ++layer) {
+    const std::size_t row = plan.clears.size();
+    for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip) {
+      const std::uint8_t mask = takePlanes(mip, layer);
+      if (mask == 0) continue;
+      if (plan.clears.size() > row) {
+        FlatUse& before = plan.clears.back().use;
+        if (before.planes == mask && before.mip + before.mips == static_cast<int>(mip)) {
+          ++before.mips;
+          continue;
+        }
+      }
+      FlatUse clear = wholeUse(use.resource, r, Kind::copy, Access::write);
+      clear.mip = static_cast<std::uint16_t>(mip);
+      clear.mips = 1;
+      clear.layer = static_cast<std::uint16_t>(layer);
+      clear.layers = 1;
+      clear.planes = mask;
+      plan.clears.push_back({clear});
+    }
+    // A row of one rectangle that continues the rectangle of the layers above it joins it.
+    if (plan.clears.size() == row + 1 && row > first) {
+      const FlatUse clear = plan.clears.back().use;
+      FlatUse& above = plan.clears[row - 1].use;
+      if (above.layer + above.layers == clear.layer && above.mip == clear.mip && above.mips == clear.mips &&
+          above.planes == clear.planes) {
+        ++above.layers;
+        plan.clears.pop_back();
+      }
+    }
+  }
+}
+
+// Which of the clears go through the framebuffer of their pass.
+void findAttachedClears(const FlatGraph& graph, const Step& step, Plan& plan) {
+  const FlatPass& pass = graph.passes[step.pass];
+  for (std::uint32_t c = step.firstClear; c < plan.clears.size(); ++c) {
+    const FlatUse& clear = plan.clears[c].use;
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const FlatUse& use = graph.uses[u];
+      if (plan.attached[u] != 0 && (use.kind == Kind::color || use.kind == Kind::depth) && use.history == 0 &&
+          use.resource == clear.resource && use.mip == clear.mip && clear.mips == 1 && use.mips == 1 &&
+          use.layer == clear.layer && use.layers == clear.layers && use.planes == clear.planes)
+        plan.clears[c].attachment = u;
+    }
+  }
+}
+
+bool isLiveOutput(const FlatGraph& graph, const FlatUse& use, const Plan& plan, const Scratch& scratch) {
+  const std::uint8_t flags = scratch.flags[use.resource];
+  if ((flags & Scratch::kImported) == 0 && plan.firstStep[use.resource] == kNone) return false;
+  bool live = true;
+  scratch.forEachCell(use, graph.resources[use.resource], [&](std::uint32_t cell) {
+    const std::uint32_t writer = scratch.lastWriter[cell];
+    const bool versionZero =
+        (flags & Scratch::kImported) != 0 || ((flags & Scratch::kClear) != 0 && scratch.cleared[cell] != 0);
+    live = live && (writer != kNone ? plan.attached[writer] != 0 : versionZero);
+  });
+  return live;
+}
+
+}  // namespace
+
+void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
+  const std::size_t count = graph.resources.size();
+  plan.firstStep.assign(count, kNone);
+  plan.lastStep.assign(count, kNone);
+  scratch.births.resize(count + 1);
+  if (scratch.anyClear) scratch.cleared.assign(scratch.cellCount, 0);
+  std::uint32_t* const firstStep = plan.firstStep.data();
+  std::uint32_t* const births = scratch.births.data();
+  std::size_t born = 0;
+  // Without branches: what is read and what is written first alternates without a pattern.
+  const auto touch = [&](std::uint32_t resource, std::uint32_t step) {
+    const bool first = firstStep[resource] == kNone;
+    firstStep[resource] = first ? step : firstStep[resource];
+    births[born] = resource;
+    born += first ? 1 : 0;
+    plan.lastStep[resource] = step;
+  };
+  std::uint64_t bound = 0;
+  unsigned stored = 0;
+  for (std::uint32_t t = 0; t < plan.steps.size(); ++t) {
+    Step& step = plan.steps[t];
+    const FlatPass& pass = graph.passes[step.pass];
+    const std::uint8_t byCadence =
+        pass.cadence == Cadence::always ? Scratch::kWrittenAlways : Scratch::kPersistent;
+    step.firstClear = static_cast<std::uint32_t>(plan.clears.size());
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      if (plan.attached[u] == 0) continue;
+      const FlatUse& use = graph.uses[u];
+      touch(use.resource, t);
+      const FlatResource& r = graph.resources[use.resource];
+      const unsigned store = isStore(use) ? unsigned{Scratch::kStored} : 0u;
+      const unsigned flags =
+          scratch.flags[use.resource] | (use.access != Access::read ? unsigned{byCadence} : 0u) | store;
+      scratch.flags[use.resource] = static_cast<std::uint8_t>(flags);
+      stored |= store;
+      bound += (flags & Scratch::kGranular) == 0 ? r.bytes : bytesOf(use, r);
+      if ((flags & Scratch::kClear) != 0 && use.history == 0) clearCells(use, r, plan, scratch);
+    }
+    step.clearCount = static_cast<std::uint32_t>(plan.clears.size()) - step.firstClear;
+    if (step.clearCount != 0) findAttachedClears(graph, step, plan);
+  }
+  plan.bytesBound = bound;
+  scratch.anyStore = stored != 0;
+
+  const auto end = static_cast<std::uint32_t>(plan.steps.size());
+  const FlatUse& present = graph.present;
+  if (present.resource != kNone && plan.firstStep[present.resource] != kNone) touch(present.resource, end);
+  plan.outputLive.assign(graph.outputs.size(), 0);
+  for (std::size_t i = 0; i < graph.outputs.size(); ++i) {
+    if (!isLiveOutput(graph, graph.outputs[i], plan, scratch)) continue;
+    plan.outputLive[i] = 1;
+    touch(graph.outputs[i].resource, end);
+  }
+  scratch.births.resize(born);
+  plan.persistent.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+    plan.persistent[i] = (scratch.flags[i] & Scratch::kPersistent) != 0 && plan.firstStep[i] != kNone ? 1 : 0;
+}
+
+}  // namespace steps
+}  // namespace weft::graph

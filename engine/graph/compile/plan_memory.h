@@ -1,0 +1,12 @@
+// What a plan would allocate, held against the limit texture_bytes before anything is. Does not: know what a device has.
+#pragma once
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/plan.h"
+
+namespace weft::graph {
+
+// False after Code::texturesTooLarge, at the declaration of the largest texture or buffer.
+bool checkMemory(const Plan& plan, base::Diagnostics& diagnostics);
+
+}  // namespace weft::graph

@@ -1,0 +1,267 @@
+// Physical textures by class, transient buffers by offset. Births come in order of first step; a resource
+// that dies in step t frees its storage for step t + 1. Within a class a freed texture is taken before a new
+// one is made, so their number is the greatest number alive at once (interval graphs are perfect; greedy
+// colouring by start is optimal).
+#include "engine/graph/compile/storage.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/base/hash.h"
+
+namespace weft::graph::steps {
+
+namespace {
+
+using Scratch = CompileScratch;
+constexpr std::uint64_t kAlignment = 256;
+
+// Two textures share a class when each can be a view of the other: ARB_texture_view compatible formats, equal
+// sizes, and targets of one family (2D, arrays and cubes are; 3D and multisample stand alone).
+struct ClassKey {
+  std::uint64_t size = 0;   // width, height
+  std::uint64_t shape = 0;  // depth, layers, mips
+  std::uint64_t kind = 0;   // samples, family, view class
+  friend bool operator==(const ClassKey&, const ClassKey&) = default;
+};
+
+std::uint64_t familyOf(Target target) {
+  return target == Target::texture_3d ? 1 : target == Target::texture_2d_multisample ? 2 : 0;
+}
+
+ClassKey keyOf(const FlatResource& r) {
+  return {std::uint64_t{r.width} << 32 | r.height,
+          std::uint64_t{r.depth} << 32 | std::uint64_t{r.layers} << 16 | r.mips,
+          std::uint64_t{r.samples} << 32 | familyOf(r.target) << 16 | infoOf(r.format).viewClass};
+}
+
+// Open addressing; the classes of a graph are few.
+class ClassTable {
+ public:
+  ClassTable() : slots_(64, kNone) {}
+
+  std::uint32_t find(const ClassKey& key) {
+    std::uint64_t at = base::hashCombine(key.size ^ key.kind * 0x9e3779b97f4a7c15ull, key.shape);
+    for (;; ++at) {
+      const std::uint32_t found = slots_[at & (slots_.size() - 1)];
+      if (found == kNone) break;
+      if (keys_[found] == key) return found;
+    }
+    if ((keys_.size() + 1) * 2 > slots_.size()) {
+      grow();
+      return find(key);
+    }
+    const auto index = static_cast<std::uint32_t>(keys_.size());
+    slots_[at & (slots_.size() - 1)] = index;
+    keys_.push_back(key);
+    return index;
+  }
+
+ private:
+  void grow() {
+    slots_.assign(slots_.size() * 2, kNone);
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+      std::uint64_t at =
+          base::hashCombine(keys_[i].size ^ keys_[i].kind * 0x9e3779b97f4a7c15ull, keys_[i].shape);
+      while (slots_[at & (slots_.size() - 1)] != kNone) ++at;
+      slots_[at & (slots_.size() - 1)] = i;
+    }
+  }
+  std::vector<std::uint32_t> slots_;
+  std::vector<ClassKey> keys_;
+};
+
+// Free ranges by offset and by size; best fit, lowest offset among equals; the arena grows at its end.
+class Arena {
+ public:
+  std::uint64_t take(std::uint64_t size) {
+    const auto fit = bySize_.lower_bound({size, 0});
+    if (fit == bySize_.end()) return grow(size);
+    const auto [free, offset] = *fit;
+    remove(offset, free);
+    if (free > size) insert(offset + size, free - size);
+    return offset;
+  }
+
+  void give(std::uint64_t offset, std::uint64_t size) {
+    auto after = byOffset_.lower_bound(offset);
+    if (after != byOffset_.end() && offset + size == after->first) {
+      size += after->second;
+      remove(after->first, after->second);
+      after = byOffset_.lower_bound(offset);
+    }
+    if (after != byOffset_.begin()) {
+      const auto before = std::prev(after);
+      if (before->first + before->second == offset) {
+        const auto [start, length] = *before;
+        remove(start, length);
+        offset = start;
+        size += length;
+      }
+    }
+    insert(offset, size);
+  }
+
+  std::uint64_t end() const { return end_; }
+
+ private:
+  std::uint64_t grow(std::uint64_t size) {
+    std::uint64_t offset = end_;
+    if (!byOffset_.empty()) {
+      const auto [start, length] = *byOffset_.rbegin();
+      if (start + length == end_) {
+        remove(start, length);
+        offset = start;
+      }
+    }
+    end_ = offset + size;
+    return offset;
+  }
+  void insert(std::uint64_t offset, std::uint64_t size) {
+    byOffset_.emplace(offset, size);
+    bySize_.emplace(size, offset);
+  }
+  void remove(std::uint64_t offset, std::uint64_t size) {
+    byOffset_.erase(offset);
+    bySize_.erase({size, offset});
+  }
+  std::map<std::uint64_t, std::uint64_t> byOffset_;
+  std::set<std::pair<std::uint64_t, std::uint64_t>> bySize_;
+  std::uint64_t end_ = 0;
+};
+
+std::uint64_t alignedBytes(const FlatResource& r) {
+  return (std::max<std::uint64_t>(r.bytes, 1) + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+struct ClassState {
+  std::uint32_t freeHead = kNone;
+  std::uint32_t alive = 0, peak = 0;
+  std::uint64_t bytes = 0;
+};
+
+// The resources and free storages of one run of placeStorage.
+class Placer {
+ public:
+  Placer(const FlatGraph& graph, bool share, Plan& plan, Scratch& scratch)
+      : graph_(graph), share_(share), plan_(plan), scratch_(scratch) {}
+
+  void run() {
+    const std::size_t count = graph_.resources.size();
+    plan_.storageOf.assign(count, kNone);
+    plan_.bufferOffsetOf.assign(count, Plan::kNoOffset);
+    scratch_.deathHead.assign(plan_.steps.size() + 1, kNone);
+    scratch_.deathNext.resize(count);
+    for (const std::uint32_t r : scratch_.births) {
+      scratch_.deathNext[r] = scratch_.deathHead[plan_.lastStep[r]];
+      scratch_.deathHead[plan_.lastStep[r]] = r;
+    }
+    std::uint32_t now = 0;
+    for (const std::uint32_t r : scratch_.births) {
+      for (; now < plan_.firstStep[r]; ++now) bury(now);
+      bear(r);
+    }
+    plan_.arenaBytes = arena_.end();
+    plan_.bytesAllocated += plan_.arenaBytes;
+    for (const ClassState& state : classes_) plan_.bytesLowerBound += state.bytes * state.peak;
+    plan_.bytesLowerBound += bufferPeak_;
+  }
+
+ private:
+  void bear(std::uint32_t index) {
+    const std::uint8_t flags = scratch_.flags[index];
+    if ((flags & Scratch::kImported) != 0) return;
+    const FlatResource& r = graph_.resources[index];
+    const std::uint64_t bytes = r.bytes * std::uint64_t{plan_.copiesOf(index)};
+    plan_.bytesDeclared += bytes;
+    if ((flags & Scratch::kPersistent) != 0) {
+      plan_.bytesAllocated += bytes;
+      plan_.bytesLowerBound += bytes;
+      if ((flags & Scratch::kBuffer) == 0) addStorage(index, r, bytes).persistent = true;
+    } else if ((flags & Scratch::kBuffer) != 0) {
+      const std::uint64_t size = alignedBytes(r);
+      plan_.bufferOffsetOf[index] = arena_.take(size);
+      bufferAlive_ += size;
+      bufferPeak_ = std::max(bufferPeak_, bufferAlive_);
+    } else {
+      bearTexture(index, r);
+    }
+  }
+
+  void bearTexture(std::uint32_t index, const FlatResource& r) {
+    const std::uint32_t found = table_.find(keyOf(r));
+    if (found == classes_.size()) {
+      classes_.emplace_back();
+      classes_.back().bytes = r.bytes;
+    }
+    ClassState& state = classes_[found];
+    if (++state.alive > state.peak) state.peak = state.alive;
+    if (state.freeHead == kNone) {
+      addStorage(index, r, r.bytes);
+      plan_.bytesAllocated += r.bytes;
+      nextFree_.resize(plan_.storages.size(), kNone);
+      classOf_.resize(plan_.storages.size(), found);
+      return;
+    }
+    const std::uint32_t taken = state.freeHead;
+    state.freeHead = nextFree_[taken];
+    plan_.storages[taken].shared = true;
+    plan_.storageOf[index] = taken;
+  }
+
+  Storage& addStorage(std::uint32_t index, const FlatResource& r, std::uint64_t bytes) {
+    plan_.storageOf[index] = static_cast<std::uint32_t>(plan_.storages.size());
+    Storage storage;
+    storage.target = r.target;
+    storage.samples = r.samples;
+    storage.layers = r.layers;
+    storage.mips = r.mips;
+    storage.width = r.width;
+    storage.height = r.height;
+    storage.depth = r.depth;
+    storage.viewClass = infoOf(r.format).viewClass;
+    storage.format = r.format;
+    storage.copies = static_cast<std::uint8_t>(plan_.copiesOf(index));
+    storage.bytes = bytes;
+    plan_.storages.push_back(storage);
+    return plan_.storages.back();
+  }
+
+  void bury(std::uint32_t step) {
+    for (std::uint32_t r = scratch_.deathHead[step]; r != kNone; r = scratch_.deathNext[r]) {
+      const std::uint8_t flags = scratch_.flags[r];
+      if ((flags & (Scratch::kImported | Scratch::kPersistent)) != 0) continue;
+      if ((flags & Scratch::kBuffer) != 0) {
+        const std::uint64_t size = alignedBytes(graph_.resources[r]);
+        bufferAlive_ -= size;
+        if (share_) arena_.give(plan_.bufferOffsetOf[r], size);
+        continue;
+      }
+      const std::uint32_t storage = plan_.storageOf[r];
+      ClassState& state = classes_[classOf_[storage]];
+      --state.alive;
+      if (!share_) continue;
+      nextFree_[storage] = state.freeHead;
+      state.freeHead = storage;
+    }
+  }
+
+  const FlatGraph& graph_;
+  const bool share_;
+  Plan& plan_;
+  Scratch& scratch_;
+  ClassTable table_;
+  Arena arena_;
+  std::vector<ClassState> classes_;
+  std::vector<std::uint32_t> nextFree_, classOf_;  // per storage
+  std::uint64_t bufferAlive_ = 0, bufferPeak_ = 0;
+};
+
+}  // namespace
+
+void placeStorage(const FlatGraph& graph, bool share, Plan& plan, CompileScratch& scratch) {
+  Placer(graph, share, plan, scratch).run();
+}
+
+}  // namespace weft::graph::steps

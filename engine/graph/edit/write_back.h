@@ -1,0 +1,42 @@
+// What a person changed while a graph ran, written into the files it came from: values of parameters and
+// disabled passes. Planned on the texts as they were read, by the smallest edits (json_edit.h), and proved
+// before anything is saved: the edited texts, read and expanded without the changes, must give the graph that
+// runs with them. Does not: decide when, draw, or touch a file before save().
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/expand/expand.h"
+#include "engine/graph/registry.h"
+
+namespace weft::graph {
+
+struct WriteBack {
+  struct File {
+    std::string path, before, after;
+  };
+  std::vector<File> files;              // those that change
+  std::vector<std::string> parameters;  // full names whose values the files say now
+  std::vector<std::string> passes;      // declared names of passes the files disable now
+  Settings rest;                        // the settings with which the edited files give the same graph
+};
+
+// `desc` is what runs (read from its path with `presets`), `settings` what it runs with. A value goes where
+// it comes from: into the `set` that decides it; else into a `set` of the last preset, or of the file itself
+// when it extends another; else into the `default`, also of an included file; else into a `set` of the file
+// itself. Disabled instances of repeats and disabled includes have no place in a file and stay in `rest`.
+// Empty after W196: something cannot be written.
+std::optional<WriteBack> planWriteBack(const GraphDesc& desc, std::span<const std::string> presets,
+                                       const Registry& registry, const Settings& settings,
+                                       base::Diagnostics& diagnostics);
+
+// Replaces the files, each whole (W180). False, and no file is changed, after W195: one is not what it was
+// when it was read.
+bool saveWriteBack(const WriteBack& plan, base::Diagnostics& diagnostics);
+
+}  // namespace weft::graph

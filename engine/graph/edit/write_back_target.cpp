@@ -1,0 +1,231 @@
+#include "engine/graph/edit/write_back_target.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "engine/base/json/edit.h"
+#include "engine/graph/language/suffix.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::JsonValue;
+
+// The files from the graph's own down to the one that declares something: prefix of names and description.
+using Chain = std::vector<std::pair<std::string, const GraphDesc*>>;
+
+// Calls visit(chain, pass) for every pass of the graph and of what it includes.
+template <class Visit>
+void eachPass(Chain& chain, const Visit& visit) {
+  const auto [prefix, desc] = chain.back();
+  for (const PassDesc& pass : desc->passes) {
+    if (!pass.include) {
+      visit(chain, pass);
+    } else if (pass.include->graph) {
+      chain.emplace_back(prefix + pass.include->as + ".", pass.include->graph.get());
+      eachPass(chain, visit);
+      chain.pop_back();
+    }
+  }
+}
+
+struct DeclaredParameter {
+  Chain chain;
+  const ParameterDesc* desc = nullptr;
+};
+
+void findIn(Chain& chain, const std::string& path, DeclaredParameter& found) {
+  const auto [prefix, desc] = chain.back();
+  for (const ParameterDesc& parameter : desc->parameters)
+    if (prefix + parameter.name == path) found = {chain, &parameter};
+  for (const PassDesc& pass : desc->passes) {
+    for (const PassParameterDesc& parameter : pass.parameters)
+      if (parameter.declared && prefix + pass.name + "." + parameter.name == path)
+        found = {chain, &*parameter.declared};
+    if (pass.include && pass.include->graph && path.starts_with(prefix + pass.include->as + ".")) {
+      chain.emplace_back(prefix + pass.include->as + ".", pass.include->graph.get());
+      findIn(chain, path, found);
+      chain.pop_back();
+    }
+  }
+}
+
+std::string shortest(const std::string& path, std::span<const std::string> paths) {
+  for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
+       dot = path.rfind('.', dot - 1)) {
+    const std::string suffix = path.substr(dot + 1);
+    if (suffixMatches(paths, suffix).size() == 1) return suffix;
+  }
+  return path;
+}
+
+// A number as it stood before stays one that reads as the same type: "2.0" does not become "3".
+std::string numberText(double x, std::string_view before) {
+  std::string text = fmt::format("{}", x == 0 ? 0.0 : x);
+  if (before.find_first_of(".eE") != std::string_view::npos && text.find_first_of(".e") == std::string::npos)
+    text += ".0";
+  return text;
+}
+
+std::string valueText(const Value& value) {
+  return value.type == Value::Type::symbol ? base::quoteJson(value.symbol) : toText(value);
+}
+
+std::optional<JsonValue> parse(const std::string& text) {
+  base::Diagnostics ignored;
+  auto root = base::parseJson(text, nullptr, ignored);
+  return ignored.hasErrors() ? std::nullopt : std::move(root);
+}
+
+// `value` in place of what stands at `pointer`; of a list only the items that differ.
+std::optional<std::string> putValue(const std::string& text, const std::string& pointer, const Value& value) {
+  const auto root = parse(text);
+  const JsonValue* at = root ? base::findPointer(*root, pointer) : nullptr;
+  if (!at) return std::nullopt;
+  const auto written = [&](const JsonValue& old) {
+    const base::ByteRange range = base::rangeOf(text, old);
+    return std::string_view(text).substr(range.begin, range.end - range.begin);
+  };
+  if (value.type == Value::Type::number)
+    return base::replaceValue(text, pointer, numberText(value.v[0], written(*at)));
+  if (value.type != Value::Type::list || at->items.size() != value.count)
+    return base::replaceValue(text, pointer, valueText(value));
+  std::optional<std::string> out = text;
+  for (std::size_t i = 0; i < at->items.size() && out; ++i)
+    if (at->items[i].number != value.v[i])
+      out = base::replaceValue(*out, at->items[i].pointer.text(),
+                               numberText(value.v[i], written(at->items[i])));
+  return out;
+}
+
+std::optional<std::string> putInSet(const std::string& text, const std::string& name, const Value& value) {
+  const auto root = parse(text);
+  if (!root) return std::nullopt;
+  if (root->find("set")) return base::insertMember(text, "/set", name, valueText(value));
+  const char* after = root->find("extends") ? "extends" : root->find("name") ? "name" : "";
+  return base::insertMember(text, "", "set",
+                            fmt::format("{{ {}: {} }}", base::quoteJson(name), valueText(value)), after);
+}
+
+// The file that changes belong into when the graph is laid over others: the last preset, or the graph's own
+// when it extends another; else nothing.
+std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std::string> presets,
+                                     const FileTexts& texts) {
+  if (!presets.empty()) return presets.back();
+  const auto own = texts.find(desc.path);
+  const auto root = own == texts.end() ? std::nullopt : parse(*own->second);
+  return root && root->find("extends") ? std::optional(desc.path) : std::nullopt;
+}
+
+class Edits {
+ public:
+  explicit Edits(const FileTexts& texts) : texts_(texts) {}
+  template <class Change>
+  void add(const std::string& path, const Change& change) {
+    const auto text = texts_.find(path);
+    if (text == texts_.end()) return;
+    if (auto edited = change(*text->second)) made.push_back({path, *std::move(edited)});
+  }
+  std::vector<TextEdit> made;
+
+ private:
+  const FileTexts& texts_;
+};
+
+}  // namespace
+
+std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const std::string> presets,
+                                       const FileTexts& texts, const ParameterSpec& wanted,
+                                       std::span<const std::string> paths) {
+  Chain chain = {{"", &desc}};
+  DeclaredParameter found;
+  findIn(chain, wanted.path, found);
+  if (!found.desc) return {};
+  Edits edits(texts);
+  // The outermost file has the last word, and in it the last entry.
+  const SetDesc* deciding = nullptr;
+  for (const auto& [prefix, file] : found.chain) {
+    std::vector<std::string> names;
+    for (const std::string& path : paths)
+      if (path.starts_with(prefix)) names.push_back(path.substr(prefix.size()));
+    for (auto set = file->sets.rbegin(); set != file->sets.rend() && !deciding; ++set)
+      if (const auto means = suffixMatches(names, set->name);
+          means.size() == 1 && prefix + names[means[0]] == wanted.path)
+        deciding = &*set;
+  }
+  // A path is written from the folder of the file it stands in.
+  const auto valueIn = [&](const std::string& path) {
+    Value value = wanted.value;
+    if (found.desc->type != ParameterDesc::Type::file || value.symbol.empty()) return value;
+    if (std::filesystem::path(value.symbol).is_absolute()) return value;
+    std::error_code ignored;
+    const auto whole = [&](const std::filesystem::path& at) {
+      return std::filesystem::absolute(at, ignored).lexically_normal();
+    };
+    value.symbol = whole(value.symbol).lexically_relative(whole(path).parent_path()).string();
+    return value;
+  };
+  const auto put = [&](const std::string& path, const std::string& pointer) {
+    edits.add(path, [&](const std::string& text) { return putValue(text, pointer, valueIn(path)); });
+  };
+  const auto putSet = [&](const std::string& path) {
+    const std::string name = shortest(wanted.path, paths);
+    edits.add(path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
+  };
+  if (deciding && deciding->place.file) put(*deciding->place.file, deciding->pointer.text());
+  if (const auto overlay = overlayOf(desc, presets, texts)) putSet(*overlay);
+  if (found.desc->initialPlace.file) put(*found.desc->initialPlace.file, found.desc->initialPointer);
+  putSet(desc.path);
+  return std::move(edits.made);
+}
+
+std::vector<std::string> declaredPasses(const GraphDesc& desc) {
+  std::vector<std::string> names;
+  Chain chain = {{"", &desc}};
+  eachPass(chain,
+           [&](const Chain& at, const PassDesc& pass) { names.push_back(at.back().first + pass.name); });
+  return names;
+}
+
+std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::string> presets,
+                                  const FileTexts& texts, const std::string& name,
+                                  std::span<const std::string> declared) {
+  Edits edits(texts);
+  if (const auto overlay = overlayOf(desc, presets, texts))
+    edits.add(*overlay, [&](const std::string& text) -> std::optional<std::string> {
+      const auto root = parse(text);
+      const std::string stanza =
+          fmt::format("{{ \"name\": {}, \"enabled\": false }}", base::quoteJson(shortest(name, declared)));
+      if (root && root->find("passes")) return base::appendItem(text, "/passes", stanza);
+      return base::insertMember(text, "", "passes", "[" + stanza + "]");
+    });
+  const PassDesc* pass = nullptr;
+  Chain chain = {{"", &desc}};
+  eachPass(chain, [&](const Chain& at, const PassDesc& each) {
+    if (at.back().first + each.name == name) pass = &each;
+  });
+  if (pass && pass->place.file)
+    edits.add(*pass->place.file, [&](const std::string& text) -> std::optional<std::string> {
+      const auto root = parse(text);
+      const JsonValue* stanza = root ? base::findPointer(*root, pass->pointer.text()) : nullptr;
+      if (!stanza) return std::nullopt;
+      const JsonValue* enabled = stanza->find("enabled");
+      if (!enabled)
+        return base::insertMember(text, pass->pointer.text(), "enabled", "false",
+                                  stanza->find("shader") ? "shader" : "type");
+      if (!enabled->is(JsonValue::Type::string))
+        return base::replaceValue(text, enabled->pointer.text(), "false");
+      // The condition stays readable, and comes back when "&& false" is removed.
+      const bool loose = enabled->text.find_first_of("?|") != std::string::npos;
+      const std::string kept = loose ? "(" + enabled->text + ")" : enabled->text;
+      return base::replaceValue(text, enabled->pointer.text(), base::quoteJson(kept + " && false"));
+    });
+  return std::move(edits.made);
+}
+
+}  // namespace weft::graph

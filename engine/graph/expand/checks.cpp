@@ -1,0 +1,305 @@
+#include "engine/graph/expand/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/expand/names/limits.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+bool isTexture(const FlatResource& shape) {
+  return shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
+}
+
+bool isInteger(Format format) {
+  const TexelKind kind = infoOf(format).kind;
+  return kind == TexelKind::unsigned_integer || kind == TexelKind::signed_integer;
+}
+
+}  // namespace
+
+const PassType* findPassType(const Registry& registry, std::string_view name) {
+  for (const PassType& type : registry.passTypes)
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
+const char* wordFor(Kind kind) {
+  static constexpr const char* kWords[] = {"sampled", "image",    "uniform", "storage", "vertex",
+                                           "index",   "indirect", "color",   "depth",   "copy"};
+  return kWords[static_cast<int>(kind)];
+}
+
+const char* wordFor(Access access) {
+  static constexpr const char* kWords[] = {"read", "write", "modify"};
+  return kWords[static_cast<int>(access)];
+}
+
+Kind defaultKind(const PassType* type, Access access, const FlatResource& shape) {
+  if (!type) return Kind::copy;
+  if (!isTexture(shape)) return Kind::storage;
+  if (access == Access::read) return type->defaultReadTexture;
+  return type->defaultWriteTexture == Kind::color && isDepth(shape.format) ? Kind::depth
+                                                                           : type->defaultWriteTexture;
+}
+
+bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work) {
+  const Entity& entity = context.model.entities[work.entity];
+  const FlatResource& shape = entity.shape;
+  const Kind kind = work.use.kind;
+  const auto report = [&](Code code, std::string message, std::string expected) {
+    auto& d = context.model.diagnostics.error(code, ref.place, std::move(message));
+    d.pass = context.pass;
+    d.resource = entity.name;
+    d.expected = std::move(expected);
+    d.found = ref.text;
+    d.pointer = ref.pointer;
+    return false;
+  };
+  const auto kindMisfit = [&](std::string expected) {
+    return report(
+        Code::badKind,
+        fmt::format("{} cannot {} '{}' as {}", context.user, wordFor(access), entity.name, wordFor(kind)),
+        std::move(expected));
+  };
+  if (entity.import != kNone && context.model.graph.imports[entity.import].kind == ImportKind::event)
+    return report(Code::badKind,
+                  fmt::format("{} uses '{}', which is an event and holds nothing", context.user, entity.name),
+                  "a texture or a buffer; events stand in \"reset\"");
+  const bool texture = isTexture(shape);
+  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || kind == Kind::vertex ||
+                          kind == Kind::index || kind == Kind::indirect;
+  if (texture && bufferKind) return kindMisfit("sampled, image, color, depth or copy for a texture");
+  if (!texture && !bufferKind && kind != Kind::copy)
+    return kindMisfit("uniform, storage, vertex, index, indirect or copy for a buffer");
+  const ShaderShape shader = context.type ? context.type->shader : ShaderShape::none;
+  if (context.type && shader == ShaderShape::none && kind != defaultKind(context.type, access, shape))
+    return kindMisfit(fmt::format("a {} pass uses {}", context.type->name,
+                                  wordFor(defaultKind(context.type, access, shape))));
+  const bool draws = shader == ShaderShape::fragment || shader == ShaderShape::draw;
+  if (context.type && shader != ShaderShape::none) {
+    if (kind == Kind::copy) return kindMisfit("a kind that a shader has; copies are made by blit passes");
+    if ((kind == Kind::color || kind == Kind::depth) && !draws)
+      return kindMisfit("image in a pass without attachments");
+    if ((kind == Kind::vertex || kind == Kind::index) && shader != ShaderShape::draw)
+      return kindMisfit("vertices in draw passes only");
+    if (kind == Kind::indirect && shader == ShaderShape::fragment)
+      return kindMisfit("indirect arguments in draw and compute passes");
+  }
+  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform || kind == Kind::vertex ||
+                        kind == Kind::index || kind == Kind::indirect;
+  if (readOnly && access != Access::read) return kindMisfit("reading only for this kind");
+  if (kind == Kind::color && access == Access::read) return kindMisfit("writing or modifying for color");
+
+  const bool known = shape.format != Format::none;
+  const auto formatMisfit = [&](std::string expected) {
+    return report(Code::badFormat,
+                  fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
+                              infoOf(shape.format).name, entity.name, wordFor(kind)),
+                  std::move(expected));
+  };
+  if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable)
+    return formatMisfit("a format that can be rendered to");
+  if (known && kind == Kind::image && !infoOf(shape.format).imageStorable)
+    return formatMisfit("a format that images can have");
+  if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
+  const Sampler& sampler = work.sampler;
+  const bool blit =
+      kind == Kind::copy && shader == ShaderShape::none && !sampler.wrap && !sampler.compare;  // may filter
+  if ((sampler.linear || sampler.wrap || sampler.compare) && kind != Kind::sampled && !blit)
+    return report(Code::badKind,
+                  fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
+                  "linear, wrap and compare for sampled textures");
+  if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format))
+    return formatMisfit("a depth format for compare");
+  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2))
+    return formatMisfit("a format that can be filtered, or no linear");
+  if (shape.samples > 1 && sampler.linear)
+    return report(
+        Code::badKind,
+        fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name),
+        "no linear");
+  if (work.array && (kind == Kind::color || kind == Kind::depth))
+    return report(
+        Code::badKind,
+        fmt::format("{}: '{}' is an array, an attachment is one texture", context.user, entity.name),
+        fmt::format("one element, '{}[0]'", entity.name));
+  return true;
+}
+
+namespace {
+
+struct Attachment {
+  const SlotWork* slot;
+  std::uint32_t width, height, layers, samples;
+};
+
+std::string attachmentText(const Attachment& a) {
+  std::string text = fmt::format("{}x{}", a.width, a.height);
+  if (a.layers != 1) text += fmt::format(", {} layers", a.layers);
+  if (a.samples != 1) text += fmt::format(", {} samples", a.samples);
+  return text;
+}
+
+bool overlaps(const SlotWork& a, const SlotWork& b) {
+  const auto meet = [](std::uint32_t first, std::uint32_t count, std::uint32_t otherFirst,
+                       std::uint32_t otherCount) {
+    return first < otherFirst + otherCount && otherFirst < first + count;
+  };
+  return a.entity == b.entity && meet(a.firstElement, a.elementCount, b.firstElement, b.elementCount) &&
+         (a.use.planes & b.use.planes) != 0 && meet(a.use.mip, a.use.mips, b.use.mip, b.use.mips) &&
+         meet(a.use.layer, a.use.layers, b.use.layer, b.use.layers);
+}
+
+bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& slots) {
+  std::optional<Attachment> first;
+  int colors = 0;
+  for (const SlotWork& work : slots) {
+    if (work.state != SlotWork::State::connected && work.state != SlotWork::State::missing) continue;
+    if (work.entity == kNone || (work.use.kind != Kind::color && work.use.kind != Kind::depth)) continue;
+    const Entity& entity = context.model.entities[work.entity];
+    const FlatResource& shape = entity.shape;
+    if (work.use.kind == Kind::color) ++colors;
+    const auto side = [&](std::uint32_t texels) { return std::max(1u, texels >> work.use.mip); };
+    const Attachment here{&work, side(shape.width), side(shape.height),
+                          shape.target == Target::texture_3d ? side(shape.depth) : work.use.layers,
+                          shape.samples};
+    if (work.use.mips > 1) {
+      auto& d = context.model.diagnostics.error(
+          Code::attachmentsDiffer, work.slot->ref.place,
+          fmt::format("{} attaches {} levels of '{}' at once", context.user, work.use.mips, entity.name));
+      d.pass = context.pass;
+      d.resource = entity.name;
+      d.expected = "one level";
+      d.hint = fmt::format("write '{}.mip[0]', or repeat the pass over the levels", work.slot->ref.name);
+      return false;
+    }
+    if (!first) {
+      first = here;
+      continue;
+    }
+    if (here.width == first->width && here.height == first->height && here.layers == first->layers &&
+        here.samples == first->samples)
+      continue;
+    auto& d =
+        context.model.diagnostics.error(Code::attachmentsDiffer, work.slot->ref.place,
+                                        fmt::format("{}: attachments '{}' and '{}' differ", context.user,
+                                                    first->slot->slot->name, work.slot->name));
+    d.pass = context.pass;
+    d.resource = entity.name;
+    d.expected = fmt::format("{} as '{}'", attachmentText(*first), first->slot->slot->ref.text);
+    d.found = fmt::format("{} of '{}'", attachmentText(here), work.slot->ref.text);
+    return false;
+  }
+  if (colors > 8) {
+    auto& d =
+        context.model.diagnostics.error(Code::attachmentsDiffer, slots[0].slot->place,
+                                        fmt::format("{} has {} colour attachments", context.user, colors));
+    d.pass = context.pass;
+    d.expected = "at most 8";
+    return false;
+  }
+  return true;
+}
+
+// The two slots of a pass type without a shader, against each other.
+bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
+  const SlotWork *from = nullptr, *to = nullptr;
+  for (const SlotWork& work : slots)
+    if (work.state == SlotWork::State::connected) (work.slot->access == Access::read ? from : to) = &work;
+  if (!from || !to) return true;
+  const Entity& source = context.model.entities[from->entity];
+  const Entity& target = context.model.entities[to->entity];
+  if (context.type->name == "mipmap") {
+    const bool follows = from->entity == to->entity && from->firstElement == to->firstElement &&
+                         from->use.mips == 1 && to->use.mip == from->use.mip + 1 &&
+                         from->use.layer == to->use.layer && from->use.layers == to->use.layers;
+    if (follows) return true;
+    auto& d =
+        context.model.diagnostics.error(Code::badSlots, to->slot->ref.place,
+                                        fmt::format("{}: the levels of '{}' do not follow '{}'", context.user,
+                                                    to->slot->ref.text, from->slot->ref.text));
+    d.pass = context.pass;
+    d.resource = target.name;
+    d.hint = fmt::format(
+        "\"read\": {{ \"source\": \"{0}.mip[0]\" }}, \"write\": {{ \"result\": \"{0}.mip[1..]\" }}",
+        to->slot->ref.name);
+    return false;
+  }
+  const Format a = source.shape.format, b = target.shape.format;
+  if (a == Format::none || b == Format::none) return true;
+  const bool depth = isDepth(a) || isDepth(b), integer = isInteger(a) || isInteger(b);
+  const bool fits = depth ? a == b : !integer || infoOf(a).kind == infoOf(b).kind;
+  if (fits) return true;
+  auto& d =
+      context.model.diagnostics.error(Code::badFormat, to->slot->ref.place,
+                                      fmt::format("{}: '{}' ({}) cannot be copied to '{}' ({})", context.user,
+                                                  source.name, infoOf(a).name, target.name, infoOf(b).name));
+  d.pass = context.pass;
+  d.resource = target.name;
+  d.expected = "equal depth formats, or both integer of one sign, or both neither";
+  return false;
+}
+
+}  // namespace
+
+bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots) {
+  bool good = checkAttachments(context, slots);
+  if (context.type && context.type->shader == ShaderShape::none) good = checkCopy(context, slots) && good;
+  const auto writes = [](const SlotWork& work) {
+    return work.state == SlotWork::State::connected && work.use.access != Access::read;
+  };
+  const auto writers = static_cast<std::size_t>(std::ranges::count_if(slots, writes));
+  if (writers == 0 || !good) return good;
+  // Those that use what is written, by resource: a pass may have thousands of slots.
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> sharing;
+  for (const SlotWork& work : slots)
+    if (writes(work)) sharing.try_emplace(work.entity);
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (const auto found = sharing.find(slots[i].entity); found != sharing.end()) found->second.push_back(i);
+  for (std::size_t i = 0; i < slots.size() && good; ++i) {
+    const SlotWork& a = slots[i];
+    if (!writes(a)) continue;
+    const std::vector<std::size_t>& others = sharing[a.entity];
+    if (!compare(context.model, others.size(), a.slot->place)) return false;
+    for (const std::size_t j : others) {
+      if (!good) break;
+      const SlotWork& b = slots[j];
+      if (i == j || b.state != SlotWork::State::connected || !overlaps(a, b)) continue;
+      const std::string& name = context.model.entities[a.entity].name;
+      if (b.use.access != Access::read) {
+        if (j < i) continue;
+        auto& d = context.model.diagnostics.error(
+            Code::writtenTwice, b.slot->ref.place,
+            fmt::format("{} writes '{}' by slot '{}' and by slot '{}'", context.user, b.slot->ref.text,
+                        a.slot->name, b.slot->name));
+        d.pass = context.pass;
+        d.resource = name;
+        d.hint = "one pass writes a sub-resource once";
+        good = false;
+      } else if (b.use.history == 0 && !(a.use.access == Access::write && a.whole) &&
+                 !(a.use.access == Access::modify && desc.feedback)) {
+        // Both attachments of one kind: depth tested by a read slot and modified by another.
+        auto& d = context.model.diagnostics.error(
+            Code::readAndWritten, b.slot->ref.place,
+            fmt::format("{} reads '{}' and {} '{}' in one go", context.user, b.slot->ref.text,
+                        a.use.access == Access::write ? "writes" : "modifies", a.slot->ref.text));
+        d.pass = context.pass;
+        d.resource = name;
+        d.hint = a.use.access == Access::modify
+                     ? "\"feedback\": true lets a pass read its own texel of what it modifies"
+                     : "write another level or layer, or read and write the whole resource, which makes its "
+                       "next version";
+        good = false;
+      }
+    }
+  }
+  return good;
+}
+
+}  // namespace weft::graph::expansion

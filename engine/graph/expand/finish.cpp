@@ -1,0 +1,219 @@
+#include "engine/graph/expand/finish.h"
+
+#include <fmt/format.h>
+
+#include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/names/versions.h"
+#include "engine/graph/subresource.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+// A reference at the top of a file, resolved as a read after the last pass. nullopt when there is nothing.
+std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& ref, const std::string& user,
+                                    const std::string& name, std::vector<std::uint32_t>* writers = nullptr) {
+  Names names(model, scope);
+  markStructural(model, scope, ref);
+  SlotDesc slot;
+  slot.name = name;
+  slot.place = ref.place;
+  slot.ref = ref;
+  const SlotContext context{model, names, nullptr, user, {}};
+  SlotWork work = resolveSlot(context, slot, kNone);
+  // resolveSlot mentions the copy of the reference; keep the original for messages.
+  if (!model.missing.empty() && model.missing.back().ref == &slot.ref) model.missing.back().ref = &ref;
+  if (work.state != SlotWork::State::connected) return std::nullopt;
+  if (work.array) {
+    auto& d = model.diagnostics.error(Code::badKind, ref.place,
+                                      fmt::format("{} '{}', which is an array", user, ref.text));
+    d.expected = fmt::format("one element, '{}[0]'", ref.name);
+    return std::nullopt;
+  }
+  FlatUse use = work.use;
+  if (writers) collectWriters(model.entities[work.entity], work.firstElement, use, *writers);
+  use.resource = currentResource(model, work.entity, work.firstElement);
+  return use;
+}
+
+void resolvePresent(Model& model) {
+  model.graph.present.resource = kNone;
+  if (!model.desc.present) return;
+  const RefDesc& ref = *model.desc.present;
+  const std::size_t before = model.diagnostics.errorCount();
+  auto use = resolveFinal(model, model.scopes[0], ref, "present", "present", &model.presentDeps);
+  if (!use || model.diagnostics.errorCount() > before) return;
+  const FlatResource& resource = model.graph.resources[use->resource];
+  const bool texture =
+      resource.kind == ResourceKind::texture || resource.kind == ResourceKind::imported_texture;
+  if (!texture || isDepth(resource.format) || use->history > 0) {
+    auto& d = model.diagnostics.error(
+        Code::badKind, ref.place, fmt::format("present shows '{}', which is no colour texture", ref.text));
+    d.expected = "a colour texture of this frame";
+    return;
+  }
+  if (!ref.mip || !ref.mip->range) use->mips = 1;  // a span is kept whole; what is shown is its first level
+  use->layers = 1;
+  use->kind = Kind::copy;
+  model.graph.present = *use;
+}
+
+// What the runtime can bring to the CPU every frame.
+bool checkOutput(Model& model, const OutputDesc& output, const std::string& name, const FlatUse& use) {
+  const FlatResource& resource = model.graph.resources[use.resource];
+  std::string expected;
+  const std::uint64_t bytes = isImported(resource) ? 0 : outputBytesOf(use, resource);
+  if (isImported(resource))
+    expected = "a texture or buffer of this graph; imports come from the CPU";
+  else if (resource.samples > 1)
+    expected = "a texture with one sample per texel";
+  else if (bytes > kMaxOutputBytes)
+    expected =
+        fmt::format("at most {} bytes; of a texture every channel of a texel counts 4", kMaxOutputBytes);
+  else
+    return true;
+  auto& d = model.diagnostics.error(Code::badOutput, output.ref.place,
+                                    fmt::format("output '{}' cannot read back '{}'", name, output.ref.text));
+  d.resource = model.graph.resourceNames[use.resource];
+  d.expected = expected;
+  if (bytes > 0) d.found = fmt::format("{} bytes", bytes);
+  d.hint = "read back a small level (x.mip[n]) or a buffer that a pass sums up into";
+  return false;
+}
+
+void resolveOutputs(Model& model) {
+  for (Scope& scope : model.scopes)
+    for (const OutputDesc& output : scope.desc->outputs) {
+      const std::string name = scope.prefix + output.name;
+      auto use = resolveFinal(model, scope, output.ref, fmt::format("output '{}' reads", name), name);
+      if (!use || !checkOutput(model, output, name, *use)) continue;
+      use->kind = Kind::copy;
+      model.graph.outputs.push_back(*use);
+      model.graph.outputNames.push_back(name);
+    }
+}
+
+void resolveHistories(Model& model) {
+  FlatGraph& graph = model.graph;
+  for (const Model::HistoryUse& use : model.historyUses)
+    graph.uses[use.use].resource = currentResource(model, use.entity, use.element);
+  for (std::uint32_t index = 0; index < model.entities.size(); ++index) {
+    Entity& entity = model.entities[index];
+    if (entity.depth == 0 || entity.state != Progress::done) continue;
+    Names names(model, *entity.scope);
+    HistorySpec spec;
+    spec.first = entity.first.type == Value::Type::none ? Value::number(0) : entity.first;
+    for (const Expr& value : entity.desc->resetValues) {
+      markStructural(model, *entity.scope, value);
+      spec.resetValues.push_back(value.evaluate(names, model.diagnostics));
+    }
+    for (const RefDesc& ref : entity.desc->resetRefs) {
+      markStructural(model, *entity.scope, ref);
+      const auto holds =
+          evaluateCondition(names, ref.condition, true, fmt::format("a reset of '{}'", entity.name));
+      const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
+                                                     fmt::format("the reset of '{}' names the", entity.name));
+      if (found == kNone) continue;
+      mention(model, found, kNone);
+      if (!holds || !*holds) continue;
+      // An import that has nothing now may have something later.
+      const std::uint32_t target =
+          model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);
+      if (target == kNone || !ensureShape(model, target)) continue;
+      const Entity& reset = model.entities[target];
+      if (reset.import != kNone) {
+        spec.resetImports.push_back(reset.import);
+      } else {
+        for (const Element& element : reset.elements)
+          if (element.resource != kNone) spec.resetResources.push_back(element.resource);
+      }
+    }
+    for (const Element& element : entity.elements) {
+      if (element.resource == kNone) continue;  // nobody touches it
+      graph.resources[element.resource].history = static_cast<std::uint8_t>(entity.depth);
+      spec.resource = element.resource;
+      graph.histories.push_back(spec);
+    }
+  }
+}
+
+// What is in the place of an import that is not there: whoever fades to the import later fades from that.
+void nameStandIns(Model& model) {
+  for (const Entity& list : model.entities)
+    for (const std::uint32_t candidate : list.candidates) {
+      const std::uint32_t import = candidate == kNone ? kNone : model.entities[candidate].import;
+      if (import == kNone || !model.graph.imports[import].before) continue;
+      for (const std::uint32_t other : list.candidates)
+        if (other != kNone && model.entities[other].kind == ResourceDesc::Kind::texture)
+          model.graph.imports[import].standIns.push_back(model.entities[other].name);
+    }
+}
+
+// What contains age().
+void foldTimed(Model& model, const std::vector<DeferredUniform>& deferred) {
+  const auto ageless = [](std::uint32_t) { return 0.0; };
+  for (const DeferredUniform& each : deferred) {
+    if (!each.value.expr || !isDynamic(model, *each.scope, *each.value.expr)) continue;
+    Names names(model, *each.scope);
+    names.indices = each.indices;
+    UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.value.uniform];
+    uniform.dynamic = each.value.expr->fold(names, model.diagnostics);
+    uniform.value = uniform.dynamic.evaluateFolded(ageless);
+  }
+}
+
+// What reads live parameters. One whose expression cannot be folded with them as leaves (it has branches that
+// are not taken now and mean nothing now, or it is too long) makes them structural: then it says what it says
+// when it is evaluated anew.
+void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
+  std::vector<Value> values;
+  for (const Parameter& parameter : model.parameters) values.push_back(parameter.value);
+  findLiveLets(model);
+  const auto trialAge = [](std::uint32_t) { return kTrialAge; };
+  for (const DeferredUniform& each : deferred) {
+    UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.value.uniform];
+    if (!each.value.expr) {
+      if (!model.parameters[each.value.parameter].structural)
+        uniform.dynamic = Expr::parameter(each.value.parameter, uniform.place);
+      continue;
+    }
+    const Expr& expr = *each.value.expr;
+    if (uniform.define || !isLive(model, *each.scope, expr)) continue;
+    Names names(model, *each.scope);
+    names.indices = each.indices;
+    names.live = true;
+    base::Diagnostics ignored;
+    const Expr folded = expr.fold(names, ignored);
+    // The same as it is without leaves, which was checked.
+    const Value before = uniform.dynamic.present() ? uniform.dynamic.evaluateFolded(trialAge) : uniform.value;
+    if (folded.live() && !names.failed && folded.evaluateFolded(trialAge, values) == before)
+      uniform.dynamic = folded;
+    else if (!folded.present() || names.failed || folded.live())
+      markStructural(model, *each.scope, expr);
+  }
+}
+
+}  // namespace
+
+void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
+  model.position = static_cast<std::uint32_t>(-1);
+  resolvePresent(model);
+  resolveOutputs(model);
+  foldTimed(model, deferred);
+  resolveHistories(model);
+  nameStandIns(model);
+  if (!model.diagnostics.hasErrors()) {
+    const base::Diagnostics said = model.diagnostics;
+    foldLive(model, deferred);
+    model.diagnostics = said;
+  }
+  for (const Parameter& parameter : model.parameters)
+    model.graph.parameters.push_back(
+        {*parameter.desc, parameter.path, parameter.value, parameter.structural});
+  model.graph.files = model.desc.files;
+  model.graph.name = model.desc.name;
+  model.graph.screenWidth = model.settings.screenWidth;
+  model.graph.screenHeight = model.settings.screenHeight;
+}
+
+}  // namespace weft::graph::expansion

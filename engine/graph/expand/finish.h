@@ -1,0 +1,13 @@
+// What looks at the versions after the last pass: present, outputs, histories and their resets, age().
+#pragma once
+
+#include <vector>
+
+#include "engine/graph/expand/passes.h"
+
+namespace weft::graph::expansion {
+
+// present, outputs, histories, age(): everything that looks at the versions after the last pass.
+void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred);
+
+}  // namespace weft::graph::expansion

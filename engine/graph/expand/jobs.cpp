@@ -1,0 +1,119 @@
+#include "engine/graph/expand/jobs.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::graph {
+
+namespace {
+
+std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i) {
+  while (parents[i] != i) i = parents[i] = parents[parents[i]];
+  return i;
+}
+
+using Lists = std::vector<std::vector<std::uint32_t>>;
+
+// Joins to each pass in slices all that a spread job draws in: who is joined already, and who writes what one
+// of those writes. Everybody is visited once.
+template <class EachWrite, class Join>
+void drawIn(const FlatGraph& graph, const std::vector<std::uint32_t>& members,
+            std::vector<std::uint32_t>& parents, const EachWrite& eachWrite, const Join& join) {
+  const auto sliced = [&](std::uint32_t p) { return graph.passes[p].slices > 1; };
+  if (std::ranges::none_of(members, sliced)) return;
+  Lists joined(graph.passes.size()), writers(graph.resources.size());
+  for (const std::uint32_t p : members) {
+    joined[rootOf(parents, p)].push_back(p);
+    eachWrite(p, [&](const FlatUse& use) { writers[use.resource].push_back(p); });
+  }
+  std::vector<std::uint32_t> rootBefore(graph.passes.size());
+  for (const std::uint32_t p : members) rootBefore[p] = rootOf(parents, p);
+  std::vector<std::uint8_t> seen(graph.passes.size(), 0);
+  for (const std::uint32_t start : members) {
+    if (!sliced(start) || seen[start] != 0) continue;
+    std::vector<std::uint32_t> open;
+    const auto take = [&](std::vector<std::uint32_t>& list) {
+      for (const std::uint32_t p : list)
+        if (std::exchange(seen[p], std::uint8_t{1}) == 0) open.push_back(p);
+      list.clear();
+    };
+    take(joined[rootBefore[start]]);
+    for (std::uint32_t first = start; !open.empty();) {
+      const std::uint32_t p = open.back();
+      open.pop_back();
+      join(first, p);
+      take(joined[rootBefore[p]]);
+      eachWrite(p, [&](const FlatUse& use) { take(writers[use.resource]); });
+    }
+  }
+}
+
+}  // namespace
+
+Jobs formJobs(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
+              const std::function<bool(std::uint32_t use)>& isAttached) {
+  Jobs jobs;
+  std::vector<std::uint32_t> members;  // live passes that are not always
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+    if (graph.passes[p].cadence != Cadence::always && isLive(p)) members.push_back(p);
+  if (members.empty()) return jobs;
+
+  std::vector<std::uint8_t> joint(graph.resources.size(), 0);
+  for (std::size_t r = 0; r < joint.size(); ++r) joint[r] = graph.resources[r].history > 0;
+  const auto eachWrite = [&](std::uint32_t p, auto&& visit) {
+    const FlatPass& pass = graph.passes[p];
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+      if (graph.uses[u].access != Access::read && isAttached(u)) visit(graph.uses[u]);
+  };
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    const FlatPass& pass = graph.passes[p];
+    if (!isLive(p)) continue;
+    const bool together = pass.cadence != Cadence::always && (pass.group != kNone || pass.slices != 1);
+    eachWrite(p, [&](const FlatUse& use) {
+      if (use.access == Access::modify || together) joint[use.resource] = 1;
+    });
+  }
+  std::vector<std::uint32_t> parents(graph.passes.size());
+  for (std::uint32_t p = 0; p < parents.size(); ++p) parents[p] = p;
+  std::vector<std::uint32_t> firstWriter(graph.resources.size(), kNone), firstOfGroup;
+  const auto join = [&](std::uint32_t& first, std::uint32_t p) {
+    if (first == kNone) first = p;
+    const std::uint32_t a = rootOf(parents, first), b = rootOf(parents, p);
+    parents[std::max(a, b)] = std::min(a, b);
+  };
+  for (const std::uint32_t p : members) {
+    const std::uint32_t group = graph.passes[p].group;
+    if (group != kNone) {
+      if (group >= firstOfGroup.size()) firstOfGroup.resize(group + 1, kNone);
+      join(firstOfGroup[group], p);
+    }
+    eachWrite(p, [&](const FlatUse& use) {
+      if (joint[use.resource] != 0) join(firstWriter[use.resource], p);
+    });
+  }
+  drawIn(graph, members, parents, eachWrite, join);
+
+  std::vector<std::uint32_t> size(graph.passes.size(), 0), jobOfRoot(graph.passes.size(), kNone);
+  for (const std::uint32_t p : members) ++size[rootOf(parents, p)];
+  jobs.ofPass.assign(graph.passes.size(), kNone);
+  for (const std::uint32_t p : members) {
+    const std::uint32_t root = rootOf(parents, p);
+    if (size[root] < 2 && graph.passes[p].slices < 2) continue;
+    if (jobOfRoot[root] == kNone) {
+      jobOfRoot[root] = static_cast<std::uint32_t>(jobs.spread.size());
+      jobs.spread.push_back(0);
+    }
+    jobs.ofPass[p] = jobOfRoot[root];
+    if (graph.passes[p].slices > 1) jobs.spread[jobs.ofPass[p]] = 1;
+  }
+  if (std::ranges::find(jobs.spread, std::uint8_t{1}) == jobs.spread.end()) return jobs;
+  jobs.ofResource.assign(graph.resources.size(), kNone);
+  for (const std::uint32_t p : members) {
+    const std::uint32_t job = jobs.ofPass[p];
+    if (job == kNone || jobs.spread[job] == 0) continue;
+    eachWrite(p, [&](const FlatUse& use) { jobs.ofResource[use.resource] = job; });
+  }
+  return jobs;
+}
+
+}  // namespace weft::graph

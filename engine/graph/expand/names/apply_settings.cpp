@@ -1,0 +1,298 @@
+#include "engine/graph/expand/names/apply_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/files/file.h"
+#include "engine/base/nearest.h"
+#include "engine/graph/expand/names/limits.h"
+#include "engine/graph/expand/names/names.h"
+#include "engine/graph/expand/names/parameter_check.h"
+#include "engine/graph/expand/names/scope.h"
+#include "engine/graph/expand/names/unread.h"
+#include "engine/graph/language/suffix.h"
+#include "engine/graph/language/value.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+using Type = ParameterDesc::Type;
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+// "a number from 0 to 8", "a whole number up to 6", "a number".
+std::string rangeText(const ParameterDesc& desc) {
+  std::string text = desc.type == Type::integer ? "a whole number" : "a number";
+  if (desc.min) text += fmt::format(" from {}", *desc.min);
+  if (desc.max) text += fmt::format("{} {}", desc.min ? " to" : " up to", *desc.max);
+  return text;
+}
+
+std::string listText(const ParameterDesc& desc, int count) {
+  const std::string range = desc.min || desc.max ? ", each " + rangeText(desc) : "";
+  return fmt::format("a list of {} numbers{}, such as {}", count, range, toText(desc.initial));
+}
+
+std::string expectedOf(const ParameterDesc& desc) {
+  switch (desc.type) {
+    case Type::boolean:
+      return "true or false";
+    case Type::integer:
+    case Type::number:
+      return rangeText(desc);
+    case Type::choice:
+      return "one of " + joined(desc.choices);
+    case Type::file:
+      return "the path of a file";
+    default:
+      return listText(desc, componentsOf(desc.type));
+  }
+}
+
+// The value that was probably meant, as it is written for --set; "" when nobody can say.
+std::string meantBy(const ParameterDesc& desc, const Value& value) {
+  const std::string text = value.type == Value::Type::symbol ? value.symbol : toText(value);
+  if (desc.type == Type::boolean) {
+    for (const char* word : {"1", "yes", "on", "True", "TRUE", "enable", "enabled"})
+      if (text == word) return "true";
+    for (const char* word : {"0", "no", "off", "False", "FALSE", "disable", "disabled", "none"})
+      if (text == word) return "false";
+    return base::nearestName(text, std::vector<std::string>{"true", "false"});
+  }
+  if (desc.type == Type::choice) return base::nearestName(text, desc.choices);
+  if (const int count = componentsOf(desc.type); count > 0) {
+    const Value list = parseValue("[" + text + "]");
+    return list.type == Value::Type::list && list.count == count ? toText(list) : "";
+  }
+  if (desc.type == Type::integer && value.type == Value::Type::number)
+    return fmt::format("{}", std::llround(value.v[0]));
+  // A comma for a point, a unit behind it.
+  std::string number = text;
+  std::ranges::replace(number, ',', '.');
+  if (const std::size_t end = number.find_first_not_of("+-.0123456789"); end != std::string::npos && end > 0)
+    number.resize(end);
+  const auto meant = parseNumber(number);
+  return meant && (desc.type == Type::number || *meant == std::floor(*meant)) ? number : "";
+}
+
+// What a diagnostic about a setting begins with: of the command line a place, of a panel words in the
+// message.
+Place placeOf(Origin origin, const std::string& source) {
+  return origin == Origin::command_line ? placeOfOption(source) : Place{};
+}
+
+std::string prefixOf(Origin origin, const std::string& source) {
+  return origin == Origin::command_line ? std::string() : source + ": ";
+}
+
+bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
+                     const std::vector<std::size_t>& found, std::string_view wanted, std::string_view noun,
+                     const Place& place, const std::string& before) {
+  if (found.size() == 1) return false;
+  std::string all;
+  for (const std::size_t i : found) all += (all.empty() ? "" : ", ") + names[i];
+  auto& d = model.diagnostics.error(Code::ambiguousName, place,
+                                    fmt::format("{}'{}' may mean several {}", before, wanted, noun));
+  d.found = all;
+  d.hint = fmt::format("write more of the name, such as '{}'", names[found[0]]);
+  return true;
+}
+
+// Where a value stands, and which parameters it may mean: those of `prefix`, by the rest of their names. `before` stands
+// before a message about it.
+struct SetPlace {
+  const Scope& scope;
+  std::string_view prefix = "";
+  Place place = {};
+  JsonPointer pointer = {};
+  Place valuePlace = {};  // `place` when it has no file
+  std::string before = {};
+};
+
+// `valueFor(type)` makes the value.
+template <class ValueFor>
+void applySet(Model& model, const std::string& wanted, const SetPlace& origin, const ValueFor& valueFor) {
+  std::vector<std::string> names;
+  std::vector<std::size_t> parameters;
+  const auto add = [&](std::size_t i) {
+    if (!model.parameters[i].path.starts_with(origin.prefix)) return;
+    names.push_back(model.parameters[i].path.substr(origin.prefix.size()));
+    parameters.push_back(i);
+  };
+  // Only those of its last part can be meant.
+  if (const auto leaves = model.parametersByLeaf.find(wanted.substr(wanted.rfind('.') + 1));
+      leaves != model.parametersByLeaf.end()) {
+    if (!compare(model, leaves->second.size(), origin.place)) return;
+    for (const std::uint32_t i : leaves->second) add(i);
+  }
+  const std::vector<std::size_t> found = suffixMatches(names, wanted);
+  if (found.empty()) {
+    if (mayBeUnread(origin.scope, wanted)) return;
+    names.clear();
+    if (maySuggest(model, model.parameters.size()))
+      for (std::size_t i = 0; i < model.parameters.size(); ++i) add(i);
+    auto& d = model.diagnostics.error(Code::unknownParameter, origin.place,
+                                      fmt::format("{}no parameter is called '{}'", origin.before, wanted));
+    d.pointer = origin.pointer;
+    d.hint = suffixHint(wanted, names);
+    return;
+  }
+  if (reportUnlessOne(model, names, found, wanted, "parameters", origin.place, origin.before)) return;
+  Parameter& parameter = model.parameters[parameters[found[0]]];
+  Value value = valueFor(parameter.desc->type);
+  if (!checkParameterValue(model, parameter, value, origin.place, origin.before)) return;
+  parameter.value = std::move(value);
+  parameter.valuePlace = origin.valuePlace.file ? origin.valuePlace : origin.place;
+}
+
+}  // namespace
+
+void applySetting(Model& model, const Setting& set) {
+  const std::string source = sourceOf(set);
+  const SetPlace place{model.scopes.front(),        "", placeOf(set.origin, source), {}, {},
+                       prefixOf(set.origin, source)};
+  applySet(model, set.name, place, [&](Type type) {
+    // A path is what was written, whatever else that may mean.
+    const bool path = type == Type::file && set.origin == Origin::command_line;
+    return path ? Value::text(set.text) : set.value;
+  });
+}
+
+namespace {
+
+// What files say first, the innermost first, so that an including file has the last word; then the command
+// line.
+void applySets(Model& model) {
+  for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
+    for (const SetDesc& set : scope->desc->sets)
+      if (!isOver(model))
+        applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer, set.valuePlace},
+                 [&](Type type) {
+                   const bool path = type == Type::file && set.value.type == Value::Type::symbol;
+                   return path ? Value::text(base::besideFile(set.place, set.value.symbol)) : set.value;
+                 });
+  for (const Setting& set : model.settings.sets) applySetting(model, set);
+}
+
+}  // namespace
+
+void applyDisable(Model& model, const Disable& disable) {
+  const std::string& wanted = disable.name;
+  const std::string source = sourceOf(disable);
+  const Place place = placeOf(disable.origin, source);
+  const std::string before = prefixOf(disable.origin, source);
+  const std::string declared = wanted.substr(0, wanted.find('['));
+  struct Candidate {
+    Scope* scope;      // an include
+    std::string pass;  // or a pass
+  };
+  std::vector<std::string> names;
+  std::vector<Candidate> candidates;
+  for (Scope& scope : model.scopes) {
+    if (scope.parent && declared == wanted) {
+      names.push_back(scope.prefix.substr(0, scope.prefix.size() - 1));
+      candidates.push_back({&scope, {}});
+    }
+    for (const PassDesc& pass : scope.desc->passes)
+      if (!pass.include) {
+        names.push_back(scope.prefix + pass.name);
+        candidates.push_back({nullptr, names.back()});
+      }
+  }
+  const std::vector<std::size_t> found = suffixMatches(names, declared);
+  if (!found.empty()) {
+    if (reportUnlessOne(model, names, found, wanted, "passes", place, before)) return;
+    const Candidate& match = candidates[found[0]];
+    if (match.scope) {
+      match.scope->disabledBy = source;
+      return;
+    }
+    const std::string instance = declared == wanted ? "" : match.pass + wanted.substr(declared.size());
+    model.disables[match.pass].push_back({source, match.pass, instance});
+    return;
+  }
+  std::vector<std::string> parameters;
+  for (const Parameter& parameter : model.parameters) parameters.push_back(parameter.path);
+  if (const auto named = suffixMatches(parameters, wanted); !named.empty()) {
+    auto& d = model.diagnostics.error(
+        Code::parameterNotPass, place,
+        fmt::format("{}'{}' is a parameter, not a pass", before, parameters[named[0]]));
+    const Parameter& parameter = model.parameters[named[0]];
+    d.hint = parameter.desc->type == Type::boolean ? fmt::format("--set {}=false", wanted)
+                                                   : fmt::format("set it with --set {}=VALUE", wanted);
+    return;
+  }
+  if (mayBeUnread(model.scopes.front(), declared)) return;
+  auto& d = model.diagnostics.error(Code::unknownPass, place,
+                                    fmt::format("{}no pass is called '{}'", before, wanted));
+  d.hint = suffixHint(declared, names);
+}
+
+bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
+                         const std::string& before) {
+  const ParameterDesc& desc = *parameter.desc;
+  const auto refuse = [&](Code code, const char* why) {
+    auto& d = model.diagnostics.error(
+        code, place, fmt::format("{}parameter '{}': {} is {}", before, parameter.path, toText(value), why));
+    d.expected = expectedOf(desc);
+    if (desc.place.file)
+      d.expected += fmt::format(", as {}:{}:{} says", *desc.place.file, desc.place.line, desc.place.column);
+    return &d;
+  };
+  if (!fitsType(desc, value)) {
+    const bool wantsNumber = desc.type == Type::number || desc.type == Type::integer;
+    const char* const why =
+        value.type == Value::Type::symbol && wantsNumber ? whyNoNumber(value.symbol) : nullptr;
+    auto* d = refuse(Code::badParameterValue, why                         ? why
+                                              : desc.type == Type::choice ? "none of its choices"
+                                                                          : "of the wrong type");
+    if (const std::string meant = why ? "" : meantBy(desc, value); !meant.empty())
+      d->hint = fmt::format("did you mean '{}'?", meant);
+    return false;
+  }
+  if (!fitsRange(desc, value)) {
+    refuse(Code::numberOutOfRange, "out of its range");
+    return false;
+  }
+  return true;
+}
+
+base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<NamedExpr>& arguments,
+                                  base::Diagnostic problem) {
+  if (!problem.place.file || problem.place.line != 0) return problem;
+  const std::string file = *problem.place.file;
+  for (const NamedExpr& argument : arguments) {
+    Names names(model, scope);
+    base::Diagnostics said;  // by whoever evaluated it for the import
+    if (argument.expr.evaluate(names, said).symbol != file) continue;
+    problem.place = argument.expr.place();
+    for (const std::string& name : argument.expr.variables()) {
+      const Variable variable = findVariable(model, scope, name);
+      if (variable.kind != Variable::Kind::parameter) continue;
+      const Parameter& parameter = model.parameters[variable.index];
+      if (parameter.value.symbol == file && parameter.valuePlace.file) problem.place = parameter.valuePlace;
+    }
+  }
+  return problem;
+}
+
+void applySettings(Model& model) {
+  const auto badScreen = [](std::uint32_t x) { return x < 1 || x > 16384; };
+  if (badScreen(model.settings.screenWidth) || badScreen(model.settings.screenHeight)) {
+    auto& d = model.diagnostics.error(Code::numberOutOfRange, placeOfOption("--size"),
+                                      "the screen's size is out of its range");
+    d.expected = "1 to 16384 pixels a side";
+    d.found = fmt::format("{}x{}", model.settings.screenWidth, model.settings.screenHeight);
+  }
+  applySets(model);
+  for (const Disable& disable : model.settings.disables) applyDisable(model, disable);
+}
+
+}  // namespace weft::graph::expansion

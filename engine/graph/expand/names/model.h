@@ -1,0 +1,219 @@
+// The working tables of one expansion: scopes of included files, their parameters and lets, and entities
+// (declared resources and imports). They live while expandGraph runs and point into the GraphDesc. Plain
+// data; the files expand_*.cpp each do one job on it. Does not: outlive expandGraph, or hold anything of the
+// finished FlatGraph.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/expand/names/settings.h"
+#include "engine/graph/flat_graph.h"
+#include "engine/graph/registry.h"
+
+namespace weft::graph::expansion {
+
+using base::Code;
+
+struct NameHash {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view name) const { return std::hash<std::string_view>{}(name); }
+};
+template <class T>
+using NameMap = std::unordered_map<std::string, T, NameHash, std::equal_to<>>;
+
+// Lazy evaluation with cycle detection: `active` met again is a cycle.
+enum class Progress : std::uint8_t { fresh, active, done, failed };
+
+struct Scope;
+
+struct Parameter {
+  const ParameterDesc* desc = nullptr;
+  std::string path;  // "post.exposure", "post.composite.vignette"
+  Value value;
+  bool structural = false;
+  Place valuePlace{};  // where `value` was written: a default, a "set", the command line
+};
+
+struct Let {
+  const NamedExpr* desc = nullptr;
+  Scope* scope = nullptr;
+  std::string path;
+  Progress state = Progress::fresh;
+  Value value;                 // when done
+  bool dynamic = false;        // contains age(), perhaps through another let
+  std::optional<Expr> folded;  // of a dynamic one, after all passes are known
+  bool live = false;           // reads a live parameter, perhaps through another let; after findLiveLets()
+  std::optional<Expr> liveFolded;  // of a live one, and of a dynamic one beside live ones
+  bool structural = false;
+};
+
+// The versions of one texture or buffer (one array element of it) while passes are walked in declared order.
+struct Element {
+  std::uint32_t resource = kNone;      // the current FlatResource
+  std::uint32_t count = 0;             // FlatResources made so far
+  std::uint32_t wholeWriter = kNone;   // use that wrote everything, while `writers` is empty
+  std::uint32_t written = 0;           // sub-resources with a version above zero
+  std::vector<std::uint32_t> writers;  // per sub-resource (plane, layer, mip): use, or kNone
+  bool zeroUsed = false;               // version zero was read or modified
+};
+
+struct Entity {
+  ResourceDesc::Kind kind = ResourceDesc::Kind::texture;
+  const ResourceDesc* desc = nullptr;  // null: an import named only by @x
+  Scope* scope = nullptr;              // where it is declared
+  std::string name;                    // "ibl.brdf", "@environment"
+  // texture and buffer: the shape of every FlatResource of it. import: what the registry says.
+  Progress state = Progress::fresh;
+  FlatResource shape;
+  Value clear, first;
+  std::uint32_t arrayCount = 0;   // 0: not an array
+  std::uint16_t writtenMips = 1;  // as the file says, before the clamp to the size
+  std::uint32_t depth = 0;        // of the history
+  std::uint32_t import = kNone;   // index into FlatGraph::imports
+  bool exists = true;             // imports only
+  bool fallback = false;          // imports only: a plain read may do without
+  double count = 0;               // imports only
+  // input: what it stands for
+  Progress bindState = Progress::fresh;
+  std::uint32_t bound = kNone;
+  Progress listState = Progress::fresh;  // alternatives: cycle check
+  std::vector<std::uint32_t>
+      candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
+  std::vector<Element> elements;
+  // positions (instances in declared order) at which anything may read it, ascending; kNone: after all passes
+  std::vector<std::uint32_t> mentions;
+};
+
+// One file instance.
+struct Scope {
+  const GraphDesc* desc = nullptr;
+  Scope* parent = nullptr;
+  const PassDesc* stanza = nullptr;  // the include in the parent
+  std::string prefix;                // "" or "post."
+  std::string group;                 // full name of the group that the include puts its passes into, or ""
+  NameMap<std::uint32_t> resources;  // entities
+  NameMap<std::uint32_t> parameters, lets;
+  NameMap<std::uint32_t> passParameters;  // "composite.fog"
+  NameMap<Scope*> includes;
+  NameMap<const PassDesc*> passes;
+  std::string disabledBy;  // "--disable post"; empty: not disabled
+  bool broken = false;     // an include below it could not be read: names it does not know may be from there
+};
+
+// References `name.…` in a file that includes nothing under that name: one mistake, however many they are.
+struct Unincluded {
+  struct Use {
+    Place place;
+    std::string text;  // "pass 'skybox' reads the unknown resource 'ibl.brdf'"
+    std::string resource, pass;
+  };
+  Scope* scope = nullptr;
+  std::string name;
+  std::vector<Use> uses;  // of different places
+};
+
+// What --disable matched.
+struct DisableRule {
+  std::string why;       // "--disable fxaa"
+  std::string declared;  // full declared name of a pass
+  std::string instance;  // full instance name, or empty: all repeats
+};
+
+// Which uses a use sees: the writers of the sub-resources it reads or modifies.
+struct Flow {
+  std::vector<std::uint32_t> passOf;              // per use: index into FlatGraph::passes
+  std::vector<std::uint32_t> firstDep, depCount;  // per use: into deps
+  std::vector<std::uint32_t> deps;                // uses
+};
+
+// Who writes what, enabled or not, in declared order: for "who would have written it".
+struct WriteRecord {
+  std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
+  FlatUse rect;
+  std::uint32_t position = 0;
+  std::uint32_t pass = kNone;      // of FlatGraph::passes when enabled
+  std::uint32_t disabled = kNone;  // of FlatGraph::disabled otherwise
+  bool whole = false;
+};
+
+// A slot that found no version. Whether that is an error or a warning is known when liveness is.
+struct MissingRead {
+  enum class Cause : std::uint8_t { version, condition, import };
+  struct Wanted {
+    std::uint32_t entity = kNone, element = 0, subresource = 0;
+    FlatUse rect;
+  };
+  Cause cause = Cause::version;
+  std::uint32_t pass = kNone;  // kNone: present or an output
+  std::uint32_t position = kNone;
+  std::string slot;
+  const RefDesc* ref = nullptr;
+  Access access = Access::read;
+  std::vector<Wanted> wanted;
+};
+
+// What the expansion has done so far, held against the limits (expand_limits.h).
+struct Effort {
+  bool stopped = false;         // a limit was exceeded and reported: nothing more is expanded
+  bool tooDeep = false;         // definitions depend on each other in too long a row, which was reported
+  std::uint32_t depth = 0;      // definitions that are being evaluated, each for the one before
+  std::uint32_t height = 0;     // operators of their expressions, nested in each other
+  std::uint64_t looked = 0;     // alternatives looked at
+  std::uint64_t uses = 0;       // slots, parameters and defines
+  std::uint64_t bytes = 0;      // of passes
+  std::uint64_t terms = 0;      // operators and operands evaluated
+  std::uint64_t compared = 0;   // slots, writes and passes compared with each other
+  std::uint64_t suggested = 0;  // names gathered to find the nearest among
+};
+
+struct Model {
+  const GraphDesc& desc;
+  const Registry& registry;
+  const Settings& settings;
+  base::Diagnostics& diagnostics;
+  FlatGraph graph{};
+  std::deque<Scope> scopes{};  // scopes[0] is the root
+  std::vector<Parameter> parameters{};
+  std::deque<Let> lets{};
+  std::deque<Entity> entities{};
+  NameMap<std::uint32_t> implicitImports{};                      // "environment" of @environment
+  std::vector<std::uint32_t> importResource{};                   // per import: its FlatResource or kNone
+  std::unordered_map<std::string, std::uint32_t> importIndex{};  // by the text of the request
+  std::unordered_map<std::string, std::vector<std::uint32_t>> parametersByLeaf{};
+  std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
+  Flow flow{};
+  std::vector<WriteRecord> writes{};
+  std::vector<MissingRead> missing{};
+  struct HistoryUse {
+    std::uint32_t use, entity, element;
+  };
+  std::vector<HistoryUse> historyUses{};     // their resource is the last one, known at the end
+  std::vector<std::uint32_t> presentDeps{};  // uses that write what is presented
+  std::vector<std::uint32_t> positionOf{};   // per pass of the FlatGraph
+  std::vector<Unincluded> unincluded{};      // reported at the end
+  bool incomplete = false;                   // mistakes kept some writes out: what nobody writes is no news
+  std::uint32_t position = 0;                // of the instance being expanded
+  std::vector<std::string> evaluating{};     // what is being evaluated now, for the path of a cycle
+  Effort effort{};
+};
+
+// "a -> b -> a" from the stack of what is being evaluated, closed by `again`.
+std::string cyclePath(const Model& model, const std::string& again);
+
+// W050 with the message and what to do about it.
+base::Diagnostic& reportCycle(Model& model, const Place& place, std::string message);
+
+// A number to people: shortest text.
+std::string numberText(double x);
+
+}  // namespace weft::graph::expansion

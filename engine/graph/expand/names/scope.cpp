@@ -1,0 +1,323 @@
+#include "engine/graph/expand/names/scope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/expand/names/limits.h"
+#include "engine/graph/expand/names/names.h"
+#include "engine/graph/expand/names/resources.h"
+#include "engine/graph/expand/names/unread.h"
+#include "engine/graph/language/suffix.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+const std::vector<std::string> kSelectors{"mip", "layer", "face", "stencil"};
+
+std::uint32_t addParameter(Model& model, const ParameterDesc& desc, std::string path) {
+  const auto index = static_cast<std::uint32_t>(model.parameters.size());
+  model.parametersByLeaf[desc.name].push_back(index);
+  model.parameters.push_back({&desc, std::move(path), desc.initial, false, desc.initialPlace});
+  return index;
+}
+
+void buildScope(Model& model, Scope& scope);
+
+void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
+  const IncludeDesc& include = *stanza.include;
+  if (!include.graph) {  // the reader said why
+    for (Scope* outer = &scope; outer; outer = outer->parent) outer->broken = true;
+    return;
+  }
+  Scope& child = model.scopes.emplace_back();
+  child.desc = include.graph.get();
+  child.parent = &scope;
+  child.stanza = &stanza;
+  child.prefix = scope.prefix + include.as + ".";
+  child.group = include.group.empty() ? scope.group : scope.prefix + include.group;
+  scope.includes.try_emplace(include.as, &child);
+  buildScope(model, child);
+  std::vector<std::string> inputs;
+  for (const ResourceDesc& resource : child.desc->resources)
+    if (resource.kind == ResourceDesc::Kind::input) inputs.push_back(resource.name);
+  for (const auto& [name, ref] : include.binds) {
+    if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) {
+      auto& d = model.diagnostics.error(
+          Code::badBind, ref.place,
+          fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file));
+      d.hint = base::nearestHint(name, inputs);
+    }
+    if (ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history || ref.kind ||
+        ref.condition.present() || ref.optional) {
+      auto& d = model.diagnostics.error(
+          Code::badBind, ref.place,
+          fmt::format("include '{}' binds '{}' to a part of a resource", include.as, name));
+      d.expected = "the name of a whole resource";
+      d.found = ref.text;
+      d.hint =
+          fmt::format("give the part a name with a resource that is a list, \"{}\": [\"{}\"], and bind that",
+                      name, ref.text);
+    }
+  }
+}
+
+void buildScope(Model& model, Scope& scope) {
+  const GraphDesc& desc = *scope.desc;
+  for (const ParameterDesc& parameter : desc.parameters)
+    scope.parameters.try_emplace(parameter.name,
+                                 addParameter(model, parameter, scope.prefix + parameter.name));
+  for (const NamedExpr& let : desc.lets) {
+    scope.lets.try_emplace(let.name, static_cast<std::uint32_t>(model.lets.size()));
+    Let& made = model.lets.emplace_back();
+    made.desc = &let;
+    made.scope = &scope;
+    made.path = scope.prefix + let.name;
+  }
+  for (const ResourceDesc& resource : desc.resources) {
+    if (!scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second)
+      continue;
+    Entity& entity = model.entities.emplace_back();
+    entity.kind = resource.kind;
+    entity.desc = &resource;
+    entity.scope = &scope;
+    entity.name = scope.prefix + resource.name;
+  }
+  for (const PassDesc& pass : desc.passes) {
+    if (pass.include) {
+      addInclude(model, scope, pass);
+      continue;
+    }
+    if (!scope.passes.try_emplace(pass.name, &pass).second) continue;  // W009 of the reader
+    for (const PassParameterDesc& parameter : pass.parameters)
+      if (parameter.declared)
+        scope.passParameters.try_emplace(
+            pass.name + "." + parameter.name,
+            addParameter(model, *parameter.declared, scope.prefix + pass.name + "." + parameter.name));
+  }
+}
+
+// Follows inputs to what is bound. kNone after a report.
+std::uint32_t followInput(Model& model, std::uint32_t index) {
+  Entity& entity = model.entities[index];
+  if (entity.kind != ResourceDesc::Kind::input) return index;
+  if (entity.bindState == Progress::done || entity.bindState == Progress::failed) return entity.bound;
+  if (entity.bindState == Progress::active) {
+    reportCycle(model, entity.desc->place, fmt::format("input '{}' stands for itself", entity.name));
+    entity.bindState = Progress::failed;
+    return kNone;
+  }
+  const Descent descent(model, 0, entity.desc->place, entity.name);
+  if (!descent.good()) {
+    entity.bindState = Progress::failed;
+    return kNone;
+  }
+  entity.bindState = Progress::active;
+  Scope& scope = *entity.scope;
+  const std::string& name = entity.desc->name;
+  std::uint32_t target = kNone;
+  if (!scope.parent) {
+    auto& d = model.diagnostics.error(
+        Code::unboundInput, entity.desc->place,
+        fmt::format("input '{}' has nothing behind it: this file is not included by another", name));
+    d.resource = entity.name;
+    d.hint = "open the graph that includes this file";
+  } else {
+    const RefDesc* bind = nullptr;
+    for (const auto& [input, ref] : scope.stanza->include->binds)
+      if (input == name) bind = &ref;
+    if (bind) {
+      target = findEntityOrReport(model, *scope.parent, bind->name, bind->import, bind->place,
+                                  fmt::format("include '{}' binds '{}' to", scope.stanza->include->as, name));
+    } else {
+      target = findEntity(model, *scope.parent, name, false);
+      // One of the includer's own that has nothing behind it was reported there.
+      if (target == kNone && !scope.parent->resources.contains(name)) {
+        auto& d = model.diagnostics.error(Code::unboundInput, scope.stanza->place,
+                                          fmt::format("include '{}' leaves the input '{}' without a resource",
+                                                      scope.stanza->include->as, name));
+        d.resource = entity.name;
+        d.expected =
+            fmt::format("a resource '{}' in the including file, or \"bind\": {{ \"{}\": … }}", name, name);
+        d.hint = base::nearestHint(name, resourceNames(model, *scope.parent));
+      }
+    }
+  }
+  if (target != kNone) {
+    const Entity& bound = model.entities[target];
+    const bool wantsBuffer = entity.desc->input == "buffer";
+    const bool fits = bound.kind == ResourceDesc::Kind::texture  ? !wantsBuffer
+                      : bound.kind == ResourceDesc::Kind::buffer ? wantsBuffer
+                                                                 : true;
+    if (!fits) {
+      auto& d = model.diagnostics.error(
+          Code::badBind, scope.stanza->place,
+          fmt::format("input '{}' is a {}, '{}' is not", entity.name, entity.desc->input, bound.name));
+      d.resource = bound.name;
+    }
+  }
+  entity.bound = target;
+  entity.bindState = target == kNone ? Progress::failed : Progress::done;
+  return target;
+}
+
+// An import declared under `name` here or in an enclosing file.
+std::uint32_t declaredImport(Model& model, Scope& from, std::string_view name) {
+  for (Scope* scope = &from; scope; scope = scope->parent)
+    if (const auto found = scope->resources.find(name); found != scope->resources.end())
+      if (model.entities[found->second].kind == ResourceDesc::Kind::import) return found->second;
+  return kNone;
+}
+
+}  // namespace
+
+void buildScopes(Model& model) {
+  Scope& root = model.scopes.emplace_back();
+  root.desc = &model.desc;
+  buildScope(model, root);
+  findDynamicLets(model);
+  linkAlternatives(model);
+}
+
+std::uint32_t implicitImport(Model& model, std::string_view type) {
+  if (const auto found = model.implicitImports.find(type); found != model.implicitImports.end())
+    return found->second;
+  if (!findImportType(model.registry, type)) return kNone;
+  const auto index = static_cast<std::uint32_t>(model.entities.size());
+  Entity& entity = model.entities.emplace_back();
+  entity.kind = ResourceDesc::Kind::import;
+  entity.scope = &model.scopes[0];
+  entity.name = "@" + std::string(type);
+  model.implicitImports.emplace(std::string(type), index);
+  return index;
+}
+
+std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import) {
+  if (!name.empty() && name[0] == '@') return findEntity(model, scope, name.substr(1), true);
+  if (import) {
+    if (name.find('.') == std::string_view::npos) {
+      const std::uint32_t declared = declaredImport(model, scope, name);
+      return declared != kNone ? declared : implicitImport(model, name);
+    }
+    const std::uint32_t dotted = findEntity(model, scope, name, false);
+    return dotted != kNone && model.entities[dotted].kind == ResourceDesc::Kind::import ? dotted : kNone;
+  }
+  if (const auto found = scope.resources.find(name); found != scope.resources.end())
+    return followInput(model, found->second);
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return kNone;
+  const auto child = scope.includes.find(name.substr(0, dot));
+  return child == scope.includes.end() ? kNone
+                                       : findEntity(model, *child->second, name.substr(dot + 1), false);
+}
+
+bool maySuggest(Model& model, std::size_t names) {
+  constexpr std::uint64_t kMostNames = 200'000;
+  model.effort.suggested += names;
+  return model.effort.suggested <= kMostNames;
+}
+
+std::vector<std::string> resourceNames(Model& model, const Scope& scope) {
+  std::vector<std::string> names;
+  if (!maySuggest(model, model.entities.size())) return names;
+  for (const Entity& entity : model.entities)
+    if (entity.desc && entity.name.starts_with(scope.prefix))
+      names.push_back(entity.name.substr(scope.prefix.size()));
+  return names;
+}
+
+std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
+                                 const Place& place, std::string_view user, const std::string& pass,
+                                 std::string_view slot) {
+  const std::size_t before = model.diagnostics.errorCount();
+  const std::uint32_t found = findEntity(model, scope, name, import);
+  if (found == kNone && (model.effort.tooDeep || isOver(model))) return kNone;
+  if (found != kNone || model.diagnostics.errorCount() > before) return found;
+  if (isUnread(scope, name)) return kNone;  // the reader reported its declaration
+  if (isUnincluded(model, scope, name, place, user, pass)) return kNone;
+  // An input with nothing behind it was reported where it stands.
+  if (!import && scope.resources.contains(name)) return kNone;
+  if (import) {
+    auto& d = model.diagnostics.error(Code::unknownImport, place,
+                                      fmt::format("{} unknown import '@{}'", user, name));
+    std::vector<std::string> types;
+    for (const ImportType& type : model.registry.imports) types.push_back(type.name);
+    d.resource = "@" + std::string(name);
+    d.pass = pass;
+    d.hint = scope.resources.contains(name)
+                 ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
+                 : base::nearestHint(name, types);
+    return kNone;
+  }
+  auto& d = model.diagnostics.error(Code::unknownResource, place,
+                                    fmt::format("{} unknown resource '{}'", user, name));
+  d.resource = std::string(name);
+  d.pass = pass;
+  d.hint = base::nearestHint(name, resourceNames(model, scope));
+  if (const std::size_t dot = name.find('.');
+      dot != std::string_view::npos && scope.resources.contains(name.substr(0, dot)))
+    if (const std::string near = base::nearestName(name.substr(dot + 1), kSelectors); !near.empty())
+      d.hint =
+          fmt::format("did you mean '{}.{}{}'?", name.substr(0, dot), near, near == "stencil" ? "" : "[…]");
+  if (!slot.empty() && scope.resources.contains(slot))
+    d.hint = fmt::format("a slot comes first, then its resource: \"{}\": \"{}\"", name, slot);
+  if (findImportType(model.registry, name)) d.hint = fmt::format("did you mean the import '@{}'?", name);
+  for (Scope* outer = scope.parent; outer; outer = outer->parent)
+    if (outer->resources.contains(name)) {
+      d.hint = fmt::format(
+          "the including file has it: declare it here as an input, \"{}\": {{ \"input\": \"texture\" }}",
+          name);
+      break;
+    }
+  return kNone;
+}
+
+Variable findVariable(Model& model, Scope& from, std::string_view name) {
+  using Kind = Variable::Kind;
+  for (Scope* scope = &from; scope; scope = scope->parent) {
+    Scope* at = scope;
+    std::string_view rest = name;
+    while (true) {
+      if (const auto found = at->parameters.find(rest); found != at->parameters.end())
+        return {Kind::parameter, found->second};
+      if (const auto found = at->lets.find(rest); found != at->lets.end()) return {Kind::let, found->second};
+      if (const auto found = at->passParameters.find(rest); found != at->passParameters.end())
+        return {Kind::parameter, found->second};
+      const std::size_t dot = rest.find('.');
+      if (dot == std::string_view::npos) break;
+      const auto child = at->includes.find(rest.substr(0, dot));
+      if (child == at->includes.end()) break;
+      at = child->second;
+      rest = rest.substr(dot + 1);
+    }
+  }
+  const std::size_t dot = name.rfind('.');
+  const std::string leaf(dot == std::string_view::npos ? name : name.substr(dot + 1));
+  const auto leaves = model.parametersByLeaf.find(leaf);
+  if (leaves == model.parametersByLeaf.end()) return {};
+  Variable result;
+  if (!compare(model, leaves->second.size(), from.desc->place)) return {};
+  for (const std::uint32_t index : leaves->second) {
+    const std::string& path = model.parameters[index].path;
+    if (!path.starts_with(from.prefix) || !hasSuffix(path, name)) continue;
+    if (result.kind != Kind::none) return {Kind::ambiguous, result.index};
+    result = {Kind::parameter, index};
+  }
+  return result;
+}
+
+bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed) {
+  if (!expr.present() || expr.isConstant()) return true;
+  const std::size_t before = model.diagnostics.errorCount();
+  Names names(model, scope, dynamicAllowed);
+  expr.check(names, model.diagnostics);
+  for (const auto& [fact, name] : expr.facts()) {
+    if (findEntity(model, scope, name, false) != kNone || implicitImport(model, name) != kNone) continue;
+    findEntityOrReport(model, scope, name, name.starts_with("@"), expr.place(), kAsksOf);
+  }
+  return model.diagnostics.errorCount() == before;
+}
+
+}  // namespace weft::graph::expansion

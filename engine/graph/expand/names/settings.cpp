@@ -1,0 +1,40 @@
+#include "engine/graph/expand/names/settings.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string_view>
+
+namespace weft::graph {
+
+namespace {
+
+constexpr std::string_view kCommandLine = "command line: ";
+
+}  // namespace
+
+Setting::Setting(std::string setName, std::string setText)
+    : name(std::move(setName)), value(parseValue(setText)), text(std::move(setText)) {}
+
+Setting::Setting(std::string setName, Value setValue, Origin setOrigin)
+    : name(std::move(setName)), value(std::move(setValue)), origin(setOrigin) {}
+
+std::string sourceOf(const Setting& setting) {
+  if (setting.origin == Origin::command_line) return fmt::format("--set {}={}", setting.name, setting.text);
+  return fmt::format("the value {} set here for {}", toText(setting.value), setting.name);
+}
+
+std::string sourceOf(const Disable& disable) {
+  return disable.origin == Origin::command_line ? "--disable " + disable.name
+                                                : fmt::format("switching off {} here", disable.name);
+}
+
+base::Place placeOfOption(const std::string& option) {
+  return {std::make_shared<const std::string>(std::string(kCommandLine) + option), 0, 0};
+}
+
+bool isSetting(const base::Place& place) {
+  return place.file && place.file->starts_with(kCommandLine);
+}
+
+}  // namespace weft::graph

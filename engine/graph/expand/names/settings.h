@@ -1,0 +1,53 @@
+// What a person asked of a graph beside its files: the screen, values of parameters, disabled passes. Plain data; what a
+// name means is found when the graph is expanded (apply_settings.h).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/language/value.h"
+
+namespace weft::graph {
+
+// Where a value comes from that no file says.
+enum class Origin : std::uint8_t { command_line, panel };
+
+// A value for a parameter. `name` is any unique suffix.
+struct Setting {
+  std::string name;
+  Value value;
+  Origin origin = Origin::command_line;
+  std::string text{};  // as it was written on the command line
+  // From the command line: the text behind NAME=, which is read here and nowhere else.
+  Setting(std::string setName, std::string setText);
+  Setting(std::string setName, Value setValue, Origin setOrigin);
+};
+
+// A pass, or all passes of an include, that is disabled; any unique suffix of its name means all its repeats.
+struct Disable {
+  std::string name;
+  Origin origin = Origin::command_line;
+  Disable(std::string passName, Origin from = Origin::command_line)
+      : name(std::move(passName)), origin(from) {}
+  Disable(const char* passName) : name(passName) {}
+};
+
+struct Settings {
+  std::uint32_t screenWidth = 1280, screenHeight = 720;
+  bool software = false;        // device.software
+  std::vector<Setting> sets{};  // in order: the last wins
+  std::vector<Disable> disables{};
+};
+
+// How diagnostics call them: "--set bloom=yes" and "--disable fxaa" as on the command line, "the value 9 set here for
+// exposure" and "switching off fxaa here" of a panel.
+std::string sourceOf(const Setting& setting);
+std::string sourceOf(const Disable& disable);
+// The place of what was on the command line: "command line: --set bloom=yes", without a line.
+base::Place placeOfOption(const std::string& option);
+bool isSetting(const base::Place& place);
+
+}  // namespace weft::graph

@@ -1,0 +1,136 @@
+#include "engine/graph/expand/names/unread.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/expand/names/scope.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+constexpr std::size_t kPassesTold = 5;
+
+std::string_view firstPart(std::string_view name) {
+  return name.substr(0, name.find('.'));
+}
+
+const PassDesc* failedInclude(const Scope& scope) {
+  for (const PassDesc& pass : scope.desc->passes)
+    if (pass.include && !pass.include->graph) return &pass;
+  return nullptr;
+}
+
+bool samePlace(const Place& a, const Place& b) {
+  return a.line == b.line && a.column == b.column &&
+         (a.file == b.file || (a.file && b.file && *a.file == *b.file));
+}
+
+std::string hintFor(Model& model, const Unincluded& group) {
+  const Scope& scope = *group.scope;
+  if (group.uses.size() == 1)
+    if (const std::string near = base::nearestName(group.uses[0].resource, resourceNames(model, scope));
+        !near.empty())
+      return fmt::format("did you mean '{}'?", near);
+  for (const Scope* outer = scope.parent; outer; outer = outer->parent)
+    if (outer->includes.contains(group.name))
+      return fmt::format(
+          "the including file includes '{}': declare here what you need of it as an input, and \"bind\" it "
+          "there",
+          group.name);
+  std::vector<std::string> includes;
+  for (const auto& [name, child] : scope.includes) includes.push_back(name);
+  if (const std::string near = base::nearestName(group.name, includes); !near.empty())
+    return fmt::format("did you mean '{}'?", near);
+  return fmt::format(
+      "include a file of that name, {{ \"include\": \"{0}.json\" }}, or another one with \"as\": \"{0}\"",
+      group.name);
+}
+
+}  // namespace
+
+bool isUnread(const Scope& from, std::string_view name) {
+  const std::string_view leaf = name.substr(name.rfind('.') + 1);
+  const auto holds = [&](const Scope& scope) {
+    const auto& unread = scope.desc->unread;
+    return std::find(unread.begin(), unread.end(), leaf) != unread.end();
+  };
+  for (const Scope* scope = &from; scope; scope = scope->parent)
+    if (holds(*scope)) return true;
+  if (name.find('.') == std::string_view::npos) return false;
+  // A name into an include that could not be read, or that left the resource out.
+  const auto child = from.includes.find(name.substr(0, name.find('.')));
+  if (child != from.includes.end()) return isUnread(*child->second, name.substr(name.find('.') + 1));
+  for (const PassDesc& pass : from.desc->passes)
+    if (pass.include && !pass.include->graph && name.starts_with(pass.include->as + ".")) return true;
+  return false;
+}
+
+bool mayBeUnread(const Scope& from, std::string_view name) {
+  if (from.broken) return true;
+  for (const Scope* scope = &from; scope; scope = scope->parent)
+    if (isUnread(*scope, name)) return true;
+  return false;
+}
+
+bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
+                  std::string_view user, const std::string& pass) {
+  const std::string_view first = firstPart(name);
+  if (first.size() == name.size() || scope.includes.contains(first) || scope.resources.contains(first) ||
+      scope.passes.contains(first))
+    return false;
+  model.incomplete = true;
+  auto group = std::ranges::find_if(model.unincluded, [&](const Unincluded& known) {
+    return known.scope == &scope && known.name == first;
+  });
+  if (group == model.unincluded.end()) {
+    model.unincluded.push_back({&scope, std::string(first), {}});
+    group = model.unincluded.end() - 1;
+  }
+  // The instances of a repeat come here one after another.
+  if (std::ranges::none_of(group->uses,
+                           [&](const Unincluded::Use& use) { return samePlace(use.place, place); }))
+    group->uses.push_back(
+        {place, fmt::format("{} unknown resource '{}'", user, name), std::string(name), pass});
+  return true;
+}
+
+void reportUnincluded(Model& model) {
+  for (const Unincluded& group : model.unincluded) {
+    const Unincluded::Use& first = group.uses[0];
+    const std::size_t count = group.uses.size();
+    if (const PassDesc* failed = failedInclude(*group.scope)) {
+      base::Diagnostic& d = model.diagnostics.add(
+          {.severity = base::Severity::note,
+           .code = Code::unknownResource,
+           .message = fmt::format("{} to '{}.…' {} not checked: nothing is included as '{}'",
+                                  count == 1 ? "one reference" : fmt::format("{} references", count),
+                                  group.name, count == 1 ? "was" : "were", group.name),
+           .place = first.place});
+      d.hint = fmt::format("first mend the include of '{}' at {}:{}", failed->include->file,
+                           failed->place.line, failed->place.column);
+      continue;
+    }
+    base::Diagnostic& d =
+        model.diagnostics.error(Code::unknownResource, first.place,
+                                fmt::format("{}: nothing is included as '{}'", first.text, group.name));
+    d.resource = first.resource;
+    d.pass = first.pass;
+    if (count > 1) {
+      std::vector<std::string> passes;
+      for (const Unincluded::Use& use : group.uses)
+        if (!use.pass.empty() && std::ranges::find(passes, use.pass) == passes.end())
+          passes.push_back(use.pass);
+      const std::size_t more = passes.size() > kPassesTold ? passes.size() - kPassesTold : 0;
+      passes.resize(passes.size() - more);
+      d.found = fmt::format("{} references to '{}.…'{}{}{}", count, group.name, passes.empty() ? "" : ", in ",
+                            fmt::join(passes, ", "), more ? fmt::format(" and {} more", more) : "");
+    }
+    d.hint = hintFor(model, group);
+  }
+}
+
+}  // namespace weft::graph::expansion

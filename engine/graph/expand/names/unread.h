@@ -1,0 +1,23 @@
+// Names that are unknown only because something else went wrong: left out by the reader, or of an include that is not
+// there. One mistake is told once.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/graph/expand/names/model.h"
+
+namespace weft::graph::expansion {
+
+// True when the reader reported the declaration of this name and left it out: a use of it is no second
+// mistake.
+bool isUnread(const Scope& from, std::string_view name);
+// True when nothing is known of this variable because an include could not be read, which the reader
+// reported.
+bool mayBeUnread(const Scope& from, std::string_view name);
+// True when `name` is dotted and this file includes nothing under its first part: kept for reportUnincluded.
+bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
+                  std::string_view user, const std::string& pass = {});
+// Reports them, each name once: W040, or a note when it is because of an include that could not be read.
+void reportUnincluded(Model& model);
+}  // namespace weft::graph::expansion

@@ -1,0 +1,370 @@
+#include "engine/graph/expand/passes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/names/limits.h"
+#include "engine/graph/expand/names/versions.h"
+#include "engine/graph/expand/spec.h"
+#include "engine/graph/expand/stanza.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+using State = SlotWork::State;
+
+class PassWalk {
+ public:
+  PassWalk(Model& model, std::vector<DeferredUniform>& deferred)
+      : model_(model), graph_(model.graph), deferred_(deferred) {}
+
+  void walk(Scope& scope, const std::string& outerWhy) {
+    const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
+    for (const PassDesc& desc : scope.desc->passes) {
+      if (tooMany_ || isOver(model_)) return;
+      if (desc.include)
+        walkInclude(scope, desc, why);
+      else if (scope.passes.find(desc.name)->second == &desc)
+        walkStanza(scope, desc, why);
+    }
+  }
+
+ private:
+  void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why) {
+    const auto child = scope.includes.find(desc.include->as);
+    if (child == scope.includes.end() || child->second->stanza != &desc) return;
+    markStructural(model_, scope, desc.enabled);
+    Names names(model_, scope);
+    const auto enabled = evaluateCondition(names, desc.enabled, true,
+                                           fmt::format("'enabled' of include '{}'", desc.include->as));
+    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why);
+  }
+
+  // Kept for each instance, so a long expression is cut.
+  static std::string whyFalse(const Expr& enabled) {
+    std::string text = enabled.text();
+    if (text.size() > 80) text = text.substr(0, 80) + "…";
+    return fmt::format("enabled: {} is false", text);
+  }
+
+  // ---- one stanza: its repeats ----
+
+  void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
+    scope_ = &scope;
+    desc_ = &desc;
+    declared_ = scope.prefix + desc.name;
+    scopeWhy_ = why;
+    type_ = findPassType(model_.registry, desc.type);
+    const auto rules = model_.disables.find(declared_);
+    rules_ = rules == model_.disables.end() ? nullptr : &rules->second;
+    failed_ = false;
+    cost_ = costOf(desc, declared_);
+    stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
+    Names names(model_, scope);
+    repeat(names, 0);
+    if (failed_) model_.incomplete = true;
+  }
+
+  void repeat(Names& names, std::size_t depth) {
+    if (depth == desc_->repeat.size()) {
+      instance(names);
+      ++model_.position;
+      return;
+    }
+    const RangeDesc& range = desc_->repeat[depth];
+    const std::string what = fmt::format("a bound of '{}' in pass '{}'", range.index, declared_);
+    constexpr std::int64_t kFar = 1'000'000'000;
+    const auto first = evaluateWhole(names, range.first, 0, -kFar, kFar, what);
+    const auto last = evaluateWhole(names, range.last, 0, -kFar, kFar, what);
+    const auto step = evaluateWhole(names, range.step, 1, -kFar, kFar, what);
+    if (!first || !last || !step || *step == 0) {
+      if (step && *step == 0)
+        model_.diagnostics
+            .error(Code::numberOutOfRange, range.place,
+                   fmt::format("pass '{}' repeats '{}' in steps of 0", declared_, range.index))
+            .expected = "a step that leads from the first to the last index";
+      failed_ = true;
+      return;
+    }
+    // Counted before the innermost range runs; outer ranges around empty ones count as well.
+    const std::int64_t steps = (*last - *first) / *step + 1;
+    if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
+    walked_ += std::max<std::int64_t>(steps, 1);
+    if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
+      auto& d = model_.diagnostics.error(
+          Code::tooManyPasses, range.place,
+          fmt::format("pass '{}' makes more than {} passes in all", declared_, kMaxInstances));
+      d.pass = declared_;
+      d.hint = "a graph that repeats this often belongs into one compute pass with more threads";
+      tooMany_ = model_.incomplete = true;
+      return;
+    }
+    names.indices.push_back({range.index, 0});
+    for (std::int64_t i = *first;
+         (*step > 0 ? i <= *last : i >= *last) && !failed_ && !tooMany_ && !isOver(model_); i += *step) {
+      names.indices.back().value = static_cast<double>(i);
+      repeat(names, depth + 1);
+    }
+    names.indices.pop_back();
+  }
+
+  std::string instanceName(const Names& names) const {
+    if (names.indices.empty()) return declared_;
+    std::string name = declared_ + "[";
+    for (std::size_t i = 0; i < names.indices.size(); ++i)
+      name += fmt::format("{}{}", i ? "," : "", static_cast<std::int64_t>(names.indices[i].value));
+    return name + "]";
+  }
+
+  // ---- one instance ----
+
+  // Why it is disabled; empty: it is not. nullopt after a report.
+  std::optional<std::string> whyDisabled(Names& names, const std::string& name, bool& byItself) {
+    const auto enabled =
+        evaluateCondition(names, desc_->enabled, true, fmt::format("'enabled' of pass '{}'", name));
+    if (!enabled) return std::nullopt;
+    byItself = !*enabled;
+    if (rules_)
+      for (const DisableRule& rule : *rules_)
+        if (rule.instance.empty() || rule.instance == name) return rule.why;
+    if (!scopeWhy_.empty()) return scopeWhy_;
+    if (!*enabled) return whyFalse(desc_->enabled);
+    return std::string();
+  }
+
+  void instance(Names& names) {
+    if (!mayExpand(model_, cost_, desc_->place, declared_)) return;
+    const std::size_t before = model_.diagnostics.errorCount();
+    const std::string name = instanceName(names);
+    bool byItself = false;
+    const auto why = whyDisabled(names, name, byItself);
+    if (!why) {
+      failed_ = true;
+      return;
+    }
+    const bool enabled = why->empty();
+    const std::string user = fmt::format("pass '{}'", name);
+    const SlotContext context{model_, names, type_, user, name, enabled, !byItself};
+    const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
+
+    std::vector<SlotWork> slots;
+    slots.reserve(desc_->slots.size());
+    const SlotDesc* gone = nullptr;
+    for (const SlotDesc& slot : desc_->slots) {
+      if (isOver(model_)) return;
+      slots.push_back(resolveSlot(context, slot, enabled ? pass : kNone));
+      if (slots.back().state == State::empty && !gone) gone = &slot;
+      if (slots.back().state == State::failed && slot.access != Access::read) model_.incomplete = true;
+    }
+    checkPassUses(context, *desc_, slots);
+    if (isOver(model_)) return;
+    if (!why->empty()) {
+      disabledInstance(context, slots, name, *why);
+    } else if (gone) {
+      disabledInstance(context, slots, name, fmt::format("'{}' is not there at this size", gone->ref.text));
+    } else if (enabled) {
+      emit(context, slots, names);
+    }
+    // The other repeats would say the same.
+    if (model_.diagnostics.errorCount() > before && !names.indices.empty()) failed_ = true;
+  }
+
+  void disabledInstance(const SlotContext& context, const std::vector<SlotWork>& slots,
+                        const std::string& name, const std::string& why) {
+    const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
+    graph_.disabled.push_back({name, why});
+    for (const SlotWork& work : slots)
+      if (work.state == State::connected && work.slot->access != Access::read)
+        model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
+                                 kNone, index, work.whole});
+    if (!context.ranges || !stanzaGood_) return;
+    PassSpec ignored;
+    std::vector<DeferredValue> deferred;
+    fillSpec(context, *desc_, slots, ignored, deferred);
+  }
+
+  // ---- what goes into the graph ----
+
+  std::uint32_t groupOf() {
+    std::string name = desc_->group.empty() ? std::string() : scope_->prefix + desc_->group;
+    if (name.empty() && desc_->cadence != Cadence::always) name = scope_->group;
+    if (name.empty()) return kNone;
+    const auto [at, fresh] = groups_.try_emplace(name, static_cast<std::uint32_t>(graph_.groupNames.size()));
+    if (fresh) graph_.groupNames.push_back(name);
+    return at->second;
+  }
+
+  void addCadence(const SlotContext& context, Names& names, FlatPass& flat) {
+    flat.cadence = desc_->cadence;
+    flat.sideEffect = desc_->sideEffect;
+    if (type_) flat.touches = type_->touches;
+    flat.group = groupOf();
+    const auto slices =
+        evaluateWhole(names, desc_->slices, 1, 0, 65536, fmt::format("the slices of {}", context.user));
+    if (!slices) return;
+    flat.slices = static_cast<std::uint32_t>(*slices);
+    if (flat.slices > 1 && type_ && type_->shader == ShaderShape::none) {
+      auto& d =
+          model_.diagnostics.error(Code::badSlices, desc_->slices.place(),
+                                   fmt::format("{} is a {}, which runs whole", context.user, desc_->type));
+      d.pass = context.pass;
+      d.hint = "remove \"slices\": the pass takes one frame of its group";
+    }
+    if (flat.slices > 0 || flat.group != kNone) return;
+    auto& d = model_.diagnostics.error(
+        Code::badSlices, desc_->slices.place(),
+        fmt::format("{} has no slices of its own and no group to ride with", context.user));
+    d.pass = context.pass;
+    d.hint = "0 slices go with a \"group\": the pass runs with its predecessor";
+  }
+
+  // Uses of one slot, in element order. Reads and modifies take the current resource, writes perhaps a new
+  // one.
+  void emitUses(const SlotWork& work, std::uint32_t pass) {
+    Entity& entity = model_.entities[work.entity];
+    for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
+      const auto index = static_cast<std::uint32_t>(graph_.uses.size());
+      FlatUse use = work.use;
+      use.feedback = desc_->feedback && use.access == Access::modify;
+      // A depth attachment serves the pass's own test, also when nobody reads it afterwards.
+      const bool tested =
+          use.kind == Kind::depth &&
+          std::ranges::any_of(desc_->state, [](const NamedExpr& s) { return s.name == "depth_test"; });
+      use.keep = (desc_->sideEffect || tested) && use.access != Access::read;
+      model_.flow.firstDep.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()));
+      if (use.history > 0) {
+        model_.historyUses.push_back({index, work.entity, e});
+      } else if (use.access != Access::write) {
+        use.resource = currentResource(model_, work.entity, e);
+        collectWriters(entity, e, use, model_.flow.deps);
+      }
+      model_.flow.depCount.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()) -
+                                     model_.flow.firstDep.back());
+      model_.flow.passOf.push_back(pass);
+      graph_.uses.push_back(use);
+    }
+  }
+
+  void emitWrites(const SlotWork& work, const SlotSpec& spec, std::uint32_t pass) {
+    Entity& entity = model_.entities[work.entity];
+    for (std::uint32_t i = 0; i < work.elementCount; ++i) {
+      const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
+      FlatUse& use = graph_.uses[index];
+      if (use.access == Access::write) use.resource = resourceToWrite(model_, work.entity, e, work.whole);
+      setWriter(entity, e, use, index, work.whole);
+    }
+    model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
+                             pass, kNone, work.whole});
+  }
+
+  // An always pass would add to what a slower pass made, again in every frame.
+  void checkAccumulation(const SlotContext& context, const SlotWork& work, std::uint32_t firstUse) {
+    for (std::uint32_t i = 0; i < work.elementCount; ++i) {
+      const std::uint32_t use = firstUse + i;
+      for (std::uint32_t d = 0; d < model_.flow.depCount[use]; ++d) {
+        const std::uint32_t writer = model_.flow.passOf[model_.flow.deps[model_.flow.firstDep[use] + d]];
+        if (writer >= graph_.passes.size() || graph_.passes[writer].cadence == Cadence::always) continue;
+        const Entity& entity = model_.entities[work.entity];
+        auto& report = model_.diagnostics.error(
+            Code::addsUp, work.slot->ref.place,
+            fmt::format("{} runs in every frame and modifies '{}', which '{}' makes only {}", context.user,
+                        work.slot->ref.text, graph_.passNames[writer],
+                        graph_.passes[writer].cadence == Cadence::once ? "once" : "on change"));
+        report.pass = context.pass;
+        report.resource = entity.name;
+        report.hint =
+            "it would add up from frame to frame: read it and write another resource, or give both passes "
+            "one \"update\"";
+        return;
+      }
+    }
+  }
+
+  void emit(const SlotContext& context, const std::vector<SlotWork>& slots, Names& names) {
+    FlatPass flat;
+    addCadence(context, names, flat);
+    const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
+    PassSpec spec;
+    std::vector<DeferredValue> deferred;
+    if (stanzaGood_) fillSpec(context, *desc_, slots, spec, deferred);
+    flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
+    spec.name = context.pass;
+    spec.declared = declared_;
+    spec.type = desc_->type;
+    spec.shader = desc_->shader;
+    spec.place = desc_->place;
+    spec.shaderPlace = desc_->shaderPlace;
+    spec.firstSlot = static_cast<std::uint32_t>(graph_.slots.size());
+    for (const SlotWork& work : slots) {
+      SlotSpec slot;
+      slot.name = work.slot->name;
+      slot.access = work.slot->access;
+      slot.kind = work.use.kind;
+      slot.sampler = work.sampler;
+      slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
+      slot.array = work.array;
+      slot.optional = work.slot->ref.optional;
+      slot.place = work.slot->place;
+      const bool used =
+          work.state == State::connected ||
+          (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
+      if (used && model_.entities[work.entity].state == Progress::done) {
+        if (!mayUse(model_, work.entity, work.use, work.elementCount, slot.place)) return;
+        emitUses(work, pass);
+      }
+      slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
+      graph_.slots.push_back(std::move(slot));
+    }
+    flat.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - flat.firstUse;
+    spec.slotCount = static_cast<std::uint32_t>(slots.size());
+    // A depth test reads what it writes, so the attachment stays even when no other pass reads it.
+    const bool tests = spec.state.depthTest && spec.state.depthCompare != Compare::always;
+    for (std::uint32_t use = flat.firstUse; use < flat.firstUse + flat.useCount; ++use)
+      if (tests && graph_.uses[use].kind == Kind::depth && graph_.uses[use].access != Access::read)
+        graph_.uses[use].keep = true;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
+      if (slot.useCount == 0 || slot.access == Access::read) continue;
+      if (slot.access == Access::modify && flat.cadence == Cadence::always)
+        checkAccumulation(context, slots[i], slot.firstUse);
+      emitWrites(slots[i], slot, pass);
+    }
+    for (const DeferredValue& value : deferred) deferred_.push_back({pass, value, scope_, names.indices});
+    graph_.passes.push_back(flat);
+    graph_.passNames.push_back(context.pass);
+    graph_.specs.push_back(std::move(spec));
+    model_.positionOf.push_back(model_.position);
+  }
+
+  Model& model_;
+  FlatGraph& graph_;
+  std::vector<DeferredUniform>& deferred_;
+  NameMap<std::uint32_t> groups_;
+  bool tooMany_ = false;
+  std::int64_t planned_ = 0, walked_ = 0;  // instances, and steps of all ranges, so far
+  // of the stanza
+  Scope* scope_ = nullptr;
+  const PassDesc* desc_ = nullptr;
+  const PassType* type_ = nullptr;
+  const std::vector<DisableRule>* rules_ = nullptr;
+  std::string declared_, scopeWhy_;
+  StanzaCost cost_;
+  bool failed_ = false, stanzaGood_ = true;
+};
+
+}  // namespace
+
+void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
+  std::size_t slots = 0;  // of stanzas that do not repeat: a large graph of them is not copied while it grows
+  for (const Scope& scope : model.scopes)
+    for (const PassDesc& pass : scope.desc->passes) slots += pass.slots.size();
+  model.graph.slots.reserve(slots);
+  model.graph.uses.reserve(slots);
+  PassWalk(model, deferred).walk(model.scopes[0], {});
+}
+
+}  // namespace weft::graph::expansion

@@ -1,0 +1,23 @@
+// The walk over all passes in declared order: includes, repeats, enabled or not, slots, versions, and what
+// goes into the FlatGraph. Missing versions are only recorded; expand_live judges them.
+#pragma once
+
+#include "engine/graph/expand/slots.h"
+#include "engine/graph/expand/spec.h"
+
+namespace weft::graph::expansion {
+
+constexpr std::uint32_t kMaxInstances = 1'000'000;
+
+// Of a pass that is there: its uniform or define, and where the expression stands.
+struct DeferredUniform {
+  std::uint32_t pass = 0;
+  DeferredValue value;
+  Scope* scope = nullptr;
+  std::vector<Names::Index> indices;
+};
+
+// Fills passes, uses, slots, specs, disabled and groupNames.
+void expandPasses(Model& model, std::vector<DeferredUniform>& deferred);
+
+}  // namespace weft::graph::expansion

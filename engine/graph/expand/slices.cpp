@@ -1,0 +1,122 @@
+// What cannot be spread over frames, told once all passes are known: W77.
+#include "engine/graph/expand/slices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/graph/expand/jobs.h"
+#include "engine/graph/expand/names/limits.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+template <class F>
+void eachUse(const FlatGraph& graph, std::uint32_t pass, F&& f) {
+  const FlatPass& p = graph.passes[pass];
+  for (std::uint32_t u = p.firstUse; u < p.firstUse + p.useCount; ++u) f(graph.uses[u]);
+}
+
+base::Diagnostic& fail(Model& model, std::uint32_t pass, std::uint32_t resource, std::string message) {
+  auto& d = model.diagnostics.error(Code::badSlices, model.graph.specs[pass].place, std::move(message));
+  d.pass = model.graph.passNames[pass];
+  if (resource != kNone) d.resource = model.graph.resourceNames[resource];
+  return d;
+}
+
+// W76 says the same of what the pass modifies, unless that is version zero.
+bool isToldAlready(const Model& model, std::uint32_t pass) {
+  return std::ranges::any_of(model.diagnostics.items(), [&](const base::Diagnostic& each) {
+    return each.code == Code::addsUp && each.pass == model.graph.passNames[pass];
+  });
+}
+
+// Follows what `job` writes through passes that are not of it: where it comes back to the job, neither could
+// ever end.
+// Both can only stand between its `first` and its `last` pass. `from`, per resource: the pass outside that last touched
+// it; all kNone before and after.
+void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job, std::uint32_t first, std::uint32_t last,
+                  std::vector<std::uint32_t>& from) {
+  const FlatGraph& graph = model.graph;
+  std::vector<std::uint32_t> touched;
+  for (std::uint32_t p = first; p <= last; ++p) {
+    if (jobs.jobOf(p) == job) {
+      eachUse(graph, p, [&](const FlatUse& use) {
+        if (use.access != Access::read || use.history > 0 || from[use.resource] == kNone) return;
+        const std::uint32_t between = from[use.resource];
+        fail(model, between, use.resource,
+             fmt::format("pass '{}' stands between slices: it reads what they write and pass '{}' reads what "
+                         "it writes",
+                         graph.passNames[between], graph.passNames[p]))
+            .hint = "give it the same \"group\"";
+        from[use.resource] = kNone;
+      });
+      continue;
+    }
+    bool reads = false;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      if (use.access == Access::read && use.history == 0)
+        reads |= jobs.spreadWriterOf(use.resource) == job || from[use.resource] != kNone;
+    });
+    if (!reads || graph.passes[p].cadence == Cadence::always) continue;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      if (use.access == Access::read) return;
+      from[use.resource] = p;
+      touched.push_back(use.resource);
+    });
+  }
+  for (const std::uint32_t resource : touched) from[resource] = kNone;
+}
+
+}  // namespace
+
+void checkSlices(Model& model) {
+  const FlatGraph& graph = model.graph;
+  const auto every = [](std::uint32_t) { return true; };
+  const Jobs jobs = formJobs(graph, every, every);
+  if (jobs.ofResource.empty()) return;
+  std::vector<std::uint32_t> alwaysWriter(graph.resources.size(), kNone);
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    if (graph.passes[p].cadence != Cadence::always) continue;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      if (use.access == Access::read) return;
+      alwaysWriter[use.resource] = p;
+      if (jobs.spreadWriterOf(use.resource) == kNone) return;
+      if (use.access == Access::modify && isToldAlready(model, p)) return;
+      fail(
+          model, p, use.resource,
+          fmt::format("pass '{}' runs in every frame and writes '{}', which others write over several frames",
+                      graph.passNames[p], graph.resourceNames[use.resource]))
+          .hint = "write a resource of its own, or remove \"slices\"";
+    });
+  }
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    const std::uint32_t job = jobs.jobOf(p);
+    if (job == kNone || jobs.spread[job] == 0) continue;
+    eachUse(graph, p, [&](const FlatUse& use) {
+      const std::uint32_t writer =
+          use.access == Access::read && use.history == 0 ? alwaysWriter[use.resource] : kNone;
+      if (writer == kNone || jobs.spreadWriterOf(use.resource) != kNone) return;
+      fail(model, p, use.resource,
+           fmt::format("pass '{}' is spread over frames and reads '{}', which pass '{}' makes anew in each",
+                       graph.passNames[p], graph.resourceNames[use.resource], graph.passNames[writer]))
+          .hint =
+          fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]);
+    });
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rangeOf(jobs.spread.size(), {kNone, 0});
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+    if (const std::uint32_t job = jobs.jobOf(p); job != kNone) {
+      rangeOf[job].first = std::min(rangeOf[job].first, p);
+      rangeOf[job].second = p;
+    }
+  std::vector<std::uint32_t> from(graph.resources.size(), kNone);
+  for (std::uint32_t job = 0; job < jobs.spread.size(); ++job)
+    if (const auto [first, last] = rangeOf[job]; jobs.spread[job] != 0 && first < last) {
+      if (!compare(model, last - first, model.graph.specs[first].place)) return;
+      checkWayBack(model, jobs, job, first, last, from);
+    }
+}
+
+}  // namespace weft::graph::expansion

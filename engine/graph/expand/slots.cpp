@@ -1,0 +1,378 @@
+#include "engine/graph/expand/slots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/names/limits.h"
+#include "engine/graph/expand/names/versions.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+using base::Diagnostic;
+
+Diagnostic& report(const SlotContext& context, Code code, const Place& place, std::string message,
+                   const std::string& resource) {
+  Diagnostic& d = context.model.diagnostics.error(code, place, std::move(message));
+  d.pass = context.pass;
+  d.resource = resource;
+  return d;
+}
+
+constexpr std::int64_t kFar =
+    1'000'000;  // further out than any limit; ranges are checked against shapes later
+
+bool evaluateSpan(Names& names, const SpanDesc& desc, const char* word, std::optional<Selection::Span>& out) {
+  Selection::Span span;
+  span.openFirst = desc.range && !desc.first.present();
+  span.openLast = desc.range && !desc.last.present();
+  const auto first = evaluateWhole(names, desc.first, 0, -kFar, kFar, word);
+  const auto last = evaluateWhole(names, desc.last, 0, -kFar, kFar, word);
+  if (!first || !last) return false;
+  span.first = *first;
+  span.last = desc.range ? *last : *first;
+  span.place = desc.first.present() ? desc.first.place() : desc.last.place();
+  out = span;
+  return true;
+}
+
+// Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an
+// alternative).
+bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, Selection& into) {
+  Selection own;
+  if (ref.mip && !evaluateSpan(names, *ref.mip, "the level", own.mip)) return false;
+  if (ref.layer && !evaluateSpan(names, *ref.layer, "the layer", own.layer)) return false;
+  if (ref.face && !evaluateSpan(names, *ref.face, "the face", own.face)) return false;
+  if (ref.element) {
+    const auto element = evaluateWhole(names, *ref.element, 0, -kFar, kFar, "the element");
+    if (!element) return false;
+    own.element = *element;
+  }
+  const bool clash = (own.mip && into.mip) || (own.layer && into.layer) || (own.face && into.face) ||
+                     (own.element && into.element) || (own.stencil && into.stencil);
+  if (clash) {
+    auto& d = report(context, Code::badSelector, ref.place,
+                     fmt::format("{} selects twice in '{}'", context.user, ref.text), ref.name);
+    d.hint = "the list of alternatives selects this already";
+    return false;
+  }
+  if (own.mip) into.mip = own.mip;
+  if (own.layer) into.layer = own.layer;
+  if (own.face) into.face = own.face;
+  if (own.element) {
+    into.element = own.element;
+    into.elementPlace = ref.element->place();
+  }
+  into.stencil = into.stencil || ref.stencil;
+  return true;
+}
+
+bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity& entity,
+                    std::string message) {
+  auto& d = report(context, Code::badSelector, ref.place, fmt::format("{}: {}", context.user, message),
+                   entity.name);
+  d.found = ref.text;
+  d.pointer = ref.pointer;
+  d.hint = "leave the selector out, or name a resource that has such parts";
+  return false;
+}
+
+// Fills open ends and holds a span against `count`. `written` is what the file says: levels between the two
+// were taken away by the clamp to the size. False after a report; `empty` when nothing of the span is there.
+bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity, const char* word,
+               std::int64_t count, std::int64_t written, const Selection::Span& span, std::int64_t& first,
+               std::int64_t& size, bool& empty) {
+  first = span.openFirst ? 0 : span.first;
+  std::int64_t last = span.openLast ? count - 1 : span.last;
+  const bool clamped = first >= 0 && first < written && last >= first && last < written;
+  if (clamped) last = std::min(last, count - 1);
+  size = last - first + 1;
+  const bool nothingLeft =
+      clamped ? first >= count : span.openLast && first >= count && first <= std::max(count, written);
+  if (nothingLeft || (!context.ranges && (first < 0 || last >= count || size < 1))) {
+    empty = true;
+    first = 0;
+    size = 1;
+    return true;
+  }
+  if (first >= 0 && last < count && size >= 1) return true;
+  auto& d = report(
+      context, Code::missingSubresource, span.place.line ? span.place : ref.place,
+      fmt::format("{} uses {} {} of '{}', which is not there", context.user, word,
+                  first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last), entity.name),
+      entity.name);
+  d.expected =
+      count == 1 ? fmt::format("{} 0, the only one", word) : fmt::format("{} 0 to {}", word, count - 1);
+  d.found = ref.text;
+  if (std::string_view(word) == "level")
+    d.hint =
+        fmt::format("\"mips\" says how many levels there are; bounds can be written with mips({})", ref.name);
+  return false;
+}
+
+}  // namespace
+
+bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer,
+                   std::vector<Leaf>& leaves) {
+  Model& model = context.model;
+  Leaf leaf = outer;
+  leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place,
+                                   context.user + " uses the", context.pass);
+  if (leaf.entity == kNone) return false;
+  if (!addSelection(context, names, ref, leaf.selection)) return false;
+  if (!leaf.kind) leaf.kind = ref.kind;
+  leaf.sampler.linear = leaf.sampler.linear || ref.sampler.linear;
+  leaf.sampler.wrap = leaf.sampler.wrap || ref.sampler.wrap;
+  leaf.sampler.compare = leaf.sampler.compare || ref.sampler.compare;
+  const Entity& entity = model.entities[leaf.entity];
+  if (entity.kind != ResourceDesc::Kind::alternatives) {
+    leaves.push_back(std::move(leaf));
+    return true;
+  }
+  if (entity.listState == Progress::failed) return false;  // reported
+  Names listNames(model, *entity.scope);
+  bool good = true;
+  for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
+    if (entity.candidates[i] == kNone) continue;
+    const RefDesc& alternative = entity.desc->alternatives[i];
+    if (!lookAt(model, costOf(alternative), alternative.place)) return false;
+    const auto holds =
+        evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
+    if (!holds) good = false;
+    if (holds && *holds) good = collectLeaves(context, listNames, alternative, leaf, leaves) && good;
+  }
+  return good;
+}
+
+bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, SlotWork& work) {
+  Model& model = context.model;
+  work.entity = leaf.entity;
+  if (!ensureShape(model, leaf.entity)) return false;
+  const Entity& entity = model.entities[leaf.entity];
+  const FlatResource& shape = entity.shape;
+  const Selection& selection = leaf.selection;
+  const bool texture = shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
+  const bool cube = shape.target == Target::texture_cube || shape.target == Target::texture_cube_array;
+  if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
+    return selectorMisfit(context, ref, entity,
+                          fmt::format("'{}' is no texture, it has no levels, layers or planes", entity.name));
+  if (selection.element && entity.arrayCount == 0)
+    return selectorMisfit(context, ref, entity, fmt::format("'{}' is no array", entity.name));
+  if (selection.layer && shape.target == Target::texture_3d)
+    return selectorMisfit(context, ref, entity,
+                          fmt::format("'{}' is a 3d texture, it has no layers", entity.name));
+  if (selection.face && !cube)
+    return selectorMisfit(context, ref, entity, fmt::format("'{}' is no cube, it has no faces", entity.name));
+  if (selection.stencil && !hasStencil(shape.format))
+    return selectorMisfit(context, ref, entity,
+                          fmt::format("'{}' ({}) has no stencil", entity.name, infoOf(shape.format).name));
+
+  bool empty = false;
+  std::int64_t mip = 0, mips = shape.mips, layer = 0, layers = cube ? shape.layers / 6 : shape.layers;
+  if (selection.mip && !closeSpan(context, ref, entity, "level", shape.mips, entity.writtenMips,
+                                  *selection.mip, mip, mips, empty))
+    return false;
+  if (selection.layer &&
+      !closeSpan(context, ref, entity, "layer", layers, layers, *selection.layer, layer, layers, empty))
+    return false;
+  if (cube) {
+    std::int64_t face = 0, faces = 6;
+    if (selection.face && !closeSpan(context, ref, entity, "face", 6, 6, *selection.face, face, faces, empty))
+      return false;
+    if (faces < 6 && layers > 1)
+      return selectorMisfit(
+          context, ref, entity,
+          fmt::format("faces of several cubes of '{}' are not next to each other", entity.name));
+    layer = layer * 6 + face;
+    layers = faces < 6 ? faces : layers * 6;
+  }
+  work.array = entity.arrayCount > 0 && !selection.element;
+  work.firstElement = 0;
+  work.elementCount = std::max(1u, entity.arrayCount);
+  if (selection.element) {
+    Selection::Span span{*selection.element, *selection.element, false, false, selection.elementPlace};
+    std::int64_t first = 0, size = 0;
+    if (!closeSpan(context, ref, entity, "element", entity.arrayCount, entity.arrayCount, span, first, size,
+                   empty))
+      return false;
+    work.firstElement = static_cast<std::uint32_t>(first);
+    work.elementCount = 1;
+  }
+  work.whole = !selection.mip && !selection.layer && !selection.face && !selection.stencil;
+  work.use.mip = static_cast<std::uint16_t>(mip);
+  work.use.mips = static_cast<std::uint16_t>(mips);
+  work.use.layer = static_cast<std::uint16_t>(layer);
+  work.use.layers = static_cast<std::uint16_t>(layers);
+  work.use.planes = selection.stencil ? 2 : planeCount(shape) > 1 ? 3 : 1;
+  work.sampler = leaf.sampler;
+  work.state = empty ? SlotWork::State::empty : SlotWork::State::connected;
+  return true;
+}
+
+namespace {
+
+// Kind and planes, once the rectangle is known.
+bool finishUse(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, Access access,
+               SlotWork& work) {
+  const FlatResource& shape = context.model.entities[work.entity].shape;
+  work.use.access = access;
+  work.use.kind = leaf.kind.value_or(defaultKind(context.type, access, shape));
+  if (work.sampler.compare) work.sampler.linear = true;
+  const bool shaderRead = work.use.kind == Kind::sampled || work.use.kind == Kind::image;
+  if (shaderRead && work.use.planes == 3) work.use.planes = 1;  // a shader sees depth unless .stencil is said
+  return checkUse(context, ref, access, work);
+}
+
+bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t found) {
+  const Entity& entity = context.model.entities[found];
+  const char* why = nullptr;
+  std::string hint;
+  if (slot.ref.history > 0) {
+    why = "an earlier publication";
+    hint = "write the resource without @-n";
+  } else if (entity.kind == ResourceDesc::Kind::import) {
+    why = "an import";
+    hint = "write a texture or buffer of the graph's own";
+  } else if (entity.kind == ResourceDesc::Kind::alternatives) {
+    why = "a list of alternatives";
+    hint = "write one of those it lists";
+  } else {
+    return true;
+  }
+  auto& d = report(context, Code::notWritable, slot.ref.place,
+                   fmt::format("{} {} '{}', which is {} and cannot be written", context.user,
+                               slot.access == Access::write ? "writes" : "modifies", slot.ref.text, why),
+                   entity.name);
+  d.hint = hint;
+  return false;
+}
+
+bool checkHistory(const SlotContext& context, const RefDesc& ref, const Entity& entity) {
+  const auto depth = static_cast<int>(entity.depth);
+  const bool import = entity.kind == ResourceDesc::Kind::import;
+  if (import ? ref.history == 1 && context.model.graph.imports[entity.import].before : ref.history <= depth)
+    return true;
+  auto& d = report(
+      context, Code::noHistory, ref.place,
+      fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name),
+      entity.name);
+  d.expected = import && context.model.graph.imports[entity.import].before ? "@-1, what was shown before"
+               : import                                                    ? "this import has no history"
+               : depth == 0                                                ? "no history is declared"
+                            : fmt::format("@-1 to @-{}", depth);
+  if (!import) d.hint = fmt::format("declare \"history\": {} on '{}'", ref.history, entity.name);
+  return false;
+}
+
+}  // namespace
+
+void mention(Model& model, std::uint32_t index, std::uint32_t position) {
+  Entity& entity = model.entities[index];
+  if (!entity.mentions.empty() && entity.mentions.back() == position) return;
+  entity.mentions.push_back(position);
+  if (!entity.candidates.empty() && !lookAt(model, entity.candidates.size(), entity.desc->place)) return;
+  for (const std::uint32_t candidate : entity.candidates)
+    if (candidate != kNone) mention(model, candidate, position);
+}
+
+SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {
+  using State = SlotWork::State;
+  Model& model = context.model;
+  const RefDesc& ref = slot.ref;
+  SlotWork work;
+  work.slot = &slot;
+  work.use.access = slot.access;
+
+  const std::uint32_t found =
+      findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place,
+                         fmt::format("{} {} the", context.user,
+                                     slot.access == Access::read    ? "reads"
+                                     : slot.access == Access::write ? "writes"
+                                                                    : "modifies"),
+                         context.pass, slot.name);
+  if (found == kNone) return work;
+  if (slot.access == Access::read) mention(model, found, ref.history > 0 ? kNone : model.position);
+  if (slot.access != Access::read && !isWritable(context, slot, found)) return work;
+
+  const auto holds = evaluateCondition(context.names, ref.condition, true,
+                                       fmt::format("the condition of slot '{}'", slot.name));
+  if (!holds) return work;
+  // A slot whose condition is false may select what is not there; the rest of it must make sense all the
+  // same.
+  SlotContext checked = context;
+  if (!*holds) checked.ranges = false;
+
+  std::vector<Leaf> leaves;
+  if (!collectLeaves(checked, context.names, ref, Leaf{}, leaves)) return work;
+
+  MissingRead missing;
+  missing.pass = pass;
+  missing.position = model.position;
+  missing.slot = slot.name;
+  missing.ref = &ref;
+  missing.access = slot.access;
+
+  const bool looksForVersions =
+      context.versions && *holds && slot.access != Access::write && ref.history == 0;
+  bool onlyImports = !leaves.empty();
+  const SlotWork blank = work;
+  std::optional<SlotWork> zero;  // the first candidate that has no more than version zero
+  for (const Leaf& leaf : leaves) {
+    SlotWork candidate = blank;
+    if (!placeSelection(checked, leaf, ref, candidate) ||
+        !finishUse(checked, leaf, ref, slot.access, candidate))
+      return work;
+    const Entity& entity = model.entities[candidate.entity];
+    // An import that is not there has shown nothing before either: one of the other alternatives has.
+    const bool last = &leaf == &leaves.back();
+    if (ref.history > 0 && !last && entity.kind == ResourceDesc::Kind::import && !entity.exists) continue;
+    if (ref.history > 0 && !checkHistory(context, ref, entity)) return work;
+    if (!*holds) {
+      candidate.state = slot.access == Access::read && !ref.optional ? State::missing : State::absent;
+      work = std::move(candidate);
+      if (work.state == State::missing && context.versions) {
+        missing.cause = MissingRead::Cause::condition;
+        model.missing.push_back(std::move(missing));
+      }
+      return work;
+    }
+    if (candidate.state == State::empty) {
+      if (ref.optional) candidate.state = State::absent;
+      return candidate;
+    }
+    candidate.use.history = static_cast<std::uint8_t>(ref.history);
+    if (!looksForVersions) return candidate;
+    bool complete = true, real = false;
+    for (std::uint32_t e = candidate.firstElement; e < candidate.firstElement + candidate.elementCount; ++e) {
+      const VersionCheck check = checkVersion(entity, e, candidate.use);
+      real = real || check.real;
+      if (complete && !check.complete)
+        missing.wanted.push_back({candidate.entity, e, check.missing, candidate.use});
+      complete = complete && check.complete;
+    }
+    if (complete && real) return candidate;
+    onlyImports = onlyImports && entity.kind == ResourceDesc::Kind::import;
+    if (complete && !zero) zero = candidate;
+    if (work.entity == kNone) work = std::move(candidate);
+  }
+  if (!context.versions) {
+    work.state = State::absent;
+    return work;
+  }
+  if (zero && !ref.optional) return *zero;
+  if (ref.optional) {
+    work.state = State::absent;
+    return work;
+  }
+  work.state = State::missing;
+  missing.cause = leaves.empty() ? MissingRead::Cause::condition
+                  : onlyImports  ? MissingRead::Cause::import
+                                 : MissingRead::Cause::version;
+  model.missing.push_back(std::move(missing));
+  return work;
+}
+
+}  // namespace weft::graph::expansion

@@ -1,0 +1,77 @@
+// Slots: from a reference as written to the texture, buffer or import it means and the sub-resources it
+// selects, with alternatives chosen by condition and version, and every check of a single use (selectors,
+// ranges, kinds, formats). Does not: make versions (expand_passes does, in slot order) or compare slots with
+// each other (expand_checks).
+#pragma once
+
+#include "engine/graph/expand/names/names.h"
+#include "engine/graph/expand/names/resources.h"
+#include "engine/graph/expand/names/scope.h"
+
+namespace weft::graph::expansion {
+
+// Selectors with numbers in place of expressions; ends left open are filled in by placeSelection.
+struct Selection {
+  struct Span {
+    std::int64_t first = 0, last = 0;
+    bool openFirst = false, openLast = false;
+    Place place;
+  };
+  std::optional<Span> mip, layer, face;
+  std::optional<std::int64_t> element;
+  Place elementPlace;
+  bool stencil = false;
+};
+
+// One concrete thing a reference may mean.
+struct Leaf {
+  std::uint32_t entity = kNone;
+  Selection selection;
+  std::optional<Kind> kind;
+  Sampler sampler;
+};
+
+// A slot of one pass instance.
+struct SlotWork {
+  enum class State : std::uint8_t {
+    connected,
+    absent,   // condition false, or optional without a version
+    missing,  // required, but nothing is there: a MissingRead was recorded or will be
+    empty,    // levels that the clamp to the size took away, or `1..` of one level: the pass is left out
+    failed    // reported
+  };
+  const SlotDesc* slot = nullptr;
+  State state = State::failed;
+  std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
+  bool array = false;  // the whole of an array
+  bool whole = false;  // no selector: all sub-resources
+  FlatUse use;         // everything but the resource
+  Sampler sampler;
+};
+
+struct SlotContext {
+  Model& model;
+  Names& names;             // of the pass instance
+  const PassType* type;     // null: present, outputs, resets
+  const std::string& user;  // "pass 'glow_down[3]'"
+  const std::string& pass;  // "glow_down[3]"
+  bool versions = true;     // false: a disabled pass; the first candidate is validated
+  bool ranges = true;       // false: sub-resource ranges are not held against sizes
+};
+
+// All concrete candidates of a reference whose conditions hold, in order. False after a report.
+bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const Leaf& outer,
+                   std::vector<Leaf>& leaves);
+
+// The selected rectangle of a leaf, checked. `work` gets entity, elements, use (without kind), whole, and the
+// state `empty` when none of the levels is there at this size. False after a report.
+bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc& ref, SlotWork& work);
+
+// Resolves one slot. Reads and modifies look for versions; a required slot without one is recorded in
+// model.missing (with `pass` as its pass) and comes back as `missing`.
+SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass);
+
+// Every resource the reference may ever mean, alternatives included, is mentioned at `position`.
+void mention(Model& model, std::uint32_t entity, std::uint32_t position);
+
+}  // namespace weft::graph::expansion

@@ -1,0 +1,377 @@
+#include "engine/graph/expand/spec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/view.h"
+#include "engine/graph/language/expr_node.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+constexpr int kMaxConditions = 4;  // 16 variants
+
+std::string upper(std::string_view name) {
+  std::string out;
+  for (const char c : name)
+    out += std::isalnum(static_cast<unsigned char>(c))
+               ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
+               : '_';
+  return out;
+}
+
+class SpecFiller {
+ public:
+  SpecFiller(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+             PassSpec& spec)
+      : context_(context),
+        model_(context.model),
+        names_(context.names),
+        desc_(desc),
+        slots_(slots),
+        spec_(spec) {}
+
+  bool run(std::vector<DeferredValue>& deferred) {
+    const std::size_t before = model_.diagnostics.errorCount();
+    for (const NamedExpr& state : desc_.state) addState(state);
+    checkDepthState();
+    for (const NamedExpr& define : desc_.defines) addDefine(define, deferred);
+    for (const PassParameterDesc& parameter : desc_.parameters) addParameter(parameter, deferred);
+    checkDefineNames();
+    if (context_.type->shader == ShaderShape::compute) addThreads();
+    if (context_.type->shader == ShaderShape::draw) addGeometry();
+    if (desc_.view || context_.type->shader != ShaderShape::none) resolveView(context_, desc_, spec_);
+    return model_.diagnostics.errorCount() == before;
+  }
+
+ private:
+  base::Diagnostic& error(Code code, const Place& place, std::string message) {
+    base::Diagnostic& d = model_.diagnostics.error(code, place, fmt::format("{} {}", context_.user, message));
+    d.pass = context_.pass;
+    return d;
+  }
+
+  // ---- state ----
+
+  // Index of the word in `words`, or -1 after a report.
+  int word(const NamedExpr& state, const std::vector<std::string>& words) {
+    const Value value = state.expr.evaluate(names_, model_.diagnostics);
+    if (value.type == Value::Type::none) return -1;
+    if (value.type == Value::Type::symbol)
+      for (std::size_t i = 0; i < words.size(); ++i)
+        if (words[i] == value.symbol) return static_cast<int>(i);
+    std::string all;
+    for (const std::string& w : words) all += (all.empty() ? "" : ", ") + w;
+    auto& d = error(Code::badState, state.expr.place(),
+                    fmt::format("has an unknown value for the state '{}'", state.name));
+    d.expected = all;
+    d.found = toText(value);
+    if (value.type == Value::Type::symbol) d.hint = base::nearestHint(value.symbol, words);
+    return -1;
+  }
+
+  bool flag(const NamedExpr& state, bool absent) {
+    return evaluateCondition(names_, state.expr, absent, fmt::format("the state '{}'", state.name))
+        .value_or(absent);
+  }
+
+  bool isColorSlot(const std::string& name) const {
+    for (const SlotWork& work : slots_)
+      if (work.slot->name == name && work.slot->access != Access::read)
+        return work.entity == kNone || work.use.kind == Kind::color;
+    return false;
+  }
+
+  void addBlend(const NamedExpr& state) {
+    static const std::vector<std::string> kWords = {"none",     "add", "alpha", "premultiplied",
+                                                    "multiply", "min", "max"};
+    const int found = word(state, kWords);
+    if (found < 0) return;
+    const auto blend = static_cast<Blend>(found);
+    if (state.name == "blend") {
+      for (const SlotWork& work : slots_)
+        if (isColorSlot(work.slot->name)) setBlend(work.slot->name, blend);
+      return;
+    }
+    const std::string slot = state.name.substr(6);
+    if (isColorSlot(slot)) {
+      setBlend(slot, blend);
+      return;
+    }
+    std::vector<std::string> colors;
+    for (const SlotWork& work : slots_)
+      if (isColorSlot(work.slot->name)) colors.push_back(work.slot->name);
+    error(Code::badState, state.place, fmt::format("blends '{}', which is no colour slot of it", slot)).hint =
+        base::nearestHint(slot, colors);
+  }
+
+  void setBlend(const std::string& slot, Blend blend) {
+    for (auto& [name, old] : spec_.state.blend)
+      if (name == slot) {
+        old = blend;
+        return;
+      }
+    spec_.state.blend.emplace_back(slot, blend);
+  }
+
+  void addState(const NamedExpr& state) {
+    static const std::vector<std::string> kCompare = {"never",   "less",      "equal",         "less_equal",
+                                                      "greater", "not_equal", "greater_equal", "always"};
+    StateSpec& s = spec_.state;
+    if (state.name == "blend" || state.name.starts_with("blend.")) {
+      addBlend(state);
+    } else if (state.name == "depth_test") {
+      if (const int found = word(state, kCompare); found >= 0) {
+        s.depthTest = true;
+        s.depthCompare = static_cast<Compare>(found);
+        depthTestPlace_ = state.place;
+      }
+    } else if (state.name == "depth_write") {
+      s.depthWrite = flag(state, true);
+    } else if (state.name == "cull") {
+      if (const int found = word(state, {"none", "front", "back"}); found >= 0)
+        s.cull = static_cast<Cull>(found);
+    } else if (state.name == "polygon") {
+      s.lines = word(state, {"fill", "line"}) == 1;
+    } else if (state.name == "scissor") {
+      s.scissor = flag(state, false);
+    } else if (state.name == "offset") {
+      const Value value = state.expr.evaluate(names_, model_.diagnostics);
+      if (value.type == Value::Type::list && value.count == 2) {
+        s.offsetFactor = value.v[0];
+        s.offsetUnits = value.v[1];
+      } else if (value.type != Value::Type::none) {
+        auto& d = error(Code::badState, state.expr.place(), "has an unknown value for the state 'offset'");
+        d.expected = "[factor, units]";
+        d.found = toText(value);
+      }
+    } else {
+      static const std::vector<std::string> kKeys = {"blend",   "depth_test", "depth_write", "cull",
+                                                     "polygon", "scissor",    "offset"};
+      error(Code::badState, state.place, fmt::format("has the unknown state '{}'", state.name)).hint =
+          base::nearestHint(state.name, kKeys);
+    }
+  }
+
+  void checkDepthState() {
+    if (!spec_.state.depthTest || spec_.state.depthCompare == Compare::always) return;
+    for (const SlotWork& work : slots_)
+      if (work.entity == kNone || work.use.kind == Kind::depth) return;
+    auto& d = error(Code::badState, depthTestPlace_, "tests depth but has no depth attachment");
+    d.hint =
+        "add a slot such as \"modify\": { \"depth\": \"depth\" } or \"read\": { \"test\": \"depth as depth\" "
+        "}";
+  }
+
+  // ---- defines and uniforms ----
+
+  // The only $variable an expression consists of, or none.
+  Variable onlyVariable(const Expr& expr) {
+    const std::vector<std::string> variables = expr.variables();
+    if (variables.size() != 1 || expr.text() != "$" + variables[0]) return {};
+    return findVariable(model_, names_.scope(), variables[0]);
+  }
+
+  void emitDefine(const std::string& name, const Value& value, const std::vector<std::string>& choices,
+                  const Place& place, const std::string& from) {
+    switch (value.type) {
+      case Value::Type::none:
+        return;
+      case Value::Type::boolean:
+        spec_.defines.push_back({name, value.truth() ? "1" : "0"});
+        return;
+      case Value::Type::number:
+        spec_.defines.push_back({name, numberText(value.v[0])});
+        return;
+      case Value::Type::symbol: {
+        const auto found = std::find(choices.begin(), choices.end(), value.symbol);
+        if (found != choices.end()) {
+          spec_.defines.push_back({name, fmt::format("{}", found - choices.begin())});
+          for (std::size_t i = 0; i < choices.size(); ++i)
+            spec_.defines.push_back({name + "_" + upper(choices[i]), fmt::format("{}", i)});
+          return;
+        }
+        break;
+      }
+      case Value::Type::list:
+        break;
+    }
+    auto& d = error(
+        Code::wordForNumber, place,
+        fmt::format("cannot define '{}' as {}", from, value.type == Value::Type::list ? "a list" : "a word"));
+    d.expected = "true, false, a number or a choice parameter";
+    d.found = toText(value);
+  }
+
+  void addDefine(const NamedExpr& define, std::vector<DeferredValue>& deferred) {
+    const std::string& name = define.name;
+    const Expr& expr = define.expr;
+    if (isDynamic(model_, names_.scope(), expr)) {
+      const auto conditions = std::ranges::count_if(spec_.uniforms, &UniformSpec::define);
+      if (conditions == kMaxConditions) {
+        error(Code::badTime, define.place, fmt::format("has more than {} defines with age()", kMaxConditions))
+            .hint = "each doubles the number of its shader variants";
+        return;
+      }
+      deferred.push_back({static_cast<std::uint32_t>(spec_.uniforms.size()), &expr});
+      UniformSpec condition;
+      condition.name = name;
+      condition.place = expr.place();
+      condition.define = true;
+      spec_.uniforms.push_back(std::move(condition));
+      return;
+    }
+    const std::size_t before = model_.diagnostics.errorCount();
+    const Value value = expr.evaluate(names_, model_.diagnostics);
+    if (model_.diagnostics.errorCount() > before) return;
+    std::vector<std::string> choices;
+    if (value.type == Value::Type::symbol)
+      for (const std::string& variable : expr.variables()) {
+        choices = names_.choicesOf(variable);
+        if (std::find(choices.begin(), choices.end(), value.symbol) != choices.end()) break;
+      }
+    emitDefine(name, value, choices, expr.place(), name);
+  }
+
+  void addParameter(const PassParameterDesc& desc, std::vector<DeferredValue>& deferred) {
+    UniformSpec uniform;
+    uniform.name = desc.name;
+    uniform.place = desc.place;
+    Parameter* parameter = nullptr;
+    if (desc.declared) {
+      const auto found = names_.scope().passParameters.find(desc_.name + "." + desc.name);
+      if (found != names_.scope().passParameters.end()) parameter = &model_.parameters[found->second];
+    } else if (const Variable variable = onlyVariable(desc.value);
+               variable.kind == Variable::Kind::parameter) {
+      parameter = &model_.parameters[variable.index];
+    }
+    if (parameter) {
+      uniform.path = parameter->path;
+      if (parameter->desc->define) {
+        parameter->structural = true;
+        emitDefine(upper(desc.name), parameter->value, parameter->desc->choices, desc.place, desc.name);
+        return;
+      }
+      uniform.value = parameter->value;
+    } else if (isDynamic(model_, names_.scope(), desc.value)) {
+      deferred.push_back({static_cast<std::uint32_t>(spec_.uniforms.size()), &desc.value});
+      spec_.uniforms.push_back(std::move(uniform));
+      return;
+    } else {
+      uniform.value = desc.value.evaluate(names_, model_.diagnostics);
+      if (uniform.value.type == Value::Type::none) return;
+    }
+    if (uniform.value.type == Value::Type::symbol) {
+      auto& d =
+          error(Code::wordForNumber, desc.place, fmt::format("gives its parameter '{}' a word", desc.name));
+      d.expected = "a number, true, false or a list";
+      d.found = toText(uniform.value);
+      const bool choice = parameter && parameter->desc->type == ParameterDesc::Type::choice;
+      d.hint = choice ? "a choice becomes a define: put it under \"defines\", or give it \"define\": true"
+                      : hintForWord(names_, uniform.value);
+      if (d.hint.empty()) d.hint = "a path can be an argument of an import only";
+      return;
+    }
+    const auto index = static_cast<std::uint32_t>(spec_.uniforms.size());
+    if (parameter)
+      deferred.push_back({index, nullptr, static_cast<std::uint32_t>(parameter - model_.parameters.data())});
+    else if (!desc.value.isConstant())
+      deferred.push_back({index, &desc.value});
+    spec_.uniforms.push_back(std::move(uniform));
+  }
+
+  void checkDefineNames() {
+    std::vector<std::string_view> all;
+    for (const DefineSpec& define : spec_.defines) all.push_back(define.name);
+    for (const UniformSpec& uniform : spec_.uniforms)
+      if (uniform.define) all.push_back(uniform.name);
+    std::sort(all.begin(), all.end());
+    if (const auto twice = std::adjacent_find(all.begin(), all.end()); twice != all.end())
+      error(Code::nameUsedTwice, desc_.namePlace, fmt::format("defines '{}' twice", *twice)).hint =
+          "a choice also defines NAME_CHOICE, a parameter its name in capitals";
+  }
+
+  // ---- compute and draw ----
+
+  void addThreads() {
+    spec_.threadsPlace = desc_.threads.present() ? desc_.threads.place() : desc_.namePlace;
+    if (desc_.threads.present()) {
+      const Value value = desc_.threads.evaluate(names_, model_.diagnostics);
+      if (value.type == Value::Type::none) return;
+      const bool list = value.type == Value::Type::list && value.count >= 2 && value.count <= 3;
+      if (!list && !value.isNumeric()) {
+        auto& d = error(Code::wrongValueType, desc_.threads.place(), "has threads that are no count");
+        d.expected = "a number, or a list of 2 or 3";
+        d.found = toText(value);
+        return;
+      }
+      for (std::size_t i = 0; i < value.count; ++i) {
+        if (!(value.v[i] >= 0) || value.v[i] > 2147483647.0) {
+          auto& d = error(Code::numberOutOfRange, desc_.threads.place(),
+                          "has a number of threads out of its range");
+          d.expected = "0 to 2147483647";
+          d.found = toText(value);
+          return;
+        }
+        spec_.threads[i] = static_cast<std::uint32_t>(std::max(1.0, std::floor(value.v[i])));
+      }
+      return;
+    }
+    for (const SlotWork& work : slots_) {
+      if (work.slot->access == Access::read || work.entity == kNone || work.state == SlotWork::State::failed)
+        continue;
+      const FlatResource& shape = model_.entities[work.entity].shape;
+      if (shape.kind != ResourceKind::texture) continue;
+      spec_.threads[0] = std::max(1u, shape.width >> work.use.mip);
+      spec_.threads[1] = std::max(1u, shape.height >> work.use.mip);
+      spec_.threads[2] =
+          shape.target == Target::texture_3d ? std::max(1u, shape.depth >> work.use.mip) : work.use.layers;
+      return;
+    }
+    if (model_.incomplete) return;  // the slot that would say may have been left out for its mistakes
+    auto& d = error(Code::keyNeeded, desc_.namePlace, "lacks threads");
+    d.expected = "\"threads\": a number or a list, since no texture is written whose size could be meant";
+  }
+
+  void addGeometry() {
+    spec_.list = desc_.list;
+    spec_.geometry = desc_.geometry;
+    if (const auto instances =
+            evaluateWhole(names_, desc_.instances, 1, 0, 2147483647, "the number of instances", true))
+      spec_.instances = static_cast<std::uint32_t>(*instances);
+    const auto& types = model_.registry.geometries;
+    const auto type = std::ranges::find(types, desc_.geometry, &GeometryType::name);
+    if (type == types.end()) return;
+    for (std::size_t i = 0; i < type->arguments.size(); ++i) {
+      const GeometryArgument& argument = type->arguments[i];
+      std::optional<std::int64_t> value = argument.initial;
+      if (i < desc_.geometryArguments.size())
+        value = evaluateWhole(names_, desc_.geometryArguments[i], argument.initial, argument.min,
+                              argument.max, fmt::format("the {} of '{}'", argument.name, desc_.geometry));
+      if (value) spec_.geometryArguments.push_back(static_cast<double>(*value));
+    }
+  }
+
+  const SlotContext& context_;
+  Model& model_;
+  Names& names_;
+  const PassDesc& desc_;
+  const std::vector<SlotWork>& slots_;
+  PassSpec& spec_;
+  Place depthTestPlace_;
+};
+
+}  // namespace
+
+bool fillSpec(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
+              PassSpec& spec, std::vector<DeferredValue>& deferred) {
+  return SpecFiller(context, desc, slots, spec).run(deferred);
+}
+
+}  // namespace weft::graph::expansion

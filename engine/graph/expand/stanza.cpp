@@ -1,0 +1,218 @@
+#include "engine/graph/expand/stanza.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/expand/checks.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+struct Stanza {
+  Model& model;
+  Scope& scope;
+  const PassDesc& desc;
+  const PassType* type;
+  const std::string& declared;
+
+  base::Diagnostic& error(Code code, const Place& place, std::string message) const {
+    base::Diagnostic& d = model.diagnostics.error(code, place.line ? place : desc.place,
+                                                  fmt::format("pass '{}' {}", declared, std::move(message)));
+    d.pass = declared;
+    return d;
+  }
+};
+
+// Whether the type takes the key; every use of one it does not take is reported.
+void checkKey(const Stanza& stanza, bool present, const char* key, const Place& place) {
+  const auto& keys = stanza.type->keys;
+  if (!present || std::find(keys.begin(), keys.end(), key) != keys.end()) return;
+  auto& d =
+      stanza.error(Code::keyNotTaken, place,
+                   fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
+  d.hint = keys.empty() ? "" : base::nearestHint(key, keys);
+}
+
+void checkKeys(const Stanza& stanza) {
+  const PassDesc& desc = stanza.desc;
+  checkKey(stanza, desc.threads.present(), "threads", desc.threads.place());
+  checkKey(stanza, desc.instances.present(), "instances", desc.instances.place());
+  checkKey(stanza, !desc.list.empty(), "list", desc.listPlace);
+  checkKey(stanza, !desc.geometry.empty(), "geometry", desc.geometryPlace);
+  const ShaderShape shader = stanza.type->shader;
+  const auto notTaken = [&](const char* key, const Place& place) {
+    stanza.error(Code::keyNotTaken, place,
+                 fmt::format("has the key '{}', which a {} pass does not take", key, stanza.type->name));
+  };
+  if (!desc.state.empty() && shader != ShaderShape::fragment && shader != ShaderShape::draw)
+    notTaken("state", desc.state[0].place);
+  if (shader == ShaderShape::none) {
+    if (!desc.shader.empty()) notTaken("shader", desc.shaderPlace);
+    if (desc.view) notTaken("view", desc.view->place);
+    if (!desc.parameters.empty()) notTaken("parameters", desc.parameters[0].place);
+    if (!desc.defines.empty()) notTaken("defines", desc.defines[0].place);
+    return;
+  }
+  const auto lacks = [&](const char* what, const char* expected) {
+    stanza.error(Code::keyNeeded, desc.namePlace, fmt::format("lacks {}", what)).expected = expected;
+  };
+  if (desc.shader.empty())
+    lacks("a shader", shader == ShaderShape::draw
+                          ? "\"shader\": \"spheres/billboard\", without stage and ending"
+                          : "\"shader\": \"folder/name.stage.glsl\"");
+  if (shader == ShaderShape::draw) {
+    if (desc.list.empty() && !desc.instances.present()) lacks("what to draw", "\"list\" or \"instances\"");
+    if (desc.geometry.empty()) lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");
+  }
+  if (shader != ShaderShape::compute && !stanza.model.incomplete &&
+      std::none_of(desc.slots.begin(), desc.slots.end(), [](const SlotDesc& s) {
+        return s.access != Access::read && s.ref.kind != Kind::image && s.ref.kind != Kind::storage;
+      }))
+    lacks("something to draw into", "a slot in \"write\" or \"modify\" that is an attachment");
+}
+
+void checkLists(const Stanza& stanza) {
+  const PassDesc& desc = stanza.desc;
+  const Registry& registry = stanza.model.registry;
+  if (!desc.list.empty() &&
+      std::find(registry.drawLists.begin(), registry.drawLists.end(), desc.list) == registry.drawLists.end())
+    stanza.error(Code::unknownDrawList, desc.listPlace, fmt::format("draws the unknown list '{}'", desc.list))
+        .hint = base::nearestHint(desc.list, registry.drawLists);
+  if (desc.geometry.empty()) return;
+  const auto geometry = std::ranges::find(registry.geometries, desc.geometry, &GeometryType::name);
+  if (geometry == registry.geometries.end()) {
+    std::vector<std::string> names;
+    for (const GeometryType& type : registry.geometries) names.push_back(type.name);
+    stanza
+        .error(Code::unknownGeometry, desc.geometryPlace,
+               fmt::format("draws the unknown geometry '{}'", desc.geometry))
+        .hint = base::nearestHint(desc.geometry, names);
+  } else if (desc.geometryArguments.size() > geometry->arguments.size()) {
+    auto& d = stanza.error(Code::numberOutOfRange, desc.geometryPlace,
+                           fmt::format("gives '{}' too many arguments", desc.geometry));
+    d.expected = geometry->arguments.empty() ? "none" : fmt::format("at most {}", geometry->arguments.size());
+    d.found = fmt::format("{}", desc.geometryArguments.size());
+  }
+}
+
+void checkFixedSlots(const Stanza& stanza) {
+  const auto& fixed = stanza.type->fixedSlots;
+  if (fixed.empty()) return;
+  std::vector<std::string> names;
+  for (const FixedSlot& slot : fixed) names.push_back(slot.name);
+  std::vector<std::string> meant;  // by misspelt ones
+  for (const SlotDesc& slot : stanza.desc.slots) {
+    const auto found =
+        std::find_if(fixed.begin(), fixed.end(), [&](const FixedSlot& f) { return f.name == slot.name; });
+    if (found == fixed.end()) {
+      stanza
+          .error(
+              Code::badSlots, slot.place,
+              fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name))
+          .hint = base::nearestHint(slot.name, names);
+      meant.push_back(base::nearestName(slot.name, names));
+    } else if ((slot.access == Access::read) != (found->access == Access::read)) {
+      auto& d = stanza.error(Code::badSlots, slot.place,
+                             fmt::format("has the slot '{}' on the wrong side", slot.name));
+      d.expected = fmt::format("'{}' in \"{}\"", slot.name, wordFor(found->access));
+    }
+  }
+  for (const FixedSlot& slot : fixed)
+    if (std::find(meant.begin(), meant.end(), slot.name) == meant.end() &&
+        std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(),
+                     [&](const SlotDesc& s) { return s.name == slot.name; }))
+      stanza.error(Code::badSlots, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name))
+          .expected = fmt::format("\"{}\": {{ \"{}\": … }}", wordFor(slot.access), slot.name);
+}
+
+void checkReference(const Stanza& stanza, const RefDesc& ref) {
+  checkExpr(stanza.model, stanza.scope, ref.condition);
+  if (ref.element) checkExpr(stanza.model, stanza.scope, *ref.element);
+  for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
+    if (*span) {
+      checkExpr(stanza.model, stanza.scope, (*span)->first);
+      checkExpr(stanza.model, stanza.scope, (*span)->last);
+    }
+  markStructural(stanza.model, stanza.scope, ref);
+}
+
+void checkExpressions(const Stanza& stanza) {
+  Model& model = stanza.model;
+  Scope& scope = stanza.scope;
+  const PassDesc& desc = stanza.desc;
+  const auto structural = [&](const Expr& expr) {
+    checkExpr(model, scope, expr);
+    markStructural(model, scope, expr);
+  };
+  structural(desc.enabled);
+  for (const RangeDesc& range : desc.repeat)
+    for (const Expr* expr : {&range.first, &range.last, &range.step}) structural(*expr);
+  for (const SlotDesc& slot : desc.slots) checkReference(stanza, slot.ref);
+  if (desc.view) checkReference(stanza, *desc.view);
+  for (const NamedExpr& define : desc.defines) {
+    checkExpr(model, scope, define.expr, true);
+    markStructural(model, scope, define.expr);
+  }
+  for (const NamedExpr& state : desc.state) structural(state.expr);
+  for (const Expr* expr : {&desc.slices, &desc.threads, &desc.instances}) structural(*expr);
+  for (const Expr& argument : desc.geometryArguments) structural(argument);
+  for (const PassParameterDesc& parameter : desc.parameters) {
+    if (!parameter.declared) checkExpr(model, scope, parameter.value, true);
+    if (parameter.declared && parameter.declared->define)
+      if (const auto found = scope.passParameters.find(desc.name + "." + parameter.name);
+          found != scope.passParameters.end())
+        model.parameters[found->second].structural = true;
+  }
+}
+
+void checkCadence(const Stanza& stanza) {
+  const PassDesc& desc = stanza.desc;
+  if (desc.cadence == Cadence::always && desc.slices.present()) {
+    auto& d =
+        stanza.error(Code::badSlices, desc.slices.place(), "is spread over slices but runs in every frame");
+    d.hint = "slices go with \"update\": \"on_change\" or \"once\"";
+  }
+  if (desc.cadence == Cadence::always) return;
+  for (const PassParameterDesc& parameter : desc.parameters)
+    if (!parameter.declared && isDynamic(stanza.model, stanza.scope, parameter.value)) {
+      auto& d = stanza.error(
+          Code::badTime, parameter.value.place(),
+          fmt::format("sees time in parameter '{}', but does not run in every frame", parameter.name));
+      d.found = parameter.value.text();
+      d.hint = "age() belongs into passes that are \"update\": \"always\"";
+    }
+  for (const NamedExpr& define : desc.defines)
+    if (isDynamic(stanza.model, stanza.scope, define.expr)) {
+      auto& d =
+          stanza.error(Code::badTime, define.expr.place(),
+                       fmt::format("sees time in define '{}', but does not run in every frame", define.name));
+      d.found = define.expr.text();
+      d.hint = "age() belongs into passes that are \"update\": \"always\"";
+    }
+}
+
+}  // namespace
+
+bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type,
+                 const std::string& declared) {
+  const std::size_t before = model.diagnostics.errorCount();
+  const Stanza stanza{model, scope, desc, type, declared};
+  if (type) {
+    checkKeys(stanza);
+    checkLists(stanza);
+    checkFixedSlots(stanza);
+  } else {
+    std::vector<std::string> types;
+    for (const PassType& known : model.registry.passTypes) types.push_back(known.name);
+    stanza.error(Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type))
+        .hint = base::nearestHint(desc.type, types);
+  }
+  checkExpressions(stanza);
+  checkCadence(stanza);
+  return model.diagnostics.errorCount() == before;
+}
+
+}  // namespace weft::graph::expansion

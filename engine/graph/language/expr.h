@@ -1,0 +1,113 @@
+// Expressions of graph files: parsed once into a shared immutable tree, evaluated against a scope.
+// Grammar in docs/graph-format.md. Errors are diagnostics at the expression's place (column of the offending
+// token inside the string where known). Does not know resources or files: the scope answers for every name.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/language/value.h"
+
+namespace weft::graph {
+
+struct ExprNode;  // engine/graph/language/expr_node.h
+class Expr;
+
+enum class Fact : std::uint8_t { size, mips, count, has, age };
+
+// Answers for names while an expression is evaluated. nullopt means "no such name"; evaluate() then reports
+// it with the nearest of candidates(). A scope that already reported an error of its own returns Value{}
+// (type none), which makes the whole result none without a second message.
+class EvalScope {
+ public:
+  enum class NameKind : std::uint8_t { variable, fact_argument, builtin };
+  virtual ~EvalScope() = default;
+  virtual std::optional<Value> variable(
+      std::string_view name) = 0;  // $name or $pass.parameter, also `let` names
+  virtual std::optional<Value> index(std::string_view name) = 0;    // a bare repeat index
+  virtual std::optional<Value> builtin(std::string_view name) = 0;  // "screen", "device.software"
+  virtual std::optional<Value> fact(Fact fact, std::string_view resource, const base::Place& place) = 0;
+  // The choices of a choice parameter, or empty: `$draw == bilboard` is then an error with the nearest
+  // choice.
+  virtual std::vector<std::string> choicesOf(std::string_view variable) = 0;
+  virtual std::vector<std::string> candidates(NameKind kind) = 0;
+  // A key by which a folded age() finds its resource at run time; nullopt for an unknown resource.
+  virtual std::optional<std::uint32_t> ageKey(std::string_view resource) = 0;
+  // A `let` that changes without another plan (it contains age() or a live parameter, perhaps through another
+  // `let`), already folded in the scope it stands in; null for every other name. fold() asks this before
+  // variable() and puts the tree in its place.
+  virtual const Expr* folded([[maybe_unused]] std::string_view variable) { return nullptr; }
+  // A key by which a folded expression finds the value of a live parameter; nullopt for every other name,
+  // which is folded to its value.
+  virtual std::optional<std::uint32_t> parameterKey([[maybe_unused]] std::string_view variable) {
+    return std::nullopt;
+  }
+};
+
+// Shapes and types are the same at every age; an age that no formula singles out shows them.
+constexpr double kTrialAge = 0.61803398874989485;
+
+// A parsed expression, or a literal. Copies share the tree. Default-constructed: absent.
+class Expr {
+ public:
+  Expr() = default;
+  static Expr constant(Value value, base::Place place);
+  // A folded expression that is the value of one live parameter.
+  static Expr parameter(std::uint32_t key, base::Place place);
+  static Expr listOf(std::vector<Expr> items, base::Place place);
+  // Parses `text`, which stands at `place` (the place of the string's first character after the quote).
+  static std::optional<Expr> parse(std::string_view text, const base::Place& place,
+                                   base::Diagnostics& diagnostics);
+
+  bool present() const { return root_ != nullptr; }
+  // True when it contains age(): its value changes from frame to frame.
+  bool dynamic() const;
+  // True when it is folded and contains live parameters.
+  bool live() const;
+  // The keys of those, each once, ascending.
+  std::vector<std::uint32_t> parameterKeys() const;
+  // Canonical text, fit to be parsed again.
+  std::string text() const;
+  const base::Place& place() const;
+  // Every $variable it names (for culling conditions, hot reload and `explain`).
+  std::vector<std::string> variables() const;
+  // Every size(x), mips(x), count(x), has(x), age(x) it asks, with the name as written (an @ included), in
+  // order.
+  std::vector<std::pair<Fact, std::string>> facts() const;
+  // How many operators and operands it has, and how deep they are nested.
+  std::uint32_t terms() const;
+  int height() const;
+  // True when evaluating it needs no scope: a literal of the file, or a folded expression without age() and
+  // live parameters.
+  bool isConstant() const;
+
+  // The value, or type none after an error was reported. age() is an error here unless `scope.fact` answers
+  // it. Branches that are not taken (of ?: && ||) are not evaluated.
+  Value evaluate(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  // Reports names and choices that do not exist, also in branches that evaluate() would not take. Asks the
+  // scope for variables and choices only, never for facts. True when it found nothing wrong.
+  bool check(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  // Everything but age() and live parameters replaced by its value; these carry scope.ageKey(name) and
+  // scope.parameterKey(name). Absent after an error was reported.
+  Expr fold(EvalScope& scope, base::Diagnostics& diagnostics) const;
+  // Evaluates a folded expression; no heap allocation for numbers and lists. `age` gives seconds since
+  // publication, which may be infinite; `parameters` the values by their keys. Type none (all components 0)
+  // when the result has none, such as a division by zero.
+  Value evaluateFolded(const std::function<double(std::uint32_t key)>& age,
+                       std::span<const Value> parameters = {}) const;
+
+  const ExprNode* root() const { return root_.get(); }
+
+ private:
+  std::shared_ptr<const ExprNode> root_;
+};
+
+}  // namespace weft::graph

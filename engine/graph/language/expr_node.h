@@ -1,0 +1,114 @@
+// The tree behind Expr, shared by the parser, the evaluator and the printer. Private to
+// engine/graph/expr*.cpp. Nodes are immutable once built; `height` bounds every recursion over them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/language/expr.h"
+#include "engine/graph/language/value.h"
+
+namespace weft::graph {
+
+enum class ExprOp : std::uint8_t {
+  constant,
+  list,           // children: 1..4 items
+  variable,       // name: "bloom", "composite.fog"
+  identifier,     // name: a repeat index, else a symbol
+  builtin,        // name: "screen", "device.software"
+  fact,           // name: the resource, with its @ if written; fact
+  age_key,        // key: a folded age()
+  parameter_key,  // key: a live parameter, folded
+  component,      // children: the list; key: 0..3
+  negate,
+  logical_not,
+  add,
+  subtract,
+  multiply,
+  divide,
+  modulo,
+  equal,
+  not_equal,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  logical_and,
+  logical_or,
+  conditional,  // children: condition, then, else
+  minimum,
+  maximum,
+  ceil,
+  floor,
+  log2ceil,
+  pow2ceil,
+  abs,
+};
+
+struct ExprNode : std::enable_shared_from_this<ExprNode> {
+  ExprOp op = ExprOp::constant;
+  Fact fact = Fact::size;
+  std::uint8_t height = 1;  // 1 for leaves; never above kMaxExprHeight
+  bool dynamic = false;     // contains age()
+  bool live = false;        // contains a live parameter, folded
+  bool folded = false;      // nothing in it is left to fold
+  std::uint32_t key = 0;
+  std::uint32_t terms = 1;  // this one and all below it; one that stands in several places counts in each
+  base::Place place;        // of the token to blame: the operator, the name, the function
+  base::Place start;        // of the whole expression; set on roots only
+  Value value{};
+  std::string name{};
+  std::vector<std::shared_ptr<const ExprNode>> children{};
+};
+
+using ExprPtr = std::shared_ptr<const ExprNode>;
+
+constexpr int kMaxExprHeight = 200;
+// Of an expression with the `let` it uses in its place: it is evaluated as a tree, in every frame or with every
+// move of a slider.
+constexpr std::uint32_t kMaxFoldedTerms = 10'000;
+
+struct OpInfo {
+  const char* spelling;
+  std::uint8_t precedence;  // 0: not an infix operator; larger binds tighter
+};
+
+// "+" and 5 for add; the function's name for calls.
+OpInfo infoOf(ExprOp op);
+
+// What a word was probably meant for where a number or a condition belongs: a parameter that lost its $, a
+// misspelt `screen`. "" when it is no word, or nothing is near.
+std::string hintForWord(EvalScope& scope, const Value& value);
+
+// "size", "mips", "count", "has", "age".
+const char* nameOf(Fact fact);
+
+// A node over `children`, with height and dynamic filled in. The caller has checked the height.
+ExprPtr makeNode(ExprOp op, base::Place place, std::vector<ExprPtr> children);
+ExprPtr makeConstant(Value value, base::Place place);
+// 1 + the greatest height among `children`.
+int heightOver(const std::vector<ExprPtr>& children);
+// 1 + all terms of `children`.
+std::uint32_t termsOver(const std::vector<ExprPtr>& children);
+// Sets what a node's children decide: height (which the caller has checked), dynamic, live, terms.
+void setChildren(ExprNode& node, std::vector<ExprPtr> children);
+// A copy of `root` that knows where the whole expression starts.
+ExprPtr withStart(const ExprPtr& root, const base::Place& start);
+
+// The trees of Expr::parse; null after an error.
+ExprPtr parseExprTree(std::string_view text, const base::Place& place, base::Diagnostics& diagnostics);
+
+// Seconds since the publication behind a key.
+using AgeFunction = std::function<double(std::uint32_t key)>;
+
+// The value of a tree, or type none; with a scope before the frame runs, with an age function after folding.
+Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics);
+Value evaluateNode(const ExprNode& node, const AgeFunction& age, std::span<const Value> parameters,
+                   base::Diagnostics* diagnostics);
+
+}  // namespace weft::graph

@@ -1,0 +1,37 @@
+// Every key and word the graph format knows, in one place: the reader rejects what is not here, and the JSON
+// Schema is printed from here. `schema` is the JSON Schema of the value, or "@name" for one of the shapes in
+// schema.cpp.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace weft::graph {
+
+struct KeySpec {
+  std::string_view key;
+  std::string_view schema;
+  std::string_view doc;
+  bool required = false;
+};
+
+extern const std::span<const KeySpec> kGraphKeys;
+extern const std::span<const KeySpec> kParameterKeys;
+extern const std::span<const KeySpec> kTextureKeys;
+extern const std::span<const KeySpec> kBufferKeys;
+extern const std::span<const KeySpec> kImportKeys;  // and the arguments of the import's type
+extern const std::span<const KeySpec> kInputKeys;
+extern const std::span<const KeySpec> kPassKeys;
+extern const std::span<const KeySpec> kIncludeKeys;
+extern const std::span<const KeySpec> kStateKeys;
+extern const std::span<const KeySpec>
+    kPlaceKeys;  // of a stanza in an overlay, beside those of passes and includes
+
+constexpr std::array<std::string_view, 8> kParameterTypes = {"bool", "int",  "float",  "vec2",
+                                                             "vec3", "vec4", "choice", "file"};
+constexpr std::array<std::string_view, 5> kViewWords = {"2d", "2d_array", "cube", "cube_array", "3d"};
+constexpr std::array<std::string_view, 3> kUpdateWords = {"always", "on_change", "once"};
+constexpr std::array<std::string_view, 2> kInputWords = {"texture", "buffer"};
+
+}  // namespace weft::graph

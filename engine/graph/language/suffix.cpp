@@ -1,0 +1,40 @@
+#include "engine/graph/language/suffix.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/nearest.h"
+
+namespace weft::graph {
+
+bool hasSuffix(std::string_view name, std::string_view suffix) {
+  if (!name.ends_with(suffix)) return false;
+  return name.size() == suffix.size() || name[name.size() - suffix.size() - 1] == '.';
+}
+
+std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::string_view wanted) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == wanted) return {i};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (hasSuffix(names[i], wanted)) found.push_back(i);
+  return found;
+}
+
+std::string suffixHint(std::string_view wanted, std::span<const std::string> names) {
+  if (const std::string near = base::nearestName(wanted, names); !near.empty())
+    return fmt::format("did you mean '{}'?", near);
+  // A suffix is whole parts between dots; part of a part may be what was meant.
+  std::string holding;
+  int many = 0;
+  for (const std::string& name : names)
+    if (wanted.size() >= 3 && name.find(wanted) != std::string::npos && many < 5) {
+      holding += fmt::format("{}'{}'", many ? ", " : "", name);
+      ++many;
+    }
+  if (many > 0) return fmt::format("names that hold it: {}", holding);
+  std::vector<std::string> leaves;
+  for (const std::string& name : names) leaves.push_back(name.substr(name.rfind('.') + 1));
+  return base::nearestHint(wanted, leaves);
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,224 @@
+#include "engine/graph/read/overlay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "engine/base/files/file_access.h"
+#include "engine/base/files/text_file.h"
+#include "engine/base/limit_report.h"
+#include "engine/graph/language/enough.h"
+#include "engine/graph/read/overlay_apply.h"
+
+namespace weft::graph {
+
+using base::Code;
+using base::JsonMember;
+using base::JsonValue;
+using Type = JsonValue::Type;
+
+namespace {
+
+// The keys of stanzas in overlays mean nothing where there is nothing to lay them over.
+void reportOverlayStanzas(const JsonValue& root, base::Diagnostics& diagnostics) {
+  const JsonValue* passes = root.find("passes");
+  if (!passes || !passes->is(Type::array)) return;
+  for (const JsonValue& stanza : passes->items)
+    for (const JsonMember& member : stanza.members)
+      if (member.key == "before" || member.key == "after" || member.key == "remove") {
+        if (enoughErrors(diagnostics)) return;
+        auto& d = diagnostics.error(Code::overlayOutOfPlace, member.place,
+                                    fmt::format("\"{}\" in a file that extends no other", member.key));
+        d.pointer = member.value.pointer;
+        d.pass = stanzaName(stanza);
+        d.hint = "write the pass at its place in the list, or say what this file \"extends\"";
+      }
+}
+
+std::size_t valuesOf(const JsonValue& value) {
+  std::size_t count = 1;
+  for (const JsonValue& item : value.items) count += valuesOf(item);
+  for (const JsonMember& member : value.members) count += valuesOf(member.value);
+  return count;
+}
+
+void eraseMember(JsonValue& object, std::string_view key) {
+  std::erase_if(object.members, [&](const JsonMember& member) { return member.key == key; });
+}
+
+void eraseStanzaKeys(JsonValue& root) {
+  for (JsonMember& member : root.members)
+    if (member.key == "passes")
+      for (JsonValue& stanza : member.value.items)
+        for (const char* key : {"before", "after", "remove"}) eraseMember(stanza, key);
+}
+
+}  // namespace
+
+std::string includePrefix(const JsonValue& stanza) {
+  if (const JsonValue* as = stanza.find("as")) return as->text;
+  const JsonValue* include = stanza.find("include");
+  return include ? std::filesystem::path(include->text).stem().string() : std::string();
+}
+
+std::string pathBeside(const JsonValue& written) {
+  const std::filesystem::path from = written.place.file ? *written.place.file : std::string();
+  return (from.parent_path() / written.text).lexically_normal().string();
+}
+
+std::string identityOf(const std::string& path) {
+  // What may not be read is not followed either: it is what it is called.
+  if (!base::mayRead(path)) return std::filesystem::path(path).lexically_normal().string();
+  std::error_code ec;
+  const auto canonical = std::filesystem::weakly_canonical(path, ec);
+  return ec ? path : canonical.string();
+}
+
+std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const base::Place& from) {
+  const std::string identity = identityOf(path);
+  if (const auto known = known_.find(identity); known != known_.end()) return known->second;
+  const std::shared_ptr<const std::string> bytes = bytesOf(path, from);
+  std::shared_ptr<const Source> source = bytes ? text(*bytes, path) : nullptr;
+  known_[identity] = source;
+  return source;
+}
+
+std::shared_ptr<const std::string> SourceLoader::bytesOf(const std::string& path, const base::Place& from) {
+  if (given_)
+    if (const auto found = given_->find(path); found != given_->end()) return texts_[path] = found->second;
+  std::optional<std::string> bytes = base::readTextFile(path, diagnostics_, Code::unreadableFile, from);
+  return bytes ? texts_[path] = std::make_shared<const std::string>(*std::move(bytes)) : nullptr;
+}
+
+std::shared_ptr<const Source> SourceLoader::text(std::string_view text, const std::string& path) {
+  std::optional<JsonValue> root =
+      base::parseJson(text, std::make_shared<const std::string>(path), diagnostics_);
+  return root ? complete(*std::move(root), path) : nullptr;
+}
+
+bool SourceLoader::mayCopy(const Source& source, const base::Place& place) {
+  values_ += source.values;
+  if (values_ <= base::limitOf(base::Limit::json_values)) return true;
+  if (!std::exchange(tooMany_, true)) {
+    auto& d =
+        base::reportLimit(diagnostics_, base::Limit::json_values, place,
+                          "the files of the graph and the copies that overlays change hold too many values");
+    d.found = fmt::format("{} with '{}'", values_, source.path);
+  }
+  return false;
+}
+
+std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::string& path) {
+  if (const JsonValue* extends = root.find("extends")) return completeOverlay(root, *extends, path);
+  Source source{.path = path, .identity = identityOf(path), .files = {path}};
+  const JsonValue* set = root.find("set");
+  if (set && !root.find("passes")) {
+    auto& d = diagnostics_.error(Code::overlayOutOfPlace, set->place,
+                                 fmt::format("'{}' is a preset, not a graph", path));
+    d.pointer = set->pointer;
+    d.hint = "say what this file \"extends\"; a preset is laid over a graph";
+    return nullptr;
+  }
+  if (set && set->is(Type::object)) {
+    source.sets = set->members;
+    eraseMember(root, "set");
+  }
+  reportOverlayStanzas(root, diagnostics_);
+  eraseStanzaKeys(root);
+  source.values = valuesOf(root);
+  if (!mayCopy(source, root.place)) return nullptr;
+  source.root = std::move(root);
+  return std::make_shared<const Source>(std::move(source));
+}
+
+std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& root, const JsonValue& extends,
+                                                            const std::string& path) {
+  Source source{.path = path, .identity = identityOf(path), .files = {path}};
+  open_.emplace_back(source.identity, path);
+  const std::shared_ptr<const Source> below = openBase(extends);
+  if (below && !mayCopy(*below, extends.place)) {
+    open_.pop_back();
+    return nullptr;
+  }
+  if (below) {
+    source.files.insert(source.files.end(), below->files.begin(), below->files.end());
+    source.root = below->root;
+    source.sets = below->sets;
+    source.changed = below->changed;
+    if (source.root.is(Type::object)) {
+      source.root.place = root.place;
+      for (const char* own : {"name", "description"}) eraseMember(source.root, own);  // of the base
+      applyOverlay(*this, root, false, source, diagnostics_);
+    }
+    source.values = valuesOf(source.root);
+  }
+  open_.pop_back();
+  return below ? std::make_shared<const Source>(std::move(source)) : nullptr;
+}
+
+std::shared_ptr<const Source> SourceLoader::openBase(const JsonValue& extends) {
+  if (!extends.is(Type::string)) {
+    auto& d = diagnostics_.error(Code::wrongType, extends.place, "\"extends\" has the wrong type");
+    d.pointer = extends.pointer;
+    d.expected = "the path of a graph, from this file's folder";
+    d.found = describe(extends);
+    return nullptr;
+  }
+  const std::string below = pathBeside(extends), identity = identityOf(below);
+  if (open_.size() > base::limitOf(base::Limit::extends_depth)) {
+    auto& limit = base::reportLimit(diagnostics_, base::Limit::extends_depth, extends.place,
+                                    "overlays extend each other in too long a row");
+    limit.pointer = extends.pointer;
+    limit.found = fmt::format("'{}', one more", below);
+    return nullptr;
+  }
+  if (!isOpen(identity)) return file(below, extends.place);
+  auto& d = diagnostics_.error(Code::extendsItself, extends.place, fmt::format("'{}' extends itself", below));
+  d.pointer = extends.pointer;
+  bool again = false;
+  for (const auto& [openIdentity, openPath] : open_) {
+    again = again || openIdentity == identity;
+    if (again) d.found += openPath + " -> ";
+  }
+  d.found += below;
+  d.hint = "one of these must not extend the next";
+  return nullptr;
+}
+
+bool SourceLoader::isOpen(const std::string& identity) const {
+  return std::any_of(open_.begin(), open_.end(), [&](const auto& file) { return file.first == identity; });
+}
+
+std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, const std::string& path) {
+  const std::shared_ptr<const std::string> bytes = bytesOf(path, {});
+  if (!bytes) return nullptr;
+  const std::optional<JsonValue> root =
+      base::parseJson(*bytes, std::make_shared<const std::string>(path), diagnostics_);
+  if (!root) return nullptr;
+  const auto refuse = [&](Code code, const JsonValue& value, std::string message) -> base::Diagnostic& {
+    auto& d = diagnostics_.error(code, value.place, std::move(message));
+    d.pointer = value.pointer;
+    return d;
+  };
+  if (!root->is(Type::object)) {
+    auto& d = refuse(Code::wrongType, *root, "a preset has the wrong type");
+    d.expected = "an object";
+    d.found = describe(*root);
+    return nullptr;
+  }
+  if (const JsonValue* extends = root->find("extends")) {
+    refuse(Code::overlayOutOfPlace, *extends, fmt::format("'{}' is no preset: it extends another file", path))
+        .hint = fmt::format("open '{}' as the graph", path);
+    return nullptr;
+  }
+  if (!mayCopy(source, root->place)) return nullptr;
+  Source made = source;
+  made.files.push_back(path);
+  if (made.root.is(Type::object)) applyOverlay(*this, *root, true, made, diagnostics_);
+  made.values = valuesOf(made.root);
+  return std::make_shared<const Source>(std::move(made));
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,69 @@
+// Graph files made whole before they are read as graphs: a file that `extends` another is laid over it,
+// presets over that, on the level of JSON. Every value keeps the file, line and column it was written at. An
+// overlay may reach into included files by a suffix of a name; the copy of such a file it has changed is kept
+// beside the include. Does not: know what values mean, or read what nothing refers to.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/json/dom.h"
+#include "engine/graph/desc.h"
+
+namespace weft::graph {
+
+// A file, extended and overlaid.
+struct Source {
+  std::string path;                    // as opened
+  std::string identity;                // canonical path, so that two spellings of one file are recognised
+  std::vector<std::string> files;      // itself, the files it extends, the presets
+  base::JsonValue root;                // whatever stands in the file; no "extends" and "set", no stanza of an
+                                       // overlay
+  std::vector<base::JsonMember> sets;  // of "set", in the order they apply: the last wins
+  std::map<std::string, std::shared_ptr<const Source>> changed;  // by prefix: includes reached into
+  std::size_t values = 0;                                        // of root: what a copy costs
+};
+
+// What an include stanza is called: "as", else the file's name without its ending. "" when it says neither.
+std::string includePrefix(const base::JsonValue& stanza);
+// The path behind "include" or "extends": relative to the folder of the file it is written in.
+std::string pathBeside(const base::JsonValue& written);
+std::string identityOf(const std::string& path);
+
+// Opens files, each once. Those in `given` are not looked for on disk.
+class SourceLoader {
+ public:
+  explicit SourceLoader(base::Diagnostics& diagnostics, const FileTexts* given = nullptr)
+      : diagnostics_(diagnostics), given_(given) {}
+
+  // Null after a report (the same file again: null without another).
+  std::shared_ptr<const Source> file(const std::string& path, const base::Place& from);
+  std::shared_ptr<const Source> text(std::string_view text, const std::string& path);
+  // `source` with the overlay in `path` on top. Null after an error that leaves nothing to lay over it.
+  std::shared_ptr<const Source> withPreset(const Source& source, const std::string& path);
+  // True while the overlay of this identity is being laid over its base: it includes or extends itself.
+  bool isOpen(const std::string& identity) const;
+  // Of everything opened so far.
+  const FileTexts& texts() const { return texts_; }
+  // False after Code::limitExceeded: overlays make copies of what they are laid over, so values are counted again for each.
+  bool mayCopy(const Source& source, const base::Place& place);
+
+ private:
+  std::shared_ptr<const std::string> bytesOf(const std::string& path, const base::Place& from);
+  std::shared_ptr<const Source> complete(base::JsonValue root, const std::string& path);
+  std::shared_ptr<const Source> completeOverlay(const base::JsonValue& root, const base::JsonValue& extends,
+                                                const std::string& path);
+  std::shared_ptr<const Source> openBase(const base::JsonValue& extends);
+
+  base::Diagnostics& diagnostics_;
+  const FileTexts* given_ = nullptr;
+  FileTexts texts_;
+  std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
+  std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
+  std::uint64_t values_ = 0;                                    // of all files and copies so far
+  bool tooMany_ = false;
+};
+
+}  // namespace weft::graph

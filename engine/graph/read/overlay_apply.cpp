@@ -1,0 +1,382 @@
+#include "engine/graph/read/overlay_apply.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/limit_report.h"
+#include "engine/base/nearest.h"
+#include "engine/graph/language/enough.h"
+#include "engine/graph/language/suffix.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::Code;
+using base::Diagnostic;
+using base::JsonMember;
+using base::JsonValue;
+using Type = JsonValue::Type;
+
+// Names that the entries of overlays may look through, for each value that all files may hold.
+constexpr std::uint64_t kNamesPerValue = 8;
+
+class Applier {
+ public:
+  Applier(SourceLoader& loader, Source& target, base::Diagnostics& diagnostics)
+      : loader_(loader), target_(target), diagnostics_(diagnostics) {}
+
+  // Passes first: other sections may reach into what the overlay includes.
+  void run(const JsonValue& overlay, bool preset) {
+    if (const JsonValue* passes = overlay.find("passes");
+        passes && expect(*passes, Type::array, "\"passes\"", "an array"))
+      for (const JsonValue& stanza : passes->items)
+        if (!stopped()) applyStanza(stanza);
+    for (const JsonMember& member : overlay.members) {
+      if (stopped()) return;
+      const JsonValue& value = member.value;
+      const bool section = member.key == "parameters" || member.key == "let" || member.key == "resources";
+      if (member.key == "extends" || member.key == "passes" ||
+          (preset && (member.key == "name" || member.key == "description")))
+        continue;
+      if (member.key == "set") {
+        if (expect(value, Type::object, "\"set\"", "an object of values by parameter"))
+          target_.sets.insert(target_.sets.end(), value.members.begin(), value.members.end());
+      } else if (section && value.is(Type::object)) {
+        for (const JsonMember& entry : value.members)
+          if (!stopped()) applyEntry(member, entry);
+      } else {
+        mergeMember(target_.root, member);
+      }
+    }
+  }
+
+ private:
+  Diagnostic& error(Code code, const base::Place& place, const JsonValue& value, std::string message) {
+    Diagnostic& d = diagnostics_.error(code, place, std::move(message));
+    d.pointer = value.pointer;
+    d.pass = pass_;
+    d.resource = resource_;
+    return d;
+  }
+
+  bool stopped() const { return tooMuch_ || enoughErrors(diagnostics_); }
+
+  // Everything an entry may mean. Each looks through all names, so a large overlay over many of them ends in W201.
+  std::vector<Found> findIn(const std::string& section, const base::Place& place) {
+    std::vector<Found> all = findAll(loader_, target_, section);
+    lookThrough(all.size(), place);
+    return all;
+  }
+
+  // False after the report.
+  bool lookThrough(std::size_t names, const base::Place& place) {
+    looked_ += names;
+    if (tooMuch_ || looked_ <= kNamesPerValue * base::limitOf(base::Limit::json_values)) return !tooMuch_;
+    base::reportLimit(diagnostics_, base::Limit::json_values, place,
+                      "the overlay changes too much of a graph with too many names")
+        .found = fmt::format("{} names looked through so far", looked_);
+    tooMuch_ = true;
+    return false;
+  }
+
+  bool expect(const JsonValue& value, Type type, const char* what, const char* expected) {
+    if (value.is(type)) return true;
+    Diagnostic& d = error(Code::wrongType, value.place, value, fmt::format("{} has the wrong type", what));
+    d.expected = expected;
+    d.found = describe(value);
+    return false;
+  }
+
+  // ---- values ----
+
+  void mergeMember(JsonValue& into, const JsonMember& over) {
+    if (!lookThrough(into.members.size(), over.place)) return;
+    JsonMember* there = memberOf(into, over.key);
+    if (over.value.is(Type::null)) {
+      if (there) {
+        into.members.erase(into.members.begin() + (there - into.members.data()));
+        return;
+      }
+      std::vector<std::string> keys;
+      for (const JsonMember& member : into.members) keys.push_back(member.key);
+      const std::string hint = suffixHint(over.key, keys);
+      error(Code::nothingToChange, over.place, over.value,
+            fmt::format("null takes \"{}\" away, which is not there", over.key))
+          .hint = hint.empty() ? "leave it out" : hint;
+    } else if (!over.value.is(Type::object)) {
+      if (there)
+        *there = over;
+      else
+        into.members.push_back(over);
+    } else {
+      if (!there || !there->value.is(Type::object)) {
+        JsonMember empty{over.key, over.place, over.value};
+        empty.value.members.clear();
+        if (there)
+          *there = std::move(empty);
+        else
+          there = &into.members.emplace_back(std::move(empty));
+      }
+      for (const JsonMember& member : over.value.members) mergeMember(there->value, member);
+    }
+  }
+
+  // ---- what is below ----
+
+  // Calls `change` with the source at the end of the prefixes: a copy, kept beside its include.
+  template <class Change>
+  void edit(Source& source, std::span<const std::string> below, const base::Place& place,
+            const Change& change) {
+    if (below.empty()) return change(source);
+    std::shared_ptr<const Source> child;
+    if (const auto known = source.changed.find(below[0]); known != source.changed.end()) {
+      child = known->second;
+    } else {
+      for (const JsonValue& stanza : source.root.find("passes")->items)
+        if (const JsonValue* include = stanza.find("include"); include && includePrefix(stanza) == below[0])
+          child = loader_.file(pathBeside(*include), include->place);
+    }
+    // A copy that nobody else has seen is changed as it is.
+    std::shared_ptr<const Source>& kept = source.changed[below[0]];
+    std::shared_ptr<Source> copy;
+    if (kept && kept.use_count() == 2) {  // `kept` and `child`
+      copy = std::const_pointer_cast<Source>(kept);
+    } else {
+      if (!loader_.mayCopy(*child, place)) {
+        tooMuch_ = true;
+        return;
+      }
+      copy = std::make_shared<Source>(*child);
+    }
+    kept = copy;
+    edit(*copy, below.subspan(1), place, change);
+  }
+
+  // The one thing `wanted` means; null when there is none, or several, which is reported.
+  const Found* resolve(const std::vector<Found>& all, std::string_view wanted, const std::string& noun,
+                       const base::Place& place, const JsonValue& value, bool& ambiguous) {
+    std::vector<std::string> names;
+    for (const Found& found : all) names.push_back(found.name);
+    const std::vector<std::size_t> matches = suffixMatches(names, wanted);
+    ambiguous = matches.size() > 1;
+    if (ambiguous) {
+      Diagnostic& d =
+          error(Code::ambiguousName, place, value, fmt::format("{} '{}' may mean several", noun, wanted));
+      d.found = namesOf(all, matches);
+      d.hint = fmt::format("write more of the name, such as '{}'", all[matches[0]].name);
+    }
+    return matches.size() == 1 ? &all[matches[0]] : nullptr;
+  }
+
+  std::string hintOf(const std::vector<Found>& all, std::string_view wanted) {
+    std::vector<std::string> names;
+    for (const Found& found : all) names.push_back(found.name);
+    return suffixHint(wanted, names);
+  }
+
+  // ---- parameters, lets, resources ----
+
+  void applyEntry(const JsonMember& section, const JsonMember& entry) {
+    const std::string noun = nounOf(section.key);
+    resource_ = section.key == "resources" ? entry.key : "";
+    const std::vector<Found> all = findIn(section.key, entry.place);
+    if (tooMuch_) return;
+    bool ambiguous = false;
+    const Found* found = resolve(all, entry.key, noun, entry.place, entry.value, ambiguous);
+    if (found) {
+      edit(target_, found->below, entry.place, [&](Source& source) {
+        mergeEntry(section.key, *memberOf(source.root, section.key), found->index, entry);
+      });
+    } else if (!ambiguous && isWhole(section.key, entry)) {
+      JsonMember* own = memberOf(target_.root, section.key);
+      if (!own) {
+        own = &target_.root.members.emplace_back(section);
+        own->value.members.clear();
+      }
+      if (own->value.is(Type::object)) own->value.members.push_back(entry);
+    } else if (!ambiguous) {
+      const std::string hint = hintOf(all, entry.key);
+      error(Code::nothingToChange, entry.place, entry.value,
+            fmt::format("{} '{}' is not there to be {}", noun, entry.key,
+                        entry.value.is(Type::null) ? "taken away" : "changed"))
+          .hint = hint.empty() ? "write all of it to declare a new one" : hint;
+    }
+    resource_.clear();
+  }
+
+  void mergeEntry(const std::string& section, JsonMember& into, std::size_t index, const JsonMember& entry) {
+    JsonMember& there = into.value.members[index];
+    if (section == "resources" && !entry.value.is(Type::null)) {
+      const std::string_view before = kindOf(there.value), over = kindOf(entry.value);
+      const JsonValue* dropped = entry.value.find(before);
+      const bool changes = there.value.is(Type::object) && entry.value.is(Type::object)
+                               ? !over.empty() && over != before && !(dropped && dropped->is(Type::null))
+                               : over.empty();
+      if (changes) {
+        Diagnostic& d = error(Code::kindsDoNotMerge, entry.place, entry.value,
+                              fmt::format("resource '{}' cannot be merged with what is there", entry.key));
+        d.expected = before == "alternatives"
+                         ? "a reference or a list of references"
+                         : fmt::format("keys of {} {}", before.starts_with("i") ? "an" : "a", before);
+        d.found = over.empty() ? describe(entry.value) : fmt::format("\"{}\"", over);
+        d.hint = before == "alternatives" ? "write the whole resource, with its kind"
+                                          : fmt::format("take the old kind away first: \"{}\": null", before);
+        return;
+      }
+    }
+    JsonMember over = entry;
+    over.key = there.key;  // "bloom.glow" is "glow" in its own file
+    mergeMember(into.value, over);
+  }
+
+  // ---- passes ----
+
+  void applyStanza(const JsonValue& stanza) {
+    if (!expect(stanza, Type::object, "a pass", "an object")) return;
+    JsonValue* passes = passesOf(target_);
+    if (!passes) return;  // the reader says what is wrong with the base
+    pass_ = stanzaName(stanza);
+    const JsonValue* before = stanza.find("before");
+    const JsonValue* after = stanza.find("after");
+    const JsonValue* remove = stanza.find("remove");
+    if (before && after)
+      error(Code::keysExclude, stanza.place, stanza,
+            "a pass cannot stand both \"before\" and \"after\" others")
+          .hint = "keep one of them";
+    else if (remove && !remove->is(Type::boolean))
+      expect(*remove, Type::boolean, "\"remove\"", "true or false");
+    else if (const JsonValue* anchor = before ? before : after)
+      putAt(stanza, *anchor, after != nullptr);
+    else
+      change(stanza, remove && remove->flag);
+    pass_.clear();
+  }
+
+  // A new pass, or one that moves.
+  void putAt(const JsonValue& stanza, const JsonValue& anchor, bool after) {
+    if (!expect(anchor, Type::string, after ? "\"after\"" : "\"before\"", "the name of a pass or include"))
+      return;
+    const std::vector<Found> all = findIn("passes", anchor.place);
+    if (tooMuch_) return;
+    bool ambiguous = false;
+    const Found* found = resolve(all, anchor.text, "anchor", anchor.place, anchor, ambiguous);
+    if (!found) {
+      if (!ambiguous) {
+        Diagnostic& d = error(Code::passWithoutPlace, anchor.place, anchor,
+                              fmt::format("pass '{}' stands {} '{}', which is not there", pass_,
+                                          after ? "after" : "before", anchor.text));
+        d.expected = "the name of a pass, or the prefix of an include";
+        d.hint = hintOf(all, anchor.text);
+      }
+      // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
+      std::vector<std::string> names;
+      for (const Found& candidate : all) names.push_back(candidate.name);
+      const std::string near = ambiguous ? "" : base::nearestName(anchor.text, names);
+      const auto meant = std::ranges::find(all, near, &Found::name);
+      if (meant == all.end()) {
+        passesOf(target_)->items.push_back(withoutPlace(stanza, true));
+        return;
+      }
+      found = &*meant;
+    }
+    edit(target_, found->below, anchor.place, [&](Source& source) {
+      std::vector<JsonValue>& items = passesOf(source)->items;
+      std::size_t at = found->index;
+      JsonValue placed = withoutPlace(stanza, true);
+      const auto there = std::find_if(items.begin(), items.end(), [&](const JsonValue& item) {
+        return !pass_.empty() && stanzaName(item) == pass_;
+      });
+      if (there != items.end()) {
+        const auto old = static_cast<std::size_t>(there - items.begin());
+        if (old == at) {
+          error(Code::passWithoutPlace, anchor.place, anchor,
+                fmt::format("pass '{}' stands beside itself", pass_))
+              .hint = "name another pass";
+          return;
+        }
+        if (!mergeStanza(source, *there, stanza)) return;
+        placed = std::move(*there);
+        items.erase(there);
+        if (old < at) --at;
+      }
+      items.insert(items.begin() + static_cast<std::ptrdiff_t>(at + (after ? 1 : 0)), std::move(placed));
+    });
+  }
+
+  void change(const JsonValue& stanza, bool remove) {
+    const JsonValue* named = stanza.find("name");
+    if (!named) named = stanza.find("as") ? stanza.find("as") : stanza.find("include");
+    const base::Place place = named ? named->place : stanza.place;
+    const std::vector<Found> all = findIn("passes", place);
+    if (tooMuch_) return;
+    bool ambiguous = false;
+    const Found* found = resolve(all, pass_, "pass", place, stanza, ambiguous);
+    if (ambiguous) return;
+    if (!found && remove) {
+      error(Code::nothingToChange, place, stanza, fmt::format("pass '{}' is not there to be removed", pass_))
+          .hint = hintOf(all, pass_);
+    } else if (!found) {
+      Diagnostic& d =
+          error(Code::passWithoutPlace, place, stanza,
+                fmt::format("pass '{}' is not there to be changed, and a new one needs a place", pass_));
+      d.expected = "the name of a pass, or \"before\" or \"after\" one";
+      d.hint = hintOf(all, pass_);
+      if (stanza.find("type") || stanza.find("include"))
+        passesOf(target_)->items.push_back(withoutPlace(stanza, true));
+    } else {
+      edit(target_, found->below, place, [&](Source& source) {
+        std::vector<JsonValue>& items = passesOf(source)->items;
+        if (!remove) {
+          mergeStanza(source, items[found->index], stanza);
+          return;
+        }
+        source.changed.erase(stanzaName(items[found->index]));
+        items.erase(items.begin() + static_cast<std::ptrdiff_t>(found->index));
+      });
+    }
+  }
+
+  // False after a report.
+  bool mergeStanza(Source& source, JsonValue& there, const JsonValue& stanza) {
+    const bool include = there.find("include") != nullptr;
+    if (include ? stanza.find("type") != nullptr : stanza.find("include") != nullptr) {
+      const JsonValue& culprit = *stanza.find(include ? "type" : "include");
+      Diagnostic& d = error(Code::kindsDoNotMerge, culprit.place, culprit,
+                            fmt::format("'{}' cannot be merged with what is there", pass_));
+      d.expected = include ? "keys of an include" : "keys of a pass";
+      d.found = include ? "a pass" : "an include";
+      d.hint = "remove the one, and give the other a name of its own";
+      return false;
+    }
+    if (include && stanza.find("include")) {
+      // Another file under the same prefix.
+      source.changed.erase(includePrefix(there));
+      if (!there.find("as")) {
+        JsonMember as{"as", there.place, *there.find("include")};
+        as.value.text = includePrefix(there);
+        there.members.push_back(std::move(as));
+      }
+    }
+    const JsonValue over = withoutPlace(stanza, false);
+    for (const JsonMember& member : over.members) mergeMember(there, member);
+    return true;
+  }
+
+  SourceLoader& loader_;
+  Source& target_;
+  base::Diagnostics& diagnostics_;
+  std::string pass_, resource_;  // what is being applied
+  std::uint64_t looked_ = 0;     // names, by all entries so far
+  bool tooMuch_ = false;         // reported; nothing more is applied
+};
+
+}  // namespace
+
+void applyOverlay(SourceLoader& loader, const JsonValue& overlay, bool preset, Source& target,
+                  base::Diagnostics& diagnostics) {
+  Applier(loader, target, diagnostics).run(overlay, preset);
+}
+
+}  // namespace weft::graph

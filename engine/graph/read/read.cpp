@@ -1,0 +1,259 @@
+#include "engine/graph/read/read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "engine/graph/read/overlay.h"
+#include "engine/graph/read/read_context.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::Code;
+using base::Diagnostics;
+using base::Limit;
+using Type = JsonValue::Type;
+
+// One file of a chain of includes, innermost last.
+struct OpenFile {
+  std::string identity;
+  std::string path;
+};
+
+class GraphReader {
+ public:
+  explicit GraphReader(Diagnostics& diagnostics, const FileTexts* given = nullptr)
+      : diagnostics_(diagnostics), loader_(diagnostics, given) {}
+
+  std::shared_ptr<const GraphDesc> readFile(const std::string& path, const Place& from) {
+    return readBelow(path, from).graph;
+  }
+
+  std::shared_ptr<const GraphDesc> readText(std::string_view text, const std::string& path) {
+    const std::shared_ptr<const Source> source = loader_.text(text, path);
+    return source ? readSource(*source).graph : nullptr;
+  }
+
+  std::shared_ptr<const GraphDesc> readWith(const std::string& path, std::span<const std::string> presets) {
+    std::shared_ptr<const Source> source = loader_.file(path, {});
+    for (const std::string& preset : presets)
+      if (source)
+        if (auto made = loader_.withPreset(*source, preset)) source = std::move(made);
+    return source ? readSource(*source).graph : nullptr;
+  }
+
+ private:
+  // A file with everything below it: each use of a file counts, because each is expanded for itself.
+  struct Weighed {
+    std::shared_ptr<const GraphDesc> graph;  // null when it could not be read
+    std::uint64_t files = 1, values = 0;
+    std::uint64_t depth = 1;  // of files in a row
+  };
+
+  Weighed readBelow(const std::string& path, const Place& from) {
+    const std::string identity = identityOf(path);
+    if (const auto known = finished_.find(identity); known != finished_.end()) return known->second;
+    const std::shared_ptr<const Source> source = loader_.file(path, from);
+    return finished_[identity] = source ? readSource(*source) : Weighed{};
+  }
+
+  Weighed readSource(const Source& source) {
+    open_.push_back({source.identity, source.path});
+    Weighed before = std::exchange(weight_, {.graph = nullptr, .values = source.values});
+    std::shared_ptr<const GraphDesc> graph = readRoot(source);
+    open_.pop_back();
+    Weighed made = std::exchange(weight_, std::move(before));
+    made.graph = std::move(graph);
+    return made;
+  }
+
+  std::shared_ptr<const GraphDesc> readRoot(const Source& source) {
+    const JsonValue& root = source.root;
+    ReadContext context(diagnostics_);
+    if (!context.expect(root, Type::object, "a graph")) return nullptr;
+    auto graph = std::make_shared<GraphDesc>();
+    graph->path = source.path;
+    graph->place = root.place;
+    graph->files = source.files;
+    context.checkKeys(root, kGraphKeys, "a graph");
+    context.text(root.find("$schema"), "\"$schema\"");
+    graph->name = context.text(root.find("name"), "\"name\"");
+    context.text(root.find("description"), "\"description\"");
+    if (graph->name.empty()) graph->name = std::filesystem::path(source.path).stem().string();
+    readVariables(context, root, *graph);
+    for (const JsonMember& member : membersOf(context, root, "resources")) {
+      if (!context.goesOn()) break;
+      if (std::optional<ResourceDesc> resource = readResource(context, member))
+        graph->resources.push_back(*std::move(resource));
+      else
+        graph->unread.push_back(member.key);
+    }
+    readSets(context, source, *graph);
+    readPasses(context, source, *graph);
+    graph->present = context.ref(root.find("present"), "\"present\"");
+    for (const JsonMember& member : membersOf(context, root, "outputs")) {
+      const bool named = context.checkName(member.key, member.place, member.value.pointer, "an output");
+      std::optional<RefDesc> ref = context.ref(&member.value, fmt::format("the output '{}'", member.key));
+      if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
+    }
+    graph->texts = loader_.texts();
+    return graph;
+  }
+
+  static const std::vector<JsonMember>& membersOf(ReadContext& context, const JsonValue& root,
+                                                  const char* key) {
+    static const std::vector<JsonMember> none;
+    const JsonValue* value = root.find(key);
+    return value && context.expect(*value, Type::object, fmt::format("\"{}\"", key)) ? value->members : none;
+  }
+
+  // Parameters and lets share the names behind '$'.
+  static void readVariables(ReadContext& context, const JsonValue& root, GraphDesc& graph) {
+    ReadContext::Seen seen;
+    for (const JsonMember& member : membersOf(context, root, "parameters")) {
+      seen.emplace(member.key, member.place);
+      if (std::optional<ParameterDesc> parameter = readParameter(context, member))
+        graph.parameters.push_back(*std::move(parameter));
+      else
+        graph.unread.push_back(member.key);
+    }
+    for (const JsonMember& member : membersOf(context, root, "let")) {
+      bool good = context.checkName(member.key, member.place, member.value.pointer, "a \"let\"");
+      good = context.checkFresh(seen, member.key, member.place, member.value.pointer, "the variable") && good;
+      Expr expr = context.expr(&member.value, fmt::format("the \"let\" '{}'", member.key));
+      if (good && expr.present())
+        graph.lets.push_back({member.key, member.place, member.value.pointer, std::move(expr)});
+      else
+        graph.unread.push_back(member.key);
+    }
+  }
+
+  static void readSets(ReadContext& context, const Source& source, GraphDesc& graph) {
+    if (const JsonValue* set = source.root.find("set")) context.expect(*set, Type::object, "\"set\"");
+    for (const JsonMember& member : source.sets)
+      if (std::optional<Value> value = readValue(context, member))
+        graph.sets.push_back(
+            {member.key, member.place, member.value.place, member.value.pointer, *std::move(value)});
+  }
+
+  void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {
+    const JsonValue* passes = source.root.find("passes");
+    if (!passes || !context.expect(*passes, Type::array, "\"passes\"")) return;
+    ReadContext::Seen seen;
+    graph.passes.reserve(passes->items.size());
+    for (const JsonValue& item : passes->items) {
+      if (!context.goesOn()) break;
+      std::optional<PassDesc> pass = readPass(context, item);
+      const JsonValue* name = item.find("name");
+      if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
+        graph.unread.push_back(name->text);
+      if (!pass) continue;
+      context.pass = pass->name;
+      context.checkFresh(seen, pass->name, pass->namePlace,
+                         item.find(pass->include ? "include" : "name")->pointer, "pass");
+      context.pass.clear();
+      if (pass->include) follow(*item.find("include"), *pass->include, source, graph);
+      graph.passes.push_back(*std::move(pass));
+    }
+  }
+
+  void follow(const JsonValue& stanza, IncludeDesc& include, const Source& source, GraphDesc& graph) {
+    if (tooMuch_) return;
+    const std::string path = pathBeside(stanza);
+    const std::string identity = identityOf(path);
+    const auto again = std::find_if(open_.begin(), open_.end(),
+                                    [&](const OpenFile& file) { return file.identity == identity; });
+    if (again != open_.end()) {
+      auto& d =
+          diagnostics_.error(Code::includesItself, stanza.place, fmt::format("'{}' includes itself", path));
+      d.pointer = stanza.pointer;
+      for (auto file = again; file != open_.end(); ++file) d.found += file->path + " -> ";
+      d.found += path;
+      d.hint = "remove one of these includes";
+      return;
+    }
+    if (exceeds(Limit::include_depth, open_.size() + 1, stanza, "files include each other in too long a row"))
+      return;
+    const auto changed = source.changed.find(include.as);
+    Weighed below =
+        changed != source.changed.end() ? readSource(*changed->second) : readBelow(path, stanza.place);
+    if (tooMuch_) return;
+    // A file that was read before may stand deeper here.
+    if (exceeds(Limit::include_depth, open_.size() + below.depth, stanza,
+                "files include each other in too long a row") ||
+        exceeds(Limit::include_files, weight_.files + below.files, stanza,
+                "the graph includes too many files") ||
+        exceeds(Limit::json_values, weight_.values + below.values, stanza,
+                "the included files hold too many values"))
+      return;
+    weight_.files += below.files;
+    weight_.values += below.values;
+    weight_.depth = std::max(weight_.depth, below.depth + 1);
+    include.graph = std::move(below.graph);
+    addFiles(include, path, graph);
+  }
+
+  // True after a report; then no further include is followed, and the graph is not expanded.
+  bool exceeds(Limit limit, std::uint64_t count, const JsonValue& stanza, const char* message) {
+    if (count <= base::limitOf(limit)) return false;
+    tooMuch_ = true;
+    auto& d = base::reportLimit(diagnostics_, limit, stanza.place, message);
+    d.pointer = stanza.pointer;
+    d.found = fmt::format("{} with '{}'", count, stanza.text);
+    return true;
+  }
+
+  static void addFiles(const IncludeDesc& include, const std::string& path, GraphDesc& graph) {
+    std::vector<std::string> below = include.graph ? include.graph->files : std::vector<std::string>{path};
+    for (std::string& file : below)
+      if (std::find(graph.files.begin(), graph.files.end(), file) == graph.files.end())
+        graph.files.push_back(std::move(file));
+  }
+
+  Diagnostics& diagnostics_;
+  SourceLoader loader_;
+  std::vector<OpenFile> open_;
+  std::map<std::string, Weighed> finished_;  // by identity
+  Weighed weight_;                           // of the file that is being read, so far
+  bool tooMuch_ = false;
+};
+
+// Diagnostics come in the order of the text, whatever order the reader looked at things.
+template <class Read>
+std::shared_ptr<const GraphDesc> readSorted(Diagnostics& diagnostics, Read read) {
+  Diagnostics said;
+  std::shared_ptr<const GraphDesc> graph = read(said);
+  said.sortByPlace();
+  diagnostics.append(said);
+  return graph;
+}
+
+}  // namespace
+
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, Diagnostics& diagnostics) {
+  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readFile(path, {}); });
+}
+
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
+                                           Diagnostics& diagnostics) {
+  return readSorted(diagnostics,
+                    [&](Diagnostics& said) { return GraphReader(said).readWith(path, presets); });
+}
+
+std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
+                                           const FileTexts& given, Diagnostics& diagnostics) {
+  return readSorted(diagnostics,
+                    [&](Diagnostics& said) { return GraphReader(said, &given).readWith(path, presets); });
+}
+
+std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
+                                               Diagnostics& diagnostics) {
+  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readText(text, name); });
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,198 @@
+#include "engine/graph/read/read_context.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/language/names.h"
+#include "engine/graph/read/ref_parse.h"
+
+namespace weft::graph {
+
+using base::Code;
+
+base::Diagnostic& ReadContext::errorAt(Code code, const Place& place, const JsonPointer& pointer,
+                                       std::string message) {
+  auto& d = goesOn() ? diagnostics_.error(code, place, std::move(message)) : unkept_;
+  d.pointer = pointer;
+  d.pass = pass;
+  d.resource = resource;
+  return d;
+}
+
+base::Diagnostic& ReadContext::limit(base::Limit limit, const JsonValue& value, std::string message) {
+  auto& d = base::reportLimit(diagnostics_, limit, value.place, std::move(message));
+  d.pointer = value.pointer;
+  d.pass = pass;
+  d.resource = resource;
+  return d;
+}
+
+base::Diagnostic& ReadContext::error(Code code, const JsonValue& value, std::string message) {
+  return errorAt(code, value.place, value.pointer, std::move(message));
+}
+
+void ReadContext::adopt(const base::Diagnostics& said, const JsonPointer& pointer) {
+  if (said.empty() || !goesOn()) return;
+  for (base::Diagnostic d : said.items()) {
+    d.pointer = pointer;
+    d.pass = pass;
+    d.resource = resource;
+    diagnostics_.add(std::move(d));
+  }
+}
+
+bool ReadContext::expect(const JsonValue& value, JsonValue::Type type, std::string_view what) {
+  if (value.is(type)) return true;
+  auto& d = error(Code::wrongType, value, fmt::format("{} has the wrong type", what));
+  d.expected = nameOf(type);
+  d.found = describe(value);
+  return false;
+}
+
+void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what) {
+  std::vector<std::string> known, meant;
+  for (const KeySpec& spec : keys) known.emplace_back(spec.key);
+  for (const JsonMember& member : object.members) {
+    if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
+    if (!goesOn()) return;
+    auto& d = errorAt(Code::unknownKey, member.place, member.value.pointer,
+                      fmt::format("unknown key \"{}\" in {}", member.key, what));
+    const std::string nearest = base::nearestName(member.key, known);
+    d.hint = nearest.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
+                             : fmt::format("did you mean \"{}\"?", nearest);
+    meant.push_back(nearest);
+  }
+  for (const KeySpec& spec : keys) {
+    if (!spec.required || object.find(spec.key) ||
+        std::find(meant.begin(), meant.end(), spec.key) != meant.end())
+      continue;
+    auto& d = error(Code::missingKey, object, fmt::format("{} lacks the key \"{}\"", what, spec.key));
+    d.hint = fmt::format("\"{}\": {}", spec.key, spec.doc);
+  }
+}
+
+bool ReadContext::checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
+                            std::string_view what) {
+  const std::size_t longest = base::limitOf(base::Limit::name_bytes);
+  if (isIdent(name) && !isReservedWord(name) && name.size() <= longest) return true;
+  if (name.size() > longest && goesOn()) {
+    auto& d = base::reportLimit(diagnostics_, base::Limit::name_bytes, place,
+                                fmt::format("the name of {} is too long", what));
+    d.pointer = pointer;
+    d.found = fmt::format("{} bytes", name.size());
+    return false;
+  }
+  auto& d = errorAt(Code::notAName, place, pointer, fmt::format("\"{}\" cannot name {}", name, what));
+  if (isReservedWord(name)) {
+    d.expected = fmt::format("a word that is not reserved; reserved are {}", fmt::join(kReservedWords, ", "));
+    d.hint = fmt::format("choose another, such as 'my_{}'", name);
+  } else {
+    d.expected = "letters, digits and '_', not beginning with a digit";
+  }
+  return false;
+}
+
+bool ReadContext::checkFresh(Seen& seen, const std::string& name, const Place& place,
+                             const JsonPointer& pointer, std::string_view what) {
+  const auto [before, fresh] = seen.try_emplace(name, place);
+  if (fresh) return true;
+  auto& d =
+      errorAt(Code::duplicateName, place, pointer, fmt::format("{} '{}' is declared twice", what, name));
+  d.hint = fmt::format("rename one; the first stands at {}:{}", before->second.line, before->second.column);
+  return false;
+}
+
+std::string ReadContext::text(const JsonValue* value, std::string_view what) {
+  return value && expect(*value, JsonValue::Type::string, what) ? value->text : std::string();
+}
+
+bool ReadContext::flag(const JsonValue* value, std::string_view what) {
+  return value && expect(*value, JsonValue::Type::boolean, what) && value->flag;
+}
+
+std::optional<double> ReadContext::number(const JsonValue* value, std::string_view what) {
+  if (!value || !expect(*value, JsonValue::Type::number, what)) return std::nullopt;
+  return value->number;
+}
+
+std::optional<std::string> ReadContext::word(const JsonValue* value, std::span<const std::string_view> words,
+                                             std::string_view what) {
+  if (!value || !expect(*value, JsonValue::Type::string, what)) return std::nullopt;
+  if (std::find(words.begin(), words.end(), value->text) != words.end()) return value->text;
+  auto& d = error(Code::unknownWord, *value, fmt::format("unknown word \"{}\" for {}", value->text, what));
+  d.expected = fmt::format("{}", fmt::join(words, ", "));
+  const std::vector<std::string> known(words.begin(), words.end());
+  if (const std::string nearest = base::nearestName(value->text, known); !nearest.empty())
+    d.hint = fmt::format("did you mean \"{}\"?", nearest);
+  return std::nullopt;
+}
+
+Expr ReadContext::expr(const JsonValue* value, std::string_view what) {
+  if (!value) return {};
+  const auto wrong = [&](std::string expected) {
+    auto& d = error(Code::wrongType, *value, fmt::format("{} has the wrong type", what));
+    d.expected = std::move(expected);
+    d.found = value->is(JsonValue::Type::array) ? fmt::format("an array of {}", value->items.size())
+                                                : describe(*value);
+    return Expr();
+  };
+  switch (value->type) {
+    case JsonValue::Type::number:
+      return Expr::constant(Value::number(value->number), value->place);
+    case JsonValue::Type::boolean:
+      return Expr::constant(Value::boolean(value->flag), value->place);
+    case JsonValue::Type::string: {
+      base::Diagnostics said;
+      std::optional<Expr> parsed = Expr::parse(value->text, value->textPlace(), said);
+      adopt(said, value->pointer);
+      return parsed ? *std::move(parsed) : Expr();
+    }
+    case JsonValue::Type::array: {
+      if (value->items.empty() || value->items.size() > 4)
+        return wrong("a number, a list of 1 to 4 numbers, or an expression");
+      std::vector<Expr> items;
+      for (const JsonValue& item : value->items) {
+        if (item.is(JsonValue::Type::array) || item.is(JsonValue::Type::object) ||
+            item.is(JsonValue::Type::null)) {
+          auto& d = error(Code::wrongType, item, fmt::format("an item of {} has the wrong type", what));
+          d.expected = "a number or an expression";
+          d.found = describe(item);
+          continue;
+        }
+        if (Expr one = expr(&item, what); one.present()) items.push_back(std::move(one));
+      }
+      return items.size() == value->items.size() ? Expr::listOf(std::move(items), value->place) : Expr();
+    }
+    default:
+      return wrong("a number, a boolean, a list, or an expression in a string");
+  }
+}
+
+std::optional<RefDesc> ReadContext::ref(const JsonValue* value, std::string_view what) {
+  if (!value || !expect(*value, JsonValue::Type::string, what)) return std::nullopt;
+  base::Diagnostics said;
+  std::optional<RefDesc> parsed = parseRef(value->text, value->textPlace(), value->pointer, said);
+  adopt(said, value->pointer);
+  return parsed;
+}
+
+std::vector<const JsonValue*> ReadContext::strings(const JsonValue* value, std::string_view what) {
+  std::vector<const JsonValue*> out;
+  if (!value) return out;
+  if (value->is(JsonValue::Type::string)) return {value};
+  if (!value->is(JsonValue::Type::array)) {
+    auto& d = error(Code::wrongType, *value, fmt::format("{} has the wrong type", what));
+    d.expected = "a string or an array of strings";
+    d.found = describe(*value);
+    return out;
+  }
+  for (const JsonValue& item : value->items)
+    if (expect(item, JsonValue::Type::string, fmt::format("an item of {}", what))) out.push_back(&item);
+  return out;
+}
+
+}  // namespace weft::graph

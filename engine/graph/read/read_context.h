@@ -1,0 +1,82 @@
+// What the parts of the reader share: checked access to JSON values, with diagnostics that know the pass and
+// the resource being read. Every accessor takes null for an absent key and then yields the absent value
+// silently. Private to engine/graph/read*.cpp.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "engine/base/json/dom.h"
+#include "engine/base/limit_report.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/language/enough.h"
+#include "engine/graph/language/keys.h"
+
+namespace weft::graph {
+
+using base::JsonMember;
+using base::JsonValue;
+
+class ReadContext {
+ public:
+  explicit ReadContext(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  std::string pass, resource;  // set while one is read
+
+  base::Diagnostic& error(base::Code code, const JsonValue& value, std::string message);
+  base::Diagnostic& errorAt(base::Code code, const Place& place, const JsonPointer& pointer,
+                            std::string message);
+
+  // False, with Code::wrongType, when `value` is something else. `what` names it: "\"passes\"".
+  bool expect(const JsonValue& value, JsonValue::Type type, std::string_view what);
+
+  // Code::unknownKey for keys that are not in `keys`, Code::missingKey for required ones that are missing. A missing key that
+  // an unknown one is a misspelling of is not reported again.
+  void checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what);
+
+  // Code::notAName unless `name` is an identifier without reserved words.
+  bool checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
+                 std::string_view what);
+  // Code::duplicateName when `name` was already registered in `seen`.
+  using Seen = std::unordered_map<std::string, Place>;
+  bool checkFresh(Seen& seen, const std::string& name, const Place& place, const JsonPointer& pointer,
+                  std::string_view what);
+
+  std::string text(const JsonValue* value, std::string_view what);
+  bool flag(const JsonValue* value, std::string_view what);
+  std::optional<double> number(const JsonValue* value, std::string_view what);
+  // One of `words`, or Code::unknownWord with the nearest.
+  std::optional<std::string> word(const JsonValue* value, std::span<const std::string_view> words,
+                                  std::string_view what);
+  // A number, a boolean, a list of 1 to 4, or an expression.
+  Expr expr(const JsonValue* value, std::string_view what);
+  std::optional<RefDesc> ref(const JsonValue* value, std::string_view what);
+  // The strings of a list, or a single one.
+  std::vector<const JsonValue*> strings(const JsonValue* value, std::string_view what);
+
+  // For the parsers of strings, which know neither pointer nor pass: adopt() what they said into a fresh
+  // Diagnostics.
+  void adopt(const base::Diagnostics& said, const JsonPointer& pointer);
+
+  // False once there are enough errors (enough.h): further ones are not kept.
+  bool goesOn() const { return !enoughErrors(diagnostics_); }
+  // Code::limitExceeded.
+  base::Diagnostic& limit(base::Limit limit, const JsonValue& value, std::string message);
+
+ private:
+  base::Diagnostics& diagnostics_;
+  base::Diagnostic unkept_;
+};
+
+// The parts, by what stands in the file; each takes a value of any type and reports what does not fit.
+std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member);
+// A value of "set": a number, a boolean, a word or path, a list of two to four numbers.
+std::optional<Value> readValue(ReadContext& context, const JsonMember& member);
+std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member);
+// Include stanzas come back with include->graph still null.
+std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value);
+
+}  // namespace weft::graph

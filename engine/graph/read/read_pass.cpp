@@ -1,0 +1,311 @@
+// Pass and include stanzas.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/language/names.h"
+#include "engine/graph/read/read_context.h"
+#include "engine/graph/read/ref_parse.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::Code;
+using Type = JsonValue::Type;
+
+// Slots, parameters and defines of a pass are spelled alike in its shader.
+constexpr const char* kSharedName = "the slot, parameter or define";
+
+class PassReader {
+ public:
+  PassReader(ReadContext& context, const JsonValue& value) : context_(context), value_(value) {
+    out_.place = value.place;
+    out_.pointer = value.pointer;
+  }
+
+  std::optional<PassDesc> run() {
+    if (!context_.expect(value_, Type::object, "a pass")) return std::nullopt;
+    if (const JsonValue* name = value_.find("name"); name && name->is(Type::string))
+      context_.pass = name->text.substr(0, base::limitOf(base::Limit::name_bytes));
+    return isInclude() ? readInclude() : readPass();
+  }
+
+ private:
+  // Also when "include" is misspelt: "incldue" is nearer to it than to any key of a pass.
+  bool isInclude() const {
+    if (value_.find("include")) return true;
+    if (value_.find("type") || value_.find("name")) return false;
+    const std::vector<std::string> include = {"include"};
+    for (const JsonMember& member : value_.members)
+      if (!base::nearestName(member.key, include).empty()) return true;
+    return false;
+  }
+
+  // The members of an object, or nothing, with an error, for another type.
+  const std::vector<JsonMember>& membersOf(const char* key) {
+    static const std::vector<JsonMember> none;
+    const JsonValue* value = value_.find(key);
+    return value && context_.expect(*value, Type::object, fmt::format("\"{}\"", key)) ? value->members : none;
+  }
+
+  // ---- include ----
+
+  std::optional<PassDesc> readInclude() {
+    context_.checkKeys(value_, kIncludeKeys, "an include");
+    const JsonValue* file = value_.find("include");
+    IncludeDesc& include = out_.include.emplace();
+    include.file = context_.text(file, "\"include\"");
+    include.group = context_.text(value_.find("group"), "\"group\"");
+    readBinds(include);
+    if (include.file.empty()) {
+      if (file && file->is(Type::string))
+        context_.error(Code::notAName, *file, "an include without a path").hint =
+            "write the path of a graph, from this file's folder";
+      return std::nullopt;
+    }
+    out_.namePlace = file->place;
+    if (const JsonValue* as = value_.find("as")) {
+      include.as = context_.text(as, "\"as\"");
+      out_.namePlace = as->place;
+      if (!as->is(Type::string) || !context_.checkName(include.as, as->place, as->pointer, "an include"))
+        include.as = std::string("include");
+    } else {
+      include.as = std::filesystem::path(include.file).stem().string();
+      if (!isIdent(include.as) || isReservedWord(include.as)) {
+        auto& d =
+            context_.error(Code::notAName, *file,
+                           fmt::format("the file's name \"{}\" cannot be a prefix of names", include.as));
+        d.expected = "letters, digits and '_', not beginning with a digit";
+        d.hint = "say the prefix: \"as\": \"name\"";
+        include.as = "include";
+      }
+    }
+    out_.name = include.as;
+    return std::move(out_);
+  }
+
+  void readBinds(IncludeDesc& include) {
+    for (const JsonMember& member : membersOf("bind")) {
+      const bool named = context_.checkName(member.key, member.place, member.value.pointer, "an input");
+      std::optional<RefDesc> ref =
+          context_.ref(&member.value, fmt::format("the binding of '{}'", member.key));
+      if (named && ref) include.binds.emplace_back(member.key, *std::move(ref));
+    }
+  }
+
+  // ---- pass ----
+
+  // A name for a pass whose own cannot be one; nothing refers to passes by slots, so no second mistake comes
+  // of it.
+  static std::string standIn(const std::string& name) {
+    std::string out = name.empty() ? name : "_" + name;
+    for (char& c : out)
+      if (!isIdentChar(c)) c = '_';
+    return out;
+  }
+
+  std::optional<PassDesc> readPass() {
+    context_.checkKeys(value_, kPassKeys, "a pass");
+    if (const JsonValue* name = value_.find("name")) {
+      out_.namePlace = name->place;
+      out_.name = context_.text(name, "\"name\"");
+      if (name->is(Type::string) && !context_.checkName(out_.name, name->place, name->pointer, "a pass"))
+        out_.name = isIdent(context_.pass) ? context_.pass
+                                           : standIn(context_.pass);  // the rest of the stanza is checked too
+    }
+    readWords();
+    readValues();
+    readRepeat();
+    readSlots();
+    readParameters();
+    readDefines();
+    readState();
+    return out_.name.empty() ? std::nullopt : std::optional(std::move(out_));
+  }
+
+  void readWords() {
+    if (const JsonValue* type = value_.find("type")) {
+      out_.type = context_.text(type, "\"type\"");
+      out_.typePlace = type->place;
+    }
+    if (const JsonValue* shader = value_.find("shader")) {
+      out_.shader = context_.text(shader, "\"shader\"");
+      out_.shaderPlace = shader->place;
+    }
+    if (const JsonValue* list = value_.find("list")) {
+      out_.list = context_.text(list, "\"list\"");
+      out_.listPlace = list->place;
+    }
+    if (const JsonValue* geometry = value_.find("geometry");
+        geometry && context_.expect(*geometry, Type::string, "\"geometry\"")) {
+      out_.geometryPlace = geometry->place;
+      base::Diagnostics said;
+      if (std::optional<CallText> call = parseCallText(geometry->text, geometry->textPlace(), said)) {
+        out_.geometry = std::move(call->name);
+        out_.geometryArguments = std::move(call->arguments);
+      }
+      context_.adopt(said, geometry->pointer);
+    }
+    const std::string update =
+        context_.word(value_.find("update"), kUpdateWords, "\"update\"").value_or("always");
+    out_.cadence = update == "once"        ? Cadence::once
+                   : update == "on_change" ? Cadence::on_change
+                                           : Cadence::always;
+    out_.group = context_.text(value_.find("group"), "\"group\"");
+    out_.feedback = context_.flag(value_.find("feedback"), "\"feedback\"");
+    out_.sideEffect = context_.flag(value_.find("side_effect"), "\"side_effect\"");
+    out_.view = context_.ref(value_.find("view"), "\"view\"");
+  }
+
+  void readValues() {
+    out_.enabled = context_.expr(value_.find("enabled"), "\"enabled\"");
+    out_.slices = context_.expr(value_.find("slices"), "\"slices\"");
+    out_.threads = context_.expr(value_.find("threads"), "\"threads\"");
+    out_.instances = context_.expr(value_.find("instances"), "\"instances\"");
+  }
+
+  void readRepeat() {
+    const JsonValue* repeat = value_.find("repeat");
+    if (!repeat) return;
+    ReadContext::Seen seen;
+    if (repeat->is(Type::array) && !repeat->items.empty()) {
+      for (const JsonValue& item : repeat->items) readRanges(item, seen);
+    } else {
+      readRanges(*repeat, seen);
+    }
+  }
+
+  void readRanges(const JsonValue& ranges, ReadContext::Seen& seen) {
+    if (!context_.expect(ranges, Type::object, "\"repeat\"")) return;
+    if (ranges.members.empty())
+      context_.error(Code::missingKey, ranges, "\"repeat\" without an index").hint =
+          "write { \"i\": [0, 3] }";
+    for (const JsonMember& member : ranges.members) {
+      const JsonValue& value = member.value;
+      if (seen.size() >= base::limitOf(base::Limit::repeat_indices) && !seen.contains(member.key)) {
+        if (!std::exchange(tooManyIndices_, true))
+          context_.limit(base::Limit::repeat_indices, value,
+                         fmt::format("\"repeat\" has more indices than a pass can have, '{}' is one too many",
+                                     member.key));
+        return;
+      }
+      bool good = context_.checkName(member.key, member.place, value.pointer, "an index");
+      good = context_.checkFresh(seen, member.key, member.place, value.pointer, "index") && good;
+      if (!value.is(Type::array) || value.items.size() < 2 || value.items.size() > 3) {
+        auto& d = context_.error(Code::wrongType, value,
+                                 fmt::format("the range of '{}' has the wrong type", member.key));
+        d.expected = "[first, last] or [first, last, step]";
+        d.found = value.is(Type::array) ? fmt::format("an array of {}", value.items.size()) : describe(value);
+        continue;
+      }
+      RangeDesc range;
+      range.index = member.key;
+      range.place = member.place;
+      range.first = bound(value.items[0]);
+      range.last = bound(value.items[1]);
+      if (value.items.size() == 3) range.step = bound(value.items[2]);
+      good = good && range.first.present() && range.last.present() &&
+             (value.items.size() == 2 || range.step.present());
+      if (good) out_.repeat.push_back(std::move(range));
+    }
+  }
+
+  Expr bound(const JsonValue& value) {
+    if (value.is(Type::number) || value.is(Type::string))
+      return context_.expr(&value, "a bound of \"repeat\"");
+    auto& d = context_.error(Code::wrongType, value, "a bound of \"repeat\" has the wrong type");
+    d.expected = "a number or an expression";
+    d.found = describe(value);
+    return {};
+  }
+
+  void readSlots() {
+    std::size_t count = 0;
+    for (const char* key : {"read", "write", "modify"})
+      if (const JsonValue* slots = value_.find(key)) count += slots->members.size();
+    out_.slots.reserve(count);
+    // In file order, whichever of the three comes first.
+    for (const JsonMember& member : value_.members) {
+      const Access access = member.key == "write"    ? Access::write
+                            : member.key == "modify" ? Access::modify
+                                                     : Access::read;
+      if (access == Access::read && member.key != "read") continue;
+      for (const JsonMember& slot : membersOf(member.key.c_str())) {
+        if (!context_.goesOn()) return;
+        const std::string what = fmt::format("the slot '{}'", slot.key);
+        bool good = context_.checkName(slot.key, slot.place, slot.value.pointer, "a slot");
+        good = context_.checkFresh(names_, slot.key, slot.place, slot.value.pointer, kSharedName) && good;
+        std::optional<RefDesc> ref = context_.ref(&slot.value, what);
+        if (good && ref)
+          out_.slots.push_back({slot.key, slot.place, slot.value.pointer, access, *std::move(ref)});
+      }
+    }
+  }
+
+  void readParameters() {
+    for (const JsonMember& member : membersOf("parameters")) {
+      PassParameterDesc parameter{member.key, member.place, member.value.pointer, {}, {}};
+      bool good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, kSharedName);
+      if (member.value.is(Type::object)) {
+        parameter.declared = readParameter(context_, member);
+        good = good && parameter.declared;
+      } else {
+        good = context_.checkName(member.key, member.place, member.value.pointer, "a parameter") && good;
+        parameter.value = context_.expr(&member.value, fmt::format("the parameter '{}'", member.key));
+        good = good && parameter.value.present();
+      }
+      if (good) out_.parameters.push_back(std::move(parameter));
+    }
+  }
+
+  void readDefines() {
+    for (const JsonMember& member : membersOf("defines")) {
+      bool good = context_.checkName(member.key, member.place, member.value.pointer, "a define");
+      good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, kSharedName) && good;
+      Expr expr = context_.expr(&member.value, fmt::format("the define '{}'", member.key));
+      if (good && expr.present())
+        out_.defines.push_back({member.key, member.place, member.value.pointer, std::move(expr)});
+    }
+  }
+
+  void readState() {
+    const JsonValue* state = value_.find("state");
+    if (!state || !context_.expect(*state, Type::object, "\"state\"")) return;
+    context_.checkKeys(*state, kStateKeys, "\"state\"");
+    for (const JsonMember& member : state->members) {
+      bool known = false;
+      for (const KeySpec& spec : kStateKeys) known = known || spec.key == member.key;
+      if (!known) continue;
+      if (member.key == "blend" && member.value.is(Type::object)) {
+        for (const JsonMember& slot : member.value.members) addState("blend." + slot.key, slot);
+        continue;
+      }
+      addState(member.key, member);
+    }
+  }
+
+  void addState(std::string name, const JsonMember& member) {
+    Expr expr = context_.expr(&member.value, fmt::format("\"{}\"", member.key));
+    if (expr.present())
+      out_.state.push_back({std::move(name), member.place, member.value.pointer, std::move(expr)});
+  }
+
+  ReadContext& context_;
+  const JsonValue& value_;
+  PassDesc out_;
+  ReadContext::Seen names_;  // slots, parameters and defines share one namespace
+  bool tooManyIndices_ = false;
+};
+
+}  // namespace
+
+std::optional<PassDesc> readPass(ReadContext& context, const JsonValue& value) {
+  std::optional<PassDesc> pass = PassReader(context, value).run();
+  context.pass.clear();
+  return pass;
+}
+
+}  // namespace weft::graph

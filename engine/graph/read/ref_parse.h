@@ -1,0 +1,48 @@
+// Reference strings of graph files: `name{.mip[..]|.layer[..]|.face[..]|[k]|.stencil} @-n as words if
+// condition ?`. Errors carry the column of the offending character and the fix. Does not know which resources
+// exist.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
+
+namespace weft::graph {
+
+// The words that may follow `as`, besides the sampler's linear, nearest, wrap, clamp and compare.
+constexpr std::array<std::pair<std::string_view, Kind>, 10> kKindWords = {{{"sampled", Kind::sampled},
+                                                                           {"image", Kind::image},
+                                                                           {"uniform", Kind::uniform},
+                                                                           {"storage", Kind::storage},
+                                                                           {"vertex", Kind::vertex},
+                                                                           {"index", Kind::index},
+                                                                           {"indirect", Kind::indirect},
+                                                                           {"color", Kind::color},
+                                                                           {"depth", Kind::depth},
+                                                                           {"copy", Kind::copy}}};
+constexpr std::array<std::string_view, 5> kSamplerWords = {"linear", "nearest", "wrap", "clamp", "compare"};
+
+// `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the
+// first.
+std::optional<RefDesc> parseRef(std::string_view text, const Place& place, const base::JsonPointer& pointer,
+                                base::Diagnostics& diagnostics);
+
+// Tells "@cut" and "camera if $progressive" from "size(hdr)" and "$taa ? 1 : 0" where both may stand
+// ("reset").
+bool looksLikeRef(std::string_view text);
+
+// "quad", "icosphere($subdivision)": a word and its arguments. Empty after Code::badExpression or Code::badReference.
+struct CallText {
+  std::string name;
+  std::vector<Expr> arguments;
+};
+std::optional<CallText> parseCallText(std::string_view text, const Place& place,
+                                      base::Diagnostics& diagnostics);
+
+}  // namespace weft::graph

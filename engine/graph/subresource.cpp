@@ -1,0 +1,31 @@
+#include "engine/graph/subresource.h"
+
+#include <algorithm>
+
+namespace weft::graph {
+
+std::uint64_t bytesOf(const FlatUse& use, const FlatResource& r) {
+  if (isWhole(use, r)) return r.bytes;
+  const std::uint64_t texel = std::uint64_t{infoOf(r.format).bytes} * r.samples;
+  std::uint64_t total = 0;
+  for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip)
+    total += std::uint64_t{std::max(1u, r.width >> mip)} * std::max(1u, r.height >> mip) *
+             (r.target == Target::texture_3d ? std::max(1u, r.depth >> mip) : 1u) * texel;
+  total *= use.layers;
+  return planesOf(r) == 2 && (use.planes & 3) != 3 ? total / 2 : total;
+}
+
+std::uint32_t outputChannelsOf(const FlatResource& r) {
+  return isDepth(r.format) ? 1u : infoOf(r.format).channels;
+}
+
+std::uint64_t outputBytesOf(const FlatUse& use, const FlatResource& r) {
+  if (isBuffer(r)) return r.bytes;
+  std::uint64_t texels = 0;
+  for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip)
+    texels += std::uint64_t{std::max(1u, r.width >> mip)} * std::max(1u, r.height >> mip) *
+              (r.target == Target::texture_3d ? std::max(1u, r.depth >> mip) : 1u);
+  return texels * use.layers * outputChannelsOf(r) * 4;
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,229 @@
+#include "engine/runtime/cadence/cadence.h"
+
+#include <algorithm>
+
+namespace weft::runtime {
+
+using graph::Access;
+using graph::Cadence;
+using graph::FlatPass;
+using graph::FlatUse;
+using graph::kNone;
+
+namespace {
+
+template <class Visit>
+void forEachUse(const graph::Plan& plan, std::size_t step, Visit visit) {
+  const FlatPass& pass = plan.graph->passes[plan.steps[step].pass];
+  for (std::uint32_t i = 0; i < pass.useCount; ++i)
+    visit(plan.graph->uses[pass.firstUse + i], pass.firstUse + i);
+}
+
+template <class Visit>
+void forEachWrite(const graph::Plan& plan, std::size_t step, Visit visit) {
+  forEachUse(plan, step, [&](const FlatUse& use, std::size_t index) {
+    if (use.access != Access::read && plan.attached[index]) visit(use.resource);
+  });
+}
+
+const FlatPass& passOf(const graph::Plan& plan, std::size_t step) {
+  return plan.graph->passes[plan.steps[step].pass];
+}
+
+}  // namespace
+
+FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
+  const std::size_t steps = plan.steps.size();
+  const std::size_t resources = plan.graph->resources.size();
+  memories_.resize(steps);
+  latches_.resize(steps);
+  slices_.resize(steps);
+  run_.assign(steps, 0);
+  wants_.assign(steps, 0);
+  held_.assign(steps, 0);
+  written_.assign(resources, 0);
+  blocked_.assign(resources, 0);
+  alwaysWritten_.assign(resources, 0);
+  jobOf_.assign(steps, kNone);
+  jobs_.resize(plan.jobs.spread.size());
+  for (std::uint32_t s = 0; s < steps; ++s) {
+    if (passOf(plan, s).cadence == Cadence::always)
+      forEachWrite(plan, s, [&](std::uint32_t r) { alwaysWritten_[r] = 1; });
+    jobOf_[s] = plan.jobs.jobOf(plan.steps[s].pass);
+    if (jobOf_[s] != kNone) jobs_[jobOf_[s]].steps.push_back(s);
+  }
+  for (std::size_t j = 0; j < jobs_.size(); ++j) jobs_[j].spread = plan.jobs.spread[j] != 0;
+}
+
+bool FrameCadence::isHeld(std::uint32_t job) const {
+  return std::ranges::any_of(jobs_[job].steps, [this](std::uint32_t step) { return held_[step] != 0; });
+}
+
+// A use of what the step's own spread job writes.
+bool FrameCadence::isInside(std::size_t step, std::uint32_t resource) const {
+  return jobOf_[step] != kNone && plan_.jobs.spreadWriterOf(resource) == jobOf_[step];
+}
+
+bool FrameCadence::differs(std::size_t step, const PassMemory& memory, bool inputs,
+                           const std::vector<std::uint64_t>& own,
+                           const std::vector<std::uint64_t>& generations) const {
+  if (!memory.ran || memory.own != own[step]) return true;
+  if (!inputs) return false;
+  bool changed = false;
+  std::size_t input = 0;
+  forEachUse(plan_, step, [&](const FlatUse& use, std::size_t) {
+    if (use.access != Access::read) return;
+    const bool counts = use.history > 0 || !isInside(step, use.resource);
+    changed |= counts && (input >= memory.inputs.size() || memory.inputs[input] != generations[use.resource]);
+    ++input;
+  });
+  return changed;
+}
+
+bool FrameCadence::wants(std::size_t step, const std::vector<std::uint64_t>& own,
+                         const std::vector<std::uint64_t>& generations) const {
+  const Cadence cadence = passOf(plan_, step).cadence;
+  if (cadence == Cadence::always) return true;
+  // Under way, any change of what was seen makes the rest of it another picture, also for `once`.
+  if (jobOf_[step] != kNone && (jobs_[jobOf_[step]].active || jobs_[jobOf_[step]].finished))
+    return differs(step, latches_[step], true, own, generations);
+  return differs(step, memories_[step], cadence == Cadence::on_change, own, generations);
+}
+
+// One walk over the steps in order; true when a job learned something that steps before it should have known.
+bool FrameCadence::sweep(bool ahead) {
+  bool again = false;
+  std::fill(written_.begin(), written_.end(), std::uint8_t{0});
+  for (std::size_t r = 0; r < blocked_.size(); ++r) {
+    const std::uint32_t job = plan_.jobs.spreadWriterOf(static_cast<std::uint32_t>(r));
+    blocked_[r] = (job != kNone && !jobs_[job].published) || (ahead && alwaysWritten_[r]);
+  }
+  for (std::size_t s = 0; s < run_.size(); ++s) {
+    const Cadence cadence = passOf(plan_, s).cadence;
+    if (cadence == Cadence::always) {
+      run_[s] = !ahead;
+      if (run_[s]) forEachWrite(plan_, s, [&](std::uint32_t r) { written_[r] = 1; });
+      continue;
+    }
+    Job* job = jobOf_[s] == kNone ? nullptr : &jobs_[jobOf_[s]];
+    bool woken = false, blocked = held_[s] != 0 && !(job && job->spread);
+    forEachUse(plan_, s, [&](const FlatUse& use, std::size_t) {
+      if (use.access != Access::read || use.history > 0 || isInside(s, use.resource)) return;
+      woken |= written_[use.resource] != 0;
+      blocked |= blocked_[use.resource] != 0;
+    });
+    if (cadence == Cadence::once && !(job && (job->active || job->finished))) woken = false;
+    bool want = wants_[s] || woken;
+    if (job) {
+      if ((want && !job->wants) || (blocked && !job->blocked)) again = true;
+      job->wants |= want;
+      job->blocked |= blocked;
+      want = job->wants;
+      blocked = job->blocked;
+    }
+    run_[s] = want && !blocked;
+    if (job && job->spread) continue;  // what it writes is seen when it is published
+    if (run_[s]) forEachWrite(plan_, s, [&](std::uint32_t r) { written_[r] = 1; });
+    if (want && blocked) forEachWrite(plan_, s, [&](std::uint32_t r) { blocked_[r] = 1; });
+  }
+  return again;
+}
+
+void FrameCadence::settle(const std::vector<std::uint64_t>& own,
+                          const std::vector<std::uint64_t>& generations, bool ahead) {
+  for (Job& job : jobs_) job.wants = job.blocked = job.started = false;
+  for (std::size_t s = 0; s < run_.size(); ++s) {
+    wants_[s] = wants(s, own, generations);
+    slices_[s] = {};
+  }
+  while (sweep(ahead)) {
+  }
+  for (Job& job : jobs_) {
+    if (!job.spread) continue;
+    for (const std::uint32_t s : job.steps) run_[s] = 0;
+    if (job.blocked) {
+      job.active = job.finished = false;
+      continue;
+    }
+    if (job.wants || (ahead && job.active)) {  // from the start: nothing that is half done is kept
+      job.active = job.started = true;
+      job.finished = false;
+      job.at = job.slice = 0;
+    }
+    if (job.active) takeTurn(job, ahead);
+  }
+}
+
+// The next slice and what rides with it, or all there is.
+void FrameCadence::takeTurn(Job& job, bool whole) {
+  const auto slicesOf = [&](std::uint32_t at) { return passOf(plan_, job.steps[at]).slices; };
+  const auto end = static_cast<std::uint32_t>(job.steps.size());
+  do {
+    const std::uint32_t step = job.steps[job.at], of = std::max(1u, slicesOf(job.at));
+    run_[step] = 1;
+    slices_[step] = whole ? SliceRange{} : SliceRange{job.slice, 1, of};
+    if (!whole && ++job.slice < of) return;
+    job.slice = 0;
+    ++job.at;
+  } while (job.at < end && (whole || slicesOf(job.at) == 0));
+  if (job.at < end) return;
+  job.active = false;
+  job.finished = true;
+}
+
+void FrameCadence::decide(const std::vector<std::uint64_t>& own,
+                          const std::vector<std::uint64_t>& generations) {
+  settle(own, generations, false);
+}
+
+bool FrameCadence::decideAhead(const std::vector<std::uint64_t>& own,
+                               const std::vector<std::uint64_t>& generations) {
+  if (plan_.jobs.ofResource.empty()) return false;
+  settle(own, generations, true);
+  for (std::uint32_t job = 0; job < jobs_.size(); ++job)
+    if (jobs_[job].spread && jobs_[job].finished && !isHeld(job)) return true;
+  std::fill(run_.begin(), run_.end(), std::uint8_t{0});
+  return false;
+}
+
+std::size_t FrameCadence::countRunning() const {
+  return static_cast<std::size_t>(std::count(run_.begin(), run_.end(), std::uint8_t{1}));
+}
+
+void FrameCadence::take(std::size_t step, PassMemory& memory, std::uint64_t own,
+                        const std::vector<std::uint64_t>& before,
+                        const std::vector<std::uint64_t>& after) const {
+  std::size_t input = 0;
+  forEachUse(plan_, step, [&](const FlatUse& use, std::size_t) {
+    if (use.access != Access::read) return;
+    if (input == memory.inputs.size()) memory.inputs.push_back(0);
+    memory.inputs[input++] = (use.history ? before : after)[use.resource];
+  });
+  memory.ran = true;
+  memory.own = own;
+}
+
+void FrameCadence::endFrame(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& before,
+                            const std::vector<std::uint64_t>& after) {
+  for (std::size_t s = 0; s < run_.size(); ++s) {
+    const Job* job = jobOf_[s] == kNone ? nullptr : &jobs_[jobOf_[s]];
+    if (!job || !job->spread) {
+      if (run_[s]) take(s, memories_[s], own[s], before, after);
+    } else if (job->started) {
+      take(s, latches_[s], own[s], before, after);
+    }
+  }
+}
+
+void FrameCadence::markPublished(std::uint32_t index) {
+  Job& job = jobs_[index];
+  job.finished = false;
+  job.published = true;
+  for (const std::uint32_t s : job.steps) {
+    memories_[s].ran = true;
+    memories_[s].own = latches_[s].own;
+    memories_[s].inputs.assign(latches_[s].inputs.begin(), latches_[s].inputs.end());
+  }
+}
+
+}  // namespace weft::runtime

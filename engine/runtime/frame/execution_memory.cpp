@@ -1,0 +1,77 @@
+// Whether a frame can differ by which frames ran before it.
+#include <algorithm>
+#include <functional>
+
+#include "engine/graph/language/expr_node.h"
+#include "engine/runtime/frame/execution.h"
+
+namespace weft::runtime {
+
+namespace {
+
+// Whether an import is the same in every frame of a world that nobody changes.
+bool isStill(const graph::ImportSpec& import, const World& world) {
+  const std::string& type = import.request.type;
+  if (type == "spheres") return !scene::isMoving(world.scene(), scene::DrawList::spheres);
+  return type == "environment" || type == "cube_lut" || type == "cut";
+}
+
+// Every resource whose age the folded expression asks, also in branches that are not taken.
+void forEachAge(const graph::ExprNode& node, const std::function<void(std::uint32_t)>& visit) {
+  if (node.op == graph::ExprOp::age_key) visit(node.key);
+  for (const auto& child : node.children) forEachAge(*child, visit);
+}
+
+}  // namespace
+
+bool Execution::remembers(const World& world) const {
+  const graph::FlatGraph& graph = *plan_->graph;
+  // Written only by passes that are not `always`, or a still import.
+  std::vector<std::uint8_t> still(graph.resources.size(), 1);
+  for (std::size_t r = 0; r < still.size(); ++r)
+    if (const std::uint32_t import = graph.resources[r].import; import != graph::kNone)
+      still[r] = isStill(graph.imports[import], world);
+  const auto passOf = [&](std::size_t step) -> const graph::FlatPass& {
+    return graph.passes[plan_->steps[step].pass];
+  };
+  const auto usesOf = [&](std::size_t step) {
+    return std::span(graph.uses).subspan(passOf(step).firstUse, passOf(step).useCount);
+  };
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    for (const graph::FlatUse& use : usesOf(step))
+      if (use.access != graph::Access::read && passOf(step).cadence == graph::Cadence::always)
+        still[use.resource] = 0;
+  // What was published once before the first frame is all the history there is of what stays.
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    for (const graph::FlatUse& use : usesOf(step))
+      if (use.history > 0 && !still[use.resource]) return true;
+  for (const graph::HistorySpec& history : graph.histories) {
+    const auto moves = [&](std::uint32_t import) { return !isStill(graph.imports[import], world); };
+    const auto changes = [&](std::uint32_t resource) { return !still[resource]; };
+    if (std::ranges::any_of(history.resetImports, moves) ||
+        std::ranges::any_of(history.resetResources, changes))
+      return true;
+  }
+  const scene::Camera* camera = scene::findCamera(world.scene(), "");
+  const bool cameraMoves = !camera || scene::isMoving(*camera);
+  for (std::size_t step = 0; step < passes_.size(); ++step) {
+    const PreparedPass& pass = passes_[step];
+    bool unsteady = false;
+    const auto look = [&](const graph::Expr& expr) {
+      if (expr.present())
+        forEachAge(*expr.root(), [&](std::uint32_t resource) { unsteady |= !still[resource]; });
+    };
+    for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) look(uniform.dynamic);
+    if (unsteady) return true;
+    if (passOf(step).cadence == graph::Cadence::always) continue;
+    // What is kept must have been made of what stays: else it matters when it was made.
+    if (std::ranges::any_of(usesOf(step), [&](const graph::FlatUse& use) { return !still[use.resource]; }))
+      return true;
+    if (pass.list >= 0 && scene::isMoving(world.scene(), static_cast<scene::DrawList>(pass.list)))
+      return true;
+    if (pass.viewBlock && (cameraMoves || pass.context.spec->view != graph::kNone)) return true;
+  }
+  return false;
+}
+
+}  // namespace weft::runtime

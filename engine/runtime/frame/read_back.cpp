@@ -1,0 +1,224 @@
+#include "engine/runtime/frame/read_back.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "engine/graph/subresource.h"
+
+namespace weft::runtime {
+
+using graph::FlatResource;
+using graph::FlatUse;
+using graph::TexelKind;
+
+namespace {
+
+NumberKind kindOf(GLenum base) {
+  return base == GL_UNSIGNED_INT ? NumberKind::unsigned_integer
+         : base == GL_INT        ? NumberKind::signed_integer
+                                 : NumberKind::floating;
+}
+
+// Of the members of the first block that a pass binds the buffer to.
+NumberKind kindOfBuffer(std::uint32_t resource, std::span<const PreparedPass> passes) {
+  for (const PreparedPass& pass : passes)
+    for (const BufferBinding& binding : pass.buffers) {
+      if (binding.resource != resource || binding.import != graph::kNone || binding.list >= 0) continue;
+      const gl::Reflection& reflection = pass.variant->program.reflection();
+      const bool storage = binding.target == GL_SHADER_STORAGE_BUFFER;
+      for (const gl::Block& block : storage ? reflection.storageBlocks : reflection.uniformBlocks) {
+        if (block.binding != binding.index || block.members.empty()) continue;
+        std::optional<NumberKind> kind;
+        for (const gl::BlockMember& member : block.members) {
+          const auto shape = gl::shapeOf(member.type);
+          const NumberKind mine = shape ? kindOf(shape->base) : NumberKind::floating;
+          if (kind.value_or(mine) != mine) return NumberKind::floating;
+          kind = mine;
+        }
+        return *kind;
+      }
+    }
+  return NumberKind::floating;
+}
+
+NumberKind kindOfTexture(const FlatResource& resource, const FlatUse& use) {
+  const TexelKind kind = graph::infoOf(resource.format).kind;
+  if (kind == TexelKind::unsigned_integer || use.planes == 2) return NumberKind::unsigned_integer;
+  return kind == TexelKind::signed_integer ? NumberKind::signed_integer : NumberKind::floating;
+}
+
+bool sameShape(const Output& a, const Output& b) {
+  return a.name == b.name && a.channels == b.channels && a.width == b.width && a.height == b.height &&
+         a.bytes.size() == b.bytes.size();
+}
+
+// For glReadPixels: as many channels as the format has, as numbers of 32 bits.
+struct Client {
+  GLenum format = GL_RGBA, type = GL_FLOAT, point = GL_COLOR_ATTACHMENT0;
+};
+
+Client clientOf(const FlatResource& resource, const FlatUse& use) {
+  const graph::FormatInfo& info = graph::infoOf(resource.format);
+  if (use.planes == 2) return {GL_STENCIL_INDEX, GL_UNSIGNED_INT, GL_DEPTH_STENCIL_ATTACHMENT};
+  if (info.kind == TexelKind::depth_stencil)
+    return {GL_DEPTH_COMPONENT, GL_FLOAT, GL_DEPTH_STENCIL_ATTACHMENT};
+  if (info.kind == TexelKind::depth) return {GL_DEPTH_COMPONENT, GL_FLOAT, GL_DEPTH_ATTACHMENT};
+  static constexpr GLenum kFloats[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+  static constexpr GLenum kIntegers[] = {GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
+  const std::size_t channels = info.channels - std::size_t{1};
+  if (info.kind == TexelKind::unsigned_integer)
+    return {kIntegers[channels], GL_UNSIGNED_INT, GL_COLOR_ATTACHMENT0};
+  if (info.kind == TexelKind::signed_integer) return {kIntegers[channels], GL_INT, GL_COLOR_ATTACHMENT0};
+  return {kFloats[channels], GL_FLOAT, GL_COLOR_ATTACHMENT0};
+}
+
+}  // namespace
+
+double Output::number(std::size_t index) const {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes.data() + index * 4, 4);
+  if (kind == NumberKind::unsigned_integer) return bits;
+  if (kind == NumberKind::signed_integer) return std::bit_cast<std::int32_t>(bits);
+  return std::bit_cast<float>(bits);
+}
+
+bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
+                       base::Diagnostics& diagnostics) {
+  std::uint64_t total = 0;
+  const graph::FlatGraph& graph = *plan.graph;
+  for (std::uint32_t i = 0; i < graph.outputs.size(); ++i) {
+    if (plan.outputLive[i] == 0) continue;
+    const FlatUse& use = graph.outputs[i];
+    const FlatResource& resource = graph.resources[use.resource];
+    const bool buffer = graph::isBuffer(resource);
+    Output output;
+    output.name = graph.outputNames[i];
+    output.kind = buffer ? kindOfBuffer(use.resource, passes) : kindOfTexture(resource, use);
+    if (!buffer) {
+      output.channels = graph::outputChannelsOf(resource);
+      output.width = std::max(1u, resource.width >> use.mip);
+      output.height = std::max(1u, resource.height >> use.mip);
+    }
+    output.bytes.resize(graph::outputBytesOf(use, resource));
+    sources_.push_back({i, total});
+    total += (output.bytes.size() + 15) / 16 * 16;
+    outputs_.push_back(std::move(output));
+  }
+  if (before) before->collect();
+  if (before && std::ranges::equal(outputs_, before->outputs_, sameShape)) {
+    for (std::size_t i = 0; i < outputs_.size(); ++i) before->outputs_[i].kind = outputs_[i].kind;
+    outputs_ = std::move(before->outputs_);
+    ring_ = std::move(before->ring_);
+    next_ = before->next_;
+    before->outputs_.clear();
+    return true;
+  }
+  if (before)
+    for (Output& mine : outputs_)
+      for (const Output& old : before->outputs_)
+        if (sameShape(mine, old)) {
+          const NumberKind kind = mine.kind;
+          mine = old;
+          mine.kind = kind;
+        }
+  return total == 0 || createRing(total, diagnostics);
+}
+
+bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {
+  // Coherent: what a copy wrote is seen once its fence has signalled, without a barrier of its own.
+  constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  for (Slot& slot : ring_) {
+    auto buffer = gl::Buffer::create(bytes, kAccess | GL_CLIENT_STORAGE_BIT, "read-back", diagnostics);
+    if (!buffer) return false;
+    slot.buffer = std::move(*buffer);
+    slot.mapped = static_cast<const std::byte*>(
+        glMapNamedBufferRange(slot.buffer.id(), 0, static_cast<GLsizeiptr>(bytes), kAccess));
+    if (slot.mapped) continue;
+    diagnostics.error(base::Code::bufferNotCreated, {}, "the read-back buffer cannot be mapped").hint =
+        "take entries out of \"outputs\"";
+    return false;
+  }
+  return true;
+}
+
+void ReadBack::copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers,
+                    std::uint32_t frame, base::Diagnostics& diagnostics) {
+  Slot& slot = ring_[next_];
+  if (outputs_.empty() || slot.fence) return;
+  for (const Source& source : sources_) {
+    const FlatUse& use = plan.graph->outputs[source.use];
+    const GpuResource& from = pool[use.resource];
+    if (graph::isBuffer(plan.graph->resources[use.resource]))
+      glCopyNamedBufferSubData(from.buffers[from.copyOf(use.history)], slot.buffer.id(),
+                               static_cast<GLintptr>(from.offset), static_cast<GLintptr>(source.offset),
+                               static_cast<GLsizeiptr>(from.bytes));
+    else
+      copyTexture(plan, use, pool, framebuffers, slot, source.offset, diagnostics);
+  }
+  slot.fence = gl::Fence::insert();
+  slot.frame = frame;
+  next_ = (next_ + 1) % kRing;
+}
+
+// Through a framebuffer, as the plan's barriers expect it (barrier_rules.h).
+void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, ResourcePool& pool,
+                           FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
+                           base::Diagnostics& diagnostics) {
+  const FlatResource& resource = plan.graph->resources[use.resource];
+  const FlatUse all{.resource = use.resource, .mips = resource.mips, .layers = resource.layers};
+  const gl::TextureRef texture = pool.view(plan, all, pool[use.resource].copyOf(use.history), 0, diagnostics);
+  const Client client = clientOf(resource, use);
+  const bool plain = resource.target == graph::Target::texture_2d,
+             volume = resource.target == graph::Target::texture_3d;
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.id());
+  for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip) {
+    const std::uint32_t width = std::max(1u, resource.width >> mip),
+                        height = std::max(1u, resource.height >> mip);
+    const std::uint32_t layers = volume ? std::max(1u, resource.depth >> mip) : use.layers;
+    for (std::uint32_t layer = use.layer; layer < use.layer + layers; ++layer) {
+      const gl::Attachment attachment{.point = client.point,
+                                      .texture = texture.id,
+                                      .mip = mip,
+                                      .layer = plain ? -1 : static_cast<std::int32_t>(layer)};
+      static const std::string label = "read-back";
+      glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers.get({&attachment, 1}, label, diagnostics));
+      glReadPixels(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), client.format,
+                   client.type, reinterpret_cast<void*>(offset));
+      offset += std::uint64_t{width} * height * graph::outputChannelsOf(resource) * 4;
+    }
+  }
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+}
+
+void ReadBack::collect() {
+  const Slot* newest = nullptr;
+  for (std::size_t i = 0; i < kRing; ++i) {
+    Slot& slot = ring_[(next_ + i) % kRing];
+    if (!slot.fence) continue;
+    if (!slot.fence.isSignalled()) break;
+    slot.fence.reset();
+    newest = &slot;
+  }
+  if (newest) take(*newest);
+}
+
+void ReadBack::finish() {
+  const Slot& last = ring_[(next_ + kRing - 1) % kRing];
+  if (last.fence) last.fence.wait(std::numeric_limits<std::uint64_t>::max());
+  collect();
+}
+
+void ReadBack::take(const Slot& slot) {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    Output& output = outputs_[i];
+    std::memcpy(output.bytes.data(), slot.mapped + sources_[i].offset, output.bytes.size());
+    output.arrived = true;
+    output.frame = slot.frame;
+  }
+}
+
+}  // namespace weft::runtime

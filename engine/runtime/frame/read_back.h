@@ -1,0 +1,85 @@
+// What a graph's "outputs" held at the end of a frame, brought to the CPU some frames later. After the last
+// step each live output is copied into the next of a ring of persistently mapped buffers, with a fence
+// behind; later frames take what has arrived. Nothing here waits, but finish(), and an unchanged plan's frame
+// allocates nothing. A copy that would have to wait for its buffer is left out. A buffer arrives as it is, a
+// texture as 32-bit numbers. Does not: keep anything alive (outputs that nothing makes are not there), place
+// barriers (the plan did), know what the numbers mean.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects/objects.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/framebuffer_cache.h"
+#include "engine/runtime/storage/resource_pool.h"
+
+namespace weft::runtime {
+
+enum class NumberKind : std::uint8_t { floating, unsigned_integer, signed_integer };
+
+// An output and the latest that has arrived of it.
+struct Output {
+  std::string name;                        // with the include's prefix: "post.exposure"
+  NumberKind kind = NumberKind::floating;  // of a buffer: of the shaders' block when all its members agree
+  std::uint32_t channels = 0;              // numbers per texel, of a format's channels; 0: a buffer
+  std::uint32_t width = 0, height = 0;     // of the first level; rows are bottom first, tightly packed
+  std::vector<std::byte> bytes;  // 4 per number; of a texture level by level, in them layer by layer
+  bool arrived = false;          // nothing yet: `bytes` are zeros
+  std::uint32_t frame = 0;       // FrameInput::frame it is of
+
+  std::size_t count() const { return bytes.size() / 4; }
+  double number(std::size_t index) const;  // index < count(); as `kind` says
+};
+
+class ReadBack {
+ public:
+  // Frames that can be under way; the latency is below that unless the GPU is further behind.
+  static constexpr std::size_t kRing = 4;
+
+  // Moves over what is under way when the outputs of `before` (null: none) are the same, else what had
+  // arrived of those of the same name and shape. False after W117.
+  bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
+               base::Diagnostics& diagnostics);
+  // At the end of a frame, after the plan's last barriers.
+  void copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers, std::uint32_t frame,
+            base::Diagnostics& diagnostics);
+  // Takes what has arrived.
+  void collect();
+  // The same after waiting for all that is under way.
+  void finish();
+
+  // In the order of the graph; live ones only.
+  std::span<const Output> outputs() const { return outputs_; }
+
+ private:
+  struct Source {
+    std::uint32_t use = 0;     // into FlatGraph::outputs
+    std::uint64_t offset = 0;  // in a slot's buffer
+  };
+  struct Slot {
+    gl::Buffer buffer;
+    const std::byte* mapped = nullptr;
+    gl::Fence fence;  // behind the copies of `frame`; none: the slot is free
+    std::uint32_t frame = 0;
+  };
+  bool createRing(std::uint64_t bytes, base::Diagnostics& diagnostics);
+  void copyTexture(const graph::Plan& plan, const graph::FlatUse& use, ResourcePool& pool,
+                   FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
+                   base::Diagnostics& diagnostics);
+  void take(const Slot& slot);
+
+  std::vector<Output> outputs_;
+  std::vector<Source> sources_;  // parallel
+  std::array<Slot, kRing> ring_;
+  std::size_t next_ = 0;  // the oldest
+};
+
+}  // namespace weft::runtime

@@ -1,0 +1,227 @@
+#include "engine/runtime/frame/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "engine/base/files/file_access.h"
+#include "engine/graph/compile/compile.h"
+#include "engine/graph/compile/plan_memory.h"
+#include "engine/graph/read/read.h"
+#include "engine/runtime/frame/gl_state.h"
+#include "engine/runtime/storage/formats.h"
+
+namespace weft::runtime {
+
+namespace {
+
+bool readsEnvironment(const graph::FlatGraph& graph) {
+  return std::ranges::any_of(
+      graph.imports, [](const graph::ImportSpec& import) { return import.request.type == "environment"; });
+}
+
+}  // namespace
+
+std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder) {
+  const std::filesystem::path folder = std::filesystem::path(graphPath).parent_path();
+  std::vector<std::string> roots;
+  for (const std::filesystem::path& candidate :
+       {folder / "shaders", folder / ".." / "shaders", std::filesystem::path(dataFolder) / "shaders"}) {
+    std::error_code ignored;
+    const std::string text = candidate.lexically_normal().string();
+    if (base::mayRead(text) && std::filesystem::is_directory(candidate, ignored) &&
+        std::ranges::find(roots, text) == roots.end())
+      roots.push_back(text);
+  }
+  return roots;
+}
+
+Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
+    : graphPath_(graphPath),
+      options_(std::move(options)),
+      device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder, options_.trial) {}
+
+bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
+  base::Diagnostics said;
+  const auto desc = graph::readGraph(graphPath_, options_.presets, said);
+  diagnostics.append(said);
+  triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
+  refused_.clear();
+  if (!desc) return false;
+  if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;
+  const graph::Registry registry =
+      makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles());
+  if (said.hasErrors()) graph::expandGraph(*desc, registry, settings, diagnostics);  // for what else is wrong
+  refused_ = graph::findRefused(*desc, registry, settings);
+  return false;
+}
+
+bool Renderer::apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
+  if (!desc_) return load(settings, world, diagnostics);
+  triedFiles_ = runningFiles_;
+  return switchTo(desc_, ShaderFiles::keep, settings, world, diagnostics);
+}
+
+std::vector<std::string> Renderer::files() const {
+  std::vector<std::string> files = runningFiles_;
+  files.insert(files.end(), triedFiles_.begin(), triedFiles_.end());
+  return files;
+}
+
+bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files,
+                        const graph::Settings& settings, const World& world, base::Diagnostics& all) {
+  base::Diagnostics diagnostics;  // of this attempt alone
+  device_.sources.forgetTouched();
+  device_.programs.startTrials();
+  LutFiles& luts = device_.imports.lutFiles();
+  luts.forgetTouched();
+  auto made = makeExecution(*desc, files, settings, world, diagnostics);
+  all.append(diagnostics);
+  const std::set<std::string>& shaders = device_.sources.touched();
+  triedFiles_.insert(triedFiles_.end(), shaders.begin(), shaders.end());
+  triedFiles_.insert(triedFiles_.end(), luts.touched().begin(), luts.touched().end());
+  std::ranges::sort(triedFiles_);
+  triedFiles_.erase(std::ranges::unique(triedFiles_).begin(), triedFiles_.end());
+  if (!made) return false;
+  execution_ = std::move(made);
+  desc_ = std::move(desc);
+  runningFiles_ = triedFiles_;
+  presentTexture_ = 0;  // its name may be another texture's now
+  return true;
+}
+
+std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
+                                                   const graph::Settings& settings, const World& world,
+                                                   base::Diagnostics& diagnostics) {
+  const graph::Registry registry =
+      makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles());
+  const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
+  if (!flat || diagnostics.hasErrors()) return nullptr;
+  device_.imports.renewFiles();
+  auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+  if (!graph::checkMemory(*plan, diagnostics)) return nullptr;
+  ++plansBuilt_;
+  const bool standIn = !world.environment() && !world.environmentPending();
+  if (standIn && readsEnvironment(*flat) && !prepareFallback(world, diagnostics)) return nullptr;
+  return Execution::create(device_, std::move(plan), execution_.get(), files, diagnostics);
+}
+
+bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostics) {
+  if (fallback_) return true;
+  const std::string path = options_.dataFolder + "/graphs/daylight.json";
+  const auto desc = graph::readGraph(path, diagnostics);
+  if (!desc || diagnostics.hasErrors()) return false;
+  graph::Settings settings;
+  settings.software = device_.context.device().software;
+  const auto flat =
+      graph::expandGraph(*desc, makeRegistry(device_.passTypes, world.facts()), settings, diagnostics);
+  if (!flat || diagnostics.hasErrors()) return false;
+  fallbackDevice_ = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder),
+                                             options_.cacheFolder, options_.trial);
+  fallback_ = Execution::create(*fallbackDevice_, std::make_shared<const graph::Plan>(graph::compile(flat)),
+                                nullptr, ShaderFiles::read, diagnostics);
+  if (!fallback_) return false;
+  fallback_->frame(world, headlessFrame(world, 0, 60), diagnostics);
+  device_.imports.setEnvironmentFallback(fallback_->presentedWhole(), 1);
+  return !diagnostics.hasErrors();
+}
+
+FrameReport Renderer::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
+  if (!execution_) return {};
+  if (world.environmentPending() && readsEnvironment(*execution_->plan().graph)) {
+    blackOut();
+    return {};
+  }
+  return execution_->frame(world, input, diagnostics);
+}
+
+void Renderer::dropUploaded(World& world) const {
+  const auto& map = world.environment();
+  if (map && device_.imports.environments().isNewest(*map)) world.dropEnvironmentTexels();
+}
+
+void Renderer::blackOut() {
+  const graph::FlatGraph& graph = *execution_->plan().graph;
+  const gl::TextureRef texture = execution_->presented();
+  if (texture.id == 0 || graph.resources[graph.present.resource].import != graph::kNone) return;
+  clearTexture(texture, graph.resources[graph.present.resource].format, 0, 0, 1,
+               graph::Value{graph::Value::Type::list, 4, {0, 0, 0, 1}, {}});
+}
+
+std::optional<assets::ImageF> Renderer::readPresentedFloat() {
+  const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
+  if (texture.id == 0) return std::nullopt;
+  const gl::Extent extent = gl::extentOf(texture.desc, 0);
+  const std::vector<float> texels = gl::readFloats(texture);
+  const std::size_t channels = gl::floatChannelsOf(texture.desc.format);
+  assets::ImageF image{
+      static_cast<int>(extent.width), static_cast<int>(extent.height), static_cast<int>(channels), {}};
+  image.texels.resize(texels.size());
+  const std::size_t row = extent.width * channels;
+  for (std::size_t y = 0; y < extent.height; ++y)
+    std::copy_n(texels.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row), row,
+                image.texels.begin() + static_cast<std::ptrdiff_t>(y * row));
+  return image;
+}
+
+assets::Image8 toBytes(const assets::ImageF& picture) {
+  assets::Image8 image{picture.width, picture.height, 4, {}};
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  image.texels.resize(picture.texels.size() / channels * 4);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    const std::size_t c = i % 4, pixel = i / 4 * channels;
+    const float value = c < channels ? picture.texels[pixel + c] : c == 3 ? 1.0f : picture.texels[pixel];
+    image.texels[i] = static_cast<std::uint8_t>(
+        std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * 255.0f));
+  }
+  return image;
+}
+
+bool Renderer::presentsBytes() {
+  return execution_ && execution_->presented().id != 0 && execution_->presented().desc.format == GL_RGBA8;
+}
+
+std::optional<assets::Image8> Renderer::readPresented8() {
+  if (!presentsBytes()) {
+    const auto picture = readPresentedFloat();
+    return picture ? std::optional(toBytes(*picture)) : std::nullopt;
+  }
+  const gl::TextureRef texture = execution_->presented();
+  const gl::Extent extent = gl::extentOf(texture.desc, 0);
+  assets::Image8 image{static_cast<int>(extent.width), static_cast<int>(extent.height), 4, {}};
+  const std::size_t row = std::size_t{extent.width} * 4;
+  image.texels.resize(row * extent.height);
+  const std::vector<std::byte> exact = gl::readTexture(texture, 0, 0, GL_RGBA, GL_UNSIGNED_BYTE);
+  for (std::size_t y = 0; y < extent.height; ++y)
+    std::transform(exact.begin() + static_cast<std::ptrdiff_t>((extent.height - 1 - y) * row),
+                   exact.begin() + static_cast<std::ptrdiff_t>((extent.height - y) * row),
+                   image.texels.begin() + static_cast<std::ptrdiff_t>(y * row),
+                   [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
+  return image;
+}
+
+void Renderer::present(std::uint32_t width, std::uint32_t height) {
+  const gl::TextureRef texture = execution_ ? execution_->presented() : gl::TextureRef{};
+  openMasks();
+  releaseBindings();
+  if (texture.id == 0) {
+    const float black[4] = {0, 0, 0, 1};
+    glClearNamedFramebufferfv(0, GL_COLOR, 0, black);
+    return;
+  }
+  if (presentTexture_ != texture.id) {
+    base::Diagnostics ignored;
+    const gl::Attachment attachment{.texture = texture.id};
+    if (auto made = gl::Framebuffer::create({&attachment, 1}, "present", ignored))
+      presentSource_ = std::move(*made);
+    presentTexture_ = texture.id;
+  }
+  const gl::Extent from = gl::extentOf(texture.desc, 0);
+  const bool same = from.width == width && from.height == height;
+  glBlitNamedFramebuffer(presentSource_.id(), 0, 0, 0, static_cast<GLint>(from.width),
+                         static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(width),
+                         static_cast<GLint>(height), GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
+}
+
+}  // namespace weft::runtime

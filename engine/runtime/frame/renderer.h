@@ -1,0 +1,96 @@
+// A graph file running on a device: read, expand, compile, prepare, then frame after frame. Loading replaces what runs
+// only when everything about the new graph is good; after an error the last good execution goes on.
+// Does not: own the window, decode assets, or decide the time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/assets/image.h"
+#include "engine/graph/expand/expand.h"
+#include "engine/runtime/frame/execution.h"
+
+namespace weft::runtime {
+
+// Where a graph's shaders are looked for: beside it, beside its folder, then the bundled ones.
+std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder);
+
+// 8 bits of a picture, as readPresented8() gives them: clamped to 0 and 1, NaN becomes 0, alpha that is not there 1.
+assets::Image8 toBytes(const assets::ImageF& picture);
+
+class Renderer {
+ public:
+  struct Options {
+    std::string dataFolder;   // holds graphs/ and shaders/
+    std::string cacheFolder;  // of program binaries; empty: none
+    std::vector<std::string>
+        trial{};  // starts a process that tries a large shader first (gl::ProgramCache); empty: none
+    std::vector<std::string> presets{};  // overlays laid over the graph whenever it is read, in order
+  };
+  Renderer(gl::Context& context, const std::string& graphPath, Options options);
+
+  // Reads the graph file again and switches to it. False after errors.
+  bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  // The same without reading files: the last description that ran, under other settings or in another world. Passes that
+  // stay what they are keep their programs, whatever is on disk.
+  bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  // As Execution::setParameter(): a live parameter, at once.
+  bool setParameter(std::string_view path, const graph::Value& value) {
+    return execution_ && execution_->setParameter(path, value);
+  }
+  // Settings that the graph of the last load() does not take; empty when that was good.
+  std::span<const graph::Refusal> refused() const { return refused_; }
+  // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes, tables).
+  std::vector<std::string> files() const;
+  // Runs nothing and presents black while the graph reads an environment that is still on its way (World::expectEnvironment).
+  FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
+
+  // After frame(): frees what the world holds and the GPU has. Only when nobody else renders that world.
+  void dropUploaded(World& world) const;
+
+  Execution* execution() { return execution_.get(); }
+  // What runs, as it was read; null before the first load().
+  const graph::GraphDesc* desc() const { return desc_.get(); }
+  std::span<const std::string> presets() const { return options_.presets; }
+  Device& device() { return device_; }
+  const std::string& graphPath() const { return graphPath_; }
+  // Graphs compiled to plans so far, also those that could not be prepared.
+  std::uint64_t plansBuilt() const { return plansBuilt_; }
+
+  // The presented picture with its top row first. Empty when the graph presents nothing.
+  std::optional<assets::Image8> readPresented8();
+  // It is stored in 8 bits, which hold neither NaN nor infinity.
+  bool presentsBytes();
+  std::optional<assets::ImageF> readPresentedFloat();
+  // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree; leaves it bound and
+  // releaseBindings() of gl_state.h done.
+  void present(std::uint32_t width, std::uint32_t height);
+
+ private:
+  bool switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFiles files,
+                const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
+  std::unique_ptr<Execution> makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
+                                           const graph::Settings& settings, const World& world,
+                                           base::Diagnostics& diagnostics);
+  // The embedded default environment: graphs/daylight.json, run once when a graph needs @environment and none is loaded.
+  bool prepareFallback(const World& world, base::Diagnostics& diagnostics);
+  void blackOut();
+
+  std::string graphPath_;
+  Options options_;
+  Device device_;
+  std::unique_ptr<Execution> execution_;
+  std::shared_ptr<const graph::GraphDesc> desc_;  // what runs
+  std::vector<std::string> runningFiles_, triedFiles_;
+  std::vector<graph::Refusal> refused_;
+  std::unique_ptr<Device> fallbackDevice_;
+  std::unique_ptr<Execution> fallback_;
+  gl::Framebuffer presentSource_;
+  GLuint presentTexture_ = 0;
+  std::uint64_t plansBuilt_ = 0;
+};
+
+}  // namespace weft::runtime

@@ -1,0 +1,96 @@
+#include "engine/runtime/imports/environment_texture.h"
+
+#include <algorithm>
+#include <cassert>
+#include <span>
+#include <utility>
+
+#include "engine/runtime/imports/registry.h"
+
+namespace weft::runtime {
+
+namespace {
+
+// Of a transfer: sending the rows; that and making the levels. The rest is the GPU.
+constexpr float kShareOfRows = 0.7f, kShareOfTransfer = 0.99f;
+
+// Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.
+std::span<const std::byte> bytesOf(const assets::EnvironmentMap& map) {
+  return std::as_bytes(std::span(map.texels));
+}
+
+std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, base::Diagnostics& diagnostics) {
+  const gl::TextureDesc desc{.format = GL_RGBA16F,
+                             .width = map.width,
+                             .height = map.height,
+                             .mips = fullMips(map.width, map.height)};
+  return gl::Texture::create(desc, "@environment", diagnostics);
+}
+
+}  // namespace
+
+std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics& diagnostics) {
+  if (incoming_.map != map) {
+    incoming_ = {};
+    auto texture = makeTexture(*map, diagnostics);
+    if (!texture) return std::nullopt;
+    const std::size_t rowBytes = std::size_t{map->width} * 4 * sizeof(std::uint16_t);
+    auto stream = gl::PixelStream::create(
+        texture->ref(), 0, GL_RGBA, GL_HALF_FLOAT,
+        static_cast<std::uint32_t>(std::max<std::size_t>(1, kBytesPerFrame / rowBytes)), "@environment",
+        diagnostics);
+    if (!stream) return std::nullopt;
+    incoming_.map = map;
+    incoming_.texture = std::move(*texture);
+    incoming_.stream = std::move(stream);
+  }
+  if (incoming_.stream) {
+    incoming_.stream->advance(bytesOf(*map));
+    const float sent = static_cast<float>(incoming_.stream->rows()) / static_cast<float>(map->height);
+    if (!incoming_.stream->sentAll()) return sent * kShareOfRows;
+    incoming_.levels.emplace(incoming_.texture.ref(), kLevelTexelsPerFrame);
+    incoming_.stream.reset();
+    return kShareOfRows;
+  }
+  if (!incoming_.last) {
+    if (!incoming_.levels->advance(diagnostics)) return std::nullopt;
+    if (!incoming_.levels->madeAll())
+      return kShareOfRows + (kShareOfTransfer - kShareOfRows) * incoming_.levels->done();
+    incoming_.last = gl::Fence::insert();
+  }
+  return incoming_.last.isSignalled() ? 1.0f : kShareOfTransfer;
+}
+
+bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
+  if (isNewest(*map)) return true;
+  assert(!map->texels.empty() && "dropped before they were used here");
+  if (!black_) {
+    auto black = gl::Texture::create({.format = GL_RGBA16F}, "@environment, none", diagnostics);
+    if (!black) return false;
+    const std::uint16_t texel[4] = {0, 0, 0, 0x3c00};
+    gl::uploadTexture(black->ref(), 0, 0, GL_RGBA, GL_HALF_FLOAT, std::as_bytes(std::span(texel)));
+    black_ = std::move(*black);
+  }
+  gl::Texture next;
+  if (incoming_.map == map && incoming_.last) {
+    next = std::move(incoming_.texture);
+  } else {
+    auto texture = makeTexture(*map, diagnostics);
+    if (!texture) return false;
+    gl::uploadTexture(texture->ref(), 0, 0, GL_RGBA, GL_HALF_FLOAT, bytesOf(*map));
+    glGenerateTextureMipmap(texture->id());
+    next = std::move(*texture);
+  }
+  if (incoming_.map == map) incoming_ = {};
+  current_ = std::make_shared<const gl::Texture>(std::move(next));
+  currentId_ = map->id;
+  return true;
+}
+
+void EnvironmentTextures::publish() {
+  before_ = std::move(shown_);
+  shown_ = current_;
+  ++publications_;
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,46 @@
+// The built-in shapes of draw passes: strips of 4 and 8 vertices without attributes (quad, octagon), one triangle, and icospheres by subdivision.
+// Vertex arrays bind `position` and `normal` to the locations of the program that draws.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/programs/program.h"
+#include "engine/passes/pass_type.h"
+
+namespace weft::runtime {
+
+struct ShapeMesh {
+  std::vector<float> positions;        // xyz per vertex, on the unit sphere (the normal equals the position)
+  std::vector<std::uint32_t> indices;  // counter-clockwise triangles seen from outside
+};
+// 20 * 4^n triangles from an icosahedron; midpoints are shared. n from 0 to kMaxSubdivision.
+constexpr int kMaxSubdivision = 6;
+ShapeMesh makeIcosphere(int subdivisions);
+
+class Geometries {
+ public:
+  // `name` is one of the registry's geometries, with all its arguments, in their ranges. Count 0 after an error.
+  passes::Geometry get(const std::string& name, const std::vector<double>& arguments,
+                       const gl::Reflection& reflection, base::Diagnostics& diagnostics);
+  passes::Geometry empty();  // for fullscreen triangles
+
+ private:
+  struct Mesh {
+    gl::Buffer vertices, indices;
+    GLsizei count = 0;
+  };
+  gl::VertexArray empty_;
+  std::map<int, Mesh> icospheres_;
+  struct Bound {
+    int subdivisions = 0;
+    GLint position = -1, normal = -1;
+    gl::VertexArray vertexArray;
+  };
+  std::vector<Bound> bound_;
+};
+
+}  // namespace weft::runtime

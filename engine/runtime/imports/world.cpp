@@ -1,0 +1,59 @@
+#include "engine/runtime/imports/world.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace weft::runtime {
+
+World::World(scene::Scene scene) : scene_(std::move(scene)) {}
+
+void World::setScene(scene::Scene scene) {
+  scene_ = std::move(scene);
+  ++sceneGeneration_;
+}
+
+void World::setEnvironment(std::shared_ptr<const assets::EnvironmentMap> map) {
+  environment_ = std::move(map);
+  ++environmentGeneration_;
+}
+
+std::uint64_t World::dropEnvironmentTexels() {
+  if (!environment_ || environment_->texels.empty()) return 0;
+  const std::uint64_t bytes = environment_->texels.size() * sizeof(environment_->texels[0]);
+  assets::EnvironmentMap rest{environment_->width, environment_->height, {}, environment_->id};
+  environment_ = std::make_shared<const assets::EnvironmentMap>(std::move(rest));
+  return bytes;
+}
+
+void World::setEnvironment(const std::shared_ptr<const assets::ImageF>& image) {
+  setEnvironment(std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*image)));
+}
+
+WorldFacts World::facts() const {
+  WorldFacts facts;
+  facts.environment = environment_ || environmentPending();
+  if (environment_) {
+    facts.environmentWidth = environment_->width;
+    facts.environmentHeight = environment_->height;
+  }
+  for (int i = 0; i < scene::kDrawListCount; ++i) {
+    const auto list = static_cast<scene::DrawList>(i);
+    facts.lists.push_back(
+        {scene::drawListNames()[static_cast<std::size_t>(i)], scene::countInstances(scene_, list)});
+  }
+  return facts;
+}
+
+FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps) {
+  const scene::Camera* camera = scene::findCamera(world.scene(), "");
+  assert(camera && "a loaded scene has a camera");
+  FrameInput input;
+  input.frame = frame;
+  input.deltaTime = 1.0 / fps;
+  input.time = frame / fps;
+  input.pose = scene::poseAt(*camera, input.time);
+  input.previousPose = scene::poseAt(*camera, frame == 0 ? input.time : (frame - 1) / fps);
+  return input;
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,66 @@
+// What a frame is a picture of, on the CPU: the scene, the environment image, and the camera of a moment. Holds what
+// imports are made from, and a generation for each so that `on_change` passes know when to run. No GL.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/assets/environment_map.h"
+#include "engine/assets/image.h"
+#include "engine/base/diagnostic.h"
+#include "engine/runtime/imports/registry.h"
+#include "engine/scene/scene.h"
+
+namespace weft::runtime {
+
+class World {
+ public:
+  explicit World(scene::Scene scene);
+
+  const scene::Scene& scene() const { return scene_; }
+  void setScene(scene::Scene scene);
+  std::uint64_t sceneGeneration() const { return sceneGeneration_; }
+
+  // Null: none was loaded.
+  const std::shared_ptr<const assets::EnvironmentMap>& environment() const { return environment_; }
+  void setEnvironment(std::shared_ptr<const assets::EnvironmentMap> map);
+  // The same picture rounded to halves.
+  void setEnvironment(const std::shared_ptr<const assets::ImageF>& image);
+  // Frees its texels, of which a GPU has a copy; nothing can upload it from here again. How many bytes it held.
+  std::uint64_t dropEnvironmentTexels();
+  std::uint64_t environmentGeneration() const { return environmentGeneration_; }
+
+  // The first environment is on its way. Until setEnvironment(), or expectEnvironment(false) when it failed, graphs are
+  // expanded as if there were one, of WorldFacts' size, and Renderer::frame() shows black instead of those that read it.
+  // The arrival changes the facts when the size differs: then the graph is to be applied again; what persists carries over.
+  void expectEnvironment(bool expected = true) { environmentExpected_ = expected; }
+  bool environmentPending() const { return environmentExpected_ && !environment_; }
+
+  WorldFacts facts() const;
+
+ private:
+  scene::Scene scene_;
+  std::shared_ptr<const assets::EnvironmentMap> environment_;
+  bool environmentExpected_ = false;
+  std::uint64_t sceneGeneration_ = 1, environmentGeneration_ = 1;
+};
+
+// One frame's inputs. In headless runs everything here comes from the frame number.
+struct FrameInput {
+  std::uint32_t frame = 0;
+  double time = 0, deltaTime = 1.0 / 60.0;  // seconds
+  scene::CameraPose pose, previousPose;
+  std::uint64_t cutGeneration = 0;  // changes when the camera jumps
+  bool headless = true;             // publications of the first frame count as infinitely old
+  // Asked between passes; may be empty. Once true, nobody will look at this frame: passes that serve its picture alone
+  // are left out. What persists is what it is after a whole frame.
+  std::function<bool()> obsolete{};
+};
+
+// Frame `frame` of the world's default camera at `fps` steps per second.
+FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps);
+
+}  // namespace weft::runtime

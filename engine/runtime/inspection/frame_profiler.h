@@ -1,0 +1,63 @@
+// What the last frames cost: wall clock around each, and CPU and GPU time per pass where the timers are on. Names of passes
+// stay right when plans change in between. Does not: turn timers on, smooth, or draw.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/gl/objects/timers.h"
+#include "engine/runtime/frame/execution.h"
+
+namespace weft::runtime {
+
+struct FrameProfile {
+  std::uint64_t frame = 0;    // the caller's number
+  double start = 0, end = 0;  // ms of the steady clock, around the calls of the frame
+  std::shared_ptr<const std::vector<std::string>> names;  // of the plan's steps
+  std::vector<gl::PassTime> passes;                       // parallel to names; empty when the timers were off
+  FrameReport report;
+  std::uint64_t bytesAllocated = 0;  // of the plan
+};
+
+class FrameProfiler {
+ public:
+  // `timers` must outlive this, which takes their listener.
+  explicit FrameProfiler(gl::PassTimers& timers, std::size_t capacity = 240);
+  ~FrameProfiler();
+  FrameProfiler(const FrameProfiler&) = delete;
+  FrameProfiler& operator=(const FrameProfiler&) = delete;
+
+  // Around Execution::frame() of this plan.
+  void begin(const graph::Plan& plan, std::uint64_t frame);
+  void end(const FrameReport& report);
+  // Waits for times that are still to come.
+  void finish();
+
+  // Frames whose times are complete, the newest last.
+  const std::deque<FrameProfile>& history() const { return history_; }
+  // Called with each of them once, in order. Empty: nobody.
+  void setSink(std::function<void(const FrameProfile&)> sink) { sink_ = std::move(sink); }
+
+ private:
+  struct Pending {
+    FrameProfile profile;
+    std::uint64_t number = 0;  // of the timers; 0: they were off
+    bool done = false;
+  };
+  void complete();
+
+  gl::PassTimers& timers_;
+  std::size_t capacity_;
+  std::deque<Pending> pending_;
+  std::deque<FrameProfile> history_;
+  std::function<void(const FrameProfile&)> sink_;
+  std::shared_ptr<const graph::FlatGraph>
+      named_;  // whose steps names_ are; held so that no other takes its place
+  std::shared_ptr<const std::vector<std::string>> names_;
+};
+
+}  // namespace weft::runtime

@@ -1,0 +1,343 @@
+#include "engine/runtime/inspection/inspector.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "engine/runtime/frame/gl_state.h"
+
+namespace weft::runtime {
+
+using graph::kNone;
+
+namespace {
+
+constexpr const char* kVertex = R"(
+void main() {
+  vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
+  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+GLenum attachmentPointOf(GLenum format) {
+  const gl::FormatClass kind = gl::classOf(format);
+  return kind == gl::FormatClass::depth           ? GL_DEPTH_ATTACHMENT
+         : kind == gl::FormatClass::depth_stencil ? GL_DEPTH_STENCIL_ATTACHMENT
+                                                  : GL_COLOR_ATTACHMENT0;
+}
+
+bool writes(const graph::Plan& plan, std::uint32_t pass, std::uint32_t resource) {
+  const graph::FlatPass& flat = plan.graph->passes[pass];
+  for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
+    const graph::FlatUse& use = plan.graph->uses[u];
+    if (use.resource == resource && use.access != graph::Access::read && plan.attached[u]) return true;
+  }
+  return false;
+}
+
+std::string numberText(double x) {
+  if (std::isnan(x)) return "nan";
+  return fmt::format("{}", static_cast<float>(x));
+}
+
+}  // namespace
+
+std::string InspectTexel::text() const {
+  std::string out;
+  for (std::uint32_t c = 0; c < channels; ++c) {
+    const bool whole = kind == gl::FormatClass::unsigned_integer || kind == gl::FormatClass::signed_integer;
+    out += (c ? ", " : "") +
+           (whole ? fmt::format("{}", static_cast<std::int64_t>(value[c])) : numberText(value[c]));
+  }
+  return out;
+}
+
+std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint32_t resource) {
+  std::vector<std::string> names;
+  for (const graph::Step& step : plan.steps)
+    if (writes(plan, step.pass, resource)) names.push_back(plan.graph->passNames[step.pass]);
+  return names;
+}
+
+bool Inspector::watch(Execution& execution, const InspectTarget& target) {
+  if (execution_ == &execution && execution.tapped() && target == target_) return true;
+  release(execution);
+  const graph::Plan& plan = execution.plan();
+  const graph::FlatGraph& graph = *plan.graph;
+  const auto named = std::ranges::find(graph.resourceNames, target.resource);
+  if (named == graph.resourceNames.end() || plan.steps.empty()) return false;
+  const auto resource = static_cast<std::uint32_t>(named - graph.resourceNames.begin());
+  const graph::FlatResource& desc = graph.resources[resource];
+  if (desc.kind == graph::ResourceKind::imported_buffer || plan.firstStep[resource] == kNone) return false;
+  std::uint32_t step = kNone;
+  for (std::uint32_t s = 0; s < plan.steps.size(); ++s) {
+    const std::uint32_t pass = plan.steps[s].pass;
+    if (target.pass.empty() ? writes(plan, pass, resource) : graph.passNames[pass] == target.pass) step = s;
+  }
+  if (step == kNone && !target.pass.empty()) return false;
+  // Nobody writes it: an import, or version zero alone.
+  if (step == kNone)
+    step = std::min(plan.firstStep[resource], static_cast<std::uint32_t>(plan.steps.size() - 1));
+  execution_ = &execution;
+  target_ = target;
+  resource_ = resource;
+  channels_ = std::max<std::uint32_t>(1, graph::infoOf(desc.format).channels);
+  mip_ = std::min<std::uint32_t>(target.mip, desc.mips - 1u);
+  const std::uint32_t slices =
+      desc.target == graph::Target::texture_3d ? std::max(1u, desc.depth >> mip_) : desc.layers;
+  layer_ = std::min(target.layer, slices - 1);
+  history_ = std::min<std::uint32_t>(target.history, desc.history);
+  stencil_ = target.stencil && graph::hasStencil(desc.format);
+  hasPicture_ = hasBuffer_ = false;
+  execution.tap(step, [this] { copy(); });
+  return true;
+}
+
+void Inspector::release(Execution& execution) {
+  execution.tap(0, {});
+  execution_ = nullptr;
+  hasPicture_ = hasBuffer_ = false;
+}
+
+bool Inspector::prepareTexture(const gl::TextureRef& from, const graph::FlatResource& desc) {
+  const gl::Extent extent = gl::extentOf(from.desc, mip_);
+  const gl::TextureDesc wanted{.format = from.desc.format, .width = extent.width, .height = extent.height};
+  if (!picture_ || !(picture_.desc() == wanted)) {
+    base::Diagnostics ignored;
+    auto made = gl::Texture::create(wanted, "inspector", ignored);
+    if (!made) return false;
+    picture_ = std::move(*made);
+    resolveTo_.reset();
+  }
+  if (gl::classOf(wanted.format) == gl::FormatClass::depth_stencil)
+    glTextureParameteri(picture_.id(), GL_DEPTH_STENCIL_TEXTURE_MODE,
+                        stencil_ ? GL_STENCIL_INDEX : GL_DEPTH_COMPONENT);
+  if (desc.samples == 1) return true;
+  base::Diagnostics ignored;
+  const GLenum point = attachmentPointOf(wanted.format);
+  if (!resolveTo_) {
+    const gl::Attachment to{.point = point, .texture = picture_.id()};
+    if (auto made = gl::Framebuffer::create({&to, 1}, "inspector", ignored)) resolveTo_ = std::move(*made);
+    resolvedTexture_ = 0;
+  }
+  if (resolvedTexture_ != from.id) {
+    const gl::Attachment source{.point = point, .texture = from.id};
+    if (auto made = gl::Framebuffer::create({&source, 1}, "inspector", ignored))
+      resolveFrom_ = std::move(*made);
+    resolvedTexture_ = from.id;
+  }
+  return resolveTo_ && resolveFrom_;
+}
+
+bool Inspector::prepareBuffer(std::uint64_t bytes) {
+  if (buffer_ && buffer_.bytes() == bytes) return true;
+  base::Diagnostics ignored;
+  auto made = gl::Buffer::create(bytes, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT, "inspector", ignored);
+  if (made) buffer_ = std::move(*made);
+  return made.has_value();
+}
+
+// Within the frame. What shaders stored must be there to be copied, and the copy must be done before shaders store again:
+// barriers of the tap's own, since the plan knows nothing of it.
+void Inspector::copy() {
+  const graph::FlatResource& desc = execution_->plan().graph->resources[resource_];
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                  GL_BUFFER_UPDATE_BARRIER_BIT);
+  if (desc.kind == graph::ResourceKind::buffer) {
+    std::uint64_t offset = 0;
+    const BufferRef from = execution_->buffer(resource_, offset, history_);
+    hasBuffer_ = from.id != 0 && prepareBuffer(from.bytes);
+    if (hasBuffer_)
+      glCopyNamedBufferSubData(from.id, buffer_.id(), static_cast<GLintptr>(offset), 0,
+                               static_cast<GLsizeiptr>(from.bytes));
+  } else {
+    const gl::TextureRef from = execution_->texture(resource_, history_);
+    hasPicture_ = from.id != 0 && mip_ < from.desc.mips && prepareTexture(from, desc);
+    if (hasPicture_) {
+      const auto width = static_cast<GLsizei>(picture_.desc().width),
+                 height = static_cast<GLsizei>(picture_.desc().height);
+      if (desc.samples > 1) {
+        openMasks();
+        const GLenum point = attachmentPointOf(from.desc.format);
+        const GLbitfield mask = point == GL_COLOR_ATTACHMENT0  ? GL_COLOR_BUFFER_BIT
+                                : point == GL_DEPTH_ATTACHMENT ? GL_DEPTH_BUFFER_BIT
+                                                               : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT;
+        glBlitNamedFramebuffer(resolveFrom_.id(), resolveTo_.id(), 0, 0, width, height, 0, 0, width, height,
+                               mask, GL_NEAREST);
+      } else {
+        glCopyImageSubData(from.id, from.desc.target, static_cast<GLint>(mip_), 0, 0,
+                           static_cast<GLint>(layer_), picture_.id(), GL_TEXTURE_2D, 0, 0, 0, 0, width,
+                           height, 1);
+      }
+    }
+  }
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  copies_ += hasPicture_ || hasBuffer_;
+}
+
+GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32_t height,
+                       base::Diagnostics& diagnostics) {
+  if (!hasPicture_ || width == 0 || height == 0) return 0;
+  const gl::FormatClass kind = gl::classOf(picture_.desc().format);
+  const bool depth = kind == gl::FormatClass::depth || kind == gl::FormatClass::depth_stencil;
+  const int integer = stencil_ || kind == gl::FormatClass::unsigned_integer ? 1
+                      : kind == gl::FormatClass::signed_integer             ? 2
+                                                                            : 0;
+  gl::ProgramRequest request;
+  request.label = "inspector";
+  request.stages = {{GL_VERTEX_SHADER, "inspector.vert.glsl", kVertex},
+                    {GL_FRAGMENT_SHADER, "inspect/inspect.frag.glsl", ""}};
+  request.defines = {{"INTEGER", std::to_string(integer)}};
+  request.outputs = {"result"};
+  const auto variant = device_.programs.get(request, diagnostics);
+  const gl::Block* block = variant ? variant->program.reflection().findUniformBlock("Parameters") : nullptr;
+  if (!block) return 0;
+
+  const gl::TextureDesc wanted{.format = GL_RGBA8, .width = width, .height = height};
+  if (!canvas_ || !(canvas_.desc() == wanted)) {
+    auto made = gl::Texture::create(wanted, "inspector canvas", diagnostics);
+    if (!made) return 0;
+    canvas_ = std::move(*made);
+    const gl::Attachment to{.texture = canvas_.id()};
+    auto target = gl::Framebuffer::create({&to, 1}, "inspector canvas", diagnostics);
+    if (!target) return 0;
+    canvasTarget_ = std::move(*target);
+  }
+  std::vector<std::byte> bytes(block->bytes + 16);
+  const auto set = [&](const char* name, const graph::Value& value) {
+    if (const gl::BlockMember* member = block->find(name)) writeValue(bytes.data(), *member, value);
+  };
+  const auto number = [](double x) { return graph::Value::number(x); };
+  graph::Value origin{graph::Value::Type::list, 2, {view.x, view.y, 0, 0}, {}};
+  set("origin", origin);
+  set("texels_per_pixel", number(view.texelsPerPixel));
+  // Depth, stencil and one-channel formats have one channel to show.
+  const bool single = depth || channels_ == 1;
+  set("channel", number(single ? 1 : static_cast<int>(view.channel)));
+  set("low", number(view.low));
+  set("high", number(view.high));
+  set("ev", number(view.ev));
+  set("false_color", number(view.falseColor));
+  set("encode", number(view.encode));
+  set("highlight", number(view.highlight));
+  set("near", number(view.depth && depth && !stencil_ ? view.nearPlane : 0));
+  if (!uniforms_ || uniforms_.bytes() < bytes.size()) {
+    auto made = gl::Buffer::create(bytes.size(), GL_DYNAMIC_STORAGE_BIT, "inspector", diagnostics);
+    if (!made) return 0;
+    uniforms_ = std::move(*made);
+  }
+  gl::uploadBuffer(uniforms_.id(), 0, bytes);
+  if (!vertices_) vertices_ = gl::VertexArray::create("inspector");
+
+  openMasks();
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glBindFramebuffer(GL_FRAMEBUFFER, canvasTarget_.id());
+  glViewport(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+  glUseProgram(variant->program.id());
+  glBindVertexArray(vertices_.id());
+  const gl::OpaqueUniform* sampler = variant->program.reflection().findSampler("source");
+  if (sampler) {
+    glBindTextureUnit(sampler->unit, picture_.id());
+    glBindSampler(sampler->unit, 0);
+  }
+  glBindBufferRange(GL_UNIFORM_BUFFER, block->binding, uniforms_.id(), 0, block->bytes);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  releaseBindings();
+  return canvas_.id();
+}
+
+std::optional<InspectTexel> Inspector::texel(std::uint32_t x, std::uint32_t y) const {
+  if (!hasPicture_ || x >= picture_.desc().width || y >= picture_.desc().height) return std::nullopt;
+  InspectTexel out;
+  out.kind = gl::classOf(picture_.desc().format);
+  out.channels = channels_;
+  const auto get = [&](GLenum format, GLenum type, GLsizei bytes, void* to) {
+    glGetTextureSubImage(picture_.id(), 0, static_cast<GLint>(x), static_cast<GLint>(y), 0, 1, 1, 1, format,
+                         type, bytes, to);
+  };
+  const auto keep = [&](const auto& values) {
+    for (std::uint32_t c = 0; c < out.channels && c < 4; ++c) out.value[c] = static_cast<double>(values[c]);
+  };
+  if (out.kind == gl::FormatClass::depth || out.kind == gl::FormatClass::depth_stencil) {
+    out.channels = 1;
+    if (stencil_) {
+      struct {
+        float depth;
+        std::uint32_t stencil;
+      } both{};
+      std::uint32_t packed = 0;
+      const bool wide = picture_.desc().format == GL_DEPTH32F_STENCIL8;
+      if (wide)
+        get(GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, sizeof both, &both);
+      else
+        get(GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, sizeof packed, &packed);
+      out.kind = gl::FormatClass::unsigned_integer;
+      out.value[0] = (wide ? both.stencil : packed) & 0xff;
+    } else {
+      float depth = 0;
+      get(GL_DEPTH_COMPONENT, GL_FLOAT, sizeof depth, &depth);
+      out.value[0] = depth;
+    }
+  } else if (out.kind == gl::FormatClass::unsigned_integer) {
+    std::uint32_t values[4] = {};
+    get(GL_RGBA_INTEGER, GL_UNSIGNED_INT, sizeof values, values);
+    keep(values);
+  } else if (out.kind == gl::FormatClass::signed_integer) {
+    std::int32_t values[4] = {};
+    get(GL_RGBA_INTEGER, GL_INT, sizeof values, values);
+    keep(values);
+  } else {
+    float values[4] = {};
+    get(GL_RGBA, GL_FLOAT, sizeof values, values);
+    keep(values);
+  }
+  return out;
+}
+
+std::optional<InspectStatistics> Inspector::measure() const {
+  if (!hasPicture_ || stencil_) return std::nullopt;
+  const std::vector<float> texels = gl::readFloats(picture_.ref());
+  const std::size_t stride = gl::floatChannelsOf(picture_.desc().format),
+                    channels = std::min<std::size_t>(stride, channels_);
+  InspectStatistics out;
+  out.low.fill(std::numeric_limits<double>::infinity());
+  out.high.fill(-std::numeric_limits<double>::infinity());
+  std::array<std::uint64_t, 4> finite{};
+  for (std::size_t i = 0; i < texels.size(); i += stride) {
+    bool nan = false, infinite = false;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double x = texels[i + c];
+      nan |= std::isnan(x);
+      infinite |= std::isinf(x);
+      if (!std::isfinite(x)) continue;
+      out.low[c] = std::min(out.low[c], x);
+      out.high[c] = std::max(out.high[c], x);
+      out.mean[c] += x;
+      ++finite[c];
+    }
+    out.nan += nan;
+    out.infinite += infinite;
+    ++out.texels;
+  }
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (finite[c])
+      out.mean[c] /= static_cast<double>(finite[c]);
+    else
+      out.low[c] = out.high[c] = 0;
+  }
+  return out;
+}
+
+std::vector<std::byte> Inspector::bytes(std::uint64_t offset, std::uint64_t count) const {
+  if (!hasBuffer_ || offset >= buffer_.bytes()) return {};
+  return gl::readBuffer(buffer_.id(), offset, std::min(count, buffer_.bytes() - offset));
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,99 @@
+// One texture or buffer of a running graph, at one place in the frame: copied there by a tap (execution.h) into storage of
+// the inspector's own, then shown and read at leisure. Sees what a pass wrote although its storage is used again later.
+// Does not: know windows, decide what to look at, or cost anything while it looks at nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/gl/objects/objects.h"
+#include "engine/runtime/frame/execution.h"
+
+namespace weft::runtime {
+
+// By name, so that it outlives a change of the graph.
+struct InspectTarget {
+  std::string resource;     // FlatGraph::resourceNames: "hdr", "hdr#2"
+  std::string pass;         // full instance name of the pass after which to look; "": the last that writes it
+  std::uint32_t mip = 0;    // clamped to what there is, as layer and history are
+  std::uint32_t layer = 0;  // array layer, cube * 6 + face, or slice of a 3D texture
+  std::uint32_t history = 0;  // n of @-n
+  bool stencil = false;       // of a depth-stencil texture, instead of its depth
+  friend bool operator==(const InspectTarget&, const InspectTarget&) = default;
+};
+
+enum class InspectChannel : std::uint8_t { rgb, red, green, blue, alpha };
+
+// How texels become pixels (shaders/inspect/inspect.frag.glsl).
+struct InspectView {
+  InspectChannel channel = InspectChannel::rgb;
+  float low = 0, high = 1;  // values shown black and white
+  float ev = 0;             // stops, before the range
+  bool falseColor = false;  // one channel (rgb: its luminance) as a colour scale
+  bool encode = true;       // sRGB curve, for linear light
+  bool highlight = true;    // NaN magenta, infinities and what is outside the range marked
+  bool depth = false;       // reversed depth d as near / d: distance in units of `near`
+  float nearPlane = 0.1f;
+  double x = 0, y = 0;  // texel at the canvas's lower left corner, from the texture's lower left
+  double texelsPerPixel = 1;
+};
+
+// A texel's value as it is stored.
+struct InspectTexel {
+  gl::FormatClass kind = gl::FormatClass::floating;
+  std::uint32_t channels = 4;
+  std::array<double, 4> value{};  // integers and floats exactly; missing channels 0
+  std::string text() const;       // "0.5, 1, nan, 2"
+};
+
+struct InspectStatistics {
+  std::array<double, 4> low{}, high{}, mean{};  // per channel, of what is finite
+  std::uint64_t nan = 0, infinite = 0, texels = 0;
+};
+
+class Inspector {
+ public:
+  explicit Inspector(Device& device) : device_(device) {}
+
+  // Before each frame of `execution`: taps it for `target`. False when the target is not there; nothing is tapped then.
+  bool watch(Execution& execution, const InspectTarget& target);
+  void release(Execution& execution);
+  // Passes that write a resource, in order of steps: where it may be looked at.
+  static std::vector<std::string> writersOf(const graph::Plan& plan, std::uint32_t resource);
+
+  // What the last frame left here: a single-level 2D texture, id 0 when there is none (or it is a buffer).
+  gl::TextureRef picture() const { return hasPicture_ ? picture_.ref() : gl::TextureRef{}; }
+  std::uint64_t bufferBytes() const { return hasBuffer_ ? buffer_.bytes() : 0; }
+  std::uint64_t copies() const { return copies_; }  // made so far
+
+  // Draws it into a texture of that size, rgba8, which stays this object's. 0 after an error or without a picture.
+  GLuint draw(const InspectView& view, std::uint32_t width, std::uint32_t height,
+              base::Diagnostics& diagnostics);
+  // Waits for the GPU. Row 0 is the bottom one.
+  std::optional<InspectTexel> texel(std::uint32_t x, std::uint32_t y) const;
+  std::optional<InspectStatistics> measure() const;
+  std::vector<std::byte> bytes(std::uint64_t offset, std::uint64_t count) const;
+
+ private:
+  void copy();
+  bool prepareTexture(const gl::TextureRef& from, const graph::FlatResource& desc);
+  bool prepareBuffer(std::uint64_t bytes);
+
+  Device& device_;
+  Execution* execution_ = nullptr;  // that was tapped; used while its tap runs, it may be gone else
+  InspectTarget target_;
+  std::uint32_t resource_ = 0, mip_ = 0, layer_ = 0, history_ = 0;
+  std::uint32_t channels_ = 4;  // of the resource's format
+  bool stencil_ = false, hasPicture_ = false, hasBuffer_ = false;
+  std::uint64_t copies_ = 0;
+  gl::Texture picture_, canvas_;
+  gl::Buffer buffer_, uniforms_;
+  gl::Framebuffer canvasTarget_, resolveFrom_, resolveTo_;
+  GLuint resolvedTexture_ = 0;
+  gl::VertexArray vertices_;
+};
+
+}  // namespace weft::runtime

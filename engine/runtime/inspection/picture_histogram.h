@@ -1,0 +1,37 @@
+// How bright the presented picture is: shares of its texels by luminance and by channel, from a small copy that is read back
+// behind a fence some frames later. Never waits. Does not: know scene-referred values (a graph's output `histogram` does).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/gl/objects/objects.h"
+
+namespace weft::runtime {
+
+class PictureHistogram {
+ public:
+  static constexpr std::uint32_t kWidth = 256, kHeight = 144;
+  using Bins = std::array<float, 256>;  // share of the texels per 8-bit value, as displayed
+
+  // Once per frame, with what is presented (one level, one layer). Starts a copy when none is on its way, takes what has come.
+  void update(const gl::TextureRef& presented);
+
+  // Red, green, blue, luminance; all zero before the first result. Count of results so far.
+  const std::array<Bins, 4>& bins() const { return bins_; }
+  std::uint64_t results() const { return results_; }
+
+ private:
+  bool prepare();
+  void count();
+
+  gl::Texture small_;
+  gl::Framebuffer target_;
+  gl::Buffer buffer_;
+  gl::Fence fence_;
+  bool pending_ = false;
+  std::array<Bins, 4> bins_{};
+  std::uint64_t results_ = 0;
+};
+
+}  // namespace weft::runtime

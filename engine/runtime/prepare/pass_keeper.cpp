@@ -1,0 +1,178 @@
+#include "engine/runtime/prepare/pass_keeper.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace weft::runtime {
+
+using graph::FlatGraph;
+using graph::FlatPass;
+using graph::FlatResource;
+using graph::FlatUse;
+using graph::kNone;
+using graph::PassSpec;
+using graph::Plan;
+using graph::SlotSpec;
+
+namespace {
+
+bool sameRange(const FlatUse& a, const FlatUse& b) {
+  return a.mip == b.mip && a.mips == b.mips && a.layer == b.layer && a.layers == b.layers &&
+         a.planes == b.planes && a.history == b.history && a.kind == b.kind && a.access == b.access &&
+         a.feedback == b.feedback;
+}
+
+bool sameShape(const FlatResource& a, const FlatResource& b) {
+  return a.kind == b.kind && a.format == b.format && a.target == b.target && a.samples == b.samples &&
+         a.layers == b.layers && a.mips == b.mips && a.width == b.width && a.height == b.height &&
+         a.depth == b.depth && a.bytes == b.bytes && a.history == b.history;
+}
+
+bool sameImport(const FlatGraph& a, std::uint32_t x, const FlatGraph& b, std::uint32_t y) {
+  if (x == kNone || y == kNone) return x == y;
+  return a.imports[x].request == b.imports[y].request && a.imports[x].kind == b.imports[y].kind &&
+         a.imports[x].instances == b.imports[y].instances;
+}
+
+bool sameSampler(const graph::Sampler& a, const graph::Sampler& b) {
+  return a.linear == b.linear && a.wrap == b.wrap && a.compare == b.compare;
+}
+
+bool sameSlot(const SlotSpec& a, const SlotSpec& b) {
+  return a.name == b.name && a.access == b.access && a.kind == b.kind && sameSampler(a.sampler, b.sampler) &&
+         a.useCount == b.useCount && a.array == b.array && a.optional == b.optional;
+}
+
+bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
+  return a.name == b.name && a.define == b.define && a.value.type == b.value.type &&
+         a.value.count == b.value.count;
+}
+
+bool sameState(const graph::StateSpec& a, const graph::StateSpec& b) {
+  return a.blend == b.blend && a.depthTest == b.depthTest && a.depthCompare == b.depthCompare &&
+         a.depthWrite == b.depthWrite && a.cull == b.cull && a.lines == b.lines && a.scissor == b.scissor &&
+         a.offsetFactor == b.offsetFactor && a.offsetUnits == b.offsetUnits;
+}
+
+bool sameSpec(const PassSpec& a, const PassSpec& b) {
+  const auto sameDefine = [](const graph::DefineSpec& x, const graph::DefineSpec& y) {
+    return x.name == y.name && x.text == y.text;
+  };
+  return a.type == b.type && a.shader == b.shader && a.slotCount == b.slotCount &&
+         std::ranges::equal(a.defines, b.defines, sameDefine) &&
+         std::ranges::equal(a.uniforms, b.uniforms, sameUniform) && sameState(a.state, b.state) &&
+         std::ranges::equal(a.threads, b.threads) && a.instances == b.instances && a.list == b.list &&
+         a.geometry == b.geometry && a.geometryArguments == b.geometryArguments;
+}
+
+}  // namespace
+
+PassKeeper::PassKeeper(const Plan& plan, const Plan& before) : plan_(plan), before_(before) {
+  stepOf_.reserve(before.steps.size());
+  for (std::uint32_t step = 0; step < before.steps.size(); ++step)
+    stepOf_.emplace(before.graph->specs[before.steps[step].pass].name, step);
+  for (const graph::ClearSpec& clear : plan.graph->clears) clears_[clear.resource] = &clear.value;
+  for (const graph::ClearSpec& clear : before.graph->clears) clearsBefore_[clear.resource] = &clear.value;
+}
+
+std::uint32_t PassKeeper::stepBefore(std::size_t step) const {
+  const auto found = stepOf_.find(plan_.graph->specs[plan_.steps[step].pass].name);
+  return found == stepOf_.end() ? kNone : found->second;
+}
+
+const graph::Value* PassKeeper::clearOf(const std::unordered_map<std::uint32_t, const graph::Value*>& clears,
+                                        std::uint32_t resource) const {
+  const auto found = clears.find(resource);
+  return found == clears.end() ? nullptr : found->second;
+}
+
+bool PassKeeper::pairUp(std::size_t step, std::uint32_t old, Pairs& pairs) const {
+  const FlatGraph &mine = *plan_.graph, &theirs = *before_.graph;
+  const FlatPass &now = mine.passes[plan_.steps[step].pass], &then = theirs.passes[before_.steps[old].pass];
+  for (std::uint32_t i = 0; i < now.useCount; ++i) {
+    const std::uint32_t from = theirs.uses[then.firstUse + i].resource,
+                        to = mine.uses[now.firstUse + i].resource;
+    const auto known =
+        std::ranges::find_if(pairs, [&](const auto& p) { return p.first == from || p.second == to; });
+    if (known == pairs.end())
+      pairs.emplace_back(from, to);
+    else if (known->first != from || known->second != to)
+      return false;
+  }
+  return true;
+}
+
+bool PassKeeper::isSame(std::size_t step, std::uint32_t old) const {
+  const FlatGraph &mine = *plan_.graph, &theirs = *before_.graph;
+  const graph::Step &stepNow = plan_.steps[step], &stepThen = before_.steps[old];
+  const FlatPass &now = mine.passes[stepNow.pass], &then = theirs.passes[stepThen.pass];
+  const PassSpec &spec = mine.specs[stepNow.pass], &specThen = theirs.specs[stepThen.pass];
+  if (now.useCount != then.useCount || now.slices != then.slices ||
+      stepNow.clearCount != stepThen.clearCount || !sameSpec(spec, specThen))
+    return false;
+  for (std::uint32_t i = 0; i < spec.slotCount; ++i)
+    if (!sameSlot(mine.slots[spec.firstSlot + i], theirs.slots[specThen.firstSlot + i])) return false;
+  for (std::uint32_t i = 0; i < now.useCount; ++i) {
+    const FlatUse &use = mine.uses[now.firstUse + i], &useThen = theirs.uses[then.firstUse + i];
+    const FlatResource &resource = mine.resources[use.resource],
+                       &resourceThen = theirs.resources[useThen.resource];
+    if (!sameRange(use, useThen) || !sameShape(resource, resourceThen) ||
+        plan_.attached[now.firstUse + i] != before_.attached[then.firstUse + i] ||
+        !sameImport(mine, resource.import, theirs, resourceThen.import))
+      return false;
+  }
+  Pairs pairs;
+  if (!pairUp(step, old, pairs)) return false;
+  for (std::uint32_t i = 0; i < stepNow.clearCount; ++i) {
+    const FlatUse &use = plan_.clears[stepNow.firstClear + i].use,
+                  &useThen = before_.clears[stepThen.firstClear + i].use;
+    const auto pair = std::ranges::find(pairs, useThen.resource, &Pairs::value_type::first);
+    if (pair == pairs.end() || pair->second != use.resource || !sameRange(use, useThen)) return false;
+    const graph::Value *value = clearOf(clears_, use.resource),
+                       *valueThen = clearOf(clearsBefore_, useThen.resource);
+    if (!value || !valueThen || !(*value == *valueThen)) return false;
+  }
+  return true;
+}
+
+bool PassKeeper::isInPlace(std::size_t step, std::uint32_t old, ResourcePool& pool,
+                           ResourcePool& poolBefore) const {
+  const FlatPass& now = plan_.graph->passes[plan_.steps[step].pass];
+  const FlatPass& then = before_.graph->passes[before_.steps[old].pass];
+  for (std::uint32_t i = 0; i < now.useCount; ++i) {
+    const GpuResource& mine = pool[plan_.graph->uses[now.firstUse + i].resource];
+    const GpuResource& theirs = poolBefore[before_.graph->uses[then.firstUse + i].resource];
+    if (mine.serial != theirs.serial || mine.copies != theirs.copies) return false;
+  }
+  return true;
+}
+
+PreparedPass PassKeeper::take(std::size_t step, std::uint32_t old, PreparedPass prepared) const {
+  Pairs pairs;
+  [[maybe_unused]] const bool paired = pairUp(step, old, pairs);
+  assert(paired && "isSame() held");
+  const auto nowOf = [&](std::uint32_t resource) {
+    const auto pair = std::ranges::find(pairs, resource, &Pairs::value_type::first);
+    return pair == pairs.end() ? resource : pair->second;
+  };
+  const FlatGraph& graph = *plan_.graph;
+  const std::uint32_t pass = plan_.steps[step].pass;
+  for (TextureBinding& binding : prepared.textures) binding.resource = nowOf(binding.resource);
+  for (ImageBinding& binding : prepared.images) binding.resource = nowOf(binding.resource);
+  for (BufferBinding& binding : prepared.buffers) {
+    if (binding.list >= 0) continue;  // names no resource
+    binding.resource = nowOf(binding.resource);
+    if (binding.import != kNone) binding.import = graph.resources[binding.resource].import;
+  }
+  for (AttachmentBinding& binding : prepared.attachments)
+    binding.resource = binding.use.resource = nowOf(binding.resource);
+  for (FixedBinding& binding : prepared.fixed) binding.resource = nowOf(binding.resource);
+  for (ClearCommand& clear : prepared.clears) clear.use.resource = nowOf(clear.use.resource);
+  for (std::uint32_t& resource : prepared.written) resource = nowOf(resource);
+  for (std::uint32_t& resource : prepared.read) resource = nowOf(resource);
+  prepared.context.spec = &graph.specs[pass];
+  prepared.job = plan_.jobs.jobOf(pass);
+  return prepared;
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,290 @@
+// A step of a plan to a PreparedPass: program, bindings, attachments, clears.
+#include <algorithm>
+#include <cassert>
+
+#include "engine/base/hash.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/prepare/program_request.h"
+#include "engine/runtime/prepare/sampler_types.h"
+#include "engine/runtime/storage/formats.h"
+
+namespace weft::runtime {
+
+using graph::Access;
+using graph::FlatResource;
+using graph::FlatUse;
+using graph::Kind;
+using graph::PassSpec;
+using graph::SlotSpec;
+
+namespace {
+
+class Preparer {
+ public:
+  Preparer(PrepareContext& context, std::size_t step)
+      : c_(context), step_(c_.plan.steps[step]), graph_(*c_.plan.graph), spec_(graph_.specs[step_.pass]) {}
+
+  PreparedPass run() {
+    out_.type = c_.types.find(spec_.type);
+    out_.context.spec = &spec_;
+    const graph::PassType type = out_.type->reflect();
+    out_.framebuffers = type.framebuffers;
+    out_.fromSource = type.fromSource;
+    out_.job = c_.plan.jobs.jobOf(step_.pass);
+    collectUses();
+    if (type.shader == graph::ShaderShape::none) {
+      out_.usable = bindFixed();
+    } else {
+      out_.usable = takeProgram(type) && bindSlots();
+      if (out_.usable) prepareGeometry(type);
+    }
+    collectClears();
+    return std::move(out_);
+  }
+
+ private:
+  bool isAttached(std::uint32_t use) const { return c_.plan.attached[use] != 0; }
+
+  void collectUses() {
+    const graph::FlatPass& pass = graph_.passes[step_.pass];
+    const auto addOnce = [](std::vector<std::uint32_t>& list, std::uint32_t resource) {
+      if (std::ranges::find(list, resource) == list.end()) list.push_back(resource);
+    };
+    for (std::uint32_t i = pass.firstUse; i < pass.firstUse + pass.useCount; ++i) {
+      const FlatUse& use = graph_.uses[i];
+      if (use.access == Access::read)
+        addOnce(out_.read, use.resource);
+      else if (isAttached(i))
+        addOnce(out_.written, use.resource);
+      out_.feedback |= use.feedback;
+    }
+  }
+
+  bool takeProgram(const graph::PassType& type) {
+    out_.variant = c_.variant;
+    out_.conditions = c_.conditions;
+    out_.conditional = conditionCount(spec_) > 0;
+    out_.passing = out_.conditional && c_.conditions != settledConditionsOf(spec_);
+    if (!out_.variant) return false;
+    out_.programHash = base::kHashSeed;
+    for (const gl::StageSource& stage : out_.variant->stages)
+      out_.programHash = base::hashCombine(out_.programHash, stage.source->hash);
+    for (const gl::Define& define :
+         programRequestOf(graph_, c_.plan, step_.pass, type, c_.conditions).defines)
+      out_.programHash = base::hashBytes(define.name + "=" + define.value, out_.programHash);
+    const gl::Reflection& reflection = out_.variant->program.reflection();
+    out_.parametersBlock = reflection.findUniformBlock("Parameters");
+    out_.viewBlock = reflection.findUniformBlock("View");
+    out_.sliceBlock = reflection.findUniformBlock("Slice");
+    std::copy_n(reflection.workGroup, 3, out_.context.groupSize);
+    return true;
+  }
+
+  std::vector<GLuint> viewsOf(const FlatUse& use, GLenum target) {
+    std::vector<GLuint> views;
+    const GpuResource& resource = c_.pool[use.resource];
+    if (!resource.texture) return views;  // an import
+    for (std::uint32_t copy = 0; copy < resource.copies; ++copy)
+      views.push_back(c_.pool.view(c_.plan, use, copy, target, c_.diagnostics).id);
+    return views;
+  }
+
+  static bool complete(const std::vector<GLuint>& views) {
+    return std::ranges::none_of(views, [](GLuint id) { return id == 0; });
+  }
+
+  bool bindSlots() {
+    bool good = true;
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
+      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+      for (std::uint32_t k = 0; k < slot.useCount; ++k) {
+        const std::uint32_t index = slot.firstUse + k;
+        if (slot.access != Access::read && !isAttached(index)) continue;
+        good &= bindUse(slot, index, k);
+      }
+    }
+    const gl::Block* instances = out_.variant->program.reflection().findStorageBlock("instances");
+    if (instances && !spec_.list.empty() && !hasSlot("instances")) {
+      BufferBinding binding{.index = instances->binding};
+      binding.list = static_cast<int>(*scene::findDrawList(spec_.list));
+      takeLayout(*instances, binding);
+      out_.buffers.push_back(binding);
+    }
+    return good;
+  }
+
+  bool hasSlot(std::string_view name) const {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
+      if (graph_.slots[spec_.firstSlot + i].name == name) return true;
+    return false;
+  }
+
+  // checkProgram has seen that the block is a table.
+  static void takeLayout(const gl::Block& block, BufferBinding& binding) {
+    std::string problem;
+    [[maybe_unused]] const bool good = instanceLayoutOf(block, binding.layout, problem);
+    assert(good);
+  }
+
+  bool bindUse(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
+    const FlatUse& use = graph_.uses[index];
+    const gl::Reflection& reflection = out_.variant->program.reflection();
+    const FlatResource& resource = graph_.resources[use.resource];
+    switch (slot.kind) {
+      case Kind::sampled: {
+        const gl::OpaqueUniform* sampler = reflection.findSampler(slot.name);
+        if (!sampler) return true;
+        TextureBinding binding{
+            .unit = sampler->unit + element, .resource = use.resource, .history = use.history, .views = {}};
+        binding.sampler = c_.samplerOf(c_.samplerOwner, slot.sampler, use.mips > 1, spec_.state.depthCompare);
+        binding.views = viewsOf(use, opaqueTypeOf(sampler->type).target);
+        out_.textures.push_back(std::move(binding));
+        return complete(out_.textures.back().views);
+      }
+      case Kind::image: {
+        const gl::OpaqueUniform* image = reflection.findImage(slot.name);
+        if (!image) return true;
+        ImageBinding binding{
+            .unit = image->unit + element, .resource = use.resource, .history = use.history, .views = {}};
+        binding.access = slot.access == Access::read    ? GL_READ_ONLY
+                         : slot.access == Access::write ? GL_WRITE_ONLY
+                                                        : GL_READ_WRITE;
+        binding.format = glFormatOf(resource.format).internal;
+        const GLenum target = opaqueTypeOf(image->type).target;
+        binding.layered = target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE;
+        binding.views = viewsOf(use, target);
+        out_.images.push_back(std::move(binding));
+        return complete(out_.images.back().views);
+      }
+      case Kind::uniform:
+      case Kind::storage: {
+        const bool storage = slot.kind == Kind::storage;
+        const gl::Block* block =
+            storage ? reflection.findStorageBlock(slot.name) : reflection.findUniformBlock(slot.name);
+        if (!block) return true;
+        BufferBinding binding{
+            .target = static_cast<GLenum>(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER),
+            .index = block->binding,
+            .resource = use.resource,
+            .history = use.history,
+            .import = resource.import};
+        if (isInstanceTable(graph_, use)) takeLayout(*block, binding);
+        out_.buffers.push_back(binding);
+        return true;
+      }
+      case Kind::color: {
+        const gl::Interface* output = reflection.findOutput(slot.name);
+        if (!output) return true;
+        const auto location = static_cast<GLuint>(output->location);
+        for (const auto& [name, blend] : spec_.state.blend)
+          if (name == slot.name && blend != graph::Blend::none) out_.blends.emplace_back(location, blend);
+        return attach(index, GL_COLOR_ATTACHMENT0 + location);
+      }
+      case Kind::depth: {
+        const bool stencil = graph::hasStencil(resource.format);
+        return attach(index, !stencil          ? GL_DEPTH_ATTACHMENT
+                             : use.planes == 1 ? GL_DEPTH_ATTACHMENT
+                             : use.planes == 2 ? GL_STENCIL_ATTACHMENT
+                                               : GL_DEPTH_STENCIL_ATTACHMENT);
+      }
+      case Kind::copy:
+      case Kind::vertex:
+      case Kind::index:
+      case Kind::indirect:
+        return true;
+    }
+    return true;
+  }
+
+  // Attachments go through a view of the whole resource, so that equal storage gives equal framebuffers.
+  bool attach(std::uint32_t index, GLenum point) {
+    const FlatUse& use = graph_.uses[index];
+    const FlatResource& resource = graph_.resources[use.resource];
+    AttachmentBinding binding{
+        .point = point, .resource = use.resource, .mip = use.mip, .textures = {}, .use = use, .index = index};
+    const bool plain = resource.target == graph::Target::texture_2d ||
+                       resource.target == graph::Target::texture_2d_multisample;
+    binding.layer = plain || use.layers > 1 || resource.target == graph::Target::texture_3d ? -1 : use.layer;
+    FlatUse whole = use;
+    whole.mip = 0;
+    whole.mips = resource.mips;
+    whole.layer = 0;
+    whole.layers = resource.layers;
+    whole.planes = 1;
+    binding.textures = viewsOf(whole, 0);
+    out_.width = std::max(1u, resource.width >> use.mip);
+    out_.height = std::max(1u, resource.height >> use.mip);
+    out_.attachments.push_back(std::move(binding));
+    return complete(out_.attachments.back().textures);
+  }
+
+  // Pass types without a shader name a source and a target slot.
+  bool bindFixed() {
+    std::vector<std::pair<const SlotSpec*, FlatUse>> uses;
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
+      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+      if (slot.useCount > 0) uses.emplace_back(&slot, graph_.uses[slot.firstUse]);
+    }
+    for (const auto& [slot, use] : uses) {
+      const bool from = slot->access == Access::read;
+      FlatUse span = use;
+      if (!from && out_.fromSource) {  // one view from the source level to the last one written
+        for (const auto& [other, source] : uses)
+          if (other->access == Access::read) span.mip = source.mip;
+        span.mips = static_cast<std::uint16_t>(use.mip + use.mips - span.mip);
+      }
+      FixedBinding binding{
+          .source = from, .resource = use.resource, .history = use.history, .views = viewsOf(span, 0)};
+      const FlatResource& resource = graph_.resources[use.resource];
+      binding.mip = use.mip;
+      binding.layer = use.layer;
+      passes::BoundTexture& bound = from ? out_.context.source : out_.context.destination;
+      bound.width = std::max(1u, resource.width >> use.mip);
+      bound.height = std::max(1u, resource.height >> use.mip);
+      bound.planes = !graph::isDepth(resource.format)     ? GL_COLOR_BUFFER_BIT
+                     : graph::hasStencil(resource.format) ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT
+                                                          : GL_DEPTH_BUFFER_BIT;
+      if (from) out_.context.linear = slot->sampler.linear;
+      if (!complete(binding.views)) return false;
+      out_.fixed.push_back(std::move(binding));
+    }
+    return true;
+  }
+
+  void prepareGeometry(const graph::PassType& type) {
+    if (type.shader == graph::ShaderShape::fragment) out_.context.geometry = c_.geometries.empty();
+    if (type.shader != graph::ShaderShape::draw) return;
+    if (!spec_.list.empty()) out_.list = static_cast<int>(*scene::findDrawList(spec_.list));
+    out_.context.instances = spec_.instances;
+    out_.context.geometry = c_.geometries.get(spec_.geometry, spec_.geometryArguments,
+                                              out_.variant->program.reflection(), c_.diagnostics);
+  }
+
+  void collectClears() {
+    for (std::uint32_t i = 0; i < step_.clearCount; ++i) {
+      ClearCommand command;
+      const graph::ClearOp& clear = c_.plan.clears[step_.firstClear + i];
+      command.use = clear.use;
+      command.format = graph_.resources[command.use.resource].format;
+      for (const graph::ClearSpec& spec : graph_.clears)
+        if (spec.resource == command.use.resource) command.value = spec.value;
+      for (std::size_t a = 0; a < out_.attachments.size(); ++a)
+        if (out_.attachments[a].index == clear.attachment) command.attachment = static_cast<int>(a);
+      out_.clears.push_back(command);
+    }
+  }
+
+  PrepareContext& c_;
+  const graph::Step& step_;
+  const graph::FlatGraph& graph_;
+  const PassSpec& spec_;
+  PreparedPass out_;
+};
+
+}  // namespace
+
+PreparedPass preparePass(PrepareContext& context, std::size_t step) {
+  return Preparer(context, step).run();
+}
+
+}  // namespace weft::runtime

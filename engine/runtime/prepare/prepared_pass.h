@@ -1,0 +1,127 @@
+// A step of a plan turned into what the frame loop issues: program, bindings by unit, attachments, state, uniform bytes.
+// Prepared once per plan; running one looks nothing up by name and allocates nothing.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/programs/program_cache.h"
+#include "engine/graph/plan.h"
+#include "engine/passes/pass_registry.h"
+#include "engine/runtime/imports/geometry.h"
+#include "engine/runtime/storage/block_writer.h"
+#include "engine/runtime/storage/resource_pool.h"
+
+namespace weft::runtime {
+
+struct TextureBinding {
+  std::uint32_t unit = 0, resource = 0;
+  std::uint8_t history = 0;
+  GLuint sampler = 0;
+  std::vector<GLuint> views;  // per copy; empty: an import, bound by its resource's current texture
+};
+
+struct ImageBinding {
+  std::uint32_t unit = 0, resource = 0;
+  std::uint8_t history = 0;
+  GLenum access = GL_READ_WRITE, format = GL_NONE;
+  GLboolean layered = GL_FALSE;
+  std::vector<GLuint> views;  // per copy, of exactly the level and layers
+};
+
+struct BufferBinding {
+  GLenum target = GL_SHADER_STORAGE_BUFFER;
+  GLuint index = 0;
+  std::uint32_t resource = 0;
+  std::uint8_t history = 0;
+  std::uint32_t import = graph::kNone;  // into FlatGraph::imports
+  InstanceLayout layout;                // of an imported instance table
+  int list = -1;                        // scene::DrawList of the implicit `instances` block, else -1
+};
+
+struct AttachmentBinding {
+  GLenum point = GL_COLOR_ATTACHMENT0;
+  std::uint32_t resource = 0;
+  std::uint32_t mip = 0;
+  std::int32_t layer = -1;
+  std::vector<GLuint> textures;  // per copy
+  graph::FlatUse use;
+  std::uint32_t index = graph::kNone;  // of `use` in FlatGraph::uses
+};
+
+// The source or destination of a pass type without a shader.
+struct FixedBinding {
+  bool source = true;
+  std::uint32_t resource = 0, mip = 0, layer = 0;
+  std::uint8_t history = 0;
+  std::vector<GLuint> views;  // per copy, of exactly the levels and layers
+};
+
+struct ClearCommand {
+  graph::FlatUse use;
+  graph::Format format = graph::Format::none;
+  graph::Value value;
+  int attachment = -1;  // index into PreparedPass::attachments: cleared through the framebuffer
+};
+
+// One that changes with time.
+struct DynamicUniform {
+  gl::BlockMember member;
+  graph::Expr expr;
+};
+
+struct PreparedPass {
+  const passes::PassType* type = nullptr;
+  passes::PassContext context;
+  std::shared_ptr<const gl::Variant>
+      variant;          // null for types without a shader, or when it failed to compile
+  bool usable = false;  // false: the pass is skipped until its shader compiles
+  std::vector<TextureBinding> textures;
+  std::vector<ImageBinding> images;
+  std::vector<BufferBinding> buffers;
+  std::vector<AttachmentBinding> attachments;
+  std::vector<FixedBinding> fixed;
+  std::vector<ClearCommand> clears;
+  std::vector<std::uint32_t> written, read;  // resources (attached writes; reads)
+  std::uint32_t width = 0, height = 0;       // of the attachments
+  bool feedback = false;
+  std::uint32_t job = graph::kNone;               // as Plan::jobs
+  bool framebuffers = false, fromSource = false;  // as graph::PassType
+  int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
+  // uniform bytes live in one shared buffer; offsets are aligned, size 0: the program has no such block
+  const gl::Block* parametersBlock = nullptr;
+  const gl::Block* viewBlock = nullptr;
+  const gl::Block* sliceBlock = nullptr;
+  std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
+  std::vector<DynamicUniform> dynamics;
+  std::uint64_t programHash = 0;
+  bool conditional = false;                             // has dynamic defines
+  std::uint32_t conditions = 0;                         // of its variant, see conditionsOf
+  bool passing = false;                                 // that variant is not the one that time settles on
+  std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
+};
+
+// What preparing needs of the executor.
+struct PrepareContext {
+  const graph::Plan& plan;
+  const passes::PassRegistry& types;
+  std::shared_ptr<const gl::Variant> variant;  // of the pass to prepare; null for types without a shader
+  std::uint32_t conditions = 0;                // of that variant
+  ResourcePool& pool;
+  Geometries& geometries;
+  GLuint (*samplerOf)(void* owner, const graph::Sampler& sampler, bool mipmapped,
+                      graph::Compare compare) = nullptr;
+  void* samplerOwner = nullptr;
+  base::Diagnostics& diagnostics;
+};
+
+// Fills everything but the uniform offsets. Reports what does not fit; `usable` says whether the pass can run.
+PreparedPass preparePass(PrepareContext& context, std::size_t step);
+
+}  // namespace weft::runtime

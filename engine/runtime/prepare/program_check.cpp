@@ -1,0 +1,328 @@
+#include "engine/runtime/prepare/program_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/base/nearest.h"
+#include "engine/gl/objects/objects.h"
+#include "engine/passes/compute/work_groups.h"
+#include "engine/runtime/prepare/program_request.h"
+#include "engine/runtime/prepare/sampler_types.h"
+#include "engine/runtime/storage/block_writer.h"
+
+namespace weft::runtime {
+
+using base::Code;
+using graph::Access;
+using graph::FlatGraph;
+using graph::FlatResource;
+using graph::FlatUse;
+using graph::Kind;
+using graph::PassSpec;
+using graph::Plan;
+using graph::ShaderShape;
+using graph::SlotSpec;
+
+namespace {
+
+class Checker {
+ public:
+  Checker(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
+          base::Diagnostics& diagnostics)
+      : plan_(plan),
+        graph_(*plan.graph),
+        spec_(graph_.specs[pass]),
+        pass_(pass),
+        variant_(variant),
+        reflection_(variant.program.reflection()),
+        limits_(limits),
+        diagnostics_(diagnostics) {}
+
+  bool run() {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
+    checkParameters();
+    checkRest();
+    checkSlices(graph_.passes[pass_]);
+    checkGroups();
+    return good_;
+  }
+
+ private:
+  base::Diagnostic& fail(Code code, const base::Place& place, std::string message) {
+    good_ = false;
+    base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
+    d.pass = spec_.name;
+    return d;
+  }
+
+  std::vector<std::string> declaredNames() const {
+    std::vector<std::string> names;
+    for (const gl::StageSource& stage : variant_.stages)
+      names.insert(names.end(), stage.source->declared.begin(), stage.source->declared.end());
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+  }
+
+  void missing(const SlotSpec& slot, const char* what, const std::string& other) {
+    slotMissing_ = true;
+    base::Diagnostic& d = fail(Code::slotNotInShader, slot.place,
+                               fmt::format("slot '{}' is not in the shader '{}'", slot.name, spec_.shader));
+    d.expected = fmt::format("{} named '{}'", what, slot.name);
+    if (!other.empty()) {
+      d.found = other;
+      return;
+    }
+    d.hint = base::nearestHint(slot.name, declaredNames());
+  }
+
+  // What else carries the name, for the message.
+  std::string otherUse(const std::string& name) const {
+    if (reflection_.findSampler(name)) return fmt::format("a sampler '{}'", name);
+    if (reflection_.findImage(name)) return fmt::format("an image '{}'", name);
+    if (reflection_.findUniformBlock(name)) return fmt::format("a uniform block '{}'", name);
+    if (reflection_.findStorageBlock(name)) return fmt::format("a storage block '{}'", name);
+    if (reflection_.findOutput(name)) return fmt::format("an output '{}'", name);
+    return {};
+  }
+
+  void checkSlot(const SlotSpec& slot) {
+    if (slot.useCount == 0) return;
+    const FlatUse& use = graph_.uses[slot.firstUse];
+    if (slot.access != Access::read && !plan_.attached[slot.firstUse]) return;
+    switch (slot.kind) {
+      case Kind::sampled:
+        return checkSampler(slot, use);
+      case Kind::image:
+        return checkImage(slot, use);
+      case Kind::uniform:
+        return checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block");
+      case Kind::storage:
+        checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block");
+        if (isInstanceTable(graph_, use)) checkTable(reflection_.findStorageBlock(slot.name), slot.place);
+        return;
+      case Kind::color:
+        if (!reflection_.findOutput(slot.name) && (!mentioned(slot) || !otherUse(slot.name).empty()))
+          missing(slot, "an output", otherUse(slot.name));
+        checkOutput(slot, use);
+        return;
+      case Kind::depth:
+      case Kind::copy:
+      case Kind::vertex:
+      case Kind::index:
+      case Kind::indirect:
+        return;
+    }
+  }
+
+  bool mentioned(const SlotSpec& slot) const { return variant_.mentions(slot.name); }
+
+  void checkBlock(const SlotSpec& slot, const gl::Block* block, const char* what) {
+    if (!block && (!mentioned(slot) || !otherUse(slot.name).empty()))
+      missing(slot, what, otherUse(slot.name));
+  }
+
+  void checkTable(const gl::Block* block, const base::Place& place) {
+    InstanceLayout layout;
+    std::string problem;
+    if (!block || instanceLayoutOf(*block, layout, problem)) return;
+    fail(Code::notAnInstanceTable, place,
+         fmt::format("the block '{}' of '{}' is no instance table: {}", block->name, spec_.shader, problem))
+        .hint = "include scene/instances.glsl, or declare its struct";
+  }
+
+  // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
+  void checkOutput(const SlotSpec& slot, const FlatUse& use) {
+    const gl::Interface* output = reflection_.findOutput(slot.name);
+    const auto shape = output ? gl::shapeOf(output->type) : std::nullopt;
+    if (!shape) return;
+    const graph::TexelKind kind = graph::infoOf(graph_.resources[use.resource].format).kind;
+    const GLenum base = kind == graph::TexelKind::unsigned_integer ? GL_UNSIGNED_INT
+                        : kind == graph::TexelKind::signed_integer ? GL_INT
+                                                                   : GL_FLOAT;
+    if (shape->base == base) return;
+    base::Diagnostic& d = fail(
+        Code::slotTypeMismatch, slot.place,
+        fmt::format("slot '{}' and the shader's {} do not fit", slot.name, gl::glslTypeName(output->type)));
+    d.resource = graph_.resourceNames[use.resource];
+    d.expected = fmt::format("{} output for {}",
+                             base == GL_FLOAT ? "a float"
+                             : base == GL_INT ? "an int"
+                                              : "an unsigned int",
+                             graph::infoOf(graph_.resources[use.resource].format).name);
+    d.found = gl::glslTypeName(output->type);
+  }
+
+  void checkSampler(const SlotSpec& slot, const FlatUse& use) {
+    const gl::OpaqueUniform* sampler = reflection_.findSampler(slot.name);
+    if (!sampler) {
+      if (!mentioned(slot) || !otherUse(slot.name).empty()) missing(slot, "a sampler", otherUse(slot.name));
+      return;
+    }
+    checkOpaque(slot, use, *sampler, slot.sampler.compare);
+  }
+
+  void checkImage(const SlotSpec& slot, const FlatUse& use) {
+    const gl::OpaqueUniform* image = reflection_.findImage(slot.name);
+    if (!image) {
+      if (!mentioned(slot) || !otherUse(slot.name).empty()) missing(slot, "an image", otherUse(slot.name));
+      return;
+    }
+    checkOpaque(slot, use, *image, false);
+  }
+
+  void checkOpaque(const SlotSpec& slot, const FlatUse& use, const gl::OpaqueUniform& uniform, bool compare) {
+    const OpaqueType type = opaqueTypeOf(uniform.type);
+    const FlatResource& resource = graph_.resources[use.resource];
+    const std::string problem = opaqueMismatch(type, resource, use, compare);
+    if (!problem.empty()) {
+      base::Diagnostic& d = fail(
+          Code::slotTypeMismatch, slot.place,
+          fmt::format("slot '{}' and the shader's {} do not fit", slot.name, gl::glslTypeName(uniform.type)));
+      d.resource = graph_.resourceNames[use.resource];
+      d.expected = problem;
+      d.found = gl::glslTypeName(uniform.type);
+    }
+    if (uniform.arraySize < slot.useCount || (!slot.array && uniform.arraySize > 1)) {
+      base::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
+                                 fmt::format("slot '{}' has {} textures and the shader an array of {}",
+                                             slot.name, slot.useCount, uniform.arraySize));
+      d.expected = fmt::format("{}[{}]", slot.name, slot.useCount);
+    }
+  }
+
+  void checkParameters() {
+    const gl::Block* block = reflection_.findUniformBlock("Parameters");
+    for (const graph::UniformSpec& uniform : spec_.uniforms) {
+      if (uniform.define) continue;
+      const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
+      if (!member) {
+        if (variant_.mentions(uniform.name)) continue;
+        fail(Code::parameterNotInShader, uniform.place,
+             fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, spec_.shader))
+            .hint = "declare it in `layout(std140) uniform Parameters { … };`" + withNearest(uniform.name);
+        continue;
+      }
+      std::string expected;
+      if (!memberTakes(*member, uniform.value, expected)) {
+        base::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place,
+                                   fmt::format("parameter '{}' does not fit the shader's {}", uniform.name,
+                                               gl::glslTypeName(member->type)));
+        d.expected = expected;
+        d.found = graph::toText(uniform.value);
+      }
+    }
+  }
+
+  std::string withNearest(const std::string& name) const {
+    const std::string nearest = base::nearestName(name, declaredNames());
+    return nearest.empty() ? "" : fmt::format(", or did you mean '{}'?", nearest);
+  }
+
+  bool isSlot(const std::string& name) const {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
+      if (graph_.slots[spec_.firstSlot + i].name == name) return true;
+    return false;
+  }
+
+  // Silent when a slot was not found: one misspelling is one mistake.
+  void unfed(const char* what, const std::string& name) {
+    if (slotMissing_) return;
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
+      names.push_back(graph_.slots[spec_.firstSlot + i].name);
+    fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+         fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", spec_.shader, what, name,
+                     spec_.name))
+        .hint = base::nearestHint(name, names);
+  }
+
+  void checkRest() {
+    for (const auto& sampler : reflection_.samplers)
+      if (!isSlot(sampler.name)) unfed("a sampler", sampler.name);
+    for (const auto& image : reflection_.images)
+      if (!isSlot(image.name)) unfed("an image", image.name);
+    for (const auto& block : reflection_.storageBlocks) {
+      if (isSlot(block.name)) continue;
+      if (block.name == "instances" && !spec_.list.empty())
+        checkTable(&block, spec_.shaderPlace);
+      else
+        unfed("a storage block", block.name);
+    }
+    for (const auto& block : reflection_.uniformBlocks) {
+      if (block.name == "View") {
+        for (const gl::BlockMember& member : block.members)
+          if (!isViewMember(member.name))
+            fail(Code::unknownViewMember, spec_.shaderPlace,
+                 fmt::format("the View block of '{}' has an unknown member '{}'", spec_.shader, member.name))
+                .hint = base::nearestHint(member.name, viewMemberNames());
+      } else if (block.name == "Slice") {
+        for (const gl::BlockMember& member : block.members)
+          if (member.name != "first_group" && member.name != "first_invocation")
+            fail(Code::unknownViewMember, spec_.shaderPlace,
+                 fmt::format("the Slice block of '{}' has an unknown member '{}'", spec_.shader, member.name))
+                .hint = "include common/slice.glsl";
+      } else if (block.name != "Parameters" && !isSlot(block.name)) {
+        unfed("a uniform block", block.name);
+      }
+    }
+    for (const auto& loose : reflection_.looseUniforms)
+      fail(Code::parameterNotInShader, spec_.shaderPlace,
+           fmt::format("the shader '{}' has a uniform '{}' outside a block", spec_.shader, loose.name))
+          .hint = "move it into `layout(std140) uniform Parameters { … };`";
+  }
+
+  // Every slice would be the whole of it.
+  void checkSlices(const graph::FlatPass& pass) {
+    const bool compute = !variant_.stages.empty() && variant_.stages[0].stage == GL_COMPUTE_SHADER;
+    if (!compute || pass.slices < 2 || reflection_.findUniformBlock("Slice")) return;
+    fail(Code::badSlices, spec_.shaderPlace,
+         fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", spec_.shader, spec_.name,
+                     pass.slices))
+        .hint =
+        "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove \"slices\"";
+  }
+
+  // A dispatch beyond them is an error of the driver, in every frame and without a place.
+  void checkGroups() {
+    passes::PassContext context;
+    context.spec = &spec_;
+    std::copy_n(reflection_.workGroup, 3, context.groupSize);
+    std::copy_n(limits_.computeGroups, 3, context.maxGroups);
+    if (context.groupSize[0] == 0) return;  // no compute shader
+    const passes::WorkGroups groups = passes::workGroupsOf(context);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t most = context.maxGroups[axis], size = context.groupSize[axis];
+      if (groups.count[axis] <= most) continue;
+      base::Diagnostic& d = fail(Code::tooManyWorkGroups, spec_.threadsPlace,
+                                 fmt::format("pass '{}' has more work groups along {} than the device takes",
+                                             spec_.name, "xyz"[axis]));
+      d.expected =
+          fmt::format("at most {} groups of {} threads, that is {}", most, size, std::uint64_t{most} * size);
+      d.found = fmt::format("{} groups for {} threads", groups.count[axis], spec_.threads[axis]);
+      d.hint = fmt::format("raise local_size_{} in '{}', or spread the work over the other axes", "xyz"[axis],
+                           spec_.shader);
+    }
+  }
+
+  const Plan& plan_;
+  const FlatGraph& graph_;
+  const PassSpec& spec_;
+  const std::uint32_t pass_;
+  const gl::Variant& variant_;
+  const gl::Reflection& reflection_;
+  const gl::Limits& limits_;
+  base::Diagnostics& diagnostics_;
+  bool good_ = true, slotMissing_ = false;
+};
+
+}  // namespace
+
+bool checkProgram(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
+                  base::Diagnostics& diagnostics) {
+  return Checker(plan, pass, variant, limits, diagnostics).run();
+}
+
+}  // namespace weft::runtime

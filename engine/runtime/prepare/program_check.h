@@ -1,0 +1,16 @@
+// Whether a shader agrees with the pass that names it: slots and parameters held against introspection of its program.
+// Declared names must stand in the source; those that the linker dropped are fine.
+#pragma once
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/programs/program_cache.h"
+#include "engine/graph/plan.h"
+
+namespace weft::runtime {
+
+// Holds the slots and parameters of a pass against its program (W181 to W187), and its work groups against the device
+// (W206).
+bool checkProgram(const graph::Plan& plan, std::uint32_t pass, const gl::Variant& variant,
+                  const gl::Limits& limits, base::Diagnostics& diagnostics);
+
+}  // namespace weft::runtime

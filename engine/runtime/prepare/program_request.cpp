@@ -1,0 +1,96 @@
+#include "engine/runtime/prepare/program_request.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace weft::runtime {
+
+using graph::Access;
+using graph::FlatGraph;
+using graph::FlatUse;
+using graph::Kind;
+using graph::PassSpec;
+using graph::Plan;
+using graph::ShaderShape;
+using graph::SlotSpec;
+
+namespace {
+
+// z = 0 is the far plane (reversed Z), so that a depth test "equal" against a cleared buffer finds the background.
+constexpr const char* kFullscreenVertex = R"(
+out vec2 uv;
+void main() {
+  uv = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
+  gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+std::string upper(std::string text) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  return text;
+}
+
+}  // namespace
+
+bool isInstanceTable(const FlatGraph& graph, const FlatUse& use) {
+  const std::uint32_t import = graph.resources[use.resource].import;
+  return import != graph::kNone && graph.imports[import].instances;
+}
+
+std::uint32_t conditionsOf(const PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf) {
+  std::uint32_t conditions = 0, bit = 0;
+  for (const graph::UniformSpec& uniform : spec.uniforms)
+    if (uniform.define) conditions |= (uniform.dynamic.evaluateFolded(ageOf).truth() ? 1u : 0u) << bit++;
+  return conditions;
+}
+
+std::uint32_t settledConditionsOf(const PassSpec& spec) {
+  return conditionsOf(spec, [](std::uint32_t) { return std::numeric_limits<double>::infinity(); });
+}
+
+std::uint32_t conditionCount(const PassSpec& spec) {
+  return static_cast<std::uint32_t>(std::ranges::count_if(spec.uniforms, &graph::UniformSpec::define));
+}
+
+gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,
+                                    const graph::PassType& type, std::uint32_t conditions) {
+  const PassSpec& spec = graph.specs[pass];
+  gl::ProgramRequest request;
+  request.label = spec.name;
+  request.pass = spec.name;
+  request.place = spec.shaderPlace;
+  switch (type.shader) {
+    case ShaderShape::none:
+      return request;
+    case ShaderShape::fragment:
+      request.stages = {{GL_VERTEX_SHADER, "fullscreen.vert.glsl", kFullscreenVertex},
+                        {GL_FRAGMENT_SHADER, spec.shader, ""}};
+      break;
+    case ShaderShape::compute:
+      request.stages = {{GL_COMPUTE_SHADER, spec.shader, ""}};
+      break;
+    case ShaderShape::draw:
+      request.stages = {{GL_VERTEX_SHADER, spec.shader + ".vert.glsl", ""},
+                        {GL_FRAGMENT_SHADER, spec.shader + ".frag.glsl", ""}};
+      break;
+  }
+  for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
+    const SlotSpec& slot = graph.slots[spec.firstSlot + i];
+    if (slot.useCount == 0) continue;
+    if (slot.access != Access::read && !plan.attached[slot.firstUse]) continue;
+    request.defines.push_back({"HAS_" + upper(slot.name), "1"});
+    if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
+  }
+  std::uint32_t bit = 0;
+  for (const graph::UniformSpec& uniform : spec.uniforms) {
+    if (uniform.define)
+      request.defines.push_back({uniform.name, (conditions >> bit++ & 1u) != 0 ? "1" : "0"});
+    else
+      request.defines.push_back({"HAS_" + upper(uniform.name), "1"});
+  }
+  for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
+  return request;
+}
+
+}  // namespace weft::runtime

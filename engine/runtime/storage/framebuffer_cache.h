@@ -1,0 +1,33 @@
+// Framebuffers by their attachments. They are derived from slots, never named by an author. Cleared when textures go.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects/objects.h"
+
+namespace weft::runtime {
+
+class FramebufferCache {
+ public:
+  // 0 after an error. With no attachments, width and height say how much is rasterised.
+  GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
+             base::Diagnostics& diagnostics, std::uint32_t width = 0, std::uint32_t height = 0);
+  // Those of `other` whose attachments are all among `alive`: names of textures and views that did not go.
+  void takeOver(FramebufferCache& other, const std::unordered_set<GLuint>& alive);
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::vector<gl::Attachment> attachments;
+    std::uint32_t width = 0, height = 0;
+    gl::Framebuffer framebuffer;
+  };
+  std::vector<Entry> entries_;
+};
+
+}  // namespace weft::runtime

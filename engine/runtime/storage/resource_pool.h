@@ -1,0 +1,122 @@
+// The GPU storage of a plan: physical textures with their views, the transient buffer arena, persistent buffers, and per
+// resource where it lives now (history rotates among copies). A pool is built from a plan and, when the graph changed,
+// from the pool before it: storage of the same shape and owner moves over with its contents.
+// Does not: decide what shares (the plan did), write contents other than first values, or know passes.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects/objects.h"
+#include "engine/graph/plan.h"
+
+namespace weft::runtime {
+
+// One Storage of a plan: `copies` textures of one shape, and the views made of them so far.
+class PhysicalTexture {
+ public:
+  static std::unique_ptr<PhysicalTexture> create(const graph::Storage& storage, const std::string& label,
+                                                 base::Diagnostics& diagnostics);
+  // The texture itself when the view would be all of it in its own format, else a cached view. Id 0 after an error.
+  gl::TextureRef view(std::uint32_t copy, const gl::ViewDesc& desc, base::Diagnostics& diagnostics);
+  bool fits(const graph::Storage& storage) const;
+  // Equal for textures that fit each other's storage and have one owner.
+  std::uint64_t key() const;
+  static std::uint64_t keyOf(const graph::Storage& storage, const std::string& owner);
+  // Gives a copy away; it must not be used through here any more.
+  gl::Texture take(std::uint32_t copy) { return std::move(textures_[copy]); }
+  void collectNames(std::unordered_set<GLuint>& names) const;
+  std::uint64_t serial() const { return serial_; }
+  std::uint32_t copies() const { return static_cast<std::uint32_t>(textures_.size()); }
+
+  std::string owner;  // resource name of persistent storage, "" for transient
+
+ private:
+  struct View {
+    std::uint32_t copy = 0;
+    gl::ViewDesc desc;
+    gl::TextureView view;
+  };
+  gl::TextureDesc desc_;
+  std::string label_;
+  std::vector<gl::Texture> textures_;
+  std::vector<View> views_;
+  std::uint64_t serial_ = 0;
+};
+
+struct PersistentBuffer {
+  std::string owner;
+  std::vector<gl::Buffer> copies;
+  std::uint64_t serial = 0;
+};
+
+// Where a resource of the graph lives and how fresh it is.
+struct GpuResource {
+  PhysicalTexture* texture = nullptr;  // own textures
+  gl::TextureRef imported, shown,
+      before;                             // imported textures: the newest; as others than `maker` see it; @-1
+  std::uint32_t maker = graph::kNone;     // of an import: the job that makes something of it and publishes it
+  std::vector<GLuint> buffers;            // per copy
+  std::uint64_t offset = 0, bytes = 0;    // range within the buffer
+  std::uint32_t copies = 1, current = 0;  // current: the latest publication
+  std::uint32_t job = graph::kNone;  // the spread job that writes it: its passes see the copy after `current`
+  std::uint64_t resets = 0;          // how often its history went back to the first value
+  std::uint64_t serial = 0;          // identity of the storage
+  std::uint64_t publications = 0;
+  double publishedAt = -std::numeric_limits<double>::infinity();
+  bool fresh = true;  // storage was made for this plan: contents undefined
+  GLuint importedFor(std::uint32_t history, std::uint32_t reader) const {
+    if (history > 0) return before.id;
+    return maker != graph::kNone && maker == reader ? imported.id : shown.id;
+  }
+  // As passes of `reader`, a job or kNone, see it.
+  std::uint32_t copyOf(std::uint32_t history, std::uint32_t reader = graph::kNone) const {
+    const std::uint32_t newest = current + (job != graph::kNone && job == reader ? 1 : 0);
+    return (newest + copies - history % copies) % copies;
+  }
+};
+
+class ResourcePool {
+ public:
+  // Moves what fits out of `before` (which may be null).
+  static std::unique_ptr<ResourcePool> create(const graph::Plan& plan, ResourcePool* before,
+                                              base::Diagnostics& diagnostics);
+
+  std::vector<GpuResource>& resources() { return resources_; }
+  GpuResource& operator[](std::size_t resource) { return resources_[resource]; }
+
+  // Of the pool's own textures and their views.
+  std::unordered_set<GLuint> textureNames() const;
+
+  // A view of levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
+  gl::TextureRef view(const graph::Plan& plan, const graph::FlatUse& use, std::uint32_t copy, GLenum target,
+                      base::Diagnostics& diagnostics);
+  // Every copy of an own resource, all of it.
+  void fill(const graph::Plan& plan, std::uint32_t resource, const graph::Value& value,
+            base::Diagnostics& diagnostics);
+
+ private:
+  bool createTextures(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);
+  void takeTextures(const graph::Plan& plan, const std::vector<std::string>& owners, ResourcePool& before);
+  bool createBuffers(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);
+  std::vector<std::unique_ptr<PhysicalTexture>> textures_;
+  std::vector<PersistentBuffer> buffers_;
+  gl::Buffer arena_;
+  std::uint64_t arenaSerial_ = 0;
+  std::vector<GpuResource> resources_;
+  std::vector<std::string> names_;  // parallel to resources_
+};
+
+// Fills levels and layers of a texture, or a buffer range, with one value (floats for buffers).
+void clearTexture(const gl::TextureRef& texture, graph::Format format, std::uint32_t mip, std::uint32_t layer,
+                  std::uint32_t layers, const graph::Value& value);
+void clearBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes, const graph::Value& value);
+
+}  // namespace weft::runtime

@@ -1,0 +1,52 @@
+#include "engine/base/files/file.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+using namespace weft::base;
+
+TEST_CASE("a missing file, a directory and an unwritable place are told apart") {
+  Diagnostics all;
+  CHECK_FALSE(readFile("no/such/file", all));
+  CHECK_FALSE(readFile(std::filesystem::temp_directory_path().string(), all, Code::unreadableImage));
+  CHECK_FALSE(writeFile("/no_such_folder/x", std::string_view("x"), all));
+  REQUIRE(all.size() == 3);
+  CHECK(all.items()[0].message.find("no such file") != std::string::npos);
+  CHECK(all.items()[1].code == Code::unreadableImage);
+  CHECK(all.items()[1].message.find("directory") != std::string::npos);
+  CHECK(all.items()[2].code == Code::outputNotWritten);
+}
+
+TEST_CASE("a device is not read: /dev/zero has no end") {
+  Diagnostics all;
+  CHECK_FALSE(readFile("/dev/zero", all));
+  REQUIRE(all.size() == 1);
+  CHECK(all.items()[0].message.find("device") != std::string::npos);
+}
+
+TEST_CASE("writing keeps permissions, and a link leads to what was written") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / "weft_file_test_link";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  Diagnostics all;
+  REQUIRE(writeFile(folder / "real", std::string_view("old"), all));
+  fs::permissions(folder / "real", fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_write);
+  fs::create_symlink("real", folder / "link");
+  REQUIRE(writeFile(folder / "link", std::string_view("new"), all));
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(readFile(folder / "real", all) == "new");
+  CHECK(fs::status(folder / "real").permissions() ==
+        (fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_write));
+  fs::remove_all(folder);
+}
+
+TEST_CASE("what is written is read back") {
+  const std::string path = (std::filesystem::temp_directory_path() / "weft_file_test.bin").string();
+  Diagnostics all;
+  const std::string bytes("a\0b", 3);
+  REQUIRE(writeFile(path, bytes, all));
+  CHECK(readFile(path, all) == bytes);
+  std::filesystem::remove(path);
+}

@@ -1,0 +1,178 @@
+#include "engine/base/files/file_watcher.h"
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace fs = std::filesystem;
+using weft::base::FileWatcher;
+using Names = std::vector<std::string>;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("weft_watch_" + std::to_string(::getpid()));
+  Folder() { fs::remove_all(path), fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const char* name) const { return (path / name).string(); }
+};
+
+void write(const std::string& path, const char* text = "text") {
+  std::ofstream(path) << text;
+}
+
+}  // namespace
+
+TEST_CASE("a write and a replacement by rename are seen once, neighbours are not") {
+  const Folder folder;
+  const std::string a = folder / "a.json", b = folder / "b.glsl";
+  write(a), write(b);
+  FileWatcher watcher;
+  REQUIRE(watcher.works());
+  watcher.watch({a, b});
+  CHECK(watcher.poll().empty());
+  write(a);
+  CHECK(watcher.poll() == Names{a});
+  CHECK(watcher.poll().empty());
+  write(folder / "a.json.tmp");
+  CHECK(watcher.poll().empty());
+  for (int i = 0; i < 3; ++i) {
+    write(folder / "b.glsl~");
+    fs::rename(folder / "b.glsl~", b);
+    CHECK(watcher.poll() == Names{b});
+  }
+  fs::remove(a);
+  CHECK(watcher.poll() == Names{a});
+  fs::rename(b, folder / "c.glsl");
+  CHECK(watcher.poll() == Names{b});
+  write(a), write(b);
+  CHECK(watcher.poll() == Names{a, b});
+}
+
+TEST_CASE("files and folders that do not exist yet") {
+  const Folder folder;
+  const std::string direct = folder / "late.json", deep = folder / "x/y/late.glsl";
+  FileWatcher watcher;
+  watcher.watch({direct, deep});
+  CHECK(watcher.poll().empty());
+  write(direct);
+  CHECK(watcher.poll() == Names{direct});
+  fs::create_directories(folder.path / "x" / "y");
+  CHECK(watcher.poll().empty());
+  write(deep);
+  CHECK(watcher.poll() == Names{deep});
+
+  SUBCASE("a folder replaced as a whole") {
+    fs::create_directories(folder.path / "new");
+    write(folder / "new/late.glsl");
+    fs::rename(folder.path / "x" / "y", folder.path / "old");
+    watcher.poll();
+    fs::rename(folder.path / "new", folder.path / "x" / "y");
+    CHECK(watcher.poll() == Names{deep});
+    write(deep);
+    CHECK(watcher.poll() == Names{deep});
+  }
+  SUBCASE("a folder made together with its file") {
+    fs::remove_all(folder.path / "x");
+    watcher.poll();
+    fs::create_directories(folder.path / "x" / "y");
+    write(deep);
+    CHECK(watcher.poll() == Names{deep});
+  }
+}
+
+TEST_CASE("names stay as given, links are followed, another set takes over") {
+  const Folder folder;
+  fs::create_directories(folder.path / "real");
+  const std::string real = folder / "real/a.json", link = folder / "a.json", other = folder / "other.json";
+  write(real), write(other);
+  fs::create_symlink(real, link);
+  const std::string odd = folder / "real/../other.json";
+  FileWatcher watcher;
+  watcher.watch({link, odd});
+  write(real);
+  CHECK(watcher.poll() == Names{link});
+  write(other);
+  CHECK(watcher.poll() == Names{odd});
+  write(other);
+  watcher.watch({odd, real});
+  CHECK(watcher.poll() == Names{odd});
+  write(real);
+  CHECK(watcher.poll() == Names{real});
+  watcher.watch({odd});
+  write(real);
+  CHECK(watcher.poll().empty());
+}
+
+namespace {
+
+// What a watcher without inotify has to do.
+void checkLooking(FileWatcher& watcher, const Folder& folder) {
+  const std::string a = folder / "a.json", late = folder / "x/late.glsl";
+  write(a);
+  watcher.watch({a, late});
+  CHECK_FALSE(watcher.poller().look());
+  CHECK(watcher.poll().empty());
+  write(a, "longer text");
+  CHECK(watcher.poll().empty());  // nobody looked
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a});
+  CHECK(watcher.poll().empty());
+  CHECK_FALSE(watcher.poller().look());
+  // By a rename, with the same size and time: another file.
+  fs::copy_file(a, folder / "a.json~");
+  fs::last_write_time(folder / "a.json~", fs::last_write_time(a));
+  fs::rename(folder / "a.json~", a);
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a});
+  fs::create_directories(folder.path / "x");
+  write(late);
+  fs::remove(a);
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a, late});
+  // An empty file is about to be written, or stays empty.
+  write(a, "");
+  CHECK_FALSE(watcher.poller().look());
+  CHECK(watcher.poller().look());
+  CHECK(watcher.poll() == Names{a});
+  write(late, "changed, and then given up");
+  watcher.poller().look();
+  watcher.watch({a});
+  CHECK(watcher.poll().empty());
+  const auto said = watcher.takeNotices();
+  REQUIRE(said.size() == 1);
+  CHECK(said.items()[0].code == weft::base::Code::filesArePolled);
+  CHECK(said.items()[0].severity == weft::base::Severity::note);
+  CHECK(said.items()[0].message ==
+        "'" + a + "' and 1 more file are looked at twice a second instead of being told of changes");
+  CHECK(said.items()[0].found.starts_with("no inotify instance: "));
+  CHECK(watcher.takeNotices().empty());
+}
+
+}  // namespace
+
+TEST_CASE("without inotify files are looked at, which is said once") {
+  const Folder folder;
+  FileWatcher watcher(FileWatcher::Means::looking);
+  CHECK_FALSE(watcher.works());
+  checkLooking(watcher, folder);
+}
+
+TEST_CASE("the same when the system has nothing left to give") {
+  const Folder folder;
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const int next = ::open("/dev/null", O_RDONLY);  // the lowest that is free
+  REQUIRE(next >= 0);
+  ::close(next);
+  const rlimit none{static_cast<rlim_t>(next), before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &none) == 0);
+  FileWatcher watcher;
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &before) == 0);
+  REQUIRE_FALSE(watcher.works());
+  checkLooking(watcher, folder);
+}

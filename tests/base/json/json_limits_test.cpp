@@ -1,0 +1,102 @@
+// What a JSON text may hold: bytes, values, the length of a key; and how far limits can be raised.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "engine/base/files/text_file.h"
+#include "engine/base/json/dom.h"
+#include "engine/base/limits.h"
+
+using namespace weft::base;
+
+namespace {
+
+// Sets a limit, and what it was again at the end.
+class LimitOf {
+ public:
+  LimitOf(Limit limit, std::uint64_t value) : limit_(limit), before_(limitOf(limit)) { set(value); }
+  ~LimitOf() { set(before_); }
+  LimitOf(const LimitOf&) = delete;
+  LimitOf& operator=(const LimitOf&) = delete;
+
+ private:
+  void set(std::uint64_t value) { REQUIRE(!setLimit(nameOf(limit_), std::to_string(value))); }
+  Limit limit_;
+  std::uint64_t before_;
+};
+
+std::optional<JsonValue> parse(std::string_view text, Diagnostics& diagnostics) {
+  return parseJson(text, std::make_shared<const std::string>("t.json"), diagnostics);
+}
+
+void checkRefused(std::string_view text, const char* place, const char* name) {
+  Diagnostics diagnostics;
+  CHECK(!parse(text, diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == Code::limitExceeded);
+  CHECK_MESSAGE(diagnostics.text().starts_with(place), diagnostics.text());
+  CHECK_MESSAGE(diagnostics.items()[0].expected.find(name) != std::string::npos, diagnostics.text());
+}
+
+}  // namespace
+
+TEST_CASE("a key is as long as the limit says, and no longer") {
+  Diagnostics diagnostics;
+  CHECK(parse("{\n \"" + std::string(255, 'k') + "\": 1 }", diagnostics));
+  CHECK(diagnostics.empty());
+  checkRefused("{\n \"" + std::string(256, 'k') + "\": 1 }", "t.json:2:2: ", "(limit name_bytes)");
+}
+
+TEST_CASE("values are counted, of every type and in every depth") {
+  const LimitOf limit(Limit::json_values, 6);
+  Diagnostics diagnostics;
+  CHECK(parse("{ \"a\": [1, true], \"b\": { \"c\": null } }", diagnostics));
+  CHECK(diagnostics.empty());
+  checkRefused("{ \"a\": [1, true], \"b\": { \"c\": \"d\", \"e\": 1 } }",
+               "t.json:1:41: ", "(limit json_values)");
+  checkRefused("[1, 2, 3, 4, 5, {}]", "t.json:1:17: ", "(limit json_values)");
+}
+
+TEST_CASE("a text beyond the limit is refused before it is parsed, a file before it is read") {
+  const LimitOf limit(Limit::json_bytes, 100'000);
+  checkRefused(std::string(100'001, '!'), "t.json: ", "(limit json_bytes)");
+  const auto path = std::filesystem::temp_directory_path() / "weft_json_limits_test.json";
+  std::ofstream(path) << "{}";
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 40);  // a hole: nobody reads to its end
+  Diagnostics diagnostics;
+  CHECK(!readTextFile(path.string(), diagnostics));
+  std::filesystem::remove(path);
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == Code::limitExceeded);
+  CHECK(diagnostics.items()[0].found == "1099511627776 bytes");
+  CHECK(*diagnostics.items()[0].place.file == path.string());
+}
+
+TEST_CASE("pointers of long keys in depth are cut, not multiplied") {
+  const std::string key(250, 'k');
+  std::string text = "[1, 2]";
+  for (int i = 0; i < 40; ++i) text = "{\"" + key + "\":" + text + "}";
+  Diagnostics diagnostics;
+  const auto root = parse(text, diagnostics);
+  REQUIRE(root);
+  const JsonValue* at = &*root;
+  for (int i = 0; i < 10; ++i) at = &at->members[0].value;
+  CHECK(at->pointer.text().size() == 10 * 251);
+  while (!at->members.empty()) at = &at->members[0].value;
+  CHECK(at->items[1].pointer.text().size() < 4100);
+  CHECK(at->items[1].pointer.text().ends_with("…"));
+}
+
+TEST_CASE("limits of what goes down the stack have a maximum") {
+  const LimitOf limit(Limit::include_depth, 64);
+  CHECK(hintToRaise(Limit::include_depth) == "raise it with --limit include_depth=128, if that is meant");
+  CHECK(!setLimit("include_depth", "200"));
+  CHECK(hintToRaise(Limit::include_depth) == "raise it with --limit include_depth=256, if that is meant");
+  CHECK(setLimit("include_depth", "257") ==
+        "expected at most 256, found 257: deeper walks would overflow the stack");
+  CHECK(limitOf(Limit::include_depth) == 200);
+  CHECK(!setLimit("include_depth", "256"));
+  CHECK(hintToRaise(Limit::include_depth).starts_with("include_depth cannot be raised further"));
+  CHECK(mostOf(Limit::uses) > std::uint64_t{1} << 60);
+}

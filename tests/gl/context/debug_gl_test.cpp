@@ -1,0 +1,110 @@
+#include <doctest/doctest.h>
+
+#include "engine/gl/context/debug.h"
+#include "engine/gl/objects/timers.h"
+#include "tests/gl/gl_test.h"
+
+using namespace weft::gl;
+using weft::base::Code;
+using weft::base::Diagnostics;
+using weft::base::Severity;
+using weft::gl::test::CleanScope;
+using weft::gl::test::context;
+
+TEST_CASE("a driver's error arrives once with a count and the name of the pass") {
+  CleanScope clean;
+  DebugLog& log = context().debugLog();
+  {
+    const DebugGroup outer(log, "frame");
+    const DebugGroup inner(log, "bloom.glow_down[3]");
+    for (int i = 0; i < 5; ++i) glEnable(GL_TEXTURE_2D_ARRAY);  // no capability
+  }
+  CHECK(takeErrors() == "GL_INVALID_ENUM");
+  CHECK(log.hasAboveNotification());
+  Diagnostics diagnostics;
+  log.drain(diagnostics);
+  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+  const auto& message = diagnostics.items()[0];
+  CHECK(message.code == Code::driverMessage);
+  CHECK(message.severity == Severity::error);
+  CHECK(message.pass == "bloom.glow_down[3]");
+  CHECK(message.message.find("seen 5 times") != std::string::npos);
+  Diagnostics nothing;
+  log.drain(nothing);
+  CHECK(nothing.empty());
+  clean.forgive();
+  CHECK_FALSE(log.hasAboveNotification());
+}
+
+TEST_CASE("groups alone raise no message") {
+  CleanScope clean;
+  { const DebugGroup group(context().debugLog(), "quiet"); }
+  CHECK(context().debugLog().messages().empty());
+}
+
+TEST_CASE("severities become errors, warnings and notes") {
+  DebugLog log;
+  log.record(GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_OTHER, 1, GL_DEBUG_SEVERITY_NOTIFICATION, "fyi\n");
+  CHECK_FALSE(log.hasAboveNotification());
+  log.record(GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_PERFORMANCE, 2, GL_DEBUG_SEVERITY_MEDIUM, "slow");
+  log.record(GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_ERROR, 3, GL_DEBUG_SEVERITY_LOW, "wrong");
+  log.record(GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_PERFORMANCE, 2, GL_DEBUG_SEVERITY_MEDIUM, "slow");
+  CHECK(log.hasAboveNotification());
+  REQUIRE(log.messages().size() == 3);
+  CHECK(log.messages()[1].count == 2);
+  Diagnostics quiet, loud;
+  log.drain(quiet);
+  REQUIRE(quiet.size() == 2);
+  CHECK(quiet.items()[0].severity == Severity::warning);
+  CHECK(quiet.items()[1].severity == Severity::error);
+  DebugLog second;
+  second.record(GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_OTHER, 1, GL_DEBUG_SEVERITY_NOTIFICATION, "fyi\n");
+  second.drain(loud, true);
+  REQUIRE(loud.size() == 1);
+  CHECK(loud.items()[0].severity == Severity::note);
+  CHECK(loud.items()[0].message.ends_with("fyi"));
+}
+
+TEST_CASE("enums have names") {
+  CHECK(enumName(GL_RGBA16F) == "GL_RGBA16F");
+  CHECK(enumName(GL_COLOR_ATTACHMENT3) == "GL_COLOR_ATTACHMENT3");
+  CHECK(enumName(0x1234) == "0x1234");
+}
+
+TEST_CASE("timers are off until enabled, then give one time per pass that ran") {
+  CleanScope clean;
+  // Both ways of measuring work here; that queries lie on this rasteriser does not matter to their
+  // bookkeeping.
+  for (const bool hardware : {false, true}) {
+    DeviceInfo device = context().device();
+    device.software = !hardware;
+    device.hasTimerQueries = hardware;
+    PassTimers timers(device);
+    CHECK(timers.usesQueries() == hardware);
+    timers.beginFrame(2);
+    timers.begin(0);
+    timers.end(0);
+    timers.endFrame();
+    CHECK(timers.results().empty());
+    timers.setEnabled(true);
+    for (int frame = 1; frame <= 9; ++frame) {
+      timers.beginFrame(3);
+      for (const std::uint32_t pass : {0u, 2u}) {
+        timers.begin(pass);
+        glFlush();
+        timers.end(pass);
+      }
+      timers.endFrame();
+    }
+    timers.finish();
+    CHECK(timers.resultFrame() == 9);
+    REQUIRE(timers.results().size() == 3);
+    CHECK(timers.results()[0].ran);
+    CHECK_FALSE(timers.results()[1].ran);
+    CHECK(timers.results()[1].gpu == 0);
+    CHECK(timers.results()[2].ran);
+    CHECK(timers.results()[2].cpu >= 0);
+    CHECK(timers.results()[2].gpu >= 0);
+    if (!hardware) CHECK(timers.results()[2].gpu >= timers.results()[2].cpu);
+  }
+}

@@ -1,0 +1,379 @@
+#include "engine/gl/shaders/source.h"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "engine/base/files/file_access.h"
+#include "tests/gl/documented.h"
+#include "tests/gl/temp_folder.h"
+
+using namespace weft::gl;
+using weft::base::Code;
+using weft::base::Diagnostic;
+using weft::base::Diagnostics;
+using weft::base::Severity;
+using weft::gl::test::TempFolder;
+
+namespace {
+
+std::size_t occurrences(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+// The place of the line of the text that contains `what`.
+std::pair<std::string, std::uint32_t> placeOf(const ShaderSource& source, const std::string& what) {
+  const std::size_t at = source.text.find(what);
+  if (at == std::string::npos) return {"", 0};
+  const auto line = static_cast<std::uint32_t>(
+      std::count(source.text.begin(), source.text.begin() + static_cast<long>(at), '\n'));
+  const auto place = source.placeOf(line + 1);
+  return {*place.file, place.line};
+}
+
+}  // namespace
+
+TEST_CASE("includes are found beside the includer and below the roots, once each, with true lines") {
+  TempFolder folder;
+  folder.write("common/a.glsl", "#pragma once\n#include \"deep/b.glsl\"\nfloat a() { return b(); }\n");
+  folder.write("common/deep/b.glsl", "// first line\nfloat b() { return 1.0; }\n");
+  folder.write("fx/x.frag.glsl",
+               "#include \"common/a.glsl\"\n#include \"local.glsl\"\n#include \"common/deep/b.glsl\"\nvoid "
+               "main() { a(); }\n");
+  folder.write("fx/local.glsl", "float local_value;");  // no newline at the end
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("fx/x.frag.glsl", diagnostics);
+  REQUIRE_MESSAGE(source, diagnostics.text());
+  CHECK(diagnostics.empty());
+  CHECK(occurrences(source->text, "float b()") == 1);
+  CHECK(placeOf(*source, "float b()") == std::pair(folder.path("common/deep/b.glsl"), 2u));
+  CHECK(placeOf(*source, "float a()") == std::pair(folder.path("common/a.glsl"), 3u));
+  CHECK(placeOf(*source, "local_value") == std::pair(folder.path("fx/local.glsl"), 1u));
+  CHECK(placeOf(*source, "void main") == std::pair(folder.path("fx/x.frag.glsl"), 4u));
+  CHECK(*source->file == folder.path("fx/x.frag.glsl"));
+}
+
+TEST_CASE("a file included inside an #if is still there when it is included again") {
+  TempFolder folder;
+  folder.write("v.glsl", "float v;\n");
+  folder.write(
+      "x.frag.glsl",
+      "#ifdef A\n#include \"v.glsl\"\n#endif\n#include \"v.glsl\"\n#include \"v.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(source);
+  CHECK(occurrences(source->text, "float v;") == 2);  // the third is superfluous
+  CHECK(occurrences(source->text, "#ifndef WEFT_INCLUDED_1") == 2);
+  CHECK(occurrences(source->text, "#define WEFT_INCLUDED_1") == 1);
+}
+
+TEST_CASE("cycles are reported with their path, once, at the include that closes them") {
+  TempFolder folder;
+  folder.write("a.glsl", "#include \"b.glsl\"\n");
+  folder.write("b.glsl", "\n\n  #include \"a.glsl\"\n");
+  folder.write("x.frag.glsl", "#include \"a.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  const Diagnostic& cycle = diagnostics.items()[0];
+  CHECK(cycle.code == Code::shaderIncludeCycle);
+  CHECK(*cycle.place.file == folder.path("b.glsl"));
+  CHECK(cycle.place.line == 3);
+  CHECK(cycle.place.column == 3);
+  const std::string chain =
+      folder.path("a.glsl") + " -> " + folder.path("b.glsl") + " -> " + folder.path("a.glsl");
+  CHECK(cycle.message.find(chain) != std::string::npos);
+  folder.write("self.frag.glsl", "#include \"self.frag.glsl\"\n");
+  Diagnostics itself;
+  CHECK_FALSE(loader.load("self.frag.glsl", itself));
+  CHECK(itself.contains(Code::shaderIncludeCycle));
+}
+
+TEST_CASE("everything wrong with the directives is reported at once, with places and the nearest file") {
+  TempFolder folder;
+  folder.write("common/view.glsl", "");
+  folder.write(
+      "x.frag.glsl",
+      "#version 330\n#include \"common/veiw.glsl\"\n#include <common/view.glsl>\n// #include \"no.glsl\"\n"
+      "/*\n#include \"no.glsl\"\n*/\n#include\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
+  REQUIRE_MESSAGE(diagnostics.size() == 4, diagnostics.text());
+  const auto& items = diagnostics.items();
+  CHECK(items[0].code == Code::versionInShader);
+  CHECK(items[0].place.line == 1);
+  CHECK(items[1].code == Code::missingShaderInclude);
+  CHECK(items[1].place.line == 2);
+  CHECK(items[1].hint == "did you mean 'common/view.glsl'?");
+  CHECK(items[2].code == Code::malformedInclude);
+  CHECK(items[2].place.line == 3);
+  CHECK(items[3].code == Code::malformedInclude);
+  CHECK(items[3].place.line == 8);
+}
+
+TEST_CASE("a missing shader is reported at the one who named it, a directory as a directory") {
+  TempFolder folder;
+  folder.write("sky/sky.frag.glsl", "void main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const weft::base::Place graph{std::make_shared<const std::string>("studio.json"), 12, 40};
+  CHECK_FALSE(loader.load("sky/skye.frag.glsl", diagnostics, graph));
+  CHECK_FALSE(loader.load("sky", diagnostics, graph));
+  REQUIRE(diagnostics.size() == 2);
+  CHECK(diagnostics.items()[0].code == Code::unreadableShader);
+  CHECK(*diagnostics.items()[0].place.file == "studio.json");
+  CHECK(diagnostics.items()[0].place.line == 12);
+  CHECK(diagnostics.items()[0].hint == "did you mean 'sky/sky.frag.glsl'?");
+  CHECK(diagnostics.items()[1].message.find("directory") != std::string::npos);
+}
+
+TEST_CASE("an empty shader is told as that, where it is") {
+  TempFolder folder;
+  folder.write("empty.frag.glsl", " \n\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("empty.frag.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == Code::shaderDoesNotCompile);
+  CHECK(diagnostics.items()[0].message == "shader 'empty.frag.glsl' is empty");
+  CHECK(diagnostics.items()[0].place.line == 1);
+  folder.write("empty.frag.glsl", "void main() {}\n");
+  CHECK(loader.load("empty.frag.glsl", diagnostics));
+}
+
+TEST_CASE("a shader's path leads where it says, until reading is confined") {
+  TempFolder folder;
+  folder.write("secret.glsl", "float secret;\n");
+  folder.write("x/shaders/a.frag.glsl", "void main() {}\n");
+  folder.write("x/shaders/up.frag.glsl", "#include \"../../secret.glsl\"\nvoid main() {}\n");
+  folder.write("x/shaders/gone.frag.glsl", "#include \"../../gone.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path("x/shaders")});
+  Diagnostics diagnostics;
+  for (const std::string& path :
+       {std::string("./a.frag.glsl"), std::string("sky/../a.frag.glsl"), std::string("../../secret.glsl"),
+        folder.path("secret.glsl"), std::string("up.frag.glsl")})
+    CHECK_MESSAGE(loader.load(path, diagnostics), diagnostics.text());
+  CHECK_FALSE(loader.load("../../gone.glsl", diagnostics));
+  CHECK(diagnostics.items()[0].code == Code::unreadableShader);
+  diagnostics.clear();
+
+  loader.clear();
+  REQUIRE_FALSE(weft::base::confineTo(folder.path("x")));
+  CHECK(loader.load("a.frag.glsl", diagnostics));
+  const std::pair<std::string, std::string> outside[] = {{"../../secret.glsl", "secret.glsl"},
+                                                         {"../../gone.glsl", "gone.glsl"},
+                                                         {folder.path("secret.glsl"), "secret.glsl"},
+                                                         {folder.path("gone.glsl"), "gone.glsl"},
+                                                         {"up.frag.glsl", "secret.glsl"},
+                                                         {"gone.frag.glsl", "gone.glsl"}};
+  for (const auto& [path, told] : outside) {
+    CHECK_FALSE(loader.load(path, diagnostics));
+    REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+    CHECK(diagnostics.items()[0].code == Code::outsideConfinement);
+    CHECK(diagnostics.items()[0].message.starts_with("'" + folder.path(told.c_str()) + "'"));
+    diagnostics.clear();
+  }
+  CHECK_FALSE(loader.load("b.frag.glsl", diagnostics));
+  CHECK(diagnostics.items()[0].code == Code::unreadableShader);
+  CHECK(diagnostics.items()[0].hint == "did you mean 'a.frag.glsl'?");
+  weft::base::resetFileAccess();
+}
+
+TEST_CASE("a shader that is a pipe is refused") {
+  TempFolder folder;
+  REQUIRE(::mkfifo(folder.path("pipe.frag.glsl").c_str(), 0600) == 0);
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("pipe.frag.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].message.find("it is a pipe") != std::string::npos);
+}
+
+TEST_CASE("an unchanged file is expanded once, a changed include again") {
+  TempFolder folder;
+  folder.write("a.glsl", "float one;\n");
+  folder.write("x.frag.glsl", "#include \"a.glsl\"\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto first = loader.load("x.frag.glsl", diagnostics);
+  CHECK(loader.load("x.frag.glsl", diagnostics) == first);
+  CHECK(loader.expansions() == 1);
+  folder.write("a.glsl", "float two;\n");  // same size, other time
+  const auto second = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(second);
+  CHECK(loader.expansions() == 2);
+  CHECK(second->hash != first->hash);
+  CHECK(second->mentions("two"));
+  folder.write("a.glsl", "#include \"gone.glsl\"\n");
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
+  CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));  // failures are not remembered: the file may appear
+  folder.write("gone.glsl", "float three;\n");
+  diagnostics.clear();
+  CHECK(loader.load("x.frag.glsl", diagnostics));
+  CHECK(diagnostics.empty());
+}
+
+TEST_CASE("what was read, and what was looked for in vain, is what to watch") {
+  TempFolder folder;
+  folder.write("x/a.glsl", "#include \"b.glsl\"\n");
+  folder.write("x/b.glsl", "float b;\n");
+  folder.write("x/wants.glsl", "#include \"b.glsl\"\n#include \"late.glsl\"\n");
+  const std::string root = folder.path(), other = folder.path("other");
+  SourceLoader loader({root, other});
+  Diagnostics diagnostics;
+  using Paths = std::set<std::string>;
+  const Paths both{root + "/x/a.glsl", root + "/x/b.glsl"};
+  for (int i = 0; i < 2; ++i) {  // the second time from the cache
+    loader.forgetTouched();
+    REQUIRE(loader.load("x/a.glsl", diagnostics));
+    CHECK(loader.touched() == both);
+  }
+  loader.forgetTouched();
+  CHECK_FALSE(loader.load("x/wants.glsl", diagnostics));
+  CHECK(loader.touched() == Paths{root + "/x/wants.glsl", root + "/x/b.glsl", root + "/x/late.glsl",
+                                  root + "/late.glsl", other + "/late.glsl"});
+  loader.forgetTouched();
+  CHECK_FALSE(loader.load("y/none.glsl", diagnostics));
+  CHECK(loader.touched() == Paths{root + "/y/none.glsl", other + "/y/none.glsl"});
+}
+
+TEST_CASE("text in memory includes from the roots only, and the prefix holds version and defines in order") {
+  TempFolder folder;
+  folder.write("a.glsl", "float a;\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source =
+      loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics);
+  REQUIRE(source);
+  CHECK(loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics) == source);
+  const Define defines[] = {{"HAS_BLOOM", "1"}, {"CURVE", "2"}};
+  CHECK(assembleSource(*source, defines)
+            .starts_with("#version 450 core\n#define HAS_BLOOM 1\n#define CURVE 2\n#line 10001\nfloat a;\n"));
+}
+
+TEST_CASE("the scan knows comments, and finds what is declared") {
+  TempFolder folder;
+  folder.write("x.frag.glsl", R"(
+// uniform sampler2D commented;
+/* out vec4 also_commented; */
+uniform sampler2D source, second;
+uniform sampler3D sh[7];
+layout(rgba16f) uniform writeonly image2D map;
+layout(std430) readonly buffer keys { uvec2 sort_keys[]; };
+layout(std140) uniform Parameters { float threshold; vec3 tint[2]; } named;
+layout(location = 0) out vec4 result;
+#ifdef HAS_BLOOM
+uniform sampler2D bloom;
+#endif
+in vec2 uv;
+struct Row { vec3 center; };
+float helper(in float parameter_x, out float y) { float local_z = 1.0; y = local_z; return parameter_x; }
+void main() { int loose; result = texture(source, uv); }
+)");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(source);
+  for (const char* name : {"source", "second", "sh", "map", "keys", "sort_keys", "Parameters", "threshold",
+                           "tint", "result", "bloom", "uv"}) {
+    CHECK_MESSAGE(source->mentions(name), name);
+    CHECK_MESSAGE(source->declared.contains(name), name);
+  }
+  CHECK(source->mentions("HAS_BLOOM"));
+  CHECK(source->mentions("helper"));
+  CHECK_FALSE(source->mentions("commented"));
+  CHECK_FALSE(source->mentions("also_commented"));
+  for (const char* name :
+       {"helper", "parameter_x", "local_z", "loose", "main", "center", "HAS_BLOOM", "in", "out"})
+    CHECK_MESSAGE(!source->declared.contains(name), name);
+}
+
+TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column") {
+  TempFolder folder;
+  folder.write("a.glsl", "float a;\n  float  b;\n");
+  folder.write("x.frag.glsl", "float before;\n#include \"a.glsl\"\nvoid main() {\n}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics none;
+  const auto source = loader.load("x.frag.glsl", none);
+  REQUIRE(source);
+  // The text is: before, a, b, main, }. The driver's file number is not believed.
+  Diagnostics mesa;
+  CHECK(mapLog("0:10003(5): error: `foo' undeclared\n7:10004(1): warning: `bar' used uninitialized\n"
+               "0:2(9): preprocessor error: bad\n",
+               *source, Code::shaderDoesNotCompile, mesa) == 3);
+  REQUIRE(mesa.size() == 3);
+  CHECK(*mesa.items()[0].place.file == folder.path("a.glsl"));
+  CHECK(mesa.items()[0].place.line == 2);
+  CHECK(mesa.items()[0].place.column == 6);
+  CHECK(mesa.items()[0].message == "'foo' is not declared");
+  CHECK(mesa.items()[0].severity == Severity::error);
+  CHECK(*mesa.items()[1].place.file == folder.path("x.frag.glsl"));
+  CHECK(mesa.items()[1].place.line == 3);
+  CHECK(mesa.items()[1].severity == Severity::warning);
+  CHECK(*mesa.items()[2].place.file == "<defines>");
+  CHECK(mesa.items()[2].place.line == 2);
+  CHECK(mesa.items()[2].severity == Severity::error);
+
+  Diagnostics nvidia;
+  CHECK(mapLog("Fragment info\n-------------\n0(10002) : error C1503: undefined variable \"foo\"\n"
+               "0(10005) : warning C7050: \"x\" might be used before being initialized\n",
+               *source, Code::shaderDoesNotCompile, nvidia) == 2);
+  REQUIRE(nvidia.size() == 2);
+  CHECK(*nvidia.items()[0].place.file == folder.path("a.glsl"));
+  CHECK(nvidia.items()[0].place.line == 1);
+  CHECK(nvidia.items()[0].place.column == 0);
+  CHECK(nvidia.items()[0].message == "'foo' is not declared");
+  CHECK(nvidia.items()[1].severity == Severity::warning);
+  CHECK(nvidia.items()[1].place.line == 4);
+
+  Diagnostics others;
+  CHECK(mapLog("ERROR: 0:10001: 'foo' : undeclared identifier\nerror: fragment shader lacks main\n  which is "
+               "needed\nsomething\n",
+               *source, Code::programDoesNotLink, others) == 2);
+  REQUIRE(others.size() == 2);
+  CHECK(*others.items()[0].place.file == folder.path("x.frag.glsl"));
+  CHECK(others.items()[0].place.line == 1);
+  CHECK(others.items()[1].message == "fragment shader lacks main which is needed something");
+  CHECK(others.items()[1].place.line == 0);
+}
+
+TEST_CASE("the broken shaders give the messages of docs/errors.md") {
+  const std::pair<const char*, Code> cases[] = {{"w100_no_such.frag.glsl", Code::unreadableShader},
+                                                {"w101_include.frag.glsl", Code::missingShaderInclude},
+                                                {"w102_cycle.frag.glsl", Code::shaderIncludeCycle},
+                                                {"w103_brackets.frag.glsl", Code::malformedInclude},
+                                                {"w106_version.frag.glsl", Code::versionInShader}};
+  SourceLoader loader({"tests/bad_shaders"});
+  for (const auto& [file, code] : cases) {
+    Diagnostics diagnostics;
+    CHECK_FALSE(loader.load(file, diagnostics, {std::make_shared<const std::string>("frame.json"), 5, 41}));
+    CHECK(diagnostics.size() == 1);
+    weft::gl::test::checkDocumented(diagnostics, code);
+  }
+}
+
+TEST_CASE("overloads that do not fit are counted, an undeclared name gets the nearest declared one") {
+  TempFolder folder;
+  folder.write("a.frag.glsl", "uniform sampler2D skyy;\nvoid main() { textureSize(sky, 0); }\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("a.frag.glsl", diagnostics);
+  REQUIRE(source);
+  const std::string at = "0:" + std::to_string(kTextLine + 1);
+  const std::string log =
+      at + "(15): error: no matching function for call to `textureSize(vec2, int)'; candidates are:\n" + at +
+      "(15): error:    int textureSize(sampler1D, int)\n" + at +
+      "(15): error:    ivec2 textureSize(sampler2D, int)\n" + at + "(27): error: `sky' undeclared\n";
+  CHECK(mapLog(log, *source, Code::shaderDoesNotCompile, diagnostics) == 2);
+  CHECK(diagnostics.items()[0].message == "no matching function for call to 'textureSize(vec2, int)'");
+  CHECK(diagnostics.items()[0].expected == "one of its 2 forms");
+  CHECK(diagnostics.items()[0].place.line == 2);
+  CHECK(diagnostics.items()[1].hint == "did you mean 'skyy'?");
+}

@@ -1,0 +1,139 @@
+// Messages of shader compilers in plain words, from logs as drivers write them. No OpenGL.
+#include "engine/gl/shaders/words.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/gl/temp_folder.h"
+
+using namespace weft::gl;
+using weft::base::Code;
+using weft::base::Diagnostic;
+using weft::base::Diagnostics;
+using weft::gl::test::TempFolder;
+
+namespace {
+
+// What a log says of a text; `at` 0:LINE(COLUMN) or 0(LINE) with lines of the text from 1.
+Diagnostics said(const std::string& text, const std::string& log) {
+  TempFolder folder;
+  folder.write("x.frag.glsl", text);
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(source);
+  const std::size_t added = mapLog(log, *source, Code::shaderDoesNotCompile, diagnostics);
+  CHECK(added == diagnostics.size());
+  return diagnostics;
+}
+
+std::string mesa(int line, int column, const std::string& message) {
+  return "0:" + std::to_string(kTextLine - 1 + static_cast<unsigned>(line)) + "(" + std::to_string(column) +
+         "): error: " + message + "\n";
+}
+
+Diagnostic only(const Diagnostics& diagnostics) {
+  REQUIRE(diagnostics.size() == 1);
+  return diagnostics.items()[0];
+}
+
+}  // namespace
+
+TEST_CASE("a missing semicolon is told where it is missing") {
+  const std::string text = "void main() {\n  float x = 1.0  // one\n\n  // then\n  x = 2.0;\n}\n";
+  const Diagnostic d =
+      only(said(text, mesa(5, 2, "syntax error, unexpected IDENTIFIER, expecting ',' or ';'")));
+  CHECK(d.message == "syntax error at 'x'");
+  CHECK(d.expected == "',' or ';'");
+  CHECK(d.hint == "put ';' at the end of line 2");
+  CHECK(d.place.line == 5);
+  CHECK(d.place.column == 3);
+}
+
+TEST_CASE("tokens of the grammar become what stands there") {
+  const auto at = [](const std::string& line, int column, const std::string& message) {
+    return only(said(line + "\n", mesa(1, column, "syntax error, unexpected " + message)));
+  };
+  Diagnostic d = at("void main() { vec5 color = 1; }", 20, "NEW_IDENTIFIER, expecting ',' or ';'");
+  CHECK(d.message == "syntax error at 'color', a name that is not declared");
+  CHECK(d.hint == "'vec5' is no type: did you mean 'vec2' or 'vec3' or 'vec4'?");
+  d = at("void main() { unifrom float x; }", 23, "BASIC_TYPE_TOK, expecting ',' or ';'");
+  CHECK(d.message == "syntax error at 'float', a type");
+  CHECK(d.hint == "'unifrom' is no type: did you mean 'uniform'?");
+  d = at("void main() { x = vec4(1.0 2.0); }", 28, "FLOATCONSTANT, expecting ')' or ','");
+  CHECK(d.message == "syntax error at '2.0', a number");
+  CHECK(d.expected == "')' or ','");
+  CHECK(d.hint == "put ',' before it");
+  d = at("void main() { x = 1 @ 2; }", 21, "invalid token, expecting ',' or ';'");
+  CHECK(d.message == "syntax error at '@', a character that GLSL does not use");
+  d = at("void main() { else x = 1; }", 15, "ELSE");
+  CHECK(d.message == "syntax error at 'else'");
+  CHECK(d.expected.empty());
+  d = at("void main() { x = vec2(1, 1)); }", 29, "')', expecting ',' or ';'");
+  CHECK(d.hint == "one ')' too many");
+  d = at("void main() { x = f(1; }", 22, "';', expecting ')' or ','");
+  CHECK(d.hint == "put ')' before it");
+  d = at("void main() { ", 14, "end of file");
+  CHECK(d.message == "syntax error at the end of the file");
+  CHECK(d.hint == "a '{' is never closed");
+  d = at("void main() { } }", 17, "'}', expecting end of file");
+  CHECK(d.hint == "one '}' too many");
+}
+
+TEST_CASE("where a macro moves columns no token is made up, and what nobody knows stays as it is") {
+  Diagnostic d =
+      only(said("A float x; B\n", mesa(1, 3, "syntax error, unexpected FLOATCONSTANT, expecting ','")));
+  CHECK(d.message == "syntax error at a number");
+  d = only(said("x\n", mesa(1, 1, "syntax error, unexpected SOME_NEW_THING, expecting ','")));
+  CHECK(d.message == "syntax error, unexpected SOME_NEW_THING, expecting ','");
+  d = only(said("x\n", mesa(1, 1, "syntax error, unexpected ',', expecting SOME_NEW_THING")));
+  CHECK(d.message == "syntax error, unexpected ',', expecting SOME_NEW_THING");
+  d = only(said("x\n", mesa(1, 1, "words of a later driver about `x'")));
+  CHECK(d.message == "words of a later driver about 'x'");
+}
+
+TEST_CASE("NVIDIA's and glslang's syntax errors are told in the same words") {
+  const std::string line = std::to_string(kTextLine);
+  Diagnostic d = only(said(
+      "void main() { x = 1 }\n",
+      "0(" + line + ") : error C0000: syntax error, unexpected '}', expecting ',' or ';' at token \"}\"\n"));
+  CHECK(d.message == "syntax error at '}'");
+  CHECK(d.expected == "',' or ';'");
+  d = only(said(
+      "void main() { x y }\n",
+      "0(" + line + ") : error C0000: syntax error, unexpected identifier, expecting ';' at token \"y\"\n"));
+  CHECK(d.message == "syntax error at 'y'");
+  d = only(said(
+      "void main() { x = 1 }\n",
+      "ERROR: 0:" + line + ": '' :  syntax error, unexpected RIGHT_BRACE, expecting COMMA or SEMICOLON\n"));
+  CHECK(d.message == "syntax error at '}'");
+  CHECK(d.expected == "',' or ';'");
+}
+
+TEST_CASE("undeclared names are told alike for every driver, with the nearest declared one") {
+  const std::string text = "uniform sampler2D environment;\nvoid main() { environmnt; retrun; }\n",
+                    line = std::to_string(kTextLine + 1);
+  for (const std::string& log : {mesa(2, 15, "`environmnt' undeclared"),
+                                 "0(" + line + ") : error C1503: undefined variable \"environmnt\"\n",
+                                 "ERROR: 0:" + line + ": 'environmnt' : undeclared identifier\n"}) {
+    const Diagnostic d = only(said(text, log));
+    CHECK(d.message == "'environmnt' is not declared");
+    CHECK(d.hint == "did you mean 'environment'?");
+  }
+  CHECK(only(said(text, mesa(2, 27, "`retrun' undeclared"))).hint == "did you mean 'return'?");
+  const Diagnostic d = only(said(text, mesa(2, 15, "no function with name 'textur'")));
+  CHECK(d.message == "there is no function 'textur'");
+  CHECK(d.hint == "did you mean 'texture'?");
+}
+
+TEST_CASE("what only follows from another error is left out, but never the only error") {
+  const std::string text = "void main() {\n  x = f(y);\n  z = vec4(y);\n}\n";
+  CHECK(only(said(text, mesa(2, 7, "no matching function for call to `f(error, vec2)'") +
+                            mesa(2, 9, "`y' undeclared") +
+                            mesa(2, 3, "value of type vec4 cannot be assigned to variable of type error") +
+                            mesa(2, 7, "type mismatch")))
+            .message == "'y' is not declared");
+  CHECK(said(text, mesa(2, 9, "`y' undeclared") +
+                       mesa(3, 7, "cannot construct `vec4' from a non-numeric data type"))
+            .size() == 2);
+  CHECK(said(text, mesa(2, 7, "no matching function for call to `f(error)'")).size() == 1);
+}

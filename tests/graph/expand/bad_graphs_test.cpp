@@ -1,0 +1,120 @@
+// tests/bad_graphs from W040 on: every file gives exactly the diagnostic that manifest.json promises, and
+// nothing else; every code has a file and a section in docs/errors.md that shows what the program prints.
+// Entries may carry "set" and "disable", as on the command line.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/graph/expand/support.h"
+
+using namespace weft;
+using namespace weft::graph;
+using namespace weft::graph::test;
+
+namespace {
+
+const std::filesystem::path kFolder = std::filesystem::path(WEFT_SOURCE_DIR) / "tests/bad_graphs";
+
+nlohmann::json manifest() {
+  std::ifstream in(kFolder / "manifest.json");
+  return nlohmann::json::parse(in).at("files");
+}
+
+std::string textOf(const std::filesystem::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+int numberOf(const std::string& code) {
+  return std::stoi(code.substr(1));
+}
+
+base::Diagnostics diagnose(const nlohmann::json& entry) {
+  Settings settings;
+  for (const std::string& set : entry.value("set", std::vector<std::string>{}))
+    settings.sets.emplace_back(set.substr(0, set.find('=')), set.substr(set.find('=') + 1));
+  for (std::string& name : entry.value("disable", std::vector<std::string>{}))
+    settings.disables.emplace_back(std::move(name));
+  base::Diagnostics diagnostics;
+  const auto desc = readGraph((kFolder / entry.at("file").get<std::string>()).string(), diagnostics);
+  REQUIRE_MESSAGE(desc, diagnostics.text());
+  REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
+  const auto graph = expandGraph(*desc, testRegistry(), settings, diagnostics);
+  CHECK((graph != nullptr) == !diagnostics.hasErrors());
+  return diagnostics;
+}
+
+}  // namespace
+
+TEST_CASE("every graph that cannot be expanded gives its one diagnostic") {
+  int checked = 0;
+  for (const auto& entry : manifest()) {
+    if (entry.value("stage", "") != "expand") continue;
+    const std::string file = entry.at("file");
+    CAPTURE(file);
+    const base::Diagnostics diagnostics = diagnose(entry);
+    INFO(diagnostics.text());
+    REQUIRE(diagnostics.size() == 1);
+    const base::Diagnostic& d = diagnostics.items()[0];
+    CHECK(nameOf(d.code) == entry.at("code"));
+    CHECK(d.place.line == entry.at("line").get<std::uint32_t>());
+    CHECK(d.place.column == entry.at("column").get<std::uint32_t>());
+    if (d.place.line > 0) {
+      REQUIRE(d.place.file);
+      CHECK(std::filesystem::path(*d.place.file) == kFolder / file);
+    }
+    CHECK(d.message.back() != '.');
+    CHECK_MESSAGE((!d.hint.empty() || !d.expected.empty()), base::format(d));
+    CHECK((d.severity == base::Severity::warning) == (numberOf(entry.at("code")) >= 90));
+    ++checked;
+  }
+  CHECK(checked >= 60);
+}
+
+TEST_CASE("every code from W001 to W099 has a broken input and a section in docs/errors.md") {
+  std::set<int> covered;
+  for (const auto& entry : manifest()) covered.insert(numberOf(entry.at("code")));
+  // W093 to W099 are of workloads and of graphs made by programs, which are no graph files.
+  const std::string neutral = textOf(WEFT_SOURCE_DIR "/tests/graph/workload/neutral_test.cpp");
+  const std::string errors = textOf(WEFT_SOURCE_DIR "/docs/errors.md");
+  struct Row {
+    base::Code code;
+    std::string name, title;
+  };
+#define WEFT_CODE_ROW(number, name, title) {base::Code::name, "Code::" #name, title},
+  const std::vector<Row> rows = {WEFT_CODES(WEFT_CODE_ROW)};
+#undef WEFT_CODE_ROW
+  for (const Row& row : rows) {
+    const int number = static_cast<int>(row.code);
+    if (number >= 100) continue;
+    CAPTURE(row.name);
+    CHECK((number >= 93 ? neutral.find(row.name + ")") != std::string::npos ||
+                              neutral.find(row.name + ",") != std::string::npos
+                        : covered.contains(number)));
+    CHECK(errors.find("## " + base::nameOf(row.code) + ": " + row.title + "\n") != std::string::npos);
+  }
+}
+
+TEST_CASE("what docs/errors.md shows from W040 on is what the program prints") {
+  std::map<int, std::string> printed;
+  for (const auto& entry : manifest()) {
+    if (entry.value("stage", "") != "expand") continue;
+    std::string text = diagnose(entry).text();
+    const std::string folder = kFolder.string() + "/";
+    for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder))
+      text.erase(at, folder.size());
+    printed[numberOf(entry.at("code"))] += text;
+  }
+  const std::string errors = textOf(WEFT_SOURCE_DIR "/docs/errors.md");
+  const std::string fence = "```text\n";
+  for (const auto& [number, text] : printed) {
+    const std::size_t section = errors.find("## " + base::nameOf(static_cast<base::Code>(number)) + ":");
+    REQUIRE_MESSAGE(section != std::string::npos, number);
+    const std::size_t from = errors.find(fence, section) + fence.size(), to = errors.find("```", from);
+    CHECK(errors.substr(from, to - from) == text);
+  }
+}

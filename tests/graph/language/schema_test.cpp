@@ -1,0 +1,140 @@
+#include "engine/graph/language/schema.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "engine/graph/language/keys.h"
+#include "engine/graph/read/read.h"
+
+using namespace weft::graph;
+using weft::base::Code;
+using weft::base::Diagnostics;
+using Json = nlohmann::json;
+
+namespace {
+
+// A graph with `object` where objects of this kind stand.
+struct Host {
+  const char* name;
+  std::span<const KeySpec> keys;
+  Json (*wrap)(const Json& object);
+  Json whole;  // an object of the kind that reads without errors
+};
+
+Json wrapResource(const Json& object) {
+  return {{"passes", Json::array()}, {"resources", {{"r", object}}}};
+}
+Json wrapPass(const Json& object) {
+  return {{"passes", {object}}};
+}
+
+std::vector<Host> hosts() {
+  return {
+      {"graph", kGraphKeys, [](const Json& o) { return o; }, {{"passes", Json::array()}}},
+      {"parameter",
+       kParameterKeys,
+       [](const Json& o) {
+         return Json{{"passes", Json::array()}, {"parameters", {{"p", o}}}};
+       },
+       {{"default", 1}}},
+      {"texture", kTextureKeys, wrapResource, {{"texture", "r8"}, {"size", 1}, {"history", 1}}},
+      {"buffer", kBufferKeys, wrapResource, {{"buffer", 16}, {"history", 1}}},
+      {"import", kImportKeys, wrapResource, {{"import", "camera"}}},
+      {"input", kInputKeys, wrapResource, {{"input", "texture"}}},
+      {"pass", kPassKeys, wrapPass, {{"name", "p"}, {"type", "compute"}}},
+      {"include", kIncludeKeys, wrapPass, {{"include", "absent.json"}, {"as", "absent"}}},
+      {"state", kStateKeys,
+       [](const Json& o) {
+         return wrapPass({{"name", "p"}, {"type", "draw"}, {"state", o}});
+       },
+       Json::object()},
+  };
+}
+
+Diagnostics diagnose(const Json& graph) {
+  Diagnostics diagnostics;
+  readGraphText(graph.dump(), "nowhere/schema_test.json", diagnostics);
+  return diagnostics;
+}
+
+// The include of a file that is not there is not what these tests are about.
+bool isMissingFile(const weft::base::Diagnostic& d) {
+  return d.code == Code::unreadableFile;
+}
+
+}  // namespace
+
+TEST_CASE("docs/graph.schema.json is what the program prints") {
+  std::ifstream in(std::filesystem::path(WEFT_SOURCE_DIR) / "docs/graph.schema.json", std::ios::binary);
+  const std::string committed{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  // To update it: the `schema` command of the program, or WEFT_UPDATE_SCHEMA=1 with this test.
+  if (std::getenv("WEFT_UPDATE_SCHEMA")) {
+    std::ofstream(std::filesystem::path(WEFT_SOURCE_DIR) / "docs/graph.schema.json", std::ios::binary)
+        << graphSchema();
+    return;
+  }
+  CHECK(committed == graphSchema());
+}
+
+TEST_CASE("the reader knows every key of the schema, and looks at its value") {
+  for (const Host& host : hosts())
+    for (const KeySpec& spec : host.keys) {
+      CAPTURE(host.name);
+      CAPTURE(spec.key);
+      // An object where none may stand, or null where one may: both have the wrong type somewhere. A key that
+      // the reader forgot to read would pass in silence.
+      Json object = host.whole;
+      object[std::string(spec.key)] = nullptr;
+      bool complained = false;
+      const Diagnostics said = diagnose(host.wrap(object));
+      for (const auto& d : said.items()) {
+        CHECK_MESSAGE(d.code != Code::unknownKey, format(d));
+        complained =
+            complained || (d.code == Code::wrongType && d.pointer.ends_with("/" + std::string(spec.key)));
+      }
+      CHECK(complained);
+    }
+}
+
+TEST_CASE("keys outside the schema are unknown") {
+  for (const Host& host : hosts()) {
+    CAPTURE(host.name);
+    const Diagnostics whole = diagnose(host.wrap(host.whole));
+    for (const auto& d : whole.items()) CHECK_MESSAGE(isMissingFile(d), format(d));
+    if (std::string(host.name) == "import") continue;  // any other key is an argument
+    Json object = host.whole;
+    object["qwertyuiop"] = 1;
+    const Diagnostics diagnostics = diagnose(host.wrap(object));
+    CHECK(diagnostics.contains(Code::unknownKey));
+  }
+}
+
+TEST_CASE("every key table is in the schema, key for key") {
+  const Json schema = Json::parse(graphSchema());
+  for (const Host& host : hosts()) {
+    CAPTURE(host.name);
+    const Json& object = std::string(host.name) == "graph" ? schema : schema.at("$defs").at(host.name);
+    CHECK(object.at("properties").size() == host.keys.size());
+    for (const KeySpec& spec : host.keys) CHECK(object.at("properties").contains(std::string(spec.key)));
+  }
+}
+
+TEST_CASE("every reference inside the schema leads somewhere") {
+  const Json schema = Json::parse(graphSchema());
+  int found = 0;
+  const auto walk = [&](const auto& self, const Json& node) -> void {
+    if (node.is_object() && node.contains("$ref")) {
+      const std::string target = node.at("$ref");
+      CHECK_MESSAGE(schema.contains(Json::json_pointer(target.substr(1))), target);
+      ++found;
+    }
+    if (node.is_structured())
+      for (const Json& child : node) self(self, child);
+  };
+  walk(walk, schema);
+  CHECK(found > 30);
+}

@@ -1,0 +1,184 @@
+#include "engine/graph/read/ref_parse.h"
+
+#include <doctest/doctest.h>
+
+using namespace weft::graph;
+using weft::base::Code;
+using weft::base::Diagnostics;
+
+namespace {
+
+Place placeAt(std::uint32_t column) {
+  return {std::make_shared<const std::string>("t.json"), 3, column};
+}
+
+JsonPointer pointerTo(std::string_view key) {
+  auto object = std::make_shared<JsonPointer::Container>(JsonPointer::root(), true);
+  const std::uint32_t index = object->add(key);
+  return {std::move(object), index};
+}
+
+RefDesc parse(std::string_view text) {
+  Diagnostics diagnostics;
+  auto ref = parseRef(text, placeAt(1), pointerTo("p"), diagnostics);
+  REQUIRE_MESSAGE(ref, diagnostics.text());
+  CHECK(diagnostics.empty());
+  CHECK(ref->text == text);
+  CHECK(ref->pointer == "/p");
+  return *std::move(ref);
+}
+
+struct Failure {
+  Code code{};
+  std::uint32_t column = 0;
+  std::string message, hint;
+};
+
+Failure failure(std::string_view text) {
+  Diagnostics diagnostics;
+  CHECK_MESSAGE(!parseRef(text, placeAt(1), pointerTo("p"), diagnostics), text);
+  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+  const auto& d = diagnostics.items()[0];
+  return {d.code, d.place.column, d.message, d.hint};
+}
+
+}  // namespace
+
+TEST_CASE("plain names") {
+  const RefDesc keys = parse("keys");
+  CHECK(keys.name == "keys");
+  CHECK(!keys.import);
+  CHECK(!keys.optional);
+  CHECK(!keys.condition.present());
+  CHECK(!keys.kind);
+  CHECK(parse("ibl.environment").name == "ibl.environment");
+  CHECK(parse("@environment").import);
+  CHECK(parse("@environment").name == "environment");
+  CHECK(parse("  hdr ").place.column == 3);
+}
+
+TEST_CASE("selectors and spans") {
+  const RefDesc glow = parse("glow.mip[i-1]");
+  REQUIRE(glow.mip);
+  CHECK(!glow.mip->range);
+  CHECK(glow.mip->first.text() == "i - 1");
+  CHECK(glow.mip->first.place().column == 10);
+  const RefDesc rest = parse("sky_map.mip[1..]");
+  CHECK(rest.mip->range);
+  CHECK(rest.mip->first.text() == "1");
+  CHECK(!rest.mip->last.present());
+  const RefDesc all = parse("x1.layer[..]");
+  CHECK(all.layer->range);
+  CHECK(!all.layer->first.present());
+  CHECK(parse("a.mip[0 .. min(3, $n)]").mip->last.text() == "min(3, $n)");
+  CHECK(parse("a.mip[..2]").mip->last.text() == "2");
+  const RefDesc cube = parse("point_maps.layer[l].face[f]");
+  CHECK(cube.layer->first.text() == "l");
+  CHECK(cube.face->first.text() == "f");
+  const RefDesc light = parse("@shadowed_lights[l].face[[1, 2].x]");
+  CHECK(light.element->text() == "l");
+  CHECK(light.face->first.text() == "[1, 2].x");
+  CHECK(parse("gi.sh[2].mip[0]").name == "gi.sh");
+  CHECK(parse("depth.stencil").stencil);
+  CHECK(parse("depth.stencil").name == "depth");
+}
+
+TEST_CASE("history, words, conditions, optional") {
+  CHECK(parse("adapted@-1").history == 1);
+  CHECK(parse("adapted @-12").history == 12);
+  const RefDesc resolved = parse("resolved@-1 as linear");
+  CHECK(resolved.history == 1);
+  CHECK(resolved.sampler.linear);
+  CHECK(!resolved.sampler.wrap);
+  const RefDesc sky = parse("ibl.environment as linear wrap");
+  CHECK(sky.sampler.linear);
+  CHECK(sky.sampler.wrap);
+  CHECK(parse("depth as depth").kind == Kind::depth);
+  CHECK(parse("map as compare ?").sampler.compare);
+  CHECK(parse("map as compare").sampler.linear);
+  CHECK(!parse("map as nearest compare").sampler.linear);
+  CHECK(parse("map as sampled linear").kind == Kind::sampled);
+  CHECK(parse("glow.mip[0]?").optional);
+  const RefDesc bloom = parse("glow.mip[0] if $bloom ?");
+  CHECK(bloom.optional);
+  CHECK(bloom.condition.text() == "$bloom");
+  CHECK(bloom.condition.place().column == 16);
+  const RefDesc sh = parse("gi.sh as linear if $gi_sampling == textures ?");
+  CHECK(sh.condition.text() == "$gi_sampling == textures");
+  CHECK(parse("a if $b ? $c : $d").condition.text() == "$b ? $c : $d");
+  CHECK(!parse("a if $b ? $c : $d").optional);
+  CHECK(parse("a if $b ? $c : $d ?").optional);
+  CHECK(parse("cpu_order if $sort != gpu_bitonic").condition.text() == "$sort != gpu_bitonic");
+}
+
+TEST_CASE("errors carry column and fix") {
+  CHECK(failure("").column == 1);
+  CHECK(failure("  ?").code == Code::badReference);
+  CHECK(failure("mip[0]").message == "'mip' may not stand in a name");
+  CHECK(failure("a.x").column == 2);
+  CHECK(failure("a.b.").column == 5);
+  CHECK(failure("a..b").column == 3);
+  CHECK(failure("9lives").column == 1);
+  CHECK(failure("\xC3\xA9t\xC3\xA9").message == "'\xC3\xA9' where a name is expected");
+  CHECK(failure("a[0].b[1]").hint == "known: mip, layer, face, stencil");
+  CHECK(failure("a[0].mips[1]").hint == "did you mean 'mip'?");
+  CHECK(failure("glow.mip").column == 9);
+  CHECK(failure("glow.mip[0").column == 9);
+  CHECK(failure("glow.mip[]").column == 10);
+  CHECK(failure("glow.mip[0].mip[1]").column == 12);
+  CHECK(failure("a[0][1]").column == 5);
+  CHECK(failure("glow.mip[1 +]").code == Code::badExpression);
+  CHECK(failure("glow.mip[1 +]").column == 13);
+  CHECK(failure("glow.mip[(0]").column == 9);
+  CHECK(failure("hdr@1").column == 4);
+  CHECK(failure("hdr@-").column == 4);
+  CHECK(failure("hdr@-0").column == 4);
+  CHECK(failure("hdr@--1").column == 4);
+  CHECK(failure("hdr@").column == 4);
+  CHECK(failure("hdr@-99999999999").column == 4);
+  CHECK(failure("hdr as").column == 7);
+  CHECK(failure("hdr as if $x").column == 8);
+  CHECK(failure("hdr as liner").hint == "did you mean 'linear'?");
+  CHECK(failure("hdr as liner").column == 8);
+  CHECK(failure("hdr as linear nearest").column == 15);
+  CHECK(failure("hdr as wrap clamp").column == 13);
+  CHECK(failure("hdr as depth color").column == 14);
+  CHECK(failure("hdr as depth linear").column == 14);
+  CHECK(failure("hdr linear").hint == "did you mean 'as linear' or 'if linear'?");
+  CHECK(failure("hdr if").column == 7);
+  CHECK(failure("hdr if $").code == Code::badExpression);
+  CHECK(failure("hdr if $").column == 8);
+  CHECK(failure("hdr? if $x").hint == "'?' stands at the very end");
+  CHECK(failure("hdr as linear .mip[0]").hint == "selectors stand right behind the name");
+  CHECK(failure("a b c").code == Code::badReference);
+}
+
+TEST_CASE("references and values are told apart where both may stand") {
+  CHECK(looksLikeRef("@cut"));
+  CHECK(looksLikeRef("camera if $progressive"));
+  CHECK(looksLikeRef("ibl.environment"));
+  CHECK(!looksLikeRef("size(hdr)"));
+  CHECK(!looksLikeRef("size (hdr)"));
+  CHECK(!looksLikeRef("$taa ? 1 : 0"));
+  CHECK(!looksLikeRef("screen"));
+  CHECK(!looksLikeRef("device.software"));
+  CHECK(!looksLikeRef("1 + 2"));
+  CHECK(!looksLikeRef(""));
+}
+
+TEST_CASE("words with arguments") {
+  Diagnostics diagnostics;
+  CHECK(parseCallText("quad", placeAt(1), diagnostics)->name == "quad");
+  const auto ball = parseCallText("icosphere($subdivision)", placeAt(1), diagnostics);
+  REQUIRE(ball);
+  CHECK(ball->name == "icosphere");
+  REQUIRE(ball->arguments.size() == 1);
+  CHECK(ball->arguments[0].text() == "$subdivision");
+  CHECK(ball->arguments[0].place().column == 11);
+  CHECK(parseCallText("box(1, min(2, 3))", placeAt(1), diagnostics)->arguments.size() == 2);
+  CHECK(diagnostics.empty());
+  for (const char* text : {"", "2", "quad x", "icosphere(2", "icosphere(2) x", "icosphere()", "icosphere(1,)",
+                           "a)(", "a(1))", "a(]"})
+    CHECK_MESSAGE(!parseCallText(text, placeAt(1), diagnostics), text);
+  CHECK(diagnostics.size() == 10);
+}

@@ -1,0 +1,104 @@
+// Every pass of graphs/studio.json disabled, alone and in pairs: a frame without GL messages, or a documented diagnostic.
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "tests/runtime/stage.h"
+
+using namespace weft;
+using namespace weft::runtime::test;
+
+namespace {
+
+const std::string& errorsPage() {
+  static const std::string text = [] {
+    std::ifstream in(sourcePath("docs/errors.md"));
+    std::stringstream all;
+    all << in.rdbuf();
+    return all.str();
+  }();
+  return text;
+}
+
+bool isDocumented(base::Code code) {
+  return errorsPage().find("\n## " + base::nameOf(code)) != std::string::npos;
+}
+
+// Passes whose outputs are costly to make again come last, so that counting up leaves them alone longest.
+int costOf(const std::string& pass) {
+  if (pass.find("ibl.") == std::string::npos) return 0;
+  return pass.find("daylight") == std::string::npos ? 2 : 1;
+}
+
+std::vector<std::string> declaredPasses(const graph::FlatGraph& graph) {
+  std::vector<std::string> names;
+  for (const graph::PassSpec& spec : graph.specs)
+    if (std::ranges::find(names, spec.declared) == names.end()) names.push_back(spec.declared);
+  std::ranges::stable_sort(names, {}, costOf);
+  return names;
+}
+
+struct Outcome {
+  std::size_t pictures = 0, refusals = 0;
+  std::map<std::string, std::size_t> codes;
+};
+
+void tryWithout(Stage& stage, std::vector<std::string> disables, Outcome& outcome) {
+  std::string label = "without";
+  for (const std::string& name : disables) label += " " + name;
+  INFO(label);
+  stage.settings.disables = {disables.begin(), disables.end()};
+  if (stage.load()) {
+    CHECK_MESSAGE(!stage.diagnostics.hasErrors(), stage.diagnostics.text());
+    stage.run();
+    CHECK(gl::takeErrors() == "");
+    CHECK(!stage.pixels().empty());
+    ++outcome.pictures;
+    return;
+  }
+  ++outcome.refusals;
+  CHECK(stage.diagnostics.hasErrors());
+  for (const base::Diagnostic& each : stage.diagnostics.items()) {
+    ++outcome.codes[base::nameOf(each.code)];
+    CHECK_MESSAGE(isDocumented(each.code), "docs/errors.md lacks " << base::nameOf(each.code));
+    if (each.severity != base::Severity::error) continue;
+    const std::uint32_t line = each.place.line;
+    CHECK_MESSAGE(line > 0, base::format(each));
+    CHECK_MESSAGE(!each.hint.empty(), "no fix: " << base::format(each));
+  }
+}
+
+void tryAll(Stage& stage, bool pairs) {
+  stage.settings.disables = {};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  const std::vector<std::string> names = declaredPasses(*stage.execution().plan().graph);
+  CHECK(names.size() >= 12);
+  Outcome outcome;
+  for (std::size_t b = 0; b < names.size(); ++b) {
+    tryWithout(stage, {names[b]}, outcome);
+    for (std::size_t a = 0; pairs && a < b; ++a) tryWithout(stage, {names[a], names[b]}, outcome);
+  }
+  std::string codes;
+  for (const auto& [code, count] : outcome.codes) codes += " " + code + " x " + std::to_string(count);
+  MESSAGE(names.size() << " passes: " << outcome.pictures << " pictures, " << outcome.refusals
+                       << " refusals:" << codes);
+  CHECK(outcome.pictures > names.size() / 2);
+}
+
+}  // namespace
+
+TEST_CASE("disable: every pass of studio alone and in pairs, with the daylight environment") {
+  const CleanScope clean;
+  Stage stage("graphs/studio.json");
+  tryAll(stage, true);
+}
+
+TEST_CASE("disable: every pass of studio alone, with a loaded environment") {
+  const CleanScope clean;
+  Stage stage("graphs/studio.json");
+  auto image = std::make_shared<assets::ImageF>(assets::ImageF{64, 32, 4, {}});
+  image->texels.assign(64 * 32 * 4, 0.5f);
+  stage.world.setEnvironment(image);
+  tryAll(stage, false);
+}

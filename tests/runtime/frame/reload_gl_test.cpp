@@ -1,0 +1,208 @@
+// A running graph and its file: reordering, changed parameters, resizing, broken files.
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/runtime/stage.h"
+
+using namespace weft;
+using namespace weft::runtime::test;
+
+namespace {
+
+// A graph file beside tests/runtime/graphs' shaders, in a folder of its own that goes with it.
+class TemporaryGraph {
+ public:
+  TemporaryGraph()
+      : folder_(std::filesystem::temp_directory_path() / ("weft_reload_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+    std::filesystem::copy(sourcePath("tests/runtime/shaders"), folder_ / "shaders",
+                          std::filesystem::copy_options::recursive);
+  }
+  ~TemporaryGraph() { std::filesystem::remove_all(folder_); }
+  TemporaryGraph(const TemporaryGraph&) = delete;
+  TemporaryGraph& operator=(const TemporaryGraph&) = delete;
+  std::string path() const { return (folder_ / "graph.json").string(); }
+  void write(const std::string& text) const { std::ofstream(path()) << text; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+const std::string kHead =
+    R"({ "name": "chain", "resources": { "sum": { "texture": "r32f", "size": 4 } }, "passes": [
+  { "name": "start", "type": "fullscreen", "shader": "math/constant.frag.glsl", "write": { "result": "sum" },
+    "parameters": { "amount": 3 } })";
+const std::string kAdd =
+    R"(,
+  { "name": "add", "type": "fullscreen", "shader": "math/add.frag.glsl", "read": { "source": "sum" }, "write": { "result": "sum" },
+    "parameters": { "amount": 2 } })";
+const std::string kScale =
+    R"(,
+  { "name": "scale", "type": "fullscreen", "shader": "math/scale.frag.glsl", "read": { "source": "sum" }, "write": { "result": "sum" },
+    "parameters": { "amount": 10 } })";
+const std::string kTail = R"( ], "present": "sum" })";
+
+}  // namespace
+
+TEST_CASE("reload: a colour table is watched, and taken up when its file changed") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  const std::string path = file.path() + ".cube";
+  const auto write = [&](const char* rows) { std::ofstream(path) << "LUT_1D_SIZE 2\n" << rows; };
+  Stage stage("tests/runtime/graphs/toggle.json", 16, 9);
+  stage.settings.sets = {{"post.lut", path}};
+  const auto watched = [&] {
+    const auto files = stage.renderer().files();
+    return std::ranges::count(files, path) > 0;
+  };
+  CHECK(!stage.load());  // not there yet
+  CHECK(watched());
+  write("0 0 0\n1 1 1\n");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  CHECK(watched());
+  stage.run(0);
+  const auto same = stage.pixels();
+  REQUIRE(stage.load());
+  stage.run(1);
+  CHECK(stage.pixels() == same);
+  write("1.0 1.0 1.0\n0 0 0\n");
+  REQUIRE(stage.load());
+  stage.run(2);
+  CHECK(stage.pixels() != same);
+  write("no table");
+  CHECK(!stage.load());
+  CHECK(watched());
+  write("0 0 0\n1 1 1\n");
+  REQUIRE(stage.load());
+  stage.run(3);
+  CHECK(stage.pixels() == same);
+}
+
+TEST_CASE("reload: two effects swapped in the file give the other result, without an edit of a slot") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  file.write(kHead + kAdd + kScale + kTail);
+  Stage stage(file.path());
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  CHECK(stage.value() == 50);
+  file.write(kHead + kScale + kAdd + kTail);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(1);
+  CHECK(stage.value() == 32);
+  stage.settings.disables = {"scale"};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(2);
+  CHECK(stage.value() == 5);
+}
+
+TEST_CASE("reload: a broken file or shader leaves the running execution as it is") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  file.write(kHead + kAdd + kTail);
+  Stage stage(file.path());
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  const auto before = stage.pixels();
+  const runtime::Execution* running = &stage.execution();
+  std::string shaderless = kAdd, uncompilable = kAdd, unknown = kAdd;
+  shaderless.replace(shaderless.find("math/add"), 8, "math/nil");
+  uncompilable.replace(uncompilable.find("math/add"), 8, "math/bad");
+  unknown.replace(unknown.find("\"source\": \"sum\""), 15, "\"source\": \"som\"");
+  const std::pair<std::string, base::Code> broken[] = {
+      {kHead, base::Code::notJson},
+      {"", base::Code::notJson},
+      {kHead + unknown + kTail, base::Code::unknownResource},
+      {kHead + shaderless + kTail, base::Code::unreadableShader},
+      {kHead + uncompilable + kTail, base::Code::shaderDoesNotCompile},
+  };
+  std::uint32_t frame = 1;
+  for (const auto& [text, code] : broken) {
+    INFO(base::nameOf(code));
+    file.write(text);
+    CHECK_FALSE(stage.load());
+    CHECK_MESSAGE(stage.diagnostics.contains(code), stage.diagnostics.text());
+    CHECK(&stage.execution() == running);
+    stage.run(frame++);
+    CHECK(stage.value() == 5);
+    CHECK(stage.pixels() == before);
+  }
+  std::filesystem::remove(file.path());
+  CHECK_FALSE(stage.load());
+  CHECK(stage.diagnostics.contains(base::Code::unreadableFile));
+  file.write(kHead + kScale + kTail);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(frame);
+  CHECK(stage.value() == 30);
+}
+
+TEST_CASE("reload: changed parameters rerun what they reach and keep the rest") {
+  const CleanScope clean;
+  Stage stage("graphs/studio.json");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  const auto first = stage.pixels();
+  CHECK(stage.ran("ibl.brdf_table"));
+
+  stage.settings.sets = {{"exposure", "1.5"}};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(1);
+  CHECK(stage.pixels() != first);
+  for (const char* kept :
+       {"ibl.brdf_table", "ibl.daylight.daylight_sky", "ibl.irradiance_map", "ibl.specular_prefilter[1]"})
+    CHECK_MESSAGE(!stage.ran(kept), kept);
+
+  stage.settings.sets = {{"exposure", "1.5"}, {"sun_elevation", "10"}};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(2);
+  CHECK_FALSE(stage.ran("ibl.brdf_table"));
+  for (const char* again : {"ibl.daylight.daylight_sky", "ibl.daylight.daylight_mips", "ibl.irradiance_map",
+                            "ibl.specular_prefilter[1]"})
+    CHECK_MESSAGE(stage.ran(again), again);
+
+  // What was made anew fades in for a quarter of a second of 60 frames, and only then is made again.
+  constexpr std::uint32_t kFade = 15;
+  for (std::uint32_t frame = 3; frame <= 2 + kFade; ++frame) stage.run(frame);
+  stage.settings.sets = {};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  for (std::uint32_t frame = 3 + kFade; frame <= 3 + 2 * kFade; ++frame) stage.run(frame);
+  CHECK(stage.pixels() == first);
+}
+
+TEST_CASE("reload: a resize reruns what depends on the size, and only that") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/sizes.json", 16, 8, "scenes/empty.json");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  CHECK(stage.value() == 16 + 100);
+  CHECK(stage.ran("screen_once"));
+  CHECK(stage.ran("screen_on_change"));
+  CHECK(stage.ran("fixed_once"));
+  stage.run(1);
+  CHECK_FALSE(stage.ran("screen_once"));
+  CHECK_FALSE(stage.ran("screen_on_change"));
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());  // nothing changed
+  stage.run(2);
+  CHECK_FALSE(stage.ran("screen_once"));
+  CHECK_FALSE(stage.ran("fixed_once"));
+  CHECK(stage.value() == 16 + 100);
+  stage.settings.screenWidth = 32;
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(3);
+  CHECK(stage.ran("screen_once"));
+  CHECK(stage.ran("screen_on_change"));
+  CHECK_FALSE(stage.ran("fixed_once"));
+  CHECK(stage.value() == 32 + 100);
+  stage.settings.disables = {"fixed_once"};  // its storage goes; on its return it must run again
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(4);
+  CHECK(stage.value() == 32);
+  stage.settings.disables = {};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(5);
+  CHECK(stage.ran("fixed_once"));
+  CHECK(stage.value() == 32 + 100);
+}

@@ -1,0 +1,52 @@
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "engine/runtime/imports/lut_texture.h"
+
+using namespace weft;
+using namespace weft::runtime;
+
+TEST_CASE("a table is parsed once, again when its file changed, and its mistakes are said each time") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("weft_lut_files_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string path = (folder / "a.cube").string();
+  const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
+  LutFiles files;
+  base::Diagnostics diagnostics;
+  for (int i = 0; i < 2; ++i) {
+    CHECK(!files.get(path, diagnostics));
+    CHECK(diagnostics.contains(base::Code::unreadableFile));
+    diagnostics.clear();
+  }
+  write("LUT_1D_SIZE 2\n0 0 0\n1 1 1\n");
+  const auto first = files.get(path, diagnostics);
+  REQUIRE(first);
+  CHECK(files.get(path, diagnostics) == first);
+  CHECK(lutExtent(*first).width != lutExtent(*first).layers);
+  write("LUT_3D_SIZE 2\n" + std::string("0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"));
+  const auto second = files.get(path, diagnostics);
+  REQUIRE(second);
+  CHECK(second->dimensions == 3);
+  CHECK(first->dimensions == 1);  // who holds it keeps it
+  // The same length at another time.
+  std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(2));
+  CHECK(files.get(path, diagnostics) != second);
+  CHECK(diagnostics.empty());
+  write("LUT_3D_SIZE 2\n0 0 0\n");
+  for (int i = 0; i < 2; ++i) {
+    CHECK(!files.get(path, diagnostics));
+    CHECK(diagnostics.errorCount() == 1);
+    diagnostics.clear();
+  }
+  CHECK(files.touched() == std::set{path});
+  files.forgetTouched();
+  CHECK(files.touched().empty());
+  std::filesystem::remove_all(folder);
+}
