@@ -1,5 +1,6 @@
-// Execution: a Plan happening on the GPU, frame after frame. Owns the plan's storage, prepared passes, framebuffers and
-// uniform bytes; issues barriers, clears, bindings and pass executions; keeps cadence, history and publication times.
+// Execution: a Plan happening on the GPU, frame after frame. Each part has one job: ResourcePool the storage, PreparedPass what
+// a step binds, VariantChoice which variant of it, UniformValues and UniformArena its uniforms, FrameCadence what runs,
+// Publications what others see of it, StepRunner the GL calls. This strings them together.
 // A new plan is prepared beside the running one and takes over its persistent storage only once it is known to be good.
 // Does not: read files, decide what runs in which order (the plan did), or own the context. An unchanged plan's frame
 // allocates nothing on the heap.
@@ -8,48 +9,25 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
-#include "engine/gl/context/context.h"
-#include "engine/gl/context/state_cache.h"
-#include "engine/gl/objects/timers.h"
-#include "engine/gl/programs/program_cache.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/cadence/cadence.h"
+#include "engine/runtime/frame/device.h"
+#include "engine/runtime/frame/publications.h"
 #include "engine/runtime/frame/read_back.h"
-#include "engine/runtime/imports/imports.h"
+#include "engine/runtime/frame/step_runner.h"
+#include "engine/runtime/frame/uniform_arena.h"
+#include "engine/runtime/frame/uniform_values.h"
+#include "engine/runtime/frame/variant_choice.h"
 #include "engine/runtime/prepare/pass_keeper.h"
 #include "engine/runtime/prepare/prepared_pass.h"
-#include "engine/runtime/storage/framebuffer_cache.h"
 #include "engine/runtime/storage/resource_pool.h"
 
 namespace weft::runtime {
-
-// GL things that outlive a plan.
-struct Device {
-  // `trial` as in gl::ProgramCache::Options.
-  Device(gl::Context& context, std::vector<std::string> shaderRoots, std::string cacheFolder,
-         std::vector<std::string> trial = {});
-  gl::Context& context;
-  gl::SourceLoader sources;
-  gl::ProgramCache programs;
-  Geometries geometries;
-  Imports imports;
-  passes::PassRegistry passTypes = passes::PassRegistry::builtin();
-  gl::PassTimers timers;
-  GLuint sampler(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare);
-
- private:
-  struct CachedSampler {
-    gl::SamplerDesc desc;
-    gl::SamplerObject object;
-  };
-  std::vector<CachedSampler> samplers_;
-};
 
 struct FrameReport {
   std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
@@ -69,16 +47,16 @@ class Execution {
                                            Execution* before, ShaderFiles files,
                                            base::Diagnostics& diagnostics);
 
-  // The values of the plan's parameters, parallel to FlatGraph::parameters: as the plan was made, and since then
-  // as setParameter() set them.
-  std::span<const graph::Value> parameters() const { return parameters_; }
-  // Sets a live parameter: evaluates what reads it, and writes the bytes, which the next frame uploads. False, and
-  // nothing has changed, when that takes another plan, which may also say why not: the parameter is structural or
-  // unknown, it does not take the value, or an expression has no result with it. Allocates nothing for numbers,
-  // booleans and lists.
-  bool setParameter(std::string_view path, const graph::Value& value);
+  // The values of the plan's parameters, parallel to FlatGraph::parameters: as the plan was made, and since then as
+  // setParameter() set them.
+  std::span<const graph::Value> parameters() const { return values_.parameters(); }
+  // Sets a live parameter, for the next frame. False, and nothing has changed, when that takes another plan, which may
+  // also say why not. As UniformValues::set().
+  bool setParameter(std::string_view path, const graph::Value& value) {
+    return values_.set(path, value, arena_);
+  }
   // Of all uniform blocks, as the last frame had them and setParameter() changed them; for tests.
-  std::span<const std::byte> uniformBytes() const { return uniformBytes_; }
+  std::span<const std::byte> uniformBytes() const { return arena_.bytes(); }
 
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
@@ -116,87 +94,51 @@ class Execution {
   SliceRange slices(std::size_t step) const { return cadence_->slices(step); }  // of a step that ran in it
 
  private:
-  Execution(Device& device, std::shared_ptr<const graph::Plan> plan)
-      : device_(device), plan_(std::move(plan)) {}
+  Execution(Device& device, std::shared_ptr<const graph::Plan> plan);
+  // Preparing, beside the running execution.
   bool prepare(Execution* before, ShaderFiles files, base::Diagnostics& diagnostics);
-  void layoutUniforms(base::Diagnostics& diagnostics);
+  using Variants = std::vector<std::shared_ptr<const gl::Variant>>;  // per step
+  bool findVariants(const Execution* before, const PassKeeper* keeper, ShaderFiles files, Variants& variants,
+                    base::Diagnostics& diagnostics);
+  bool createPool(Execution* before, base::Diagnostics& diagnostics);
+  bool preparePasses(Execution* before, const PassKeeper* keeper, const Variants& variants,
+                     base::Diagnostics& diagnostics);
   bool isSettled(std::size_t step) const;
-  bool preparePasses(Execution* before, const std::vector<std::shared_ptr<const gl::Variant>>& variants,
-                     const PassKeeper* keeper, base::Diagnostics& diagnostics);
-  void fillUniforms();
-  void listReaders();
-  graph::Value valueOf(const graph::UniformSpec& uniform) const;
-  void carryOver(Execution& before);
-  void refreshImports(base::Diagnostics& diagnostics);
-  void viewImports(base::Diagnostics& diagnostics);
-  void publishImports(std::uint32_t job);
-  void releaseImports();
-  double ageOf(std::uint32_t resource) const;
-  void choosePasses(bool alwaysOnly, base::Diagnostics& diagnostics);
-  bool choosePass(std::size_t step, std::uint32_t conditions, base::Diagnostics& diagnostics);
-  void holdFading();
-  void adoptStandIns(Execution& before);
-  void followWhole(base::Diagnostics& diagnostics);
-  PrepareContext prepareContext(base::Diagnostics& diagnostics);
-  void findMakers();
+  void takeOver(Execution& before);
+
+  // The parts of a frame.
+  void beginFrame(const World& world, const FrameInput& input);
+  void publishFinished(base::Diagnostics& diagnostics);
+  void decide(base::Diagnostics& diagnostics);
+  void runSteps(FrameReport& report, base::Diagnostics& diagnostics);
+  void endFrame(FrameReport& report, base::Diagnostics& diagnostics);
+  void runAhead(FrameReport& report, base::Diagnostics& diagnostics);
+  void chooseVariants(bool alwaysOnly, base::Diagnostics& diagnostics);
+  void layOutUniforms(base::Diagnostics& diagnostics);
   void refreshUniforms(bool alwaysOnly);
-  void refreshOwnHashes();
-  bool resetHistories(base::Diagnostics& diagnostics);
-  void finishSlices(FrameReport& report, base::Diagnostics& diagnostics);
+  void refreshHashes();
   void refreshSlices();
-  void runDecided(FrameReport& report, base::Diagnostics& diagnostics);
-  bool publishFinished();
-  void publish(std::uint32_t resource);
-  void runStep(std::size_t step, base::Diagnostics& diagnostics);
   void lookThroughTap(std::size_t step, const FrameReport& report);
-  void rotateWritten(const PreparedPass& pass);
-  void bind(PreparedPass& pass, base::Diagnostics& diagnostics);
-  GLuint framebufferOf(PreparedPass& pass, base::Diagnostics& diagnostics);
-  std::uint32_t lastVersionOf(std::string_view name) const;
+  graph::Cadence cadenceOf(std::size_t step) const {
+    return plan_->graph->passes[plan_->steps[step].pass].cadence;
+  }
 
   Device& device_;
   std::shared_ptr<const graph::Plan> plan_;
   std::unique_ptr<ResourcePool> pool_;
-  std::uint32_t passesPrepared_ = 0;
   std::vector<PreparedPass> passes_;  // per step, of the variant whose conditions hold
-  struct Parked {
-    std::size_t step = 0;
-    PreparedPass pass;
-  };
-  std::vector<Parked> parked_;  // variants that ran under other conditions
-  std::vector<std::uint8_t>
-      publishing_;  // per resource: a pass that is not `always` publishes it in this frame
+  std::uint32_t passesPrepared_ = 0;
   std::unique_ptr<FrameCadence> cadence_;
-  FramebufferCache framebuffers_;
-  gl::StateCache states_;
-  std::vector<gl::Attachment> attachmentScratch_;
-  gl::Buffer uniforms_;
-  std::vector<std::byte> uniformBytes_;
-  bool uniformsDirty_ = true;
-  std::vector<graph::Value> parameters_;                             // parallel to FlatGraph::parameters
-  std::unordered_map<std::string_view, std::uint32_t> parameterOf_;  // by path, which the plan's graph holds
-  // A uniform that reads live parameters, of a pass or a parked one.
-  struct LiveUniform {
-    const gl::BlockMember* member = nullptr;
-    const graph::Expr* expr = nullptr;
-    std::uint32_t block = 0;  // offset of its block in uniformBytes_
-  };
-  std::vector<LiveUniform> liveUniforms_;
-  std::vector<std::vector<std::uint32_t>> readers_;  // per parameter: into liveUniforms_
-  std::vector<graph::Value> results_;                // scratch of setParameter()
-  std::vector<std::uint64_t> generations_;           // per resource
-  std::vector<std::uint64_t> generationsBefore_;     // as they were when the frame was decided
-  std::uint64_t nextGeneration_ = 1;
-  std::vector<std::uint64_t> own_;         // per step
-  std::vector<std::uint8_t> rotated_;      // per resource, this frame
-  std::vector<std::uint8_t> ran_;          // per step, this frame
-  std::vector<std::uint8_t> made_;         // per resource: the world's, or some step writes it
-  std::vector<std::uint8_t> lasting_;      // per step: runs in an obsolete frame too
-  std::vector<std::uint64_t> resetState_;  // per history: hash of what resets it
+  UniformArena arena_;
+  UniformValues values_;
+  std::optional<Publications> publications_;
+  std::optional<VariantChoice> variants_;
+  std::optional<StepRunner> runner_;
   ReadBack readBack_;
   FrameInput input_;
-  const World* world_ = nullptr;
-  std::uint64_t framesRun_ = 0;
+  std::vector<std::uint64_t> hashes_;  // per step: what it is made of, for the cadence
+  std::vector<std::uint8_t> ran_;      // per step, this frame
+  std::vector<std::uint8_t> lasting_;  // per step: runs in an obsolete frame too
   std::size_t tapStep_ = graph::kNone;
   std::function<void()> tap_;
 };

@@ -1,6 +1,8 @@
-// Preparing an execution: storage, programs, bindings, uniform layout; taking over from the execution before.
+// Preparing an execution: programs, storage, bindings, uniform layout; taking over from the execution before.
 #include <algorithm>
 #include <cassert>
+#include <unordered_map>
+#include <utility>
 
 #include "engine/runtime/cadence/lasting.h"
 #include "engine/runtime/frame/execution.h"
@@ -9,27 +11,6 @@
 #include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
-
-Device::Device(gl::Context& c, std::vector<std::string> shaderRoots, std::string cacheFolder,
-               std::vector<std::string> trial)
-    : context(c),
-      sources(std::move(shaderRoots)),
-      programs(c.device(), sources,
-               {.capacity = 32, .folder = std::move(cacheFolder), .trial = std::move(trial)}),
-      timers(c.device()) {}
-
-GLuint Device::sampler(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare) {
-  gl::SamplerDesc desc;
-  const bool linear = sampler.linear || sampler.compare;
-  desc.magFilter = linear ? GL_LINEAR : GL_NEAREST;
-  desc.minFilter = !mipmapped ? desc.magFilter : linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST;
-  desc.wrap = sampler.wrap ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-  if (sampler.compare) desc.compare = compare == graph::Compare::always ? GL_LEQUAL : glCompareOf(compare);
-  for (const CachedSampler& each : samplers_)
-    if (each.desc == desc) return each.object.id();
-  samplers_.push_back({desc, gl::SamplerObject::create(desc, linear ? "linear" : "nearest")});
-  return samplers_.back().object.id();
-}
 
 namespace {
 
@@ -60,11 +41,31 @@ std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<con
   return made;
 }
 
+Execution::Execution(Device& device, std::shared_ptr<const graph::Plan> plan)
+    : device_(device),
+      plan_(std::move(plan)),
+      arena_(static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment))),
+      values_(*plan_->graph) {}
+
 bool Execution::prepare(Execution* before, ShaderFiles files, base::Diagnostics& diagnostics) {
-  // Programs first: a shader that does not compile must cost the running execution nothing.
   const auto keeper = before ? std::make_unique<PassKeeper>(*plan_, *before->plan_) : nullptr;
+  Variants variants;
+  // Programs first: a shader that does not compile must cost the running execution nothing.
+  if (!findVariants(before, keeper.get(), files, variants, diagnostics)) return false;
+  if (!createPool(before, diagnostics)) return false;
+  if (before) runner_->framebuffers().takeOver(before->runner_->framebuffers(), pool_->textureNames());
+  if (!preparePasses(before, keeper.get(), variants, diagnostics)) return false;
+  publications_->listWritten();
+  if (before) arena_.takeBuffer(before->arena_);
+  layOutUniforms(diagnostics);
+  if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
+  if (before) takeOver(*before);
+  return !diagnostics.hasErrors();
+}
+
+bool Execution::findVariants(const Execution* before, const PassKeeper* keeper, ShaderFiles files,
+                             Variants& variants, base::Diagnostics& diagnostics) {
   base::Diagnostics problems;
-  std::vector<std::shared_ptr<const gl::Variant>> variants;
   for (std::size_t step = 0; step < plan_->steps.size(); ++step) {
     const std::uint32_t pass = plan_->steps[step].pass;
     const graph::PassSpec& spec = plan_->graph->specs[pass];
@@ -86,41 +87,26 @@ bool Execution::prepare(Execution* before, ShaderFiles files, base::Diagnostics&
       checkProgram(*plan_, pass, *variants.back(), device_.context.device().limits, problems);
   }
   diagnostics.append(problems);
-  if (problems.hasErrors()) return false;
+  return !problems.hasErrors();
+}
 
+bool Execution::createPool(Execution* before, base::Diagnostics& diagnostics) {
   base::Diagnostics refused;
   pool_ = ResourcePool::create(*plan_, before ? before->pool_.get() : nullptr, refused);
-  appendWithPlaces(
-      refused, [&](base::Diagnostic& d) { d.place = placeOfResource(*plan_->graph, d.resource); },
-      diagnostics);
+  const auto placeResource = [&](base::Diagnostic& d) {
+    d.place = placeOfResource(*plan_->graph, d.resource);
+  };
+  appendWithPlaces(refused, placeResource, diagnostics);
   if (!pool_) return false;
-  const std::size_t resources = plan_->graph->resources.size();
-  nextGeneration_ = before ? before->nextGeneration_ : 1;
-  generations_.resize(resources);
-  for (std::uint64_t& generation : generations_) generation = nextGeneration_++;
-  rotated_.assign(resources, 0);
-  cadence_ = std::make_unique<FrameCadence>(*plan_);
-  own_.assign(plan_->steps.size(), 0);
-  ran_.assign(plan_->steps.size(), 0);
+  const std::size_t steps = plan_->steps.size();
+  hashes_.assign(steps, 0);
+  ran_.assign(steps, 0);
   lasting_ = findLastingSteps(*plan_);
-  publishing_.assign(resources, 0);
-  resetState_.assign(plan_->graph->histories.size(), 0);
-  findMakers();
-  if (before) framebuffers_.takeOver(before->framebuffers_, pool_->textureNames());
-  if (!preparePasses(before, variants, keeper.get(), diagnostics)) return false;
-  for (const graph::ParameterSpec& parameter : plan_->graph->parameters) {
-    parameterOf_.emplace(parameter.path, static_cast<std::uint32_t>(parameters_.size()));
-    parameters_.push_back(parameter.value);
-  }
-  made_.resize(resources);
-  for (std::size_t r = 0; r < resources; ++r) made_[r] = plan_->graph->resources[r].import != graph::kNone;
-  for (const PreparedPass& pass : passes_)
-    for (const std::uint32_t r : pass.written) made_[r] = 1;
-  if (before) uniforms_ = std::move(before->uniforms_);
-  layoutUniforms(diagnostics);
-  if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
-  if (before) carryOver(*before);
-  return !diagnostics.hasErrors();
+  cadence_ = std::make_unique<FrameCadence>(*plan_);
+  publications_.emplace(*plan_, *pool_, device_.imports, *cadence_, passes_);
+  variants_.emplace(*plan_, device_, *pool_, passes_);
+  runner_.emplace(*plan_, device_, *pool_, arena_);
+  return true;
 }
 
 // Whether a pass is prepared for the variant that time settles on.
@@ -129,11 +115,11 @@ bool Execution::isSettled(std::size_t step) const {
   return !pass.conditional || pass.conditions == settledConditionsOf(*pass.context.spec);
 }
 
-bool Execution::preparePasses(Execution* before,
-                              const std::vector<std::shared_ptr<const gl::Variant>>& variants,
-                              const PassKeeper* keeper, base::Diagnostics& diagnostics) {
+bool Execution::preparePasses(Execution* before, const PassKeeper* keeper, const Variants& variants,
+                              base::Diagnostics& diagnostics) {
   base::Diagnostics refused;
-  PrepareContext context = prepareContext(refused);
+  PrepareContext context{*plan_, device_.passTypes,  nullptr,          0,
+                         *pool_, device_.geometries, device_.samplers, refused};
   passes_.reserve(plan_->steps.size());
   for (std::size_t step = 0; step < plan_->steps.size(); ++step) {
     const std::uint32_t old = keeper ? keeper->stepBefore(step) : graph::kNone;
@@ -160,82 +146,15 @@ bool Execution::preparePasses(Execution* before,
   return true;
 }
 
-PrepareContext Execution::prepareContext(base::Diagnostics& diagnostics) {
-  return {.plan = *plan_,
-          .types = device_.passTypes,
-          .variant = nullptr,
-          .pool = *pool_,
-          .geometries = device_.geometries,
-          .samplerOf =
-              [](void* owner, const graph::Sampler& sampler, bool mipmapped, graph::Compare compare) {
-                return static_cast<Device*>(owner)->sampler(sampler, mipmapped, compare);
-              },
-          .samplerOwner = &device_,
-          .diagnostics = diagnostics};
-}
-
-void Execution::layoutUniforms(base::Diagnostics& diagnostics) {
-  const auto alignment =
-      static_cast<std::uint32_t>(std::max(16, device_.context.device().limits.uniformOffsetAlignment));
-  std::uint32_t total = 0;
-  const auto place = [&](const gl::Block* block) {
-    const std::uint32_t at = total;
-    if (block) total += (block->bytes + alignment - 1) / alignment * alignment;
-    return at;
-  };
-  std::vector<PreparedPass*> all;
-  for (PreparedPass& pass : passes_) all.push_back(&pass);
-  for (Parked& parked : parked_) all.push_back(&parked.pass);
-  for (PreparedPass* pass : all) {
-    pass->parametersOffset = place(pass->parametersBlock);
-    pass->viewOffset = place(pass->viewBlock);
-    pass->sliceOffset = place(pass->sliceBlock);
-  }
-  uniformBytes_.assign(total, std::byte{0});
-  uniformsDirty_ = true;
-  fillUniforms();
-  listReaders();
-  if (total == 0) return;
-  // Padded so that comparing a 16-byte window of the last member stays inside.
-  uniformBytes_.resize(total + 16);
-  if (uniforms_ && uniforms_.bytes() >= uniformBytes_.size()) return;
-  auto buffer = gl::Buffer::create(uniformBytes_.size(), GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
-  if (buffer) uniforms_ = std::move(*buffer);
-}
-
-// Storage moved with the pool; what a pass remembers of its last run moves by name, generations by storage.
-void Execution::carryOver(Execution& before) {
-  framesRun_ = before.framesRun_;
-  std::unordered_map<std::string_view, std::size_t> resourceOf, stepOf, historyOf;
-  const graph::FlatGraph &mine = *plan_->graph, &theirs = *before.plan_->graph;
-  for (std::size_t r = 0; r < theirs.resourceNames.size(); ++r) resourceOf[theirs.resourceNames[r]] = r;
+// Storage moved with the pool. What a pass remembers of its last run moves by name.
+void Execution::takeOver(Execution& before) {
+  std::unordered_map<std::string_view, std::size_t> stepOf;
   for (std::size_t step = 0; step < before.plan_->steps.size(); ++step)
-    stepOf[theirs.specs[before.plan_->steps[step].pass].name] = step;
-  for (std::size_t h = 0; h < before.resetState_.size(); ++h)
-    historyOf[theirs.resourceNames[theirs.histories[h].resource]] = h;
-  for (std::size_t r = 0; r < generations_.size(); ++r) {
-    const GpuResource& resource = (*pool_)[r];
-    if (resource.fresh || resource.serial == 0) continue;
-    const auto old = resourceOf.find(mine.resourceNames[r]);
-    if (old != resourceOf.end() && (*before.pool_)[old->second].serial == resource.serial)
-      generations_[r] = before.generations_[old->second];
-  }
+    stepOf[before.plan_->graph->specs[before.plan_->steps[step].pass].name] = step;
   for (std::size_t step = 0; step < passes_.size(); ++step)
     if (const auto old = stepOf.find(passes_[step].context.spec->name); old != stepOf.end())
       cadence_->memories()[step] = before.cadence_->memories()[old->second];
-  std::vector<std::uint8_t> published(plan_->jobs.spread.begin(), plan_->jobs.spread.end());
-  for (std::uint32_t r = 0; r < generations_.size(); ++r) {
-    const GpuResource& resource = (*pool_)[r];
-    if (resource.job != graph::kNone && plan_->firstStep[r] != graph::kNone && resource.publications == 0)
-      published[resource.job] = 0;
-  }
-  for (std::uint32_t job = 0; job < published.size(); ++job)
-    if (published[job]) cadence_->restorePublished(job);
-  for (std::size_t h = 0; h < resetState_.size(); ++h)
-    if (const auto old = historyOf.find(mine.resourceNames[mine.histories[h].resource]);
-        old != historyOf.end())
-      resetState_[h] = before.resetState_[old->second];
-  adoptStandIns(before);
+  publications_->takeOver(*before.publications_);
 }
 
 }  // namespace weft::runtime

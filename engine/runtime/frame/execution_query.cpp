@@ -2,26 +2,15 @@
 #include <utility>
 
 #include "engine/runtime/frame/execution.h"
+#include "engine/runtime/frame/frame_memory.h"
 
 namespace weft::runtime {
 
 using graph::FlatUse;
 using graph::kNone;
 
-std::uint32_t Execution::lastVersionOf(std::string_view name) const {
-  std::uint32_t found = kNone;
-  const auto& names = plan_->graph->resourceNames;
-  for (std::uint32_t r = 0; r < names.size(); ++r) {
-    const std::string_view each = names[r];
-    const bool version =
-        each == name || (each.starts_with(name) && each.size() > name.size() && each[name.size()] == '#');
-    if (version && plan_->firstStep[r] != kNone) found = r;
-  }
-  return found;
-}
-
 gl::TextureRef Execution::texture(std::string_view name) {
-  const std::uint32_t r = lastVersionOf(name);
+  const std::uint32_t r = lastVersionOf(*plan_, name);
   return r == kNone ? gl::TextureRef{} : texture(r);
 }
 
@@ -33,7 +22,7 @@ gl::TextureRef Execution::texture(std::uint32_t r, std::uint32_t history) {
 }
 
 BufferRef Execution::buffer(std::string_view name, std::uint64_t& offset) {
-  const std::uint32_t r = lastVersionOf(name);
+  const std::uint32_t r = lastVersionOf(*plan_, name);
   return r == kNone ? BufferRef{} : buffer(r, offset);
 }
 
@@ -65,6 +54,10 @@ gl::TextureRef Execution::presentedWhole() {
   all.layers = desc.layers;
   base::Diagnostics ignored;
   return pool_->view(*plan_, all, (*pool_)[all.resource].copyOf(0), 0, ignored);
+}
+
+bool Execution::remembers(const World& world) const {
+  return remembersFrames(*plan_, passes_, world);
 }
 
 const Output* Execution::output(std::string_view name) const {

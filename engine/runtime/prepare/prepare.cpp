@@ -136,7 +136,7 @@ class Preparer {
         if (!sampler) return true;
         TextureBinding binding{
             .unit = sampler->unit + element, .resource = use.resource, .history = use.history, .views = {}};
-        binding.sampler = c_.samplerOf(c_.samplerOwner, slot.sampler, use.mips > 1, spec_.state.depthCompare);
+        binding.sampler = c_.samplers.get(slot.sampler, use.mips > 1, spec_.state.depthCompare);
         binding.views = viewsOf(use, opaqueTypeOf(sampler->type).target);
         out_.textures.push_back(std::move(binding));
         return complete(out_.textures.back().views);

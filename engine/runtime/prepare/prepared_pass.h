@@ -15,6 +15,7 @@
 #include "engine/graph/plan.h"
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/imports/geometry.h"
+#include "engine/runtime/prepare/sampler_cache.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/runtime/storage/resource_pool.h"
 
@@ -115,9 +116,7 @@ struct PrepareContext {
   std::uint32_t conditions = 0;                // of that variant
   ResourcePool& pool;
   Geometries& geometries;
-  GLuint (*samplerOf)(void* owner, const graph::Sampler& sampler, bool mipmapped,
-                      graph::Compare compare) = nullptr;
-  void* samplerOwner = nullptr;
+  SamplerCache& samplers;
   base::Diagnostics& diagnostics;
 };
 

@@ -1,9 +1,10 @@
-// Whether a frame can differ by which frames ran before it.
+#include "engine/runtime/frame/frame_memory.h"
+
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include "engine/graph/language/expr_node.h"
-#include "engine/runtime/frame/execution.h"
 
 namespace weft::runtime {
 
@@ -24,25 +25,25 @@ void forEachAge(const graph::ExprNode& node, const std::function<void(std::uint3
 
 }  // namespace
 
-bool Execution::remembers(const World& world) const {
-  const graph::FlatGraph& graph = *plan_->graph;
+bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> passes, const World& world) {
+  const graph::FlatGraph& graph = *plan.graph;
   // Written only by passes that are not `always`, or a still import.
   std::vector<std::uint8_t> still(graph.resources.size(), 1);
   for (std::size_t r = 0; r < still.size(); ++r)
     if (const std::uint32_t import = graph.resources[r].import; import != graph::kNone)
       still[r] = isStill(graph.imports[import], world);
   const auto passOf = [&](std::size_t step) -> const graph::FlatPass& {
-    return graph.passes[plan_->steps[step].pass];
+    return graph.passes[plan.steps[step].pass];
   };
   const auto usesOf = [&](std::size_t step) {
     return std::span(graph.uses).subspan(passOf(step).firstUse, passOf(step).useCount);
   };
-  for (std::size_t step = 0; step < passes_.size(); ++step)
+  for (std::size_t step = 0; step < passes.size(); ++step)
     for (const graph::FlatUse& use : usesOf(step))
       if (use.access != graph::Access::read && passOf(step).cadence == graph::Cadence::always)
         still[use.resource] = 0;
   // What was published once before the first frame is all the history there is of what stays.
-  for (std::size_t step = 0; step < passes_.size(); ++step)
+  for (std::size_t step = 0; step < passes.size(); ++step)
     for (const graph::FlatUse& use : usesOf(step))
       if (use.history > 0 && !still[use.resource]) return true;
   for (const graph::HistorySpec& history : graph.histories) {
@@ -54,8 +55,8 @@ bool Execution::remembers(const World& world) const {
   }
   const scene::Camera* camera = scene::findCamera(world.scene(), "");
   const bool cameraMoves = !camera || scene::isMoving(*camera);
-  for (std::size_t step = 0; step < passes_.size(); ++step) {
-    const PreparedPass& pass = passes_[step];
+  for (std::size_t step = 0; step < passes.size(); ++step) {
+    const PreparedPass& pass = passes[step];
     bool unsteady = false;
     const auto look = [&](const graph::Expr& expr) {
       if (expr.present())

@@ -1,0 +1,305 @@
+#include "engine/runtime/frame/publications.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <utility>
+
+#include "engine/base/hash.h"
+
+namespace weft::runtime {
+
+using graph::Cadence;
+using graph::kNone;
+using graph::ResourceKind;
+
+namespace {
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
+                           FrameCadence& cadence, const std::vector<PreparedPass>& passes)
+    : plan_(plan),
+      pool_(pool),
+      imports_(imports),
+      cadence_(cadence),
+      passes_(passes),
+      ages_([this](std::uint32_t resource) { return ageOf(resource); }) {
+  const std::size_t resources = plan.graph->resources.size();
+  generations_.resize(resources);
+  generationsBefore_.resize(resources);
+  publishing_.assign(resources, 0);
+  turned_.assign(resources, 0);
+  made_.assign(resources, 0);
+  resetState_.assign(plan.graph->histories.size(), 0);
+  for (std::uint64_t& generation : generations_) generation = nextGeneration_++;
+  findMakers();
+}
+
+// An import that an `on_change` pass of a group reads is shown with what the group makes of it; a time-sliced
+// group goes before others.
+void Publications::findMakers() {
+  const graph::FlatGraph& graph = *plan_.graph;
+  for (const graph::Step& step : plan_.steps) {
+    const graph::FlatPass& pass = graph.passes[step.pass];
+    const std::uint32_t group = plan_.jobs.jobOf(step.pass);
+    if (group == kNone || pass.cadence != Cadence::on_change) continue;
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const graph::FlatUse& use = graph.uses[u];
+      GpuResource& resource = pool_[use.resource];
+      const bool import = graph.resources[use.resource].kind == ResourceKind::imported_texture;
+      if (!import || use.history > 0) continue;
+      if (resource.maker == kNone || (plan_.jobs.spread[group] && !plan_.jobs.spread[resource.maker]))
+        resource.maker = group;
+    }
+  }
+}
+
+void Publications::listWritten() {
+  for (std::size_t r = 0; r < made_.size(); ++r) made_[r] = plan_.graph->resources[r].import != kNone;
+  for (const PreparedPass& pass : passes_)
+    for (const std::uint32_t r : pass.written) made_[r] = 1;
+}
+
+void Publications::beginFrame(const FrameInput& input) {
+  input_ = input;
+  std::fill(publishing_.begin(), publishing_.end(), std::uint8_t{0});
+}
+
+void Publications::holdFading() {
+  std::fill(cadence_.held().begin(), cadence_.held().end(), std::uint8_t{0});
+  const auto holdBefore = [&](const auto& bindings) {
+    for (const auto& binding : bindings)
+      if (binding.history > 0) hold(binding.resource);
+  };
+  for (const PreparedPass& pass : passes_) {
+    if (!pass.passing) continue;
+    holdBefore(pass.textures);
+    holdBefore(pass.images);
+    holdBefore(pass.buffers);
+  }
+}
+
+// Published again while somebody fades from what it was before, the picture would jump.
+void Publications::hold(std::uint32_t r) {
+  const bool import = plan_.graph->resources[r].import != kNone;
+  const bool shown = import ? imports_.publications(importOf(r)) > 0 : pool_[r].publications > 0;
+  if (!shown) return;
+  for (std::size_t step = 0; step < passes_.size(); ++step) {
+    if (cadenceOf(step) == Cadence::always) continue;
+    const PreparedPass& pass = passes_[step];
+    cadence_.held()[step] |= import ? pass.job != kNone && pass.job == pool_[r].maker
+                                    : std::ranges::find(pass.written, r) != pass.written.end();
+  }
+}
+
+bool Publications::publishFinished() {
+  bool any = false;
+  for (std::uint32_t group = 0; group < plan_.jobs.spread.size(); ++group) {
+    if (!cadence_.isFinished(group) || cadence_.isHeld(group)) continue;
+    for (std::uint32_t r = 0; r < generations_.size(); ++r)
+      if (pool_[r].job == group) publish(r);
+    publishImports(group);
+    cadence_.markPublished(group);
+    any = true;
+  }
+  return any;
+}
+
+void Publications::publish(std::uint32_t r) {
+  GpuResource& resource = pool_[r];
+  if (resource.copies > 1) resource.current = (resource.current + 1) % resource.copies;
+  ++resource.publications;
+  resource.publishedAt = firstHeadlessFrame() ? -kForever : input_.time;
+  generations_[r] = nextGeneration_++;
+}
+
+void Publications::publishImports(std::uint32_t group) {
+  for (std::size_t r = 0; r < generations_.size(); ++r)
+    if (pool_[r].maker == group) imports_.publish(importOf(r));
+}
+
+void Publications::refreshImports(base::Diagnostics& diagnostics) {
+  for (std::size_t r = 0; r < generations_.size(); ++r) {
+    const graph::FlatResource& desc = plan_.graph->resources[r];
+    if (desc.import == kNone) continue;
+    const graph::ImportSpec& import = importOf(r);
+    if (desc.kind == ResourceKind::imported_texture) {
+      pool_[r].imported = imports_.texture(import, diagnostics);
+      if (pool_[r].maker == kNone && !imports_.isPublished(import)) imports_.publish(import);
+    }
+    generations_[r] = imports_.generation(import);
+  }
+  viewImports(diagnostics);
+}
+
+void Publications::viewImports(base::Diagnostics& diagnostics) {
+  for (std::size_t r = 0; r < generations_.size(); ++r) {
+    if (plan_.graph->resources[r].kind != ResourceKind::imported_texture) continue;
+    pool_[r].shown = imports_.shown(importOf(r), diagnostics);
+    pool_[r].before = imports_.before(importOf(r), diagnostics);
+  }
+}
+
+bool Publications::resetHistories(base::Diagnostics& diagnostics) {
+  bool any = false;
+  const graph::FlatGraph& graph = *plan_.graph;
+  for (std::size_t h = 0; h < graph.histories.size(); ++h) {
+    const graph::HistorySpec& history = graph.histories[h];
+    std::uint64_t state = base::kHashSeed;
+    for (const std::uint32_t import : history.resetImports)
+      state = base::hashCombine(state, imports_.generation(graph.imports[import]));
+    for (const std::uint32_t resource : history.resetResources)
+      state = base::hashCombine(state, generations_[resource]);
+    for (const graph::Value& value : history.resetValues)
+      for (const double x : value.v) state = base::hashCombine(state, std::bit_cast<std::uint64_t>(x));
+    const bool changed = framesRun_ > 0 && state != resetState_[h];
+    resetState_[h] = state;
+    if (!changed) continue;
+    any = true;
+    pool_[history.resource].publications = 0;
+    ++pool_[history.resource].resets;
+    pool_.fill(plan_, history.resource, history.first, diagnostics);
+  }
+  return any;
+}
+
+bool Publications::announce() {
+  bool any = false;
+  for (std::size_t step = 0; step < passes_.size(); ++step) {
+    if (!cadence_.runs(step) || cadenceOf(step) == Cadence::always) continue;
+    for (const std::uint32_t r : passes_[step].written)
+      if (pool_[r].job == kNone) {
+        publishing_[r] = 1;
+        any = true;
+      }
+  }
+  for (std::uint32_t group = 0; group < plan_.jobs.spread.size(); ++group) {
+    if (plan_.jobs.spread[group]) continue;
+    bool runs = false;
+    for (std::size_t step = 0; step < passes_.size(); ++step)
+      runs |= passes_[step].job == group && cadence_.runs(step);
+    if (!runs) continue;
+    publishImports(group);
+    any = true;
+  }
+  return any;
+}
+
+void Publications::beginRound() {
+  generationsBefore_ = generations_;
+  std::fill(turned_.begin(), turned_.end(), std::uint8_t{0});
+}
+
+// Of what a time-sliced group writes nothing turns yet.
+void Publications::publishWritten(const PreparedPass& pass) {
+  for (const std::uint32_t r : pass.written) {
+    if (pool_[r].job != kNone) continue;
+    if (std::exchange(turned_[r], std::uint8_t{1}) != 0)
+      generations_[r] = nextGeneration_++;
+    else
+      publish(r);
+  }
+}
+
+void Publications::releaseImports() {
+  for (std::size_t r = 0; r < generations_.size(); ++r) {
+    if (plan_.graph->resources[r].kind != ResourceKind::imported_texture) continue;
+    const bool read = std::ranges::any_of(passes_, [&](const PreparedPass& pass) {
+      return std::ranges::any_of(pass.textures, [&](const TextureBinding& binding) {
+        return binding.resource == r && binding.history > 0;
+      });
+    });
+    if (!read) imports_.releaseBefore(importOf(r));
+  }
+}
+
+// Not published yet: about to be. A headless run publishes everything before its frame 0. What no live pass writes is never
+// published, and counts as old as that.
+double Publications::ageOf(std::uint32_t r) const {
+  if (!made_[r]) return kForever;
+  const GpuResource& resource = pool_[r];
+  if (resource.publications == 0 || publishing_[r]) return firstHeadlessFrame() ? kForever : 0.0;
+  return std::max(0.0, input_.time - resource.publishedAt);
+}
+
+void Publications::takeOver(Publications& before) {
+  framesRun_ = before.framesRun_;
+  takeGenerations(before);
+  takeGroups();
+  takeHistories(before);
+  adoptStandIns(before);
+}
+
+// By storage: a resource that lies where it lay before holds what it held.
+void Publications::takeGenerations(const Publications& before) {
+  for (std::uint64_t& generation : generations_) generation += before.nextGeneration_;
+  nextGeneration_ += before.nextGeneration_;
+  std::unordered_map<std::string_view, std::size_t> resourceOf;
+  const auto& theirs = before.plan_.graph->resourceNames;
+  for (std::size_t r = 0; r < theirs.size(); ++r) resourceOf[theirs[r]] = r;
+  for (std::size_t r = 0; r < generations_.size(); ++r) {
+    const GpuResource& resource = pool_[r];
+    if (resource.fresh || resource.serial == 0) continue;
+    const auto old = resourceOf.find(plan_.graph->resourceNames[r]);
+    if (old != resourceOf.end() && before.pool_[old->second].serial == resource.serial)
+      generations_[r] = before.generations_[old->second];
+  }
+}
+
+// A group is published when all it writes is.
+void Publications::takeGroups() {
+  std::vector<std::uint8_t> published(plan_.jobs.spread.begin(), plan_.jobs.spread.end());
+  for (std::uint32_t r = 0; r < generations_.size(); ++r) {
+    const GpuResource& resource = pool_[r];
+    if (resource.job != kNone && plan_.firstStep[r] != kNone && resource.publications == 0)
+      published[resource.job] = 0;
+  }
+  for (std::uint32_t group = 0; group < published.size(); ++group)
+    if (published[group]) cadence_.restorePublished(group);
+}
+
+void Publications::takeHistories(const Publications& before) {
+  const graph::FlatGraph &mine = *plan_.graph, &theirs = *before.plan_.graph;
+  std::unordered_map<std::string_view, std::size_t> historyOf;
+  for (std::size_t h = 0; h < before.resetState_.size(); ++h)
+    historyOf[theirs.resourceNames[theirs.histories[h].resource]] = h;
+  for (std::size_t h = 0; h < resetState_.size(); ++h)
+    if (const auto old = historyOf.find(mine.resourceNames[mine.histories[h].resource]);
+        old != historyOf.end())
+      resetState_[h] = before.resetState_[old->second];
+}
+
+// Where an import has taken the place of a texture that stood in for it: that texture is what was shown.
+void Publications::adoptStandIns(const Publications& before) {
+  const graph::FlatGraph& graph = *plan_.graph;
+  for (const graph::FlatResource& mine : graph.resources) {
+    if (mine.kind != ResourceKind::imported_texture) continue;
+    const graph::ImportSpec& import = graph.imports[mine.import];
+    for (const std::string& name : import.standIns) {
+      const std::uint32_t old = lastVersionOf(before.plan_, name);
+      if (old == kNone || lastVersionOf(plan_, name) != kNone) continue;
+      GpuResource& stoodIn = before.pool_[old];
+      if (!stoodIn.texture || stoodIn.publications == 0) continue;
+      imports_.adopt(import, stoodIn.texture->take(stoodIn.copyOf(0)),
+                     stoodIn.copies > 1 ? stoodIn.texture->take(stoodIn.copyOf(1)) : gl::Texture{});
+      break;
+    }
+  }
+}
+
+std::uint32_t lastVersionOf(const graph::Plan& plan, std::string_view name) {
+  std::uint32_t found = kNone;
+  const auto& names = plan.graph->resourceNames;
+  for (std::uint32_t r = 0; r < names.size(); ++r) {
+    const std::string_view each = names[r];
+    const bool version =
+        each == name || (each.starts_with(name) && each.size() > name.size() && each[name.size()] == '#');
+    if (version && plan.firstStep[r] != kNone) found = r;
+  }
+  return found;
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,104 @@
+// Publications: when what a resource holds becomes what everybody sees. Each resource has a generation, which moves with
+// every change, and an age, the time since it was published. A pass that runs publishes what it writes and turns its
+// history by one; a time-sliced group publishes all it wrote at once, in the frame after its last slice; an import is
+// shown with what a group makes of it. Histories are reset when what they depend on changes.
+// Does not: decide which passes run (FrameCadence), or own storage (ResourcePool). A frame allocates nothing.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/cadence/cadence.h"
+#include "engine/runtime/imports/imports.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/resource_pool.h"
+
+namespace weft::runtime {
+
+class Publications {
+ public:
+  // Everything is given by reference and must outlive this; `passes` may still be empty.
+  Publications(const graph::Plan& plan, ResourcePool& pool, Imports& imports, FrameCadence& cadence,
+               const std::vector<PreparedPass>& passes);
+  Publications(const Publications&) = delete;
+  Publications& operator=(const Publications&) = delete;
+
+  // What the running plan published, by storage; an import takes over the texture that stood in for it. Once the passes
+  // are prepared.
+  void takeOver(Publications& before);
+  // To be called when the passes are prepared: which resources somebody writes.
+  void listWritten();
+
+  void beginFrame(const FrameInput& input);
+  void endFrame() { ++framesRun_; }
+
+  // Passes wait that would publish what a variant chosen for a time still reads as it was before.
+  void holdFading();
+  // Publishes what time-sliced groups finished in the frame before. True when there was something.
+  bool publishFinished();
+  // The newest of each import, and its generation.
+  void refreshImports(base::Diagnostics& diagnostics);
+  // Which texture of each import passes see.
+  void viewImports(base::Diagnostics& diagnostics);
+  // Histories go back to their first value when what resets them has changed. True when one did.
+  bool resetHistories(base::Diagnostics& diagnostics);
+  // What passes that run in this frame will publish is of age 0 from now on. True when there is something. Once the cadence
+  // has decided.
+  bool announce();
+  // Before the steps of a round run: generations as the cadence saw them.
+  void beginRound();
+  // `pass` runs in this round: turns the history of what it writes, and publishes it, once in a round.
+  void publishWritten(const PreparedPass& pass);
+  // The generations as they were before the round, and as it leaves them.
+  const std::vector<std::uint64_t>& generationsBefore() const { return generationsBefore_; }
+  const std::vector<std::uint64_t>& generations() const { return generations_; }
+  // What imports showed before is let go where no pass reads it.
+  void releaseImports();
+
+  // Seconds since a resource was published; infinite when no pass ever writes it.
+  double ageOf(std::uint32_t resource) const;
+  const std::function<double(std::uint32_t)>& ages() const { return ages_; }
+  bool firstHeadlessFrame() const { return input_.headless && framesRun_ == 0; }
+  double time() const { return input_.time; }
+
+ private:
+  void findMakers();
+  void publish(std::uint32_t resource);
+  void publishImports(std::uint32_t group);
+  void hold(std::uint32_t resource);
+  void takeGenerations(const Publications& before);
+  void takeGroups();
+  void takeHistories(const Publications& before);
+  void adoptStandIns(const Publications& before);
+  graph::Cadence cadenceOf(std::size_t step) const {
+    return plan_.graph->passes[plan_.steps[step].pass].cadence;
+  }
+  const graph::ImportSpec& importOf(std::size_t resource) const {
+    return plan_.graph->imports[plan_.graph->resources[resource].import];
+  }
+
+  const graph::Plan& plan_;
+  ResourcePool& pool_;
+  Imports& imports_;
+  FrameCadence& cadence_;
+  const std::vector<PreparedPass>& passes_;
+  std::function<double(std::uint32_t)> ages_;
+  FrameInput input_;
+  std::uint64_t framesRun_ = 0, nextGeneration_ = 1;
+  std::vector<std::uint64_t> generations_, generationsBefore_;  // per resource
+  std::vector<std::uint8_t>
+      publishing_;                    // per resource: a pass that is not `always` publishes it in this frame
+  std::vector<std::uint8_t> turned_;  // per resource, this round
+  std::vector<std::uint8_t> made_;    // per resource: the world's, or some pass writes it
+  std::vector<std::uint64_t> resetState_;  // per history: hash of what resets it
+};
+
+// The last version of the texture or buffer `name` ("hdr", "ibl.brdf") that is alive in the plan, or kNone.
+std::uint32_t lastVersionOf(const graph::Plan& plan, std::string_view name);
+
+}  // namespace weft::runtime

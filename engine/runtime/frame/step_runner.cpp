@@ -1,0 +1,167 @@
+// One step of a frame: clears, bindings, the pass itself.
+#include "engine/runtime/frame/step_runner.h"
+
+#include <cstring>
+
+#include "engine/runtime/frame/gl_state.h"
+#include "engine/runtime/storage/formats.h"
+
+namespace weft::runtime {
+
+using graph::FlatUse;
+using graph::kNone;
+
+void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, base::Diagnostics& diagnostics) {
+  const gl::DebugGroup group(device_.context.debugLog(), pass.context.spec->name);
+  device_.timers.begin(static_cast<std::uint32_t>(step));
+  const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
+  if (clears && !pass.clears.empty()) clear(pass, framebuffer, diagnostics);
+  if (const std::uint16_t after = plan_.steps[step].barriersAfterClears) glMemoryBarrier(glBarriersOf(after));
+  bind(pass, diagnostics);
+  if (framebuffer) {
+    states_.bindFramebuffer(framebuffer);
+    applyState(pass, states_);
+    scissorTo(pass, states_);
+  } else {
+    openMasks(states_);
+  }
+  if (pass.feedback) glTextureBarrier();
+  pass.type->execute(pass.context);
+  device_.timers.end(static_cast<std::uint32_t>(step));
+}
+
+void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, base::Diagnostics& diagnostics) {
+  openMasks(states_);
+  for (const ClearCommand& clear : pass.clears) {
+    const GpuResource& resource = pool_[clear.use.resource];
+    const std::uint32_t copy = resource.copyOf(0, pass.job);
+    if (!resource.texture) {
+      clearBuffer(resource.buffers[copy], resource.offset, resource.bytes, clear.value);
+    } else if (clear.attachment >= 0 && framebuffer) {
+      clearAttachment(framebuffer, pass.attachments[static_cast<std::size_t>(clear.attachment)].point, clear);
+    } else {
+      const graph::FlatResource& desc = plan_.graph->resources[clear.use.resource];
+      const FlatUse all{.resource = clear.use.resource, .mips = desc.mips, .layers = desc.layers};
+      const gl::TextureRef ref = pool_.view(plan_, all, copy, 0, diagnostics);
+      for (std::uint32_t mip = clear.use.mip; mip < clear.use.mip + clear.use.mips; ++mip)
+        clearTexture(ref, clear.format, mip, clear.use.layer, clear.use.layers, clear.value);
+    }
+  }
+}
+
+void StepRunner::clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear) {
+  const std::array<float, 4> value = clearChannelsOf(clear.value);
+  const auto texel = clearTexelOf(clear.format, clear.value);
+  const auto index = static_cast<GLint>(point - GL_COLOR_ATTACHMENT0);
+  switch (graph::infoOf(clear.format).kind) {
+    case graph::TexelKind::depth:
+      glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, value.data());
+      break;
+    case graph::TexelKind::depth_stencil: {
+      const bool list = clear.value.type == graph::Value::Type::list;
+      glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, value[0],
+                                list ? static_cast<GLint>(value[1]) : 0);
+      break;
+    }
+    case graph::TexelKind::unsigned_integer: {
+      GLuint bits[4];
+      std::memcpy(bits, texel.bytes.data(), sizeof bits);
+      glClearNamedFramebufferuiv(framebuffer, GL_COLOR, index, bits);
+      break;
+    }
+    case graph::TexelKind::signed_integer: {
+      GLint bits[4];
+      std::memcpy(bits, texel.bytes.data(), sizeof bits);
+      glClearNamedFramebufferiv(framebuffer, GL_COLOR, index, bits);
+      break;
+    }
+    default:
+      glClearNamedFramebufferfv(framebuffer, GL_COLOR, index, value.data());
+  }
+}
+
+GLuint StepRunner::framebufferOf(const PreparedPass& pass, base::Diagnostics& diagnostics) {
+  scratch_.clear();
+  for (const AttachmentBinding& attachment : pass.attachments) {
+    const GpuResource& resource = pool_[attachment.resource];
+    scratch_.push_back({.point = attachment.point,
+                        .texture = attachment.textures[resource.copyOf(attachment.use.history, pass.job)],
+                        .mip = attachment.mip,
+                        .layer = attachment.layer});
+  }
+  return framebuffers_.get(scratch_, pass.context.spec->name, diagnostics);
+}
+
+namespace {
+
+GLuint viewOf(const GpuResource& resource, const std::vector<GLuint>& views, std::uint32_t history,
+              std::uint32_t group) {
+  return views.empty() ? resource.importedFor(history, group) : views[resource.copyOf(history, group)];
+}
+
+GLenum attachmentPointOf(graph::Format format) {
+  switch (graph::infoOf(format).kind) {
+    case graph::TexelKind::depth:
+      return GL_DEPTH_ATTACHMENT;
+    case graph::TexelKind::depth_stencil:
+      return GL_DEPTH_STENCIL_ATTACHMENT;
+    default:
+      return GL_COLOR_ATTACHMENT0;
+  }
+}
+
+}  // namespace
+
+void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
+  if (pass.variant) states_.useProgram(pass.variant->program.id());
+  if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
+  for (const TextureBinding& binding : pass.textures) {
+    states_.bindTexture(binding.unit,
+                        viewOf(pool_[binding.resource], binding.views, binding.history, pass.job));
+    states_.bindSampler(binding.unit, binding.sampler);
+  }
+  for (const ImageBinding& binding : pass.images)
+    states_.bindImage(binding.unit, viewOf(pool_[binding.resource], binding.views, binding.history, pass.job),
+                      binding.layered, binding.access, binding.format);
+  for (const BufferBinding& binding : pass.buffers) bindBuffer(binding, pass.job, diagnostics);
+  bindBlock(pass.parametersBlock, pass.parametersOffset);
+  bindBlock(pass.viewBlock, pass.viewOffset);
+  bindBlock(pass.sliceBlock, pass.sliceOffset);
+  for (const FixedBinding& binding : pass.fixed) bindFixed(binding, pass, diagnostics);
+  if (pass.list >= 0)
+    pass.context.instances = device_.imports.countOf(static_cast<scene::DrawList>(pass.list));
+}
+
+void StepRunner::bindBuffer(const BufferBinding& binding, std::uint32_t group,
+                            base::Diagnostics& diagnostics) {
+  if (binding.list >= 0) {
+    const auto list = static_cast<scene::DrawList>(binding.list);
+    const BufferRef table = device_.imports.instances(list, binding.layout, diagnostics);
+    states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
+  } else if (binding.import != kNone) {
+    const graph::ImportSpec& import = plan_.graph->imports[binding.import];
+    const BufferRef table = device_.imports.buffer(import, binding.layout, diagnostics);
+    states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
+  } else {
+    const GpuResource& resource = pool_[binding.resource];
+    states_.bindBuffer(binding.target, binding.index,
+                       resource.buffers[resource.copyOf(binding.history, group)],
+                       static_cast<GLintptr>(resource.offset), static_cast<GLsizeiptr>(resource.bytes));
+  }
+}
+
+void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
+  if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, arena_.buffer(), offset, block->bytes);
+}
+
+// What a pass type without a shader works on: names of textures, and framebuffers around them if it wants some.
+void StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
+  passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
+  bound.name = viewOf(pool_[binding.resource], binding.views, binding.history, pass.job);
+  if (!pass.framebuffers) return;
+  const GLenum point = attachmentPointOf(plan_.graph->resources[binding.resource].format);
+  const gl::Attachment attachment{.point = point, .texture = bound.name};
+  bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);
+}
+
+}  // namespace weft::runtime

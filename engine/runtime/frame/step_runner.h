@@ -1,0 +1,49 @@
+// Issues one step of a plan: clears, the barrier after them, program, bindings, framebuffer, fixed-function state, and the
+// pass type's execute(). Owns framebuffers and what is known of the GL state. Does not: decide whether the step runs, or
+// issue the barrier before it. Allocates nothing once a framebuffer was met.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/context/state_cache.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/frame/device.h"
+#include "engine/runtime/frame/uniform_arena.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/framebuffer_cache.h"
+#include "engine/runtime/storage/resource_pool.h"
+
+namespace weft::runtime {
+
+class StepRunner {
+ public:
+  // All must outlive this.
+  StepRunner(const graph::Plan& plan, Device& device, ResourcePool& pool, const UniformArena& arena)
+      : plan_(plan), device_(device), pool_(pool), arena_(arena) {}
+
+  // `clears`: what the step clears is cleared; a pass in slices does so with its first.
+  void run(std::size_t step, PreparedPass& pass, bool clears, base::Diagnostics& diagnostics);
+  // Somebody else may have changed the GL state.
+  void forgetState() { states_.forget(); }
+  FramebufferCache& framebuffers() { return framebuffers_; }
+
+ private:
+  void clear(const PreparedPass& pass, GLuint framebuffer, base::Diagnostics& diagnostics);
+  static void clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear);
+  void bind(PreparedPass& pass, base::Diagnostics& diagnostics);
+  void bindBuffer(const BufferBinding& binding, std::uint32_t group, base::Diagnostics& diagnostics);
+  void bindBlock(const gl::Block* block, std::uint32_t offset);
+  void bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics);
+  GLuint framebufferOf(const PreparedPass& pass, base::Diagnostics& diagnostics);
+
+  const graph::Plan& plan_;
+  Device& device_;
+  ResourcePool& pool_;
+  const UniformArena& arena_;
+  FramebufferCache framebuffers_;
+  gl::StateCache states_;
+  std::vector<gl::Attachment> scratch_;
+};
+
+}  // namespace weft::runtime

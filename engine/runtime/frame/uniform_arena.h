@@ -1,0 +1,46 @@
+// The uniform blocks of all passes, one after the other in one buffer: their bytes on the CPU, and on the GPU once they were
+// uploaded. An upload happens only when a byte has changed. Does not: know which value a uniform has (uniform_values.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects/objects.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/block_writer.h"
+
+namespace weft::runtime {
+
+class UniformArena {
+ public:
+  // `alignment` of offsets in bytes, as the device wants it.
+  explicit UniformArena(std::uint32_t alignment) : alignment_(alignment) {}
+
+  // Gives each block of `passes` its offset, and makes the buffer at least that large. All bytes are 0 then.
+  void layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
+  // The buffer of an execution that ends.
+  void takeBuffer(UniformArena& before) { buffer_ = std::move(before.buffer_); }
+
+  // `value` must fit the member (memberTakes). `block`: the block's offset.
+  void write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value);
+  void writeView(std::uint32_t block, const gl::Block& layout, const scene::ViewData& view,
+                 glm::vec2 viewport, bool timeless);
+
+  // `seed` with the bytes of a block; `seed` itself for null.
+  std::uint64_t hash(std::uint32_t block, const gl::Block* layout, std::uint64_t seed) const;
+  std::span<const std::byte> bytes() const { return bytes_; }
+  GLuint buffer() const { return buffer_.id(); }
+  // Sends the bytes when one has changed since the last call.
+  void upload();
+
+ private:
+  std::uint32_t alignment_;
+  std::vector<std::byte> bytes_;
+  gl::Buffer buffer_;
+  bool changed_ = true;
+};
+
+}  // namespace weft::runtime

@@ -1,0 +1,54 @@
+// Which value each uniform has while a plan runs: those that stay, those that change with time (age), and those that read
+// live parameters, which can be set between two frames. Does not: know where the bytes lie (uniform_arena.h).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/graph/flat_graph.h"
+#include "engine/runtime/frame/uniform_arena.h"
+
+namespace weft::runtime {
+
+class UniformValues {
+ public:
+  // Parameters have the values that `graph` was made with. It must outlive this.
+  explicit UniformValues(const graph::FlatGraph& graph);
+
+  // Parallel to FlatGraph::parameters.
+  std::span<const graph::Value> parameters() const { return parameters_; }
+
+  // Writes everything that does not change with time, and lists in each pass what does; `passes` are laid out in `arena`.
+  void fill(std::span<PreparedPass* const> passes, UniformArena& arena);
+  // Writes what changes with time. `ageOf(resource)` in seconds.
+  void refresh(const PreparedPass& pass, const std::function<double(std::uint32_t)>& ageOf,
+               UniformArena& arena) const;
+  // Sets a live parameter: evaluates what reads it and writes the bytes. False, and nothing has changed, when that
+  // takes another plan: the parameter is structural or unknown, it does not take the value, or an expression has no
+  // result with it. Allocates nothing for numbers, booleans and lists.
+  bool set(std::string_view path, const graph::Value& value, UniformArena& arena);
+
+ private:
+  // A uniform that reads live parameters.
+  struct Reader {
+    const gl::BlockMember* member = nullptr;
+    const graph::Expr* expr = nullptr;
+    std::uint32_t block = 0;  // offset of its block
+  };
+  graph::Value valueOf(const graph::UniformSpec& uniform) const;
+  void fillPass(PreparedPass& pass, UniformArena& arena) const;
+  void listReaders(const PreparedPass& pass);
+
+  const graph::FlatGraph& graph_;
+  std::vector<graph::Value> parameters_;
+  std::unordered_map<std::string_view, std::uint32_t> parameterOf_;  // by path, which the graph holds
+  std::vector<Reader> readers_;
+  std::vector<std::vector<std::uint32_t>> readersOf_;  // per parameter: into readers_
+  std::vector<graph::Value> results_;                  // scratch of set()
+};
+
+}  // namespace weft::runtime
