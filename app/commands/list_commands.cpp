@@ -69,7 +69,8 @@ Json toJson(const graph::ParameterSpec& parameter) {
   Json out{{"name", parameter.path},
            {"type", nameOf(desc.type)},
            {"default", toJson(desc.initial)},
-           {"value", toJson(parameter.value)}};
+           {"value", toJson(parameter.value)},
+           {"from", graph::wordFor(parameter.origin)}};
   if (desc.min) out["min"] = *desc.min;
   if (desc.max) out["max"] = *desc.max;
   if (desc.step) out["step"] = *desc.step;
@@ -131,10 +132,10 @@ int runParams(const Options& options) {
     for (const graph::ParameterSpec& parameter : plan->graph->parameters) all.push_back(toJson(parameter));
     print(dumpJson(all) + "\n");
   } else if (plan) {
-    std::vector<std::vector<std::string>> rows{{"NAME", "TYPE", "VALUE", "RANGE", "LABEL"}};
+    std::vector<std::vector<std::string>> rows{{"NAME", "TYPE", "VALUE", "FROM", "RANGE", "LABEL"}};
     for (const graph::ParameterSpec& parameter : plan->graph->parameters)
       rows.push_back({parameter.path, nameOf(parameter.desc.type), graph::toText(parameter.value),
-                      rangeOf(parameter.desc), parameter.desc.label});
+                      graph::wordFor(parameter.origin), rangeOf(parameter.desc), parameter.desc.label});
     printTable(rows);
   }
   return report(diagnostics);

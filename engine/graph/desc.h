@@ -187,8 +187,17 @@ struct OutputDesc {
 };
 
 // A value that the file, or an overlay on it, gives to a parameter of its own or of a file it includes.
+// Where the value of a parameter was written.
+enum class Origin : std::uint8_t { declaration, file, overlay, preset, command_line, panel };
+// "preset", "command line".
+constexpr const char* wordFor(Origin origin) {
+  constexpr const char* kWords[] = {"default", "file", "overlay", "preset", "command line", "panel"};
+  return kWords[static_cast<std::size_t>(origin)];
+}
+
 struct SetDesc {
   std::string name;  // any unique suffix
+  Origin origin = Origin::file;
   Place place;
   Place valuePlace;
   JsonPointer pointer;

@@ -148,8 +148,10 @@ struct ImportSpec {
 
 struct ParameterSpec {
   ParameterDesc desc;
-  std::string path;  // full name: "post.exposure", "post.composite.vignette"
-  Value value;       // after --set
+  std::string path;                     // full name: "post.exposure", "post.composite.vignette"
+  Value value;                          // after --set
+  Origin origin = Origin::declaration;  // of the value
+  Place valuePlace;                     // where it was written; no file of a panel
   bool structural =
       false;  // a size, condition, define, repeat, state or import depends on it: a change makes
               // another plan. Otherwise it is live: a change writes bytes of uniforms

@@ -208,8 +208,8 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
     model.diagnostics = said;
   }
   for (const Parameter& parameter : model.parameters)
-    model.graph.parameters.push_back(
-        {*parameter.desc, parameter.path, parameter.value, parameter.structural});
+    model.graph.parameters.push_back({*parameter.desc, parameter.path, parameter.value, parameter.origin,
+                                      parameter.valuePlace, parameter.structural});
   model.graph.files = model.desc.files;
   model.graph.name = model.desc.name;
   model.graph.screenWidth = model.settings.screenWidth;

@@ -122,7 +122,7 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
     return nullptr;
   }
   if (set && set->is(Type::object)) {
-    source.sets = set->members;
+    for (const base::JsonMember& member : set->members) source.sets.push_back({member, Origin::file});
     eraseMember(root, "set");
   }
   reportOverlayStanzas(root, diagnostics_);

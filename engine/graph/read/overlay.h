@@ -16,12 +16,16 @@ namespace weft::graph {
 
 // A file, extended and overlaid.
 struct Source {
-  std::string path;                    // as opened
-  std::string identity;                // canonical path, so that two spellings of one file are recognised
-  std::vector<std::string> files;      // itself, the files it extends, the presets
-  base::JsonValue root;                // whatever stands in the file; no "extends" and "set", no stanza of an
-                                       // overlay
-  std::vector<base::JsonMember> sets;  // of "set", in the order they apply: the last wins
+  std::string path;                // as opened
+  std::string identity;            // canonical path, so that two spellings of one file are recognised
+  std::vector<std::string> files;  // itself, the files it extends, the presets
+  base::JsonValue root;            // whatever stands in the file; no "extends" and "set", no stanza of an
+                                   // overlay
+  struct Set {
+    base::JsonMember member;
+    Origin origin = Origin::file;
+  };
+  std::vector<Set> sets;  // of "set", in the order they apply: the last wins
   std::map<std::string, std::shared_ptr<const Source>> changed;  // by prefix: includes reached into
   std::size_t values = 0;                                        // of root: what a copy costs
 };

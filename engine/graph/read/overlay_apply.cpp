@@ -42,7 +42,8 @@ class Applier {
         continue;
       if (member.key == "set") {
         if (expect(value, Type::object, "\"set\"", "an object of values by parameter"))
-          target_.sets.insert(target_.sets.end(), value.members.begin(), value.members.end());
+          for (const JsonMember& each : value.members)
+            target_.sets.push_back({each, preset ? Origin::preset : Origin::overlay});
       } else if (section && value.is(Type::object)) {
         for (const JsonMember& entry : value.members)
           if (!stopped()) applyEntry(member, entry);

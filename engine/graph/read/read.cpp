@@ -135,10 +135,10 @@ class GraphReader {
 
   static void readSets(ReadContext& context, const Source& source, GraphDesc& graph) {
     if (const JsonValue* set = source.root.find("set")) context.expect(*set, Type::object, "\"set\"");
-    for (const JsonMember& member : source.sets)
+    for (const auto& [member, origin] : source.sets)
       if (std::optional<Value> value = readValue(context, member))
         graph.sets.push_back(
-            {member.key, member.place, member.value.place, member.value.pointer, *std::move(value)});
+            {member.key, origin, member.place, member.value.place, member.value.pointer, *std::move(value)});
   }
 
   void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {

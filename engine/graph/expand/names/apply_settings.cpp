@@ -113,6 +113,7 @@ struct SetPlace {
   Place place = {};
   JsonPointer pointer = {};
   Place valuePlace = {};  // `place` when it has no file
+  Origin kind = Origin::file;
   std::string before = {};
 };
 
@@ -150,13 +151,14 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
   if (!checkParameterValue(model, parameter, value, origin.place, origin.before)) return;
   parameter.value = std::move(value);
   parameter.valuePlace = origin.valuePlace.file ? origin.valuePlace : origin.place;
+  parameter.origin = origin.kind;
 }
 
 }  // namespace
 
 void applySetting(Model& model, const Setting& set) {
   const std::string source = sourceOf(set);
-  const SetPlace place{model.scopes.front(),        "", placeOf(set.origin, source), {}, {},
+  const SetPlace place{model.scopes.front(),        "", placeOf(set.origin, source), {}, {}, set.origin,
                        prefixOf(set.origin, source)};
   applySet(model, set.name, place, [&](Type type) {
     // A path is what was written, whatever else that may mean.
@@ -173,7 +175,7 @@ void applySets(Model& model) {
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
     for (const SetDesc& set : scope->desc->sets)
       if (!isOver(model))
-        applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer, set.valuePlace},
+        applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer, set.valuePlace, set.origin},
                  [&](Type type) {
                    const bool path = type == Type::file && set.value.type == Value::Type::symbol;
                    return path ? Value::text(base::besideFile(set.place, set.value.symbol)) : set.value;

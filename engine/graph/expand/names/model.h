@@ -42,6 +42,7 @@ struct Parameter {
   Value value;
   bool structural = false;
   Place valuePlace{};  // where `value` was written: a default, a "set", the command line
+  Origin origin = Origin::declaration;
 };
 
 struct Let {

@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/graph/desc.h"
 #include "engine/graph/language/value.h"
 
 namespace weft::graph {
-
-// Where a value comes from that no file says.
-enum class Origin : std::uint8_t { command_line, panel };
 
 // A value for a parameter. `name` is any unique suffix.
 struct Setting {
