@@ -25,6 +25,10 @@ def command(weft, verb, entry):
         line += ["--set", f"{name}={value}"]
     for name in entry.get("disables", []):
         line += ["--disable", name]
+    for name in entry.get("presets", []):
+        line += ["--preset", name]
+    if entry.get("scene"):
+        line += ["--scene", entry["scene"]]
     if entry.get("camera"):
         line += ["--camera", entry["camera"]]
     if entry.get("environment"):
