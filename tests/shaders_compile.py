@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every shader named by a graph is valid GLSL, in the variants its slots, parameters and defines can ask for.
 
-Usage: shaders_compile.py SOURCE_DIR [GRAPH...]; default: every .json with passes in graphs/, tests/golden and tests/theory.
+Usage: shaders_compile.py SOURCE_DIR [GRAPH...]; default: every .json with passes below graphs/, tests/golden and tests/theory.
 Per pass: everything connected, then each optional input, each output and each parameter left out alone, all optional
 ones left out together, and each value of each define (all combinations where they are few). Needs glslangValidator; exits 77 (skipped) without it.
 """
@@ -142,7 +142,7 @@ def main():
     graphs = [pathlib.Path(g).resolve() for g in sys.argv[2:]]
     if not graphs:
         for folder in ("graphs", "tests/golden", "tests/theory"):
-            graphs += sorted(g for g in (TOP / folder).glob("*.json") if '"passes"' in g.read_text())
+            graphs += sorted(g for g in (TOP / folder).rglob("*.json") if '"passes"' in g.read_text())
     done, problems, used, jobs = set(), [], set(), []
     with tempfile.TemporaryDirectory() as temporary:
         for graph in graphs:

@@ -1,6 +1,6 @@
 // One layer of the half-size picture, blurred by its discs but for what fill will add. Scene-referred; result premultiplied.
 // read    source   from split, with levels, `as linear`
-//         flat_source   instead of it: without levels, while every disc is below 5.86 pixels of the full picture and rings 2 or more
+//         flat_source   instead of it: without levels, while no disc needs more, see the graph
 //         discs    from split, with levels, `as linear`
 //         tiles?   from reach: how far anything before the focus reaches here (layer before the focus only); without
 //                  it every pixel is searched as far as a tile
@@ -13,7 +13,8 @@
 //         blades   of the aperture, for POLYGON
 //         tile     pixels along a tile's side
 //         largest  limit of the radius, pixels of the full picture
-// defines NEAR, 1 from near_bokeh; POLYGON
+// defines NEAR, 1 from near_bokeh; POLYGON; FILL_SLOPE and FILL_START, see disc.glsl
+//         TEXELS_PER_GAP   width of the texels to read for a gap of 1 between samples
 #ifndef NEAR
 #define NEAR 0
 #endif
@@ -71,7 +72,7 @@ void main() {
   // A level whose texels are as large as the gaps between the samples.
   int outermost = ringsFor(radius, rings);
   float samples = samplesTo(outermost);
-  float level = clamp(ceil(log2(radius * inversesqrt(samples) * 1.363)), 0.0, COARSEST), texel = exp2(level);
+  float level = clamp(ceil(log2(radius * inversesqrt(samples) * TEXELS_PER_GAP)), 0.0, COARSEST), texel = exp2(level);
 #if NEAR
   float stride = fillStride(radius * inversesqrt(samples));
 #else

@@ -30,8 +30,9 @@ float samplesTo(int ring) { return 1.0 + 2.5 * float(ring * (ring + 1)); }
 int ringsFor(float radius, int rings) { return clamp(int(ceil(0.7 * radius - 0.2)), 0, rings); }
 float samplesFor(float radius, int rings) { return samplesTo(ringsFor(radius, rings)); }
 
-// Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them.
-float fillVariance(float radius) { return clamp(0.62 * radius - 1.829, 0.0, 2.0 / 3.0); }
+// Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them, up to a radius
+// of FILL_START / FILL_SLOPE. The graph defines both, because it leaves the fill out where no disc is larger.
+float fillVariance(float radius) { return clamp(FILL_SLOPE * radius - FILL_START, 0.0, 2.0 / 3.0); }
 
 // How far apart, in texels, the nine lookups of the fill lie, for a gap between samples before the focus: wide enough that highlights of a
 // few texels are no dots, and no wider, as it softens discs. (Behind the focus they lie a texel apart.)

@@ -6,7 +6,7 @@
 //         tiles?   from reach, for NEAR
 // write   result
 // params  tile, largest   as in bokeh; rings, for NEAR
-// defines NEAR, 1 from near_fill
+// defines NEAR, 1 from near_fill; FILL_SLOPE and FILL_START, see disc.glsl
 #ifndef NEAR
 #define NEAR 0
 #endif

@@ -19,7 +19,7 @@ def main():
     report.check(listed.code == 0 and not listed.err, f"params: {listed.code}\n{listed.err}")
     parameters = {p["name"]: p for p in json.loads(listed.out)}
     report.check(len(parameters) > 50, f"{len(parameters)} parameters")
-    bloom, exposure, curve = (parameters[f"post.{name}"] for name in ("bloom", "exposure", "curve"))
+    bloom, exposure, curve = (parameters[f"post.{name}"] for name in ("bloom", "display.exposure", "display.curve"))
     report.check(bloom["type"] == "bool" and bloom["default"] is True and bloom["label"], f"{bloom}")
     report.check((exposure["type"], exposure["min"], exposure["max"]) == ("float", -10, 10), f"{exposure}")
     report.check(curve["type"] == "choice" and "filmic" in curve["choices"] and curve["default"] in curve["choices"], f"{curve}")
@@ -40,9 +40,9 @@ def main():
     text = run(weft, "params", STUDIO, "--set", "exposure=1.5", "--preset", "plain")
     rows = {line.split()[0]: line for line in text.out.splitlines()[1:]}
     report.check(set(rows) == set(parameters), f"text and JSON differ: {set(rows) ^ set(parameters)}")
-    report.check(rows["post.exposure"].split()[1:4] == ["float", "1.5", "command"], rows["post.exposure"])
+    report.check(rows["post.display.exposure"].split()[1:4] == ["float", "1.5", "command"], rows["post.display.exposure"])
     report.check(rows["post.bloom"].split()[1:3] == ["bool", "false"], rows["post.bloom"])
-    report.check("linear | " in rows["post.curve"], rows["post.curve"])
+    report.check("linear | " in rows["post.display.curve"], rows["post.display.curve"])
     broken = run(weft, "params", "tests/bad_graphs/w040_unknown_resource.json")
     report.check(broken.code == 1 and broken.codes() == ["W040"], f"a broken graph: {broken.code}\n{broken.err}")
     missing = run(weft, "params", "no_such.json")

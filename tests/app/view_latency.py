@@ -48,7 +48,7 @@ def material(text, i):
 
 
 CASES = (("shader", "shaders/composite/composite.frag.glsl", shader),
-         ("parameter", "graphs/post.json", value),
+         ("parameter", "graphs/effects/composite.json", value),
          ("material", "materials/pbr_materials.json", material))
 
 

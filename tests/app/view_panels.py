@@ -44,23 +44,25 @@ def panels(weft, folder, report, scale):
 
 
 def write_back(weft, folder, report):
-    post = folder / "graphs/post.json"
-    before = post.read_text()
+    composite, post = folder / "graphs/effects/composite.json", folder / "graphs/post.json"
+    files = (composite, post)
+    before = [path.read_text() for path in files]
     live = Session(weft, folder, "--set", "exposure=1.25", "--set", "curve=aces", "--disable", "fxaa")
     try:
         if not report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
             return
         live.key("F8")
-        report.check(live.until(lambda: post.read_text() != before), f"F8 writes nothing\n{live.said()}")
-        after = post.read_text()
-        expected = re.sub(r'("exposure": *\{[^}\n]*"default": )[-\d.]+', r"\g<1>1.25", before)
+        report.check(live.until(lambda: all(path.read_text() != text for path, text in zip(files, before))), f"F8 writes nothing\n{live.said()}")
+        expected = re.sub(r'("exposure": *\{[^}\n]*"default": )[-\d.]+', r"\g<1>1.25", before[0])
         expected = re.sub(r'("curve": *\{ "default": )"filmic"', r'\g<1>"aces"', expected)
-        changed = [a for a, b in zip(after.splitlines(), expected.splitlines()) if a != b]
+        report.check(composite.read_text() == expected, f"{composite.name} has\n{composite.read_text()}")
+        changed = [a for a, b in zip(post.read_text().splitlines(), before[1].splitlines()) if a != b]
         report.check(len(changed) == 1 and "fxaa" in changed[0] and "false" in changed[0], f"other lines changed: {changed}")
         live.leave(report)
     finally:
         live.stop()
-    post.write_text(before)
+    for path, text in zip(files, before):
+        path.write_text(text)
 
 
 def main():

@@ -22,7 +22,7 @@ def session(weft, compare, folder, report):
         report.check(seen, f"{what}: the picture stays as it was\n{live.said()}")
         return seen or old
 
-    post, composite = folder / "graphs/post.json", folder / "shaders/composite/composite.frag.glsl"
+    settings, composite = folder / "graphs/effects/composite.json", folder / "shaders/composite/composite.frag.glsl"
     live = Session(weft, folder)
     try:
         if not report.check(live.open(), f"no window\n{live.said()}"):
@@ -38,11 +38,11 @@ def session(weft, compare, folder, report):
             beside = live.shot()
             report.check(beside and beside.read_bytes() == first.read_bytes(), f"{key} changes the picture under the panels")
 
-        whole = edit(post, r'"passes"', '"passes')
-        report.check(live.until(lambda: "post.json:" in live.said()), "a broken save is not reported")
+        whole = edit(settings, r'"passes"', '"passes')
+        report.check(live.until(lambda: "effects/composite.json:" in live.said()), "a broken save is not reported")
         same = live.shot()
         report.check(live.alive() and same and same.read_bytes() == first.read_bytes(), "a broken save changes the picture")
-        save(post, re.sub(r'("exposure": *\{[^}\n]*"default": )[-\d.]+', r"\g<1>2.5", whole))
+        save(settings, re.sub(r'("exposure": *\{[^}\n]*"default": )[-\d.]+', r"\g<1>2.5", whole))
         brighter = changes("the fix with more exposure", first)
         report.check(describe(brighter)[2] > size[2] + 5, f"exposure 2.5: mean {describe(brighter)[2]} after {size[2]}")
 

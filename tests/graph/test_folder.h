@@ -19,8 +19,9 @@ class TestFolder {
   TestFolder& operator=(const TestFolder&) = delete;
 
   std::string file(const std::string& name) const { return (path_ / name).string(); }
-  // The path of the file.
+  // The path of the file; `name` may lead into folders, which are made.
   std::string write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << text;
     return file(name);
   }

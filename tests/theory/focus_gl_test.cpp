@@ -295,10 +295,10 @@ TEST_CASE("focus: blades make a polygon of the disc, and the light stays") {
   CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.03));
 }
 
-TEST_CASE("focus: without dof_reach there is still a blurred picture, and GL has nothing to say") {
+TEST_CASE("focus: without dof.reach there is still a blurred picture, and GL has nothing to say") {
   Setup setup = scene({{.center = {0, 0, 14}, .radius = 0.8f, .albedo = kGrey}},
                       {.focalLength = 150, .focus = 40}, "4");
-  setup.disables = {"post.dof_reach"};
+  setup.disables = {"dof.reach"};
   const Panels panels = panelsOf(setup);
   CHECK(darkOf(panels, true).variance > darkOf(panels, false).variance + 10);
   CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.05));

@@ -57,7 +57,7 @@ Picture render(const std::string& file, const char* strength = "1") {
                 {"encoded", "true"},
                 {"ramp.left", "[0, 1, 0.2]"},
                 {"ramp.right", "[1, 0.3, 0.9]"},
-                {"post.lut", file},
+                {"lut", file},
                 {"lut_strength", strength}};
   Lab lab(setup);
   lab.frame();
@@ -133,7 +133,7 @@ TEST_CASE("a table that cannot be used is an error of the graph, before anything
     const auto desc = graph::readGraph(std::string(WEFT_SOURCE_DIR) + "/tests/theory/look.json", diagnostics);
     REQUIRE(desc);
     graph::Settings settings;
-    settings.sets = {{"post.lut", file}};
+    settings.sets = {{"lut", file}};
     const auto registry = weft::runtime::makeRegistry(weft::passes::PassRegistry::builtin(), {});
     graph::expandGraph(*desc, registry, settings, diagnostics);
     std::string codes;

@@ -19,14 +19,13 @@ using base::JsonValue;
 // The files from the graph's own down to the one that declares something: prefix of names and description.
 using Chain = std::vector<std::pair<std::string, const GraphDesc*>>;
 
-// Calls visit(chain, pass) for every pass of the graph and of what it includes.
+// Calls visit(chain, pass) for every pass and include of the graph and of what it includes.
 template <class Visit>
 void eachPass(Chain& chain, const Visit& visit) {
   const auto [prefix, desc] = chain.back();
   for (const PassDesc& pass : desc->passes) {
-    if (!pass.include) {
-      visit(chain, pass);
-    } else if (pass.include->graph) {
+    visit(chain, pass);
+    if (pass.include && pass.include->graph) {
       chain.emplace_back(prefix + pass.include->as + ".", pass.include->graph.get());
       eachPass(chain, visit);
       chain.pop_back();
@@ -120,6 +119,13 @@ std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std:
   const auto own = texts.find(desc.path);
   const auto root = own == texts.end() ? std::nullopt : parse(*own->second);
   return root && root->find("extends") ? std::optional(desc.path) : std::nullopt;
+}
+
+// The key of a pass or include behind which "enabled" is looked for.
+const char* lastOfHead(const JsonValue& stanza) {
+  for (const char* key : {"shader", "type", "as"})
+    if (stanza.find(key)) return key;
+  return "include";
 }
 
 class Edits {
@@ -216,8 +222,7 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
       if (!stanza) return std::nullopt;
       const JsonValue* enabled = stanza->find("enabled");
       if (!enabled)
-        return base::insertMember(text, pass->pointer.text(), "enabled", "false",
-                                  stanza->find("shader") ? "shader" : "type");
+        return base::insertMember(text, pass->pointer.text(), "enabled", "false", lastOfHead(*stanza));
       if (!enabled->is(JsonValue::Type::string))
         return base::replaceValue(text, enabled->pointer.text(), "false");
       // The condition stays readable, and comes back when "&& false" is removed.

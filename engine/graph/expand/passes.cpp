@@ -37,6 +37,7 @@ class PassWalk {
   void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why) {
     const auto child = scope.includes.find(desc.include->as);
     if (child == scope.includes.end() || child->second->stanza != &desc) return;
+    checkExpr(model_, scope, desc.enabled);
     markStructural(model_, scope, desc.enabled);
     Names names(model_, scope);
     const auto enabled = evaluateCondition(names, desc.enabled, true,

@@ -110,6 +110,7 @@ constexpr KeySpec kInclude[] = {
     {"as", "@name", "prefix of its names; the file's name when absent"},
     {"bind", "@slots", "its inputs; those absent take the resource of the same name"},
     {"group", R"({"type":"string"})", "group of its passes that are not always and name none"},
+    {"enabled", "@value", "false removes all its passes; true when absent"},
 };
 
 constexpr KeySpec kState[] = {

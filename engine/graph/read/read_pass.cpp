@@ -59,6 +59,7 @@ class PassReader {
     IncludeDesc& include = out_.include.emplace();
     include.file = context_.text(file, "\"include\"");
     include.group = context_.text(value_.find("group"), "\"group\"");
+    out_.enabled = context_.expr(value_.find("enabled"), "\"enabled\"");
     readBinds(include);
     if (include.file.empty()) {
       if (file && file->is(Type::string))

@@ -207,6 +207,32 @@ TEST_CASE("disabled passes: \"enabled\" beside the others, a condition is kept")
                  "\"e.frag.glsl\",", "\"e.frag.glsl\", \"enabled\": false,"));
 }
 
+TEST_CASE("a disabled include: \"enabled\" in its line, a condition is kept") {
+  const Folder folder;
+  folder.write("small.json", kSmall);
+  const std::string top = R"({
+  "parameters": { "on": { "default": true } },
+  "passes": [
+    { "include": "small.json", "as": "one" }, // kept
+    { "include": "small.json", "as": "two", "enabled": "$on" },
+    { "include": "small.json", "as": "three" }
+  ],
+  "present": "three.b"
+}
+)";
+  const std::string path = folder.write("top.json", top);
+  const auto written = writeBack(path, {.disables = {"one", "two"}});
+  INFO(written.diagnostics.text());
+  REQUIRE(written.plan);
+  CHECK(written.plan->passes == std::vector<std::string>{"one", "two"});
+  CHECK(contents(path) == replaced(replaced(top, "\"as\": \"one\"", "\"as\": \"one\", \"enabled\": false"), "\"$on\"", "\"$on && false\""));
+
+  const std::string over = folder.write("over.json", R"({ "extends": "top.json" })");
+  folder.write("top.json", top);
+  REQUIRE(writeBack(over, {.disables = {"two"}}).plan);
+  CHECK(contents(over) == R"({ "extends": "top.json", "passes": [{ "name": "two", "enabled": false }] })");
+}
+
 TEST_CASE("CRLF, tabs and a byte order mark stay") {
   const Folder folder;
   for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
@@ -301,7 +327,9 @@ TEST_CASE("random tweaks of the bundled graph come back from its files, and only
   std::mt19937 random(7);
   for (int round = 0; round < 12; ++round) {
     const Folder folder;
-    for (const char* name : {"ibl.json", "daylight.json", "post.json", "bloom.json"}) folder.copy(name);
+    for (const char* name : {"ibl.json", "daylight.json", "post.json", "effects/depth_of_field.json", "effects/motion_blur.json", "effects/bloom.json",
+                             "effects/exposure.json", "effects/composite.json", "effects/fxaa.json"})
+      folder.copy(name);
     const std::string path = folder.copy("studio.json");
     const auto start = load(path, {});
     Settings settings;

@@ -301,6 +301,45 @@ TEST_CASE("includes: prefixes, binds, inputs of the same name, names from outsid
   CHECK(part.has(Code::badBind));
 }
 
+TEST_CASE("enabled of an include: none of its passes without it, and what decides is structural") {
+  const std::filesystem::path folder = std::filesystem::path(WEFT_BINARY_DIR) / "expand_include_enabled";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  };
+  write("dim.json", R"J({ "parameters": { "own": { "default": true } }, "resources": { "hdr": { "input": "texture" } },
+    "passes": [ { "name": "first", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "hdr" }, "write": { "result": "hdr" } },
+                { "name": "second", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "$own", "read": { "source": "hdr" }, "write": { "result": "hdr" } } ] })J");
+  const auto top = [&](const std::string& enabled, const Settings& settings = {}) {
+    const std::string path = write(
+        "top.json",
+        R"J({ "parameters": { "dim": { "default": true } }, "resources": { "hdr": { "texture": "rgba16f", "size": 4 } },
+      "passes": [ { "name": "fill", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "hdr" } },
+                  { "include": "dim.json", "enabled": )J" +
+            enabled + R"J( } ], "present": "hdr" })J");
+    Expanded e;
+    const auto desc = readGraph(path, e.diagnostics);
+    REQUIRE_MESSAGE(desc, e.text());
+    e.graph = expandGraph(*desc, testRegistry(), settings, e.diagnostics);
+    return e;
+  };
+  CHECK(top("true").names() == "fill dim.first dim.second");
+  CHECK(top(R"("$dim")").names() == "fill dim.first dim.second");
+  CHECK(top(R"("$dim")", with({{"own", "false"}})).names() == "fill dim.first");
+  const Expanded off = top(R"("$dim")", with({{"dim", "false"}}));
+  CHECK(off.names() == "fill");
+  REQUIRE(off.graph->disabled.size() == 2);
+  CHECK(off.graph->disabled[1].name == "dim.second");
+  CHECK(off.graph->disabled[1].why == "enabled: $dim is false");
+  REQUIRE(off.graph->parameters.size() == 2);
+  CHECK(off.graph->parameters[0].structural);
+  CHECK(top("false").names() == "fill");
+  CHECK(top(R"("$dimm")").of(Code::W22).hint == "did you mean '$dim'?");
+  CHECK(top(R"("$dim || $dimm")").of(Code::W22).hint == "did you mean '$dim'?");  // also where it is not evaluated
+  CHECK(top(R"("a")").of(Code::W51).message == "'enabled' of include 'dim' is no condition");
+}
+
 TEST_CASE("mipmap and blit hold their two slots against each other") {
   const auto copy = [](const std::string& type, const std::string& source, const std::string& result) {
     return tryPass(R"J({ "name": "p", "type": ")J" + type +

@@ -215,7 +215,7 @@ TEST_CASE(
 
 TEST_CASE("nothing waits for lighting that is not made: without its readers or its maker the sky is there") {
   const auto a = makeMap(64, 0x3800, 1);
-  for (const char* disabled : {"spheres", "specular_prefilter"}) {
+  for (const char* disabled : {"billboards", "specular_prefilter"}) {
     CAPTURE(disabled);
     const CleanScope clean;
     Live live("false"), still("false", true);

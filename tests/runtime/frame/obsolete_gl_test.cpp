@@ -51,9 +51,9 @@ TEST_CASE("obsolete: of the studio picture, only what adapts runs on") {
   frame(stage, 0, -1);
   const std::vector<std::uint8_t> whole = stage.pixels();
   CHECK_FALSE(frame(stage, 1, 0).whole);
-  CHECK(stage.ran("post.exposure_adapt"));
-  CHECK_FALSE(stage.ran("post.composite"));
-  CHECK_FALSE(stage.ran("post.fxaa"));
+  CHECK(stage.ran("post.exposure.adapt"));
+  CHECK_FALSE(stage.ran("post.display.composite"));
+  CHECK_FALSE(stage.ran("post.fxaa.smooth"));
   CHECK(frame(stage, 2, -1).whole);
   CHECK(stage.pixels() == whole);  // the light stands still
 }

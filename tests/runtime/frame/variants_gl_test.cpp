@@ -77,7 +77,7 @@ class Toggles {
                                            "post.auto_exposure",
                                            "aberration",
                                            "white_balance",
-                                           "post.composite.vignette",
+                                           "composite.vignette",
                                            "grain",
                                            "dither",
                                            "firefly"};

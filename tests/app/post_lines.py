@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""graphs/post.json is a list of effects, one include a line. post_lines.py WEFT, from the source folder.
+
+Each line but the composite's may be deleted, all of them may, and those that change `hdr` may stand in any order: the studio still
+passes `check`. A deleted line gives the picture of the effect switched off. A moved one gives another order of passes."""
+import itertools
+import pathlib
+import re
+import shutil
+import sys
+
+from program import Report, TOP, run, temporary_folder
+
+LINE = re.compile(r'^    \{ "include": "effects/(\w+)\.json".*$', re.M)
+SWITCHES = {"depth_of_field": "dof", "motion_blur": "motion_blur", "bloom": "bloom", "exposure": "auto_exposure", "fxaa": "fxaa"}
+
+
+def with_lines(text, lines):
+    """The text with these include lines in place of its own."""
+    first, last = (list(LINE.finditer(text))[i] for i in (0, -1))
+    return text[:first.start()] + ",\n".join(line.rstrip(",") for line in lines) + "\n" + text[last.end() + 1:]
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        for part in ("graphs", "shaders"):
+            shutil.copytree(TOP / part, folder / part)
+        post, text = folder / "graphs/post.json", (TOP / "graphs/post.json").read_text()
+        lines = {found[1]: found[0] for found in LINE.finditer(text)}
+        report.check(set(lines) == {*SWITCHES, "composite"}, f"the effects: {list(lines)}")
+        everything = [word for switch in SWITCHES.values() for word in ("--set", f"{switch}=true")]
+
+        def checked(lines, *arguments):
+            post.write_text(with_lines(text, lines))
+            made = run(weft, "check", folder / "graphs/studio.json", "--no-shaders", *arguments)
+            report.check(made.code == 0 and not made.err, f"{[LINE.match(line)[1] for line in lines]}: {made.err}")
+
+        checked(lines.values())
+        report.check(post.read_text() == text, "the same lines give the same file")
+        checked([lines["composite"]])
+        for gone in SWITCHES:
+            checked([line for effect, line in lines.items() if effect != gone], *everything)
+        behind = [lines["composite"], lines["fxaa"]]
+        for order in itertools.permutations([e for e in SWITCHES if e != "fxaa"]):
+            checked([*(lines[effect] for effect in order), *behind], *everything)
+
+        def passes():
+            plan = run(weft, "plan", folder / "graphs/studio.json", *everything).out
+            return re.findall(r"^  \d+ post\.(\w+)", plan, re.M)
+
+        post.write_text(text)
+        report.check(passes().index("dof") < passes().index("motion_blur"), f"before: {passes()}")
+        post.write_text(with_lines(text, [lines[e] for e in ("motion_blur", "depth_of_field")] + behind))
+        report.check(passes().index("motion_blur") < passes().index("dof"), f"after: {passes()}")
+
+        def picture(lines, *arguments):
+            post.write_text(with_lines(text, lines))
+            made = run(weft, "render", folder / "graphs/studio.json", "--size", "96x54", "-o", folder / "a.png", *arguments)
+            report.check(made.code == 0, made.err)
+            return (folder / "a.png").read_bytes()
+
+        whole = picture(lines.values())
+        for effect in ("bloom", "fxaa"):
+            without = picture([line for e, line in lines.items() if e != effect])
+            report.check(without != whole, f"without {effect}'s line the picture is the same")
+            report.check(without == picture(lines.values(), "--set", f"{SWITCHES[effect]}=false"), f"{effect}: no line is not `false`")
+            report.check(without == picture(lines.values(), "--disable", effect), f"{effect}: no line is not --disable")
+    report.end()
+
+
+main()
