@@ -96,7 +96,7 @@ TEST_CASE(
     for (const double distance : {4.0, 8.0, 30.0, 100.0}) {
       Lab lab(scene({{.center = {0, 0, 20 - distance}, .radius = static_cast<float>(distance / 10)}}, lens));
       lab.frame(0);
-      const Picture near = lab.read("post.discs"), far = lab.read("post.fields", 0, 1);
+      const Picture near = lab.read("post.dof.discs"), far = lab.read("post.dof.fields", 0, 1);
       const double expected = std::min(discRadius(lens, 0.9 * distance), 31.0);
       CAPTURE(lens.focus);
       CAPTURE(distance);
@@ -163,7 +163,7 @@ TEST_CASE(
     setup.sets.push_back({"largest_bokeh", "128"});
     Lab lab(setup);
     lab.frame(0);
-    const Picture panels = lab.read("panels"), discs = lab.read("post.discs");
+    const Picture panels = lab.read("panels"), discs = lab.read("post.dof.discs");
     CHECK(lab.complaints() == "");
     double step = 0, left = 0, right = 0;
     std::uint32_t at = 0, row = 0;
@@ -181,7 +181,7 @@ TEST_CASE(
     CHECK(step < 0.012);  // a disc of 90 pixels at a straight edge: 0.006
     // What is searched is no less than any disc that reaches the tile, and the same on both sides of a tile
     // border.
-    const Picture tiles = lab.read("post.near_tiles"), reach = lab.read("post.near_reach");
+    const Picture tiles = lab.read("post.dof.near_tiles"), reach = lab.read("post.near_reach");
     REQUIRE(reach.width == 6);
     for (std::uint32_t ty = 0; ty < 2; ++ty)
       for (std::uint32_t tx = 0; tx < 6; ++tx) {

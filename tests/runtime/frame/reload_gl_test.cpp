@@ -53,7 +53,7 @@ TEST_CASE("reload: a colour table is watched, and taken up when its file changed
   const std::string path = file.path() + ".cube";
   const auto write = [&](const char* rows) { std::ofstream(path) << "LUT_1D_SIZE 2\n" << rows; };
   Stage stage("tests/runtime/graphs/toggle.json", 16, 9);
-  stage.settings.sets = {{"post.lut", path}};
+  stage.settings.sets = {{"lut", path}};
   const auto watched = [&] {
     const auto files = stage.renderer().files();
     return std::ranges::count(files, path) > 0;
