@@ -57,9 +57,20 @@ def define_name(name):
     return re.sub(r"\W", "_", name).upper()
 
 
+def laid_over(below, own):
+    """What `like` means: objects merge, null takes away."""
+    if not isinstance(below, dict) or not isinstance(own, dict):
+        return own
+    merged = {key: laid_over(below.get(key), value) for key, value in own.items() if value is not None}
+    return {key: merged.get(key, value) for key, value in {**below, **merged}.items() if own.get(key, value) is not None}
+
+
 def passes_of(graph):
-    desc = json.loads(strip_comments(graph.read_text()))
+    desc, known = json.loads(strip_comments(graph.read_text())), {}
     for stanza in desc.get("passes", []):
+        if "like" in stanza:
+            stanza = laid_over(known[stanza["like"]], stanza)
+        known[stanza.get("name")] = stanza
         if "shader" in stanza:
             yield stanza, desc
 
@@ -149,7 +160,9 @@ def main():
             roots = shader_folders(graph)
             for stanza, desc in passes_of(graph):
                 name, where = stanza["shader"], f"{graph.relative_to(TOP)}: pass {stanza['name']}"
-                names = [f"{name}.vert.glsl", f"{name}.frag.glsl"] if stanza["type"] == "draw" else [name]
+                names = list(name.values()) if isinstance(name, dict) else [name]
+                if stanza["type"] == "draw" and not isinstance(name, dict):
+                    names = [f"{name}.vert.glsl", f"{name}.frag.glsl"]
                 for one in names:
                     path = find_shader(graph, one)
                     if path is None:

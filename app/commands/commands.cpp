@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 
 #include "app/bench/edit_bench.h"
 #include "app/bench/frame_bench.h"
@@ -67,9 +66,12 @@ void checkShaderFiles(const Options& options, const graph::GraphDesc& desc, gl::
       checkShaderFiles(options, *pass.include->graph, sources, diagnostics);
     const passes::PassType* type = pass.shader.empty() ? nullptr : types.find(pass.type);
     if (!type) continue;
-    const bool pair = type->reflect().shader == graph::ShaderShape::draw;
-    for (const char* end : pair ? std::array{".vert.glsl", ".frag.glsl"} : std::array{"", ""})
-      sources.load(pass.shader + end, diagnostics, pass.shaderPlace);
+    std::vector<std::string> files = {pass.shader};
+    if (!pass.vertexShader.empty())
+      files.push_back(pass.vertexShader);
+    else if (type->reflect().shader == graph::ShaderShape::draw)
+      files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+    for (const std::string& file : files) sources.load(file, diagnostics, pass.shaderPlace);
   }
 }
 

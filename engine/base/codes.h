@@ -39,6 +39,7 @@ namespace weft::base {
   X(W024, noFiniteResult,            "no finite result")                                            \
   X(W025, notAChoice,                "not one of the choices")                                      \
   X(W026, badFunctionCall,           "wrong function call")                                         \
+  X(W027, likeNothing,               "like a pass that is not there")                               \
   /* graph */                                                                                       \
   X(W040, unknownResource,           "unknown resource")                                            \
   X(W041, unknownPassType,           "unknown pass type")                                           \

@@ -160,7 +160,8 @@ struct PassDesc {
   std::optional<IncludeDesc> include;
   std::string type;
   Place typePlace;
-  std::string shader;
+  std::string shader;  // a path; of a draw the stem of two, or the fragment shader beside `vertexShader`
+  std::string vertexShader;  // of a draw that names both
   Place shaderPlace;
   Expr enabled;  // absent: true
   std::vector<RangeDesc> repeat;

@@ -121,7 +121,9 @@ struct StateSpec {
 struct PassSpec {
   std::string name;      // full instance name: "bloom.glow_down[3]"
   std::string declared;  // without the index: "bloom.glow_down"
-  std::string type, shader;
+  std::string type;
+  std::string shader;  // a path; of a draw the stem of two, or the fragment shader beside `vertexShader`
+  std::string vertexShader;  // of a draw that names both
   Place place, shaderPlace;
   std::uint32_t firstSlot = 0, slotCount = 0;
   std::vector<DefineSpec> defines;

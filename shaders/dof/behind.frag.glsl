@@ -6,8 +6,8 @@
 // modify  result   radiance; alpha stays
 //         tested   the same depth, with "depth_test": "greater", or "less" for NEAR, and "depth_write": false
 // params  infinity, focus   as in split
-//         tile     as in bokeh, for NEAR
-// defines NEAR, 1 from near_behind
+//         tile     pixels of the half size along a tile's side, for NEAR
+// defines NEAR, default 0; 1: beside what is before the focus, in the tiles of near_behind.vert.glsl
 #ifndef NEAR
 #define NEAR 0
 #endif

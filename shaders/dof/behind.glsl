@@ -1,4 +1,4 @@
-// What both stages of behind, and of near_behind, share: what the fragments need comes from the vertices, as each number of a
+// What behind.frag.glsl and its vertex shaders share: what the fragments need comes from the vertices, as each number of a
 // uniform block costs every pixel.
 #ifndef DOF_BEHIND_GLSL
 #define DOF_BEHIND_GLSL

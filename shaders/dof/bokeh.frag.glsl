@@ -8,12 +8,8 @@
 //                  NEAR 0: the mean of what is not before the focus within the pixel's own disc, of those whose discs reach;
 //                  behind something nearer the mean of what can be seen beside it. Alpha: how far it can be trusted;
 //                  0 where split says `idle`, by a depth test
-// params  rings    of samples around the middle one, 5, 10, 15 ... in each, so that each stands for the same area; small discs
-//                  take fewer, large ones coarser levels
-//         blades   of the aperture, for POLYGON
-//         tile     pixels along a tile's side
-//         largest  limit of the radius, pixels of the full picture
-// defines NEAR, 1 from near_bokeh; POLYGON; FILL_SLOPE and FILL_START, see disc.glsl
+// params  see parameters.glsl
+// defines NEAR, default 0; POLYGON; FILL_SLOPE and FILL_START, see disc.glsl
 //         TEXELS_PER_GAP   width of the texels to read for a gap of 1 between samples
 #ifndef NEAR
 #define NEAR 0
@@ -25,12 +21,7 @@
 #define COARSEST 16.0
 #endif
 uniform sampler2D source, discs;
-layout(std140) uniform Parameters {
-  int rings;
-  int blades;
-  int tile;
-  int largest;
-};
+#include "parameters.glsl"
 out vec4 result;
 #include "disc.glsl"
 

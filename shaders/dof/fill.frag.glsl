@@ -5,19 +5,13 @@
 //         discs    from split
 //         tiles?   from reach, for NEAR
 // write   result
-// params  tile, largest   as in bokeh; rings, for NEAR
-// defines NEAR, 1 from near_fill; FILL_SLOPE and FILL_START, see disc.glsl
+// params  see parameters.glsl
+// defines NEAR, default 0; FILL_SLOPE and FILL_START, see disc.glsl
 #ifndef NEAR
 #define NEAR 0
 #endif
 uniform sampler2D blurred, source, discs;
-layout(std140) uniform Parameters {
-  int tile;
-  int largest;
-#if NEAR
-  int rings;
-#endif
-};
+#include "parameters.glsl"
 out vec4 result;
 #include "disc.glsl"
 

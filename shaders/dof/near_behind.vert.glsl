@@ -1,4 +1,4 @@
-// The tiles that near_behind.frag.glsl works on, at the depth from which on something behind can show; parameters as there.
+// The tiles that behind.frag.glsl works on with NEAR, at the depth from which on something behind can show; parameters as there.
 #include "behind.glsl"
 #include "coc.glsl"
 #include "work.glsl"

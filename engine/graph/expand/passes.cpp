@@ -297,6 +297,7 @@ class PassWalk {
     spec.declared = declared_;
     spec.type = desc_->type;
     spec.shader = desc_->shader;
+    spec.vertexShader = desc_->vertexShader;
     spec.place = desc_->place;
     spec.shaderPlace = desc_->shaderPlace;
     spec.firstSlot = static_cast<std::uint32_t>(graph_.slots.size());

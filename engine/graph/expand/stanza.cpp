@@ -59,10 +59,16 @@ void checkKeys(const Stanza& stanza) {
   const auto lacks = [&](const char* what, const char* expected) {
     stanza.error(Code::keyNeeded, desc.namePlace, fmt::format("lacks {}", what)).expected = expected;
   };
-  if (desc.shader.empty())
-    lacks("a shader", shader == ShaderShape::draw
-                          ? "\"shader\": \"spheres/billboard\", without stage and ending"
-                          : "\"shader\": \"folder/name.stage.glsl\"");
+  if (!desc.vertexShader.empty() && shader != ShaderShape::draw) {
+    auto& d =
+        stanza.error(Code::keyNotTaken, desc.shaderPlace,
+                     fmt::format("names a vertex shader, which a {} pass does not take", stanza.type->name));
+    d.expected = fmt::format("\"shader\": \"{}\"", desc.shader);
+  }
+  if (desc.shader.empty() && desc.vertexShader.empty())
+    lacks("a shader", shader == ShaderShape::draw ? "\"shader\": \"spheres/billboard\", without stage and "
+                                                    "ending, or { \"vertex\": …, \"fragment\": … }"
+                                                  : "\"shader\": \"folder/name.stage.glsl\"");
   if (shader == ShaderShape::draw) {
     if (desc.list.empty() && !desc.instances.present()) lacks("what to draw", "\"list\" or \"instances\"");
     if (desc.geometry.empty()) lacks("a geometry", "\"geometry\": \"quad\", \"icosphere(3)\", \"mesh\", …");

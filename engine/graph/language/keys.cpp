@@ -22,7 +22,7 @@ constexpr KeySpec kGraph[] = {
      R"({"type":"object","additionalProperties":{"anyOf":[{"$ref":"#/$defs/resource"},{"$ref":"#/$defs/change"}]}})",
      "textures, buffers, imports, inputs and alternatives, by name"},
     {"passes",
-     R"({"type":"array","items":{"anyOf":[{"$ref":"#/$defs/pass"},{"$ref":"#/$defs/include"},{"$ref":"#/$defs/passChange"}]}})",
+     R"({"type":"array","items":{"anyOf":[{"$ref":"#/$defs/pass"},{"$ref":"#/$defs/like"},{"$ref":"#/$defs/include"},{"$ref":"#/$defs/passChange"}]}})",
      "passes and includes, in declared order", true},
     {"present", "@reference", "the picture"},
     {"outputs", R"({"type":"object","additionalProperties":{"$ref":"#/$defs/reference"}})",
@@ -79,7 +79,10 @@ constexpr KeySpec kInput[] = {
 constexpr KeySpec kPass[] = {
     {"name", "@name", "name of this instance", true},
     {"type", R"({"type":"string"})", "kind of pass: fullscreen, compute, draw, blit, mipmap", true},
-    {"shader", R"({"type":"string"})", "path from shaders/; a folder and stem for draw passes"},
+    {"like", R"({"type":"string"})",
+     "a pass above in this file whose keys this one takes over, with its own laid over them"},
+    {"shader", R"({"anyOf":[{"type":"string"},{"$ref":"#/$defs/shaders"}]})",
+     "path from shaders/; for draw passes a folder and stem, or two paths"},
     {"enabled", "@value", "false removes the pass; true when absent"},
     {"repeat",
      R"({"anyOf":[{"$ref":"#/$defs/ranges"},{"type":"array","items":{"$ref":"#/$defs/ranges"},"minItems":1}]})",
@@ -113,6 +116,11 @@ constexpr KeySpec kInclude[] = {
     {"enabled", "@value", "false removes all its passes; true when absent"},
 };
 
+constexpr KeySpec kShader[] = {
+    {"vertex", R"({"type":"string"})", "path of the vertex shader", true},
+    {"fragment", R"({"type":"string"})", "path of the fragment shader", true},
+};
+
 constexpr KeySpec kState[] = {
     {"blend", R"({"anyOf":[{"type":"string"},{"type":"object","additionalProperties":{"type":"string"}}]})",
      "none, add, alpha, premultiplied, multiply, min, max; for all colour slots or by slot"},
@@ -141,6 +149,7 @@ const std::span<const KeySpec> kImportKeys = kImport;
 const std::span<const KeySpec> kInputKeys = kInput;
 const std::span<const KeySpec> kPassKeys = kPass;
 const std::span<const KeySpec> kIncludeKeys = kInclude;
+const std::span<const KeySpec> kShaderKeys = kShader;
 const std::span<const KeySpec> kStateKeys = kState;
 const std::span<const KeySpec> kPlaceKeys = kPlace;
 

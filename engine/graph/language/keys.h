@@ -24,6 +24,7 @@ extern const std::span<const KeySpec> kImportKeys;  // and the arguments of the 
 extern const std::span<const KeySpec> kInputKeys;
 extern const std::span<const KeySpec> kPassKeys;
 extern const std::span<const KeySpec> kIncludeKeys;
+extern const std::span<const KeySpec> kShaderKeys;  // of a draw that names two
 extern const std::span<const KeySpec> kStateKeys;
 extern const std::span<const KeySpec>
     kPlaceKeys;  // of a stanza in an overlay, beside those of passes and includes

@@ -52,6 +52,7 @@ Json namedBy(std::string_view shape, const char* description) {
 }
 
 Json passChange();
+Json like();
 
 Json definitions() {
   Json defs;
@@ -96,8 +97,10 @@ Json definitions() {
              {"type", "array"},
              {"items", reference("reference")},
              {"minItems", 1}}}}};
+  defs["shaders"] = objectOf(kShaderKeys, "the two shaders of a draw");
   defs["state"] = objectOf(kStateKeys, "fixed-function state");
   defs["pass"] = objectOf(kPassKeys, "a pass");
+  defs["like"] = like();
   defs["include"] = objectOf(kIncludeKeys, "the passes of another file, under a prefix");
   defs["change"] = {{"description", "in an overlay: the keys that change, null to take away"},
                     {"type", {"object", "null"}}};
@@ -119,12 +122,25 @@ Json passChange() {
           {"additionalProperties", false}};
 }
 
+// A pass that takes over the keys of another: any of its own, null to take one away.
+Json like() {
+  Json properties = Json::object();
+  for (const KeySpec& spec : kPassKeys)
+    properties[std::string(spec.key)] = {{"description", std::string(spec.doc)}};
+  for (const char* key : {"name", "like"}) properties[key]["type"] = "string";
+  return {{"description", "a pass like another above it"},
+          {"type", "object"},
+          {"properties", properties},
+          {"required", {"name", "like"}},
+          {"additionalProperties", false}};
+}
+
 // What holds for a file that is no overlay and no preset.
 Json plainGraph() {
   const auto map = [](const char* shape) {
     return Json{{"type", "object"}, {"additionalProperties", reference(shape)}};
   };
-  const Json stanza = {{"anyOf", {reference("pass"), reference("include")}}};
+  const Json stanza = {{"anyOf", {reference("pass"), reference("like"), reference("include")}}};
   return {{"required", {"passes"}},
           {"properties",
            {{"parameters", map("parameter")},

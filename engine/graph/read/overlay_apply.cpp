@@ -95,17 +95,14 @@ class Applier {
   void mergeMember(JsonValue& into, const JsonMember& over) {
     if (!lookThrough(into.members.size(), over.place)) return;
     JsonMember* there = memberOf(into, over.key);
-    if (over.value.is(Type::null)) {
+    if (over.value.is(Type::null) && !keepsNull_) {
       if (there) {
         into.members.erase(into.members.begin() + (there - into.members.data()));
         return;
       }
-      std::vector<std::string> keys;
-      for (const JsonMember& member : into.members) keys.push_back(member.key);
-      const std::string hint = suffixHint(over.key, keys);
       error(Code::nothingToChange, over.place, over.value,
             fmt::format("null takes \"{}\" away, which is not there", over.key))
-          .hint = hint.empty() ? "leave it out" : hint;
+          .hint = hintForKey(into, over.key);
     } else if (!over.value.is(Type::object)) {
       if (there)
         *there = over;
@@ -361,7 +358,9 @@ class Applier {
       }
     }
     const JsonValue over = withoutPlace(stanza, false);
+    keepsNull_ = there.find("like") != nullptr;
     for (const JsonMember& member : over.members) mergeMember(there, member);
+    keepsNull_ = false;
     return true;
   }
 
@@ -371,6 +370,7 @@ class Applier {
   std::string pass_, resource_;  // what is being applied
   std::uint64_t looked_ = 0;     // names, by all entries so far
   bool tooMuch_ = false;         // reported; nothing more is applied
+  bool keepsNull_ = false;       // in a pass that is like another null stays, for the keys of the other
 };
 
 }  // namespace

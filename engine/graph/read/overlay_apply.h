@@ -1,4 +1,4 @@
-// Laying an overlay over a source. Private to engine/graph/overlay*.cpp.
+// Laying an overlay over a source. Private to engine/graph/overlay*.cpp and read_like.cpp.
 #pragma once
 
 #include <span>
@@ -23,6 +23,8 @@ std::vector<Found> findAll(SourceLoader& loader, const Source& source, const std
 
 // The member of that key, or null.
 base::JsonMember* memberOf(base::JsonValue& object, std::string_view key);
+// What was probably meant by a key that the object does not have.
+std::string hintForKey(const base::JsonValue& object, std::string_view key);
 // "texture", "buffer", "import" or "input"; "alternatives" for what is no object; "" for an object without a kind.
 std::string_view kindOf(const base::JsonValue& resource);
 // "resources" to "resource".

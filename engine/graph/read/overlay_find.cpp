@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/base/limits.h"
+#include "engine/graph/language/suffix.h"
 #include "engine/graph/read/overlay_apply.h"
 
 namespace weft::graph {
@@ -66,6 +67,13 @@ JsonMember* memberOf(JsonValue& object, std::string_view key) {
   for (JsonMember& member : object.members)
     if (member.key == key) return &member;
   return nullptr;
+}
+
+std::string hintForKey(const JsonValue& object, std::string_view key) {
+  std::vector<std::string> keys;
+  for (const JsonMember& member : object.members) keys.push_back(member.key);
+  const std::string hint = suffixHint(key, keys);
+  return hint.empty() ? "leave it out" : hint;
 }
 
 std::string_view kindOf(const JsonValue& resource) {

@@ -9,6 +9,7 @@
 
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
+#include "engine/graph/read/read_like.h"
 
 namespace weft::graph {
 
@@ -146,9 +147,12 @@ class GraphReader {
     if (!passes || !context.expect(*passes, Type::array, "\"passes\"")) return;
     ReadContext::Seen seen;
     graph.passes.reserve(passes->items.size());
-    for (const JsonValue& item : passes->items) {
+    LikePasses alike(context, passes->items);
+    for (std::size_t i = 0; i < passes->items.size(); ++i) {
       if (!context.goesOn()) break;
-      std::optional<PassDesc> pass = readPass(context, item);
+      const JsonValue& item = passes->items[i];
+      const JsonValue* whole = alike.at(i);
+      std::optional<PassDesc> pass = whole ? readWhole(context, *whole, whole != &item) : std::nullopt;
       const JsonValue* name = item.find("name");
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
         graph.unread.push_back(name->text);
@@ -160,6 +164,25 @@ class GraphReader {
       if (pass->include) follow(*item.find("include"), *pass->include, source, graph);
       graph.passes.push_back(*std::move(pass));
     }
+  }
+
+  // A pass that is like another: what is wrong with the other was said there.
+  std::optional<PassDesc> readWhole(ReadContext& context, const JsonValue& stanza, bool alike) {
+    if (!alike) return readPass(context, stanza);
+    Diagnostics said;
+    ReadContext own(said);
+    std::optional<PassDesc> pass = readPass(own, stanza);
+    const std::vector<base::Diagnostic>& before = diagnostics_.items();
+    for (const base::Diagnostic& each : said.items())
+      if (std::ranges::none_of(before, [&](const base::Diagnostic& d) {
+            return d.code == each.code && samePlace(d.place, each.place);
+          }))
+        diagnostics_.add(each);
+    return pass;
+  }
+
+  static bool samePlace(const base::Place& a, const base::Place& b) {
+    return a.file == b.file && a.line == b.line && a.column == b.column;
   }
 
   void follow(const JsonValue& stanza, IncludeDesc& include, const Source& source, GraphDesc& graph) {

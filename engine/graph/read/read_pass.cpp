@@ -133,7 +133,7 @@ class PassReader {
       out_.typePlace = type->place;
     }
     if (const JsonValue* shader = value_.find("shader")) {
-      out_.shader = context_.text(shader, "\"shader\"");
+      readShader(*shader);
       out_.shaderPlace = shader->place;
     }
     if (const JsonValue* list = value_.find("list")) {
@@ -159,6 +159,17 @@ class PassReader {
     out_.feedback = context_.flag(value_.find("feedback"), "\"feedback\"");
     out_.sideEffect = context_.flag(value_.find("side_effect"), "\"side_effect\"");
     out_.view = context_.ref(value_.find("view"), "\"view\"");
+  }
+
+  // One path, or of a draw two.
+  void readShader(const JsonValue& shader) {
+    if (!shader.is(Type::object)) {
+      out_.shader = context_.text(&shader, "\"shader\"");
+      return;
+    }
+    context_.checkKeys(shader, kShaderKeys, "\"shader\"");
+    out_.vertexShader = context_.text(shader.find("vertex"), "\"vertex\"");
+    out_.shader = context_.text(shader.find("fragment"), "\"fragment\"");
   }
 
   void readValues() {

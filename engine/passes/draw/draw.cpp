@@ -7,7 +7,8 @@ graph::PassType Draw::reflect() const {
           .doc =
               "Draws the instances of `list` (or `instances` copies) as `geometry`, seen from `view`, with "
               "NAME.vert.glsl and "
-              "NAME.frag.glsl. Written slots are attachments; a depth format is the depth attachment.",
+              "NAME.frag.glsl, or the two that `shader` names. Written slots are attachments; a depth format "
+              "is the depth attachment.",
           .shader = graph::ShaderShape::draw,
           .keys = {"list", "geometry", "instances", "view", "state", "feedback"}};
 }

@@ -58,8 +58,8 @@ bool sameSpec(const PassSpec& a, const PassSpec& b) {
   const auto sameDefine = [](const graph::DefineSpec& x, const graph::DefineSpec& y) {
     return x.name == y.name && x.text == y.text;
   };
-  return a.type == b.type && a.shader == b.shader && a.slotCount == b.slotCount &&
-         std::ranges::equal(a.defines, b.defines, sameDefine) &&
+  return a.type == b.type && a.shader == b.shader && a.vertexShader == b.vertexShader &&
+         a.slotCount == b.slotCount && std::ranges::equal(a.defines, b.defines, sameDefine) &&
          std::ranges::equal(a.uniforms, b.uniforms, sameUniform) && sameState(a.state, b.state) &&
          std::ranges::equal(a.threads, b.threads) && a.instances == b.instances && a.list == b.list &&
          a.geometry == b.geometry && a.geometryArguments == b.geometryArguments;

@@ -69,7 +69,7 @@ class Checker {
   void missing(const SlotSpec& slot, const char* what, const std::string& other) {
     slotMissing_ = true;
     base::Diagnostic& d = fail(Code::slotNotInShader, slot.place,
-                               fmt::format("slot '{}' is not in the shader '{}'", slot.name, spec_.shader));
+                               fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_));
     d.expected = fmt::format("{} named '{}'", what, slot.name);
     if (!other.empty()) {
       d.found = other;
@@ -129,7 +129,7 @@ class Checker {
     std::string problem;
     if (!block || instanceLayoutOf(*block, layout, problem)) return;
     fail(Code::notAnInstanceTable, place,
-         fmt::format("the block '{}' of '{}' is no instance table: {}", block->name, spec_.shader, problem))
+         fmt::format("the block '{}' of '{}' is no instance table: {}", block->name, shaders_, problem))
         .hint = "include scene/instances.glsl, or declare its struct";
   }
 
@@ -201,7 +201,7 @@ class Checker {
       if (!member) {
         if (variant_.mentions(uniform.name)) continue;
         fail(Code::parameterNotInShader, uniform.place,
-             fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, spec_.shader))
+             fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, shaders_))
             .hint = "declare it in `layout(std140) uniform Parameters { … };`" + withNearest(uniform.name);
         continue;
       }
@@ -234,7 +234,7 @@ class Checker {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
       names.push_back(graph_.slots[spec_.firstSlot + i].name);
     fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-         fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", spec_.shader, what, name,
+         fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what, name,
                      spec_.name))
         .hint = base::nearestHint(name, names);
   }
@@ -256,13 +256,13 @@ class Checker {
         for (const gl::BlockMember& member : block.members)
           if (!isViewMember(member.name))
             fail(Code::unknownViewMember, spec_.shaderPlace,
-                 fmt::format("the View block of '{}' has an unknown member '{}'", spec_.shader, member.name))
+                 fmt::format("the View block of '{}' has an unknown member '{}'", shaders_, member.name))
                 .hint = base::nearestHint(member.name, viewMemberNames());
       } else if (block.name == "Slice") {
         for (const gl::BlockMember& member : block.members)
           if (member.name != "first_group" && member.name != "first_invocation")
             fail(Code::unknownViewMember, spec_.shaderPlace,
-                 fmt::format("the Slice block of '{}' has an unknown member '{}'", spec_.shader, member.name))
+                 fmt::format("the Slice block of '{}' has an unknown member '{}'", shaders_, member.name))
                 .hint = "include common/slice.glsl";
       } else if (block.name != "Parameters" && !isSlot(block.name)) {
         unfed("a uniform block", block.name);
@@ -270,7 +270,7 @@ class Checker {
     }
     for (const auto& loose : reflection_.looseUniforms)
       fail(Code::parameterNotInShader, spec_.shaderPlace,
-           fmt::format("the shader '{}' has a uniform '{}' outside a block", spec_.shader, loose.name))
+           fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name))
           .hint = "move it into `layout(std140) uniform Parameters { … };`";
   }
 
@@ -279,7 +279,7 @@ class Checker {
     const bool compute = !variant_.stages.empty() && variant_.stages[0].stage == GL_COMPUTE_SHADER;
     if (!compute || pass.slices < 2 || reflection_.findUniformBlock("Slice")) return;
     fail(Code::badSlices, spec_.shaderPlace,
-         fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", spec_.shader, spec_.name,
+         fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", shaders_, spec_.name,
                      pass.slices))
         .hint =
         "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove \"slices\"";
@@ -303,7 +303,7 @@ class Checker {
           fmt::format("at most {} groups of {} threads, that is {}", most, size, std::uint64_t{most} * size);
       d.found = fmt::format("{} groups for {} threads", groups.count[axis], spec_.threads[axis]);
       d.hint = fmt::format("raise local_size_{} in '{}', or spread the work over the other axes", "xyz"[axis],
-                           spec_.shader);
+                           shaders_);
     }
   }
 
@@ -315,6 +315,9 @@ class Checker {
   const gl::Reflection& reflection_;
   const gl::Limits& limits_;
   base::Diagnostics& diagnostics_;
+  // For messages, between quotes.
+  const std::string shaders_ =
+      spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
   bool good_ = true, slotMissing_ = false;
 };
 

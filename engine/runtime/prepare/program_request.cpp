@@ -71,8 +71,11 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
       request.stages = {{GL_COMPUTE_SHADER, spec.shader, ""}};
       break;
     case ShaderShape::draw:
-      request.stages = {{GL_VERTEX_SHADER, spec.shader + ".vert.glsl", ""},
-                        {GL_FRAGMENT_SHADER, spec.shader + ".frag.glsl", ""}};
+      if (spec.vertexShader.empty())
+        request.stages = {{GL_VERTEX_SHADER, spec.shader + ".vert.glsl", ""},
+                          {GL_FRAGMENT_SHADER, spec.shader + ".frag.glsl", ""}};
+      else
+        request.stages = {{GL_VERTEX_SHADER, spec.vertexShader, ""}, {GL_FRAGMENT_SHADER, spec.shader, ""}};
       break;
   }
   for (std::uint32_t i = 0; i < spec.slotCount; ++i) {

@@ -335,9 +335,9 @@ TEST_CASE("enabled of an include: none of its passes without it, and what decide
   REQUIRE(off.graph->parameters.size() == 2);
   CHECK(off.graph->parameters[0].structural);
   CHECK(top("false").names() == "fill");
-  CHECK(top(R"("$dimm")").of(Code::W22).hint == "did you mean '$dim'?");
-  CHECK(top(R"("$dim || $dimm")").of(Code::W22).hint == "did you mean '$dim'?");  // also where it is not evaluated
-  CHECK(top(R"("a")").of(Code::W51).message == "'enabled' of include 'dim' is no condition");
+  CHECK(top(R"("$dimm")").of(Code::unknownVariable).hint == "did you mean '$dim'?");
+  CHECK(top(R"("$dim || $dimm")").of(Code::unknownVariable).hint == "did you mean '$dim'?");  // also where it is not evaluated
+  CHECK(top(R"("a")").of(Code::wrongValueType).message == "'enabled' of include 'dim' is no condition");
 }
 
 TEST_CASE("mipmap and blit hold their two slots against each other") {

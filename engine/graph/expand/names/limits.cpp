@@ -42,7 +42,7 @@ StanzaCost costOf(const PassDesc& desc, const std::string& declared) {
   StanzaCost cost;
   cost.uses = desc.slots.size() + desc.parameters.size() + desc.defines.size();
   cost.bytes = sizeof(PassSpec) + sizeof(FlatPass) + 2 * declared.size() + desc.type.size() +
-               desc.shader.size() + desc.list.size() + desc.geometry.size() +
+               desc.shader.size() + desc.vertexShader.size() + desc.list.size() + desc.geometry.size() +
                8 * desc.geometryArguments.size();
   const auto evaluated = [&](const Expr& expr) { cost.terms += expr.terms(); };
   for (const SlotDesc& slot : desc.slots) {
