@@ -17,9 +17,9 @@ int main(int argc, char** argv) {
   if (!options) return finishStreams(exitCode);
 
   static constexpr std::pair<const char*, int (*)(const Options&)> kCommands[] = {
-      {"render", runRender},   {"view", runView},   {"check", runCheck}, {"params", runParams},
-      {"presets", runPresets}, {"dot", runDot},     {"plan", runPlan},   {"bench", runBench},
-      {"schema", runSchema},   {"types", runTypes},
+      {"render", runRender},   {"view", runView},   {"check", runCheck},   {"params", runParams},
+      {"presets", runPresets}, {"dot", runDot},     {"plan", runPlan},     {"bench", runBench},
+      {"schema", runSchema},   {"types", runTypes}, {"format", runFormat},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));

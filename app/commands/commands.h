@@ -13,6 +13,7 @@ int runPresets(const Options& options);
 int runDot(const Options& options);
 int runPlan(const Options& options);
 int runBench(const Options& options);
+int runFormat(const Options& options);
 int runSchema(const Options& options);
 int runTypes(const Options& options);
 

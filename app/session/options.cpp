@@ -82,6 +82,7 @@ void chooseFiles(const Options& options) {
     base::chooseFile(*file);
   for (const std::string& preset : options.presets) base::chooseFile(preset);
   for (const std::string& workload : options.workloads) base::chooseFile(workload);
+  for (const std::string& file : options.files) base::chooseFile(file);
   for (const graph::Setting& set : options.sets) base::chooseFile(set.text);  // where the parameter is a file
   for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
     base::allowFolder(dataFolder() + "/" + folder);
@@ -258,6 +259,12 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       ->check(CLI::Validator(checkSize, "WxH"));
   bench->add_option("--backend", options.backend, "where OpenGL comes from, for --frame and --edit")
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
+
+  CLI::App* format =
+      app.add_subcommand("format", "give graph files, overlays and presets the one layout, comments kept");
+  format->add_option("file", options.files, "JSON files")->required();
+  format->add_flag("--check", options.checkOnly,
+                   "write nothing; exit 1 and name the first line that differs");
 
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");

@@ -28,6 +28,8 @@ struct Options {
   bool stats = false, profile = false, quiet = false;
   bool shaders = true;                 // check: compile every shader too
   std::string format = "text";         // plan, params, presets: text or json
+  std::vector<std::string> files;      // format
+  bool checkOnly = false;              // format: say what differs, write nothing
   bool explain = false;                // plan: say why
   std::vector<std::string> workloads;  // bench
   std::string frameGraph;              // bench --frame

@@ -134,6 +134,7 @@ namespace weft::base {
   X(W188, presentsNothing,           "graph presents nothing")                                      \
   X(W195, fileChanged,               "file changed since it was read")                              \
   X(W196, cannotWriteBack,           "change that cannot be written back")                          \
+  X(W197, laidOutDifferently,        "file is laid out differently")                                \
   /* limits and what may be opened */                                                               \
   X(W200, outsideConfinement,        "path outside the confined folders")                           \
   X(W201, limitExceeded,             "limit exceeded")                                              \

@@ -1,4 +1,4 @@
-// Laying an overlay over a source. Private to engine/graph/overlay*.cpp and read_like.cpp.
+// Laying an overlay over a source. Private to engine/graph/read/overlay*.cpp and read_like.cpp.
 #pragma once
 
 #include <span>
