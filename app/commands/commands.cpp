@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-
 #include "app/bench/edit_bench.h"
 #include "app/bench/frame_bench.h"
 #include "app/bench/workload_bench.h"

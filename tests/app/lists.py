@@ -34,7 +34,7 @@ def main():
     report.check(without[0] == without[1], f"values set to what they are: {again.err}")
     # Where each value was written: the last word counts.
     told = {p["name"]: p["from"] for p in json.loads(run(weft, "params", STUDIO, "--preset", "plain", "--set", "dither=true", "--json").out)}
-    report.check((told["post.bloom"], told["post.composite.dither"]) == ("preset", "command line"), f"{told}")
+    report.check((told["post.bloom"], told["post.display.composite.dither"]) == ("preset", "command line"), f"{told}")
     report.check({p["from"] for p in parameters.values()} <= {"default", "file"}, f"{parameters}")
 
     text = run(weft, "params", STUDIO, "--set", "exposure=1.5", "--preset", "plain")

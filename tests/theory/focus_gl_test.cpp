@@ -181,7 +181,7 @@ TEST_CASE(
     CHECK(step < 0.012);  // a disc of 90 pixels at a straight edge: 0.006
     // What is searched is no less than any disc that reaches the tile, and the same on both sides of a tile
     // border.
-    const Picture tiles = lab.read("post.dof.near_tiles"), reach = lab.read("post.near_reach");
+    const Picture tiles = lab.read("post.dof.near_tiles"), reach = lab.read("post.dof.near_reach");
     REQUIRE(reach.width == 6);
     for (std::uint32_t ty = 0; ty < 2; ++ty)
       for (std::uint32_t tx = 0; tx < 6; ++tx) {

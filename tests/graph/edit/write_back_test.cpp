@@ -225,7 +225,8 @@ TEST_CASE("a disabled include: \"enabled\" in its line, a condition is kept") {
   INFO(written.diagnostics.text());
   REQUIRE(written.plan);
   CHECK(written.plan->passes == std::vector<std::string>{"one", "two"});
-  CHECK(contents(path) == replaced(replaced(top, "\"as\": \"one\"", "\"as\": \"one\", \"enabled\": false"), "\"$on\"", "\"$on && false\""));
+  CHECK(contents(path) == replaced(replaced(top, "\"as\": \"one\"", "\"as\": \"one\", \"enabled\": false"),
+                                   "\"$on\"", "\"$on && false\""));
 
   const std::string over = folder.write("over.json", R"({ "extends": "top.json" })");
   folder.write("top.json", top);
@@ -327,8 +328,9 @@ TEST_CASE("random tweaks of the bundled graph come back from its files, and only
   std::mt19937 random(7);
   for (int round = 0; round < 12; ++round) {
     const Folder folder;
-    for (const char* name : {"ibl.json", "daylight.json", "post.json", "effects/depth_of_field.json", "effects/motion_blur.json", "effects/bloom.json",
-                             "effects/exposure.json", "effects/composite.json", "effects/fxaa.json"})
+    for (const char* name :
+         {"ibl.json", "daylight.json", "post.json", "effects/depth_of_field.json", "effects/motion_blur.json",
+          "effects/bloom.json", "effects/exposure.json", "effects/composite.json", "effects/fxaa.json"})
       folder.copy(name);
     const std::string path = folder.copy("studio.json");
     const auto start = load(path, {});

@@ -308,7 +308,8 @@ TEST_CASE("enabled of an include: none of its passes without it, and what decide
     std::ofstream(folder / name) << text;
     return (folder / name).string();
   };
-  write("dim.json", R"J({ "parameters": { "own": { "default": true } }, "resources": { "hdr": { "input": "texture" } },
+  write("dim.json",
+        R"J({ "parameters": { "own": { "default": true } }, "resources": { "hdr": { "input": "texture" } },
     "passes": [ { "name": "first", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "hdr" }, "write": { "result": "hdr" } },
                 { "name": "second", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "$own", "read": { "source": "hdr" }, "write": { "result": "hdr" } } ] })J");
   const auto top = [&](const std::string& enabled, const Settings& settings = {}) {
@@ -336,7 +337,8 @@ TEST_CASE("enabled of an include: none of its passes without it, and what decide
   CHECK(off.graph->parameters[0].structural);
   CHECK(top("false").names() == "fill");
   CHECK(top(R"("$dimm")").of(Code::unknownVariable).hint == "did you mean '$dim'?");
-  CHECK(top(R"("$dim || $dimm")").of(Code::unknownVariable).hint == "did you mean '$dim'?");  // also where it is not evaluated
+  CHECK(top(R"("$dim || $dimm")").of(Code::unknownVariable).hint ==
+        "did you mean '$dim'?");  // also where it is not evaluated
   CHECK(top(R"("a")").of(Code::wrongValueType).message == "'enabled' of include 'dim' is no condition");
 }
 

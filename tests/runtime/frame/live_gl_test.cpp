@@ -29,9 +29,8 @@ TEST_CASE("live: two hundred changes build no plan, allocate nothing, and give t
   const struct {
     const char* path;
     double from, step;
-  } sliders[] = {{"post.exposure", -2, 0.01},
-                 {"post.bloom.glow_prefilter.threshold", 0.1, 0.02},
-                 {"post.fxaa.subpixel", 0, 0.004}};
+  } sliders[] = {
+      {"post.display.exposure", -2, 0.01}, {"post.threshold", 0.1, 0.02}, {"post.fxaa.subpixel", 0, 0.004}};
   const FrameInput input = headlessFrame(stage.world, 3, 60);
   std::size_t allocations = 0;
   for (int i = 0; i < 200; ++i) {
