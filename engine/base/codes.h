@@ -87,6 +87,7 @@ namespace weft::base {
   X(W084, parameterNotPass,          "not a pass but a parameter")                                  \
   X(W085, conditionLeavesSlotEmpty,  "condition leaves a slot empty")                               \
   X(W086, badOutput,                 "output that cannot be read back")                             \
+  X(W087, unusedKind,                "kind that no pass uses yet")                                  \
   X(W090, culledOverwritten,         "culled: output overwritten")                                  \
   X(W091, culledUnread,              "culled: output never read")                                   \
   X(W092, nothingPresented,          "nothing is presented")                                        \
@@ -122,6 +123,7 @@ namespace weft::base {
   X(W160, badSceneValue,             "scene value out of range")                                    \
   X(W161, unknownMaterial,           "unknown material")                                            \
   X(W162, unknownSceneList,          "unknown draw list")                                           \
+  X(W163, unusedLights,              "lights that nothing uses yet")                                \
   /* command line, runtime, outputs */                                                              \
   X(W180, outputNotWritten,          "output cannot be written")                                    \
   X(W181, slotNotInShader,           "slot is not in the shader")                                   \

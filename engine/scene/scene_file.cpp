@@ -69,6 +69,8 @@ class Reader {
     if (const JsonValue* lights = fields.object("point_lights"))
       for (const JsonMember& member : lights->members) readPointLight(member.key, member.value);
     if (const JsonValue* sun = fields.find("sun")) readSun(*sun);
+    for (const char* key : {"point_lights", "sun"})
+      if (const JsonValue* lights = fields.find(key); lights && !choice_.lights) failLights(key, *lights);
     fields.finish();
     if (diagnostics_.errorCount() > errorsBefore) return {};
     return std::move(scene_);
@@ -315,6 +317,14 @@ class Reader {
     light.shadow = fields.boolean("shadow").value_or(false);
     fields.finish();
     scene_.pointLights.add(std::move(light));
+  }
+
+  void failLights(const char* key, const JsonValue& value) {
+    auto& d =
+        fail(Code::unusedLights, value, fmt::format("'{}': no pass is lit by lights of a scene yet", key));
+    d.expected = "a scene that is lit by its environment alone";
+    d.found = fmt::format("'{}'", key);
+    d.hint = fmt::format("remove '{}'; light comes from the sky or from --environment FILE", key);
   }
 
   void readSun(const JsonValue& value) {

@@ -21,16 +21,19 @@ Scene loadGood(const std::string& path) {
   return std::move(*scene);
 }
 
+// As if something were lit by lights, so that their values can be looked at.
+const SceneChoice kLit{.camera = {}, .materials = {}, .lights = true};
+
 Scene readGood(std::string_view text) {
   base::Diagnostics diagnostics;
-  auto scene = readScene(text, "s.json", diagnostics);
+  auto scene = readScene(text, "s.json", diagnostics, kLit);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   return std::move(*scene);
 }
 
 base::Diagnostic failureOf(std::string_view text) {
   base::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(text, "s.json", diagnostics));
+  CHECK_FALSE(readScene(text, "s.json", diagnostics, kLit));
   REQUIRE_MESSAGE(diagnostics.size() == 1, text << "\n" << diagnostics.text());
   return diagnostics.items()[0];
 }
@@ -90,7 +93,6 @@ TEST_CASE("the example of docs/scenes.md loads") {
   REQUIRE_MESSAGE(scene, diagnostics.text());
   CHECK(scene->cameras.size() == 3);
   CHECK(scene->spheres.size() == 102);
-  CHECK(scene->pointLights.size() == 1);
 }
 
 TEST_CASE("a grid of any shape is centred; materials repeat; layers go away from the viewer") {
@@ -117,6 +119,27 @@ TEST_CASE("a million spheres") {
   fillInstances(scene, DrawList::spheres, 0, 0, instances);
   CHECK(instances.size() == 1000000);
   CHECK(instances.back().center == glm::vec3(123.75f, -123.75f, -123.75f));
+}
+
+TEST_CASE(
+    "lights are an error with a place until something is lit by them, and their values are still checked") {
+  const std::string text =
+      "{\n\"point_lights\": {\"a\": {\"position\": [0, 0, 0], \"intensity\": [1, 0, 0]}},\n"
+      "\"sun\": {\"direction\": [0, 1, 0], \"irradiance\": [1, 1, 1]}}";
+  base::Diagnostics diagnostics;
+  CHECK_FALSE(readScene(text, "lit.json", diagnostics));
+  REQUIRE_MESSAGE(diagnostics.size() == 2, diagnostics.text());
+  for (std::uint32_t line : {2u, 3u}) {
+    const base::Diagnostic& d = diagnostics.items()[line - 2];
+    CHECK(d.code == base::Code::unusedLights);
+    CHECK(d.place.line == line);
+    CHECK_FALSE(d.expected.empty());
+    CHECK_FALSE(d.hint.empty());
+  }
+  base::Diagnostics both;
+  CHECK_FALSE(readScene(R"({"sun": {"direction": [0, 0, 0], "irradiance": [1, 1, 1]}})", "lit.json", both));
+  CHECK(both.contains(base::Code::unusedLights));
+  CHECK(both.contains(base::Code::badSceneValue));
 }
 
 TEST_CASE("spheres, cameras, lights and the sun, with comments") {
@@ -284,6 +307,6 @@ TEST_CASE("everything wrong is reported at once") {
   base::Diagnostics diagnostics;
   CHECK_FALSE(readScene(
       R"({"nam": "x", "sun": 3, "spheres": [{"center": [0, 0], "material": "q"}], "grid": {"count": [1, 1, 1], "materials": "no.json"}})",
-      "s.json", diagnostics));
+      "s.json", diagnostics, kLit));
   CHECK(diagnostics.errorCount() == 5);
 }

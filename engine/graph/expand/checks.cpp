@@ -16,6 +16,11 @@ bool isTexture(const FlatResource& shape) {
   return shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
 }
 
+// What the draw or dispatch command itself fetches from a buffer.
+bool isCommandInput(Kind kind) {
+  return kind == Kind::vertex || kind == Kind::index || kind == Kind::indirect;
+}
+
 bool isInteger(Format format) {
   const TexelKind kind = infoOf(format).kind;
   return kind == TexelKind::unsigned_integer || kind == TexelKind::signed_integer;
@@ -52,13 +57,14 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   const Entity& entity = context.model.entities[work.entity];
   const FlatResource& shape = entity.shape;
   const Kind kind = work.use.kind;
-  const auto report = [&](Code code, std::string message, std::string expected) {
+  const auto report = [&](Code code, std::string message, std::string expected, std::string hint = {}) {
     auto& d = context.model.diagnostics.error(code, ref.place, std::move(message));
     d.pass = context.pass;
     d.resource = entity.name;
     d.expected = std::move(expected);
     d.found = ref.text;
     d.pointer = ref.pointer;
+    d.hint = std::move(hint);
     return false;
   };
   const auto kindMisfit = [&](std::string expected) {
@@ -72,11 +78,10 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
                   fmt::format("{} uses '{}', which is an event and holds nothing", context.user, entity.name),
                   "a texture or a buffer; events stand in \"reset\"");
   const bool texture = isTexture(shape);
-  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || kind == Kind::vertex ||
-                          kind == Kind::index || kind == Kind::indirect;
+  const bool bufferKind = kind == Kind::uniform || kind == Kind::storage || isCommandInput(kind);
   if (texture && bufferKind) return kindMisfit("sampled, image, color, depth or copy for a texture");
   if (!texture && !bufferKind && kind != Kind::copy)
-    return kindMisfit("uniform, storage, vertex, index, indirect or copy for a buffer");
+    return kindMisfit("uniform, storage or copy for a buffer");
   const ShaderShape shader = context.type ? context.type->shader : ShaderShape::none;
   if (context.type && shader == ShaderShape::none && kind != defaultKind(context.type, access, shape))
     return kindMisfit(fmt::format("a {} pass uses {}", context.type->name,
@@ -86,13 +91,13 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     if (kind == Kind::copy) return kindMisfit("a kind that a shader has; copies are made by blit passes");
     if ((kind == Kind::color || kind == Kind::depth) && !draws)
       return kindMisfit("image in a pass without attachments");
-    if ((kind == Kind::vertex || kind == Kind::index) && shader != ShaderShape::draw)
-      return kindMisfit("vertices in draw passes only");
-    if (kind == Kind::indirect && shader == ShaderShape::fragment)
-      return kindMisfit("indirect arguments in draw and compute passes");
   }
-  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform || kind == Kind::vertex ||
-                        kind == Kind::index || kind == Kind::indirect;
+  if (isCommandInput(kind))
+    return report(Code::unusedKind,
+                  fmt::format("{} uses '{}' as {}, which no type of pass does yet", context.user, entity.name,
+                              wordFor(kind)),
+                  "uniform, storage or copy for a buffer", "read it as storage; the shader indexes it");
+  const bool readOnly = kind == Kind::sampled || kind == Kind::uniform;
   if (readOnly && access != Access::read) return kindMisfit("reading only for this kind");
   if (kind == Kind::color && access == Access::read) return kindMisfit("writing or modifying for color");
 
