@@ -140,7 +140,7 @@ CASES = [
     (rendered("unknown_format.json"), 1, "W042", r"unknown_format\.json:3:25"),
     (rendered("zero_division.json"), 1, "W024", r"zero_division\.json:3:\d+"),
     (rendered("nothing_presented.json"), 1, "W188", r"nothing_presented\.json:1:1"),
-    (rendered(str(TOP / "graphs/effects/bloom.json")), 1, "W074", r".*/bloom\.json:\d+:\d+"),
+    (rendered(str(TOP / "graphs/effects/fxaa.json")), 1, "W074", r".*/fxaa\.json:\d+:\d+"),
     (rendered(GLOW, "--environment", "no_such.hdr"), 1, "W150", r"no_such\.hdr"),
     (rendered(GLOW, "--environment", "shaders"), 1, "W150", "shaders"),
     (rendered(GLOW, "--environment", "empty.hdr"), 1, "W150", r"empty\.hdr"),
