@@ -231,11 +231,7 @@ class PassWalk {
       const auto index = static_cast<std::uint32_t>(graph_.uses.size());
       FlatUse use = work.use;
       use.feedback = desc_->feedback && use.access == Access::modify;
-      // A depth attachment serves the pass's own test, also when nobody reads it afterwards.
-      const bool tested =
-          use.kind == Kind::depth &&
-          std::ranges::any_of(desc_->state, [](const NamedExpr& s) { return s.name == "depth_test"; });
-      use.keep = (desc_->sideEffect || tested) && use.access != Access::read;
+      use.keep = desc_->sideEffect && use.access != Access::read;
       model_.flow.firstDep.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()));
       if (use.history > 0) {
         model_.historyUses.push_back({index, work.entity, e});

@@ -384,9 +384,15 @@ TEST_CASE("an import with a stand-in satisfies a plain read, not an optional one
   CHECK(e.useText("p", "list") == "@environment");
 }
 
-TEST_CASE("a tested depth attachment stays attached") {
-  const Expanded e = tryPass(
-      R"J({ "name": "p", "type": "draw", "shader": "a", "list": "spheres", "geometry": "quad", "modify": { "radiance": "out", "depth": "dep" }, "state": { "depth_test": "greater" } })J");
-  CHECK(e.use("p", "depth").keep);
-  CHECK_FALSE(e.use("p", "radiance").keep);
+TEST_CASE("a depth attachment stays attached for the test of its own pass, unless the test always passes") {
+  const auto keepsDepth = [](const std::string& test) {
+    const Expanded e = tryPass(
+        R"J({ "name": "p", "type": "draw", "shader": "a", "list": "spheres", "geometry": "quad", "modify": { "radiance": "out", "depth": "dep" })J" +
+        test + " }");
+    CHECK_FALSE(e.use("p", "radiance").keep);
+    return e.use("p", "depth").keep;
+  };
+  CHECK(keepsDepth(R"J(, "state": { "depth_test": "greater" })J"));
+  CHECK_FALSE(keepsDepth(R"J(, "state": { "depth_test": "always" })J"));
+  CHECK_FALSE(keepsDepth(""));
 }
