@@ -368,8 +368,9 @@ TEST_CASE_FIXTURE(Fixture, "functions in a circle are told where they stand") {
   weft::gl::test::checkDocumented(diagnostics, Code::shaderDoesNotCompile);
 }
 
-TEST_CASE_FIXTURE(Fixture, "the folder of binaries stays below its limit, and what is used stays in it") {
-  if (!hasBinaries()) return;
+TEST_CASE_FIXTURE(Fixture, "the folder of binaries stays below its limit, and what is used stays in it" *
+                               doctest::test_suite("binaries")) {
+  if (!hasBinaries()) return skipBinaries();
   const std::string disk = folder.path("bounded");
   std::uint64_t each = 0;
   {
