@@ -82,6 +82,32 @@ Dark darkOf(const Panels& panels, bool after) {
   return {mass, (r2 / mass - (x1 * x1 + y1 * y1) / mass / mass) / 2};
 }
 
+// Distance along the view axis of what the ray through (x, y) meets of a ball; beside it, of the silhouette.
+double distanceOf(const Ball& ball, double x, double y) {
+  const double perPixel = std::tan(M_PI / 6) / (kHeight / 2.0);
+  const glm::dvec3 ray((x - kWidth / 2.0) * perPixel, (y - kHeight / 2.0) * perPixel, -1);
+  const glm::dvec3 center = glm::dvec3(ball.center) - glm::dvec3(0, 0, 20);
+  const double a = glm::dot(ray, ray), b = glm::dot(ray, center),
+               c = glm::dot(center, center) - double{ball.radius} * ball.radius;
+  return (b - std::sqrt(std::max(b * b - a * c, 0.0))) / a;  // the ray goes down the axis by 1
+}
+
+// What the lens makes of the sharp picture of one ball: each point of it spreads over the disc of its own distance.
+Dark spreadByLens(const Panels& panels, const Lens& lens, const Ball& ball) {
+  double mass = 0, x1 = 0, y1 = 0, r2 = 0;
+  for (std::uint32_t y = 0; y < kHeight; ++y)
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      const double d = 1 - panels.before(x, y)[1];
+      if (d == 0) continue;
+      const double radius = discRadius(lens, distanceOf(ball, x + 0.5, y + 0.5));
+      mass += d;
+      x1 += d * x;
+      y1 += d * y;
+      r2 += d * (double{1} * x * x + double{1} * y * y + radius * radius / 2);
+    }
+  return {mass, (r2 / mass - (x1 * x1 + y1 * y1) / mass / mass) / 2};
+}
+
 const glm::vec3 kGrey{0.2f, 0.2f, 0.2f};
 
 }  // namespace
@@ -265,7 +291,9 @@ TEST_CASE("focus: one colour stays that colour") {
 }
 
 TEST_CASE(
-    "focus: before and behind, light is kept within 2 % and spreads as a disc of the thin lens's radius") {
+    "focus: in both fields light is kept within 2 % and spreads at most 18 % wider in variance than the thin "
+    "lens "
+    "spreads it, point by point; the far field without its fill within 1 %") {
   struct Case {
     Lens lens;
     Ball ball;
@@ -276,15 +304,24 @@ TEST_CASE(
                          {.center = {0, 0, -10}, .radius = 4, .albedo = kGrey}}};
   for (const Case& c : cases) {
     const Panels panels = panelsOf(scene({c.ball}, c.lens, "4"));
-    const Dark sharp = darkOf(panels, false), blurred = darkOf(panels, true);
-    const double radius = discRadius(c.lens, 20.0 - c.ball.center.z - 0.5 * c.ball.radius);
-    CAPTURE(radius);
+    const Dark sharp = darkOf(panels, false), blurred = darkOf(panels, true),
+               spread = spreadByLens(panels, c.lens, c.ball);
+    const double expected = spread.variance - sharp.variance;
+    CAPTURE(c.ball.center.z);
     MESSAGE("light kept: ", blurred.mass / sharp.mass, ", variance ", blurred.variance - sharp.variance,
-            " of ", radius * radius / 4);
-    REQUIRE(radius > 4);
+            " of ", expected);
+    REQUIRE(expected > 4);
     CHECK(blurred.mass == doctest::Approx(sharp.mass).epsilon(0.02));
-    CHECK(blurred.variance - sharp.variance == doctest::Approx(radius * radius / 4).epsilon(0.25));
+    // Wider, never narrower: measured 1.131 and 1.166, which is 6 and 8 % of the radius. It is the fill that widens.
+    CHECK(blurred.variance - sharp.variance > expected);
+    CHECK(blurred.variance - sharp.variance < 1.18 * expected);
   }
+  Setup bare = scene({cases[1].ball}, cases[1].lens, "4");
+  bare.disables = {"post.dof_fill"};
+  const Panels panels = panelsOf(bare);
+  const double sharp = darkOf(panels, false).variance,
+               expected = spreadByLens(panels, cases[1].lens, cases[1].ball).variance - sharp;
+  CHECK(darkOf(panels, true).variance - sharp == doctest::Approx(expected).epsilon(0.01));  // measured: 1.004
 }
 
 TEST_CASE("focus: blades make a polygon of the disc, and the light stays") {
