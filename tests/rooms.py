@@ -25,13 +25,14 @@ SUB_ROOMS = {
     "graph": {
         "language": set(),
         ".": {"language"},
+        "versions": {"."},
         "read": {".", "language"},
-        "expand/names": {".", "language"},
-        "expand": {".", "language", "expand/names"},
-        "compile": {".", "expand"},
+        "expand/names": {".", "language", "versions"},
+        "expand": {".", "language", "versions", "expand/names"},
+        "compile": {".", "versions", "expand"},
         "print": {".", "language", "compile"},
         "edit": {".", "language", "read", "expand/names", "expand"},
-        "workload": {".", "language"},
+        "workload": {".", "language", "versions"},
     },
     "gl": {
         "context": set(),

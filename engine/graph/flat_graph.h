@@ -1,7 +1,7 @@
 // FlatGraph: a graph after expansion. Includes, repeats, conditions, alternatives and disabled passes are gone, renames
 // are done, every size is a number and every name an index. Passes stand in declared order, which is always a legal
 // order: a use refers to the latest version before it. This is what compile() reads, in flat arrays.
-// The first three arrays are all the compiler needs (the neutral workloads fill only those and the names);
+// The first members are all the compiler needs (the neutral workloads fill only those and the names);
 // `specs`, `slots` and the rest are carried along for the executor.
 #pragma once
 
@@ -63,6 +63,50 @@ struct FlatPass {
   std::uint16_t touches = 0;    // as PassType::touches
   std::uint32_t group = kNone;  // passes of one group publish together
   std::uint32_t slices = 1;
+};
+
+// `count` sub-resources of a use, in the order of forEachSubresource (subresource.h), that one use wrote.
+struct VersionRun {
+  std::uint32_t writer = kNone;  // kNone: version zero, an import, or nothing
+  std::uint32_t count : 31 = 0;
+  std::uint32_t last : 1 = 0;  // of its use
+};
+
+// Which use made what each use sees: for every sub-resource of a read or modify its latest writer of an earlier pass in
+// declared order; of a read of @-n, of `present` and of outputs the last writer of all. VersionWalk (versions/version_walk.h) makes
+// the links while passes are expanded or read; checks, liveness, dependencies and compile() only read them. A link
+// is one number: the index of the use that wrote all of it, kNone when nobody did (a write's link, too), or kRuns
+// and the index of the first of several runs.
+struct VersionLinks {
+  static constexpr std::uint32_t kRuns = 0x80000000u;
+
+  std::vector<std::uint32_t> passOf;  // per use: its pass
+  std::vector<std::uint32_t> seen;    // per use: the link
+  std::uint32_t present = kNone;
+  std::vector<std::uint32_t> outputs;  // links, parallel to FlatGraph::outputs
+  std::vector<VersionRun> runs;
+  bool forward = false;  // some link of a history leads to its own pass or a later one
+
+  static bool hasRuns(std::uint32_t link) { return link >= kRuns && link != kNone; }
+
+  // Calls f(writer, count) for the runs of a link. The count is of no use (0) when one run is all.
+  template <class F>
+  void forEachRun(std::uint32_t link, F&& f) const {
+    if (!hasRuns(link)) {
+      f(link, 0u);
+      return;
+    }
+    std::size_t at = link & ~kRuns;
+    do f(runs[at].writer, std::uint32_t{runs[at].count});
+    while (runs[at++].last == 0);
+  }
+  // Calls f(writer) for each use that wrote some of it; one may come more than once.
+  template <class F>
+  void forEachWriter(std::uint32_t link, F&& f) const {
+    forEachRun(link, [&](std::uint32_t writer, std::uint32_t) {
+      if (writer != kNone) f(writer);
+    });
+  }
 };
 
 // ---- carried for the executor -------------------------------------------------------------------------------------
@@ -184,6 +228,7 @@ struct FlatGraph {
   std::vector<FlatResource> resources;
   FlatUse present;               // resource kNone: nothing is presented
   std::vector<FlatUse> outputs;  // read-backs; keep nothing alive
+  VersionLinks links;
   // names and places, parallel to passes and resources
   std::vector<std::string> passNames, resourceNames;
   std::vector<Place> resourcePlaces;  // of their declarations; empty for neutral graphs

@@ -28,4 +28,17 @@ std::uint64_t outputBytesOf(const FlatUse& use, const FlatResource& r) {
   return texels * use.layers * outputChannelsOf(r) * 4;
 }
 
+std::string subresourceText(const FlatResource& r, std::uint32_t index) {
+  const Subresource part = subresourceAt(index, r);
+  std::string text;
+  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+  if (r.mips > 1) add("mip " + std::to_string(part.mip));
+  const bool cube = isCube(r);
+  if (r.target == Target::texture_2d_array || r.target == Target::texture_cube_array)
+    add("layer " + std::to_string(cube ? part.layer / 6 : part.layer));
+  if (cube) add("face " + std::to_string(part.layer % 6));
+  if (planesOf(r) == 2 && part.plane == 1) add("stencil");
+  return text;
+}
+
 }  // namespace weft::graph

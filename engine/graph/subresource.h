@@ -1,12 +1,21 @@
-// Sub-resources of a FlatResource as numbers: (layer * mips + mip) * planes + plane. Buffers and 3D depth are
-// one. Does not: know plans or storage.
+// The vocabulary of sub-resources, for everybody: how a resource is divided, the number of each part, rectangles of
+// parts (FlatUse) and how they lie to each other, bytes, and the words for kinds and parts in files and messages.
+// A sub-resource is one plane of one level of one layer; its number is (plane * layers + layer) * mips + mip, as
+// D3D12CalcSubresource counts. A buffer is one; a 3D texture is not divided in depth. Does not: know versions
+// (versions/version_walk.h), plans or storage.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <string>
+#include <type_traits>
 
 #include "engine/graph/flat_graph.h"
 
 namespace weft::graph {
+
+// ---- how a resource is divided ----
 
 inline bool isBuffer(const FlatResource& r) {
   return r.kind == ResourceKind::buffer || r.kind == ResourceKind::imported_buffer;
@@ -14,36 +23,113 @@ inline bool isBuffer(const FlatResource& r) {
 inline bool isImported(const FlatResource& r) {
   return r.kind == ResourceKind::imported_texture || r.kind == ResourceKind::imported_buffer;
 }
+inline bool isCube(const FlatResource& r) {
+  return r.target == Target::texture_cube || r.target == Target::texture_cube_array;
+}
 
 // 2 for depth-stencil formats, else 1.
 inline std::uint32_t planesOf(const FlatResource& r) {
   return r.format == Format::depth24_stencil8 || r.format == Format::depth32f_stencil8 ? 2u : 1u;
+}
+// All planes, as in FlatUse::planes.
+inline std::uint8_t planeMask(const FlatResource& r) {
+  return planesOf(r) == 2 ? 3 : 1;
 }
 
 inline std::uint32_t subresourceCount(const FlatResource& r) {
   return isBuffer(r) ? 1u : static_cast<std::uint32_t>(r.mips) * r.layers * planesOf(r);
 }
 
+struct Subresource {
+  std::uint32_t mip = 0, layer = 0, plane = 0;
+};
+inline std::uint32_t indexOf(const Subresource& part, const FlatResource& r) {
+  return (part.plane * r.layers + part.layer) * r.mips + part.mip;
+}
+inline Subresource subresourceAt(std::uint32_t index, const FlatResource& r) {
+  return {index % r.mips, index / r.mips % r.layers, index / r.mips / r.layers};
+}
+
+// ---- rectangles ----
+
+// A use of all of `r`.
+inline FlatUse wholeUse(std::uint32_t index, const FlatResource& r, Kind kind, Access access) {
+  FlatUse use;
+  use.resource = index;
+  use.mips = r.mips;
+  use.layers = r.layers;
+  use.planes = planeMask(r);
+  use.kind = kind;
+  use.access = access;
+  return use;
+}
+
 // True when `use` covers every sub-resource of `r`.
 inline bool isWhole(const FlatUse& use, const FlatResource& r) {
   if (subresourceCount(r) == 1) return true;
-  const std::uint8_t all = planesOf(r) == 2 ? 3 : 1;
+  const std::uint8_t all = planeMask(r);
   return use.mips >= r.mips && use.layers >= r.layers && (use.planes & all) == all;
 }
 
-// Calls f(sub-resource) for each one that `use` covers, ascending.
+inline bool holds(const FlatUse& use, const Subresource& part) {
+  return part.mip >= use.mip && part.mip < std::uint32_t{use.mip} + use.mips && part.layer >= use.layer &&
+         part.layer < std::uint32_t{use.layer} + use.layers && (use.planes >> part.plane & 1) != 0;
+}
+// True when two rectangles of one resource, or of two of one shape, have a sub-resource in common.
+inline bool overlap(const FlatUse& a, const FlatUse& b) {
+  return (a.planes & b.planes) != 0 && a.mip < b.mip + b.mips && b.mip < a.mip + a.mips &&
+         a.layer < b.layer + b.layers && b.layer < a.layer + a.layers;
+}
+// True when `outer` has every sub-resource of `inner`.
+inline bool covers(const FlatUse& outer, const FlatUse& inner) {
+  return (inner.planes & ~outer.planes) == 0 && outer.mip <= inner.mip &&
+         inner.mip + inner.mips <= outer.mip + outer.mips && outer.layer <= inner.layer &&
+         inner.layer + inner.layers <= outer.layer + outer.layers;
+}
+
+// How many sub-resources `use` covers.
+inline std::uint32_t subresourceCount(const FlatUse& use, const FlatResource& r) {
+  if (isBuffer(r)) return 1;
+  const unsigned planes = planesOf(r) == 1 ? 1u : use.planes & 3u;
+  return std::uint32_t{use.mips} * use.layers * static_cast<std::uint32_t>(std::popcount(planes));
+}
+
+// Calls f(number) for each sub-resource that `use` covers, ascending. An f that returns a bool ends the
+// walk with false.
 template <class F>
 void forEachSubresource(const FlatUse& use, const FlatResource& r, F&& f) {
+  const auto goesOn = [&](std::uint32_t index) {
+    if constexpr (std::is_same_v<decltype(f(index)), bool>) return f(index);
+    f(index);
+    return true;
+  };
   if (isBuffer(r)) {
-    f(0u);
+    goesOn(0u);
     return;
   }
   const std::uint32_t planes = planesOf(r);
-  for (std::uint32_t layer = use.layer; layer < std::uint32_t{use.layer} + use.layers; ++layer)
-    for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip)
-      for (std::uint32_t plane = 0; plane < planes; ++plane)
-        if (planes == 1 || (use.planes >> plane & 1) != 0) f((layer * r.mips + mip) * planes + plane);
+  for (std::uint32_t plane = 0; plane < planes; ++plane) {
+    if (planes == 2 && (use.planes >> plane & 1) == 0) continue;
+    for (std::uint32_t layer = use.layer; layer < std::uint32_t{use.layer} + use.layers; ++layer)
+      for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip)
+        if (!goesOn(indexOf({mip, layer, plane}, r))) return;
+  }
 }
+
+// Calls f(number, writer) for each sub-resource that `use` covers and the use that made what it sees of it.
+template <class F>
+void forEachVersion(const VersionLinks& links, std::uint32_t link, const FlatUse& use, const FlatResource& r,
+                    F&& f) {
+  const bool several = VersionLinks::hasRuns(link);
+  std::uint32_t at = link & ~VersionLinks::kRuns, left = several ? links.runs[at].count : 0;
+  forEachSubresource(use, r, [&](std::uint32_t s) {
+    if (several && left == 0) left = links.runs[++at].count;
+    f(s, several ? links.runs[at].writer : link);
+    --left;
+  });
+}
+
+// ---- bytes ----
 
 // Bytes of the part of `r` that `use` covers (one copy). Planes of a depth-stencil texel count half the texel
 // each.
@@ -55,16 +141,20 @@ constexpr std::uint64_t kMaxOutputBytes = 64 * 1024;
 std::uint32_t outputChannelsOf(const FlatResource& r);
 std::uint64_t outputBytesOf(const FlatUse& use, const FlatResource& r);
 
-// A use of all of `r`.
-inline FlatUse wholeUse(std::uint32_t index, const FlatResource& r, Kind kind, Access access) {
-  FlatUse use;
-  use.resource = index;
-  use.mips = r.mips;
-  use.layers = r.layers;
-  use.planes = planesOf(r) == 2 ? 3 : 1;
-  use.kind = kind;
-  use.access = access;
-  return use;
+// ---- words ----
+
+// In the order of Kind and of Access: what a file says behind `as`, and what messages and dumps say.
+constexpr std::array<const char*, 10> kKindNames = {"sampled", "image",    "uniform", "storage", "vertex",
+                                                    "index",   "indirect", "color",   "depth",   "copy"};
+constexpr std::array<const char*, 3> kAccessNames = {"read", "write", "modify"};
+constexpr const char* nameOf(Kind kind) {
+  return kKindNames[static_cast<std::size_t>(kind)];
 }
+constexpr const char* nameOf(Access access) {
+  return kAccessNames[static_cast<std::size_t>(access)];
+}
+
+// "mip 2, layer 1" of a sub-resource of `r`; "" when it has only one.
+std::string subresourceText(const FlatResource& r, std::uint32_t index);
 
 }  // namespace weft::graph

@@ -3,12 +3,13 @@
 #include <utility>
 
 #include "engine/graph/compile/barriers.h"
+#include "engine/graph/compile/cells.h"
 #include "engine/graph/compile/lifetimes.h"
-#include "engine/graph/compile/live.h"
 #include "engine/graph/compile/order.h"
 #include "engine/graph/compile/scratch.h"
 #include "engine/graph/compile/storage.h"
 #include "engine/graph/expand/jobs.h"
+#include "engine/graph/versions/live.h"
 
 namespace weft::graph {
 
@@ -22,8 +23,7 @@ Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& optio
   const FlatGraph& g = *graph;
   plan.graph = std::move(graph);
   steps::indexCells(g, scratch);
-  steps::linkVersions(g, scratch);
-  steps::findLive(g, plan, scratch);
+  findLive(g, scratch.livePass, plan.attached, scratch.stack);
   steps::orderPasses(g, options.orderSeed, plan, scratch);
   plan.jobs = formJobs(
       g, [&](std::uint32_t p) { return plan.stepOf[p] != kNone; },

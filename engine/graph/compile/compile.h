@@ -14,7 +14,7 @@ struct CompileOptions {
   std::uint64_t orderSeed = 0;  // not 0: a random legal order instead of the declared one (fuzz)
 };
 
-// The graph must be valid (expandGraph, or validateFlat for neutral graphs): every read has a version, a pass writes what
+// The graph must be valid and linked (by expandGraph, or by linkFlat for neutral graphs): every read has a version, a pass writes what
 // it presents (version zero alone is not enough), imports are not written. The order is the declared order of the live passes: it is always legal, because a use refers to the latest
 // version before it, and the person reads it in the file. The second form reuses the working memory of earlier calls.
 struct CompileScratch;  // scratch.h

@@ -12,7 +12,7 @@ std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* atta
   std::vector<std::uint32_t> base(graph.resources.size() + 1, 0);
   for (std::size_t i = 0; i < graph.resources.size(); ++i)
     base[i + 1] = base[i] + subresourceCount(graph.resources[i]);
-  std::vector<std::uint32_t> writer(base.back(), kNone);         // per sub-resource: pass
+  std::vector<std::uint32_t> writer(base.back(), kNone);  // per sub-resource: pass; among attached uses
   std::vector<std::vector<std::uint32_t>> readers(base.back());  // passes since that writer
   std::vector<Dependency> edges;
   const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint32_t resource, Dependency::Type type) {
@@ -30,9 +30,12 @@ std::vector<Dependency> edgesOf(const FlatGraph& graph, const std::uint8_t* atta
                            [&](std::uint32_t s) { f(use.resource, base[use.resource] + s); });
       }
     };
-    eachCell(false, [&](std::uint32_t r, std::uint32_t cell) {
-      add(writer[cell], p, r, Dependency::Type::read_after_write);
-    });
+    for (std::uint32_t u = first; u < end; ++u) {
+      if ((attached != nullptr && attached[u] == 0) || graph.uses[u].history > 0) continue;
+      graph.links.forEachWriter(graph.links.seen[u], [&](std::uint32_t use) {
+        add(graph.links.passOf[use], p, graph.uses[u].resource, Dependency::Type::read_after_write);
+      });
+    }
     eachCell(true, [&](std::uint32_t r, std::uint32_t cell) {
       add(writer[cell], p, r, Dependency::Type::write_after_write);
       for (const std::uint32_t reader : readers[cell]) add(reader, p, r, Dependency::Type::write_after_read);

@@ -29,7 +29,7 @@ void clearCells(const FlatUse& use, const FlatResource& r, Plan& plan, Scratch& 
     std::uint8_t mask = 0;
     for (std::uint32_t plane = 0; plane < planes; ++plane) {
       if (planes == 2 && (use.planes >> plane & 1) == 0) continue;
-      std::uint8_t& cell = scratch.cleared[base + (layer * r.mips + mip) * planes + plane];
+      std::uint8_t& cell = scratch.cleared[base + indexOf({mip, layer, plane}, r)];
       if (cell == 0) mask = static_cast<std::uint8_t>(mask | 1u << plane);
       cell = 1;
     }
@@ -83,16 +83,25 @@ void findAttachedClears(const FlatGraph& graph, const Step& step, Plan& plan) {
   }
 }
 
-bool isLiveOutput(const FlatGraph& graph, const FlatUse& use, const Plan& plan, const Scratch& scratch) {
+bool isLiveOutput(const FlatGraph& graph, std::size_t output, const Plan& plan, const Scratch& scratch) {
+  const FlatUse& use = graph.outputs[output];
+  const FlatResource& r = graph.resources[use.resource];
   const std::uint8_t flags = scratch.flags[use.resource];
   if ((flags & Scratch::kImported) == 0 && plan.firstStep[use.resource] == kNone) return false;
-  bool live = true;
-  scratch.forEachCell(use, graph.resources[use.resource], [&](std::uint32_t cell) {
-    const std::uint32_t writer = scratch.lastWriter[cell];
-    const bool versionZero =
-        (flags & Scratch::kImported) != 0 || ((flags & Scratch::kClear) != 0 && scratch.cleared[cell] != 0);
-    live = live && (writer != kNone ? plan.attached[writer] != 0 : versionZero);
+  bool live = true, zero = false;
+  graph.links.forEachRun(graph.links.outputs[output], [&](std::uint32_t writer, std::uint32_t) {
+    live = live && (writer == kNone || plan.attached[writer] != 0);
+    zero = zero || writer == kNone;
   });
+  if (!live || !zero || (flags & Scratch::kImported) != 0) return live;
+  if ((flags & Scratch::kClear) == 0) return false;
+  // What nobody writes is version zero, which is there when something cleared it.
+  const std::uint32_t base = scratch.cellBase[use.resource];
+  if ((flags & Scratch::kGranular) == 0) return scratch.cleared[base] != 0;
+  forEachVersion(graph.links, graph.links.outputs[output], use, r,
+                 [&](std::uint32_t s, std::uint32_t writer) {
+                   live = live && (writer != kNone || scratch.cleared[base + s] != 0);
+                 });
   return live;
 }
 
@@ -147,7 +156,7 @@ void findLifetimes(const FlatGraph& graph, Plan& plan, Scratch& scratch) {
   if (present.resource != kNone && plan.firstStep[present.resource] != kNone) touch(present.resource, end);
   plan.outputLive.assign(graph.outputs.size(), 0);
   for (std::size_t i = 0; i < graph.outputs.size(); ++i) {
-    if (!isLiveOutput(graph, graph.outputs[i], plan, scratch)) continue;
+    if (!isLiveOutput(graph, i, plan, scratch)) continue;
     plan.outputLive[i] = 1;
     touch(graph.outputs[i].resource, end);
   }

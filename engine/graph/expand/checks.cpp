@@ -34,17 +34,6 @@ const PassType* findPassType(const Registry& registry, std::string_view name) {
   return nullptr;
 }
 
-const char* wordFor(Kind kind) {
-  static constexpr const char* kWords[] = {"sampled", "image",    "uniform", "storage", "vertex",
-                                           "index",   "indirect", "color",   "depth",   "copy"};
-  return kWords[static_cast<int>(kind)];
-}
-
-const char* wordFor(Access access) {
-  static constexpr const char* kWords[] = {"read", "write", "modify"};
-  return kWords[static_cast<int>(access)];
-}
-
 Kind defaultKind(const PassType* type, Access access, const FlatResource& shape) {
   if (!type) return Kind::copy;
   if (!isTexture(shape)) return Kind::storage;
@@ -70,7 +59,7 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   const auto kindMisfit = [&](std::string expected) {
     return report(
         Code::badKind,
-        fmt::format("{} cannot {} '{}' as {}", context.user, wordFor(access), entity.name, wordFor(kind)),
+        fmt::format("{} cannot {} '{}' as {}", context.user, nameOf(access), entity.name, nameOf(kind)),
         std::move(expected));
   };
   if (entity.import != kNone && context.model.graph.imports[entity.import].kind == ImportKind::event)
@@ -85,7 +74,7 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   const ShaderShape shader = context.type ? context.type->shader : ShaderShape::none;
   if (context.type && shader == ShaderShape::none && kind != defaultKind(context.type, access, shape))
     return kindMisfit(fmt::format("a {} pass uses {}", context.type->name,
-                                  wordFor(defaultKind(context.type, access, shape))));
+                                  nameOf(defaultKind(context.type, access, shape))));
   const bool draws = shader == ShaderShape::fragment || shader == ShaderShape::draw;
   if (context.type && shader != ShaderShape::none) {
     if (kind == Kind::copy) return kindMisfit("a kind that a shader has; copies are made by blit passes");
@@ -105,7 +94,7 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   const auto formatMisfit = [&](std::string expected) {
     return report(Code::badFormat,
                   fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
-                              infoOf(shape.format).name, entity.name, wordFor(kind)),
+                              infoOf(shape.format).name, entity.name, nameOf(kind)),
                   std::move(expected));
   };
   if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable)
@@ -152,13 +141,8 @@ std::string attachmentText(const Attachment& a) {
 }
 
 bool overlaps(const SlotWork& a, const SlotWork& b) {
-  const auto meet = [](std::uint32_t first, std::uint32_t count, std::uint32_t otherFirst,
-                       std::uint32_t otherCount) {
-    return first < otherFirst + otherCount && otherFirst < first + count;
-  };
-  return a.entity == b.entity && meet(a.firstElement, a.elementCount, b.firstElement, b.elementCount) &&
-         (a.use.planes & b.use.planes) != 0 && meet(a.use.mip, a.use.mips, b.use.mip, b.use.mips) &&
-         meet(a.use.layer, a.use.layers, b.use.layer, b.use.layers);
+  return a.entity == b.entity && a.firstElement < b.firstElement + b.elementCount &&
+         b.firstElement < a.firstElement + a.elementCount && overlap(a.use, b.use);
 }
 
 bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& slots) {

@@ -18,7 +18,5 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots);
 
 const PassType* findPassType(const Registry& registry, std::string_view name);
-const char* wordFor(Kind kind);
-const char* wordFor(Access access);
 
 }  // namespace weft::graph::expansion

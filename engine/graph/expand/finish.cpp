@@ -12,7 +12,7 @@ namespace {
 
 // A reference at the top of a file, resolved as a read after the last pass. nullopt when there is nothing.
 std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& ref, const std::string& user,
-                                    const std::string& name, std::vector<std::uint32_t>* writers = nullptr) {
+                                    const std::string& name) {
   Names names(model, scope);
   markStructural(model, scope, ref);
   SlotDesc slot;
@@ -31,7 +31,6 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
     return std::nullopt;
   }
   FlatUse use = work.use;
-  if (writers) collectWriters(model.entities[work.entity], work.firstElement, use, *writers);
   use.resource = currentResource(model, work.entity, work.firstElement);
   return use;
 }
@@ -41,8 +40,14 @@ void resolvePresent(Model& model) {
   if (!model.desc.present) return;
   const RefDesc& ref = *model.desc.present;
   const std::size_t before = model.diagnostics.errorCount();
-  auto use = resolveFinal(model, model.scopes[0], ref, "present", "present", &model.presentDeps);
-  if (!use || model.diagnostics.errorCount() > before) return;
+  auto use = resolveFinal(model, model.scopes[0], ref, "present", "present");
+  if (!use) return;
+  const bool sound = model.diagnostics.errorCount() == before;
+  if (!ref.mip || !ref.mip->range) use->mips = 1;  // a span is kept whole; what is shown is its first level
+  use->layers = 1;
+  use->kind = Kind::copy;
+  model.graph.present = *use;  // also what cannot be shown: its writers are no mistake
+  if (!sound) return;
   const FlatResource& resource = model.graph.resources[use->resource];
   const bool texture =
       resource.kind == ResourceKind::texture || resource.kind == ResourceKind::imported_texture;
@@ -50,12 +55,7 @@ void resolvePresent(Model& model) {
     auto& d = model.diagnostics.error(
         Code::badKind, ref.place, fmt::format("present shows '{}', which is no colour texture", ref.text));
     d.expected = "a colour texture of this frame";
-    return;
   }
-  if (!ref.mip || !ref.mip->range) use->mips = 1;  // a span is kept whole; what is shown is its first level
-  use->layers = 1;
-  use->kind = Kind::copy;
-  model.graph.present = *use;
 }
 
 // What the runtime can bring to the CPU every frame.
@@ -201,6 +201,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   resolveOutputs(model);
   foldTimed(model, deferred);
   resolveHistories(model);
+  model.versions.finish();
   nameStandIns(model);
   if (!model.diagnostics.hasErrors()) {
     const base::Diagnostics said = model.diagnostics;

@@ -7,67 +7,11 @@
 
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
-#include "engine/graph/expand/names/versions.h"
+#include "engine/graph/versions/live.h"
 
 namespace weft::graph::expansion {
 
 namespace {
-
-// ---- liveness: present, side effects, and what they read ----
-
-class Liveness {
- public:
-  explicit Liveness(Model& model)
-      : model_(model), livePass_(model.graph.passes.size()), liveUse_(model.graph.uses.size()) {
-    for (const std::uint32_t use : model.presentDeps) push(use);
-    for (std::uint32_t pass = 0; pass < livePass_.size(); ++pass)
-      if (model.graph.passes[pass].sideEffect) wake(pass);
-    while (!stack_.empty()) {
-      const std::uint32_t use = stack_.back();
-      stack_.pop_back();
-      if (model_.graph.uses[use].access == Access::modify) followDeps(use);
-      wake(model_.flow.passOf[use]);
-    }
-  }
-
-  bool isLive(std::uint32_t pass) const { return livePass_[pass] != 0; }
-
- private:
-  void push(std::uint32_t use) {
-    if (std::exchange(liveUse_[use], char{1}) == 0) stack_.push_back(use);
-  }
-  void followDeps(std::uint32_t use) {
-    for (std::uint32_t d = 0; d < model_.flow.depCount[use]; ++d)
-      push(model_.flow.deps[model_.flow.firstDep[use] + d]);
-  }
-  void wake(std::uint32_t pass) {
-    if (std::exchange(livePass_[pass], char{1}) != 0) return;
-    const FlatPass& flat = model_.graph.passes[pass];
-    for (std::uint32_t use = flat.firstUse; use < flat.firstUse + flat.useCount; ++use) {
-      const FlatUse& flatUse = model_.graph.uses[use];
-      if (flatUse.keep) push(use);
-      if (flatUse.access != Access::read) continue;
-      if (flatUse.history == 0)
-        followDeps(use);
-      else
-        followHistory(use);
-    }
-  }
-  // A live read of an earlier frame keeps the writers of the last version alive.
-  void followHistory(std::uint32_t use) {
-    const auto& all = model_.historyUses;
-    const auto at = std::lower_bound(all.begin(), all.end(), use,
-                                     [](const Model::HistoryUse& h, std::uint32_t u) { return h.use < u; });
-    if (at == all.end() || at->use != use) return;
-    std::vector<std::uint32_t> writers;
-    collectWriters(model_.entities[at->entity], at->element, model_.graph.uses[use], writers);
-    for (const std::uint32_t writer : writers) push(writer);
-  }
-
-  Model& model_;
-  std::vector<char> livePass_, liveUse_;
-  std::vector<std::uint32_t> stack_;
-};
 
 // ---- missing versions ----
 
@@ -75,14 +19,7 @@ bool touches(const Model& model, const WriteRecord& write, const MissingRead::Wa
   if (write.entity != wanted.entity || wanted.element < write.firstElement ||
       wanted.element >= write.firstElement + write.elementCount)
     return false;
-  const FlatResource& shape = model.entities[wanted.entity].shape;
-  const std::uint32_t mip = wanted.subresource % shape.mips;
-  const std::uint32_t layer = wanted.subresource / shape.mips % shape.layers;
-  const std::uint32_t plane = wanted.subresource / shape.mips / shape.layers;
-  return mip >= write.rect.mip && mip < static_cast<std::uint32_t>(write.rect.mip + write.rect.mips) &&
-         layer >= write.rect.layer &&
-         layer < static_cast<std::uint32_t>(write.rect.layer + write.rect.layers) &&
-         (write.rect.planes >> plane & 1) != 0;
+  return holds(write.rect, subresourceAt(wanted.subresource, model.entities[wanted.entity].shape));
 }
 
 struct Writers {
@@ -94,7 +31,7 @@ struct Writers {
 
 class Judge {
  public:
-  explicit Judge(Model& model) : model_(model), graph_(model.graph), live_(model) {
+  explicit Judge(Model& model) : model_(model), graph_(model.graph), live_(findLive(model.graph)) {
     for (std::uint32_t i = 0; i < model.writes.size(); ++i) byEntity_[model.writes[i].entity].push_back(i);
     found_.reserve(model.missing.size());
     for (const MissingRead& missing : model.missing) {
@@ -157,7 +94,7 @@ class Judge {
         fmt::format("{} {} {} {}", static_cast<int>(code), place.line, place.column,
                     missing.pass == kNone ? missing.slot : graph_.specs[missing.pass].declared);
     if (!said_.insert(key).second) return nullptr;  // another repeat of the same stanza
-    const bool live = missing.pass == kNone || live_.isLive(missing.pass);
+    const bool live = missing.pass == kNone || live_.pass[missing.pass] != 0;
     base::Diagnostic d;
     d.severity = live ? base::Severity::error : base::Severity::warning;
     d.code = code;
@@ -274,8 +211,9 @@ class Judge {
       };
       const FlatPass& flat = graph_.passes[pass];
       for (std::uint32_t use = flat.firstUse; use < flat.firstUse + flat.useCount; ++use)
-        for (std::uint32_t d = 0; d < model_.flow.depCount[use]; ++d)
-          reach(model_.flow.passOf[model_.flow.deps[model_.flow.firstDep[use] + d]]);
+        if (graph_.uses[use].history == 0)
+          graph_.links.forEachWriter(graph_.links.seen[use],
+                                     [&](std::uint32_t writer) { reach(graph_.links.passOf[writer]); });
       if (const auto would = wouldRead_.find(pass); would != wouldRead_.end())
         for (const std::uint32_t before : would->second) reach(before);
     }
@@ -301,15 +239,9 @@ class Judge {
 // ---- culled by mistake ----
 
 bool covers(const WriteRecord& later, const WriteRecord& earlier) {
-  const auto holds = [](std::uint32_t first, std::uint32_t count, std::uint32_t innerFirst,
-                        std::uint32_t innerCount) {
-    return first <= innerFirst && innerFirst + innerCount <= first + count;
-  };
-  return later.rect.access == Access::write &&
-         holds(later.firstElement, later.elementCount, earlier.firstElement, earlier.elementCount) &&
-         (earlier.rect.planes & ~later.rect.planes) == 0 &&
-         holds(later.rect.mip, later.rect.mips, earlier.rect.mip, earlier.rect.mips) &&
-         holds(later.rect.layer, later.rect.layers, earlier.rect.layer, earlier.rect.layers);
+  return later.rect.access == Access::write && later.firstElement <= earlier.firstElement &&
+         earlier.firstElement + earlier.elementCount <= later.firstElement + later.elementCount &&
+         covers(later.rect, earlier.rect);
 }
 
 struct Fate {
@@ -333,7 +265,7 @@ void warnUnread(Model& model) {
     d.hint = "say \"present\" with the texture to show";
     return;
   }
-  const Liveness live(model);
+  const Liveness live = findLive(graph);
   for (Entity& entity : model.entities) std::sort(entity.mentions.begin(), entity.mentions.end());
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> byEntity;
   for (std::uint32_t i = 0; i < model.writes.size(); ++i)
@@ -344,7 +276,7 @@ void warnUnread(Model& model) {
     const Entity& entity = model.entities[index];
     for (std::size_t r = 0; r < records.size(); ++r) {
       const WriteRecord& write = model.writes[records[r]];
-      if (live.isLive(write.pass)) continue;
+      if (live.pass[write.pass] != 0) continue;
       Fate& fate = fates[write.pass];
       fate.writes = true;
       const auto mention = std::upper_bound(entity.mentions.begin(), entity.mentions.end(), write.position);
@@ -365,7 +297,7 @@ void warnUnread(Model& model) {
   std::set<std::string_view> said;
   for (std::uint32_t pass = 0; pass < graph.passes.size(); ++pass) {
     const Fate& fate = fates[pass];
-    if (live.isLive(pass) || fate.intended || !said.insert(graph.specs[pass].declared).second) continue;
+    if (live.pass[pass] != 0 || fate.intended || !said.insert(graph.specs[pass].declared).second) continue;
     const PassSpec& spec = graph.specs[pass];
     const std::string resource = fate.entity == kNone ? "" : model.entities[fate.entity].name;
     base::Diagnostic* d = nullptr;

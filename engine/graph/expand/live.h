@@ -1,6 +1,7 @@
 // What is alive, and what that makes of missing versions: an error in a live pass, a warning in a culled one,
 // with the reason (a disabled writer, a later writer, a cycle, no writer) and the fixes. Also warnings about
-// passes that are culled by mistake. The compiler culls on its own; this walk only decides what to say.
+// passes that are culled by mistake. What is alive is found by findLive (engine/graph/versions/live.h), by
+// which the compiler culls; here is only decided what to say.
 #pragma once
 
 #include "engine/graph/expand/names/model.h"

@@ -226,33 +226,20 @@ class PassWalk {
   // Uses of one slot, in element order. Reads and modifies take the current resource, writes perhaps a new
   // one.
   void emitUses(const SlotWork& work, std::uint32_t pass) {
-    Entity& entity = model_.entities[work.entity];
     for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
-      const auto index = static_cast<std::uint32_t>(graph_.uses.size());
       FlatUse use = work.use;
       use.feedback = desc_->feedback && use.access == Access::modify;
       use.keep = desc_->sideEffect && use.access != Access::read;
-      model_.flow.firstDep.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()));
-      if (use.history > 0) {
-        model_.historyUses.push_back({index, work.entity, e});
-      } else if (use.access != Access::write) {
-        use.resource = currentResource(model_, work.entity, e);
-        collectWriters(entity, e, use, model_.flow.deps);
-      }
-      model_.flow.depCount.push_back(static_cast<std::uint32_t>(model_.flow.deps.size()) -
-                                     model_.flow.firstDep.back());
-      model_.flow.passOf.push_back(pass);
-      graph_.uses.push_back(use);
+      addUse(model_, work.entity, e, use, pass);
     }
   }
 
   void emitWrites(const SlotWork& work, const SlotSpec& spec, std::uint32_t pass) {
-    Entity& entity = model_.entities[work.entity];
     for (std::uint32_t i = 0; i < work.elementCount; ++i) {
       const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
       FlatUse& use = graph_.uses[index];
       if (use.access == Access::write) use.resource = resourceToWrite(model_, work.entity, e, work.whole);
-      setWriter(entity, e, use, index, work.whole);
+      model_.versions.write(index);
     }
     model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
                              pass, kNone, work.whole});
@@ -261,23 +248,23 @@ class PassWalk {
   // An always pass would add to what a slower pass made, again in every frame.
   void checkAccumulation(const SlotContext& context, const SlotWork& work, std::uint32_t firstUse) {
     for (std::uint32_t i = 0; i < work.elementCount; ++i) {
-      const std::uint32_t use = firstUse + i;
-      for (std::uint32_t d = 0; d < model_.flow.depCount[use]; ++d) {
-        const std::uint32_t writer = model_.flow.passOf[model_.flow.deps[model_.flow.firstDep[use] + d]];
-        if (writer >= graph_.passes.size() || graph_.passes[writer].cadence == Cadence::always) continue;
-        const Entity& entity = model_.entities[work.entity];
-        auto& report = model_.diagnostics.error(
-            Code::addsUp, work.slot->ref.place,
-            fmt::format("{} runs in every frame and modifies '{}', which '{}' makes only {}", context.user,
-                        work.slot->ref.text, graph_.passNames[writer],
-                        graph_.passes[writer].cadence == Cadence::once ? "once" : "on change"));
-        report.pass = context.pass;
-        report.resource = entity.name;
-        report.hint =
-            "it would add up from frame to frame: read it and write another resource, or give both passes "
-            "one \"update\"";
-        return;
-      }
+      std::uint32_t slower = kNone;  // the first of those it adds to
+      graph_.links.forEachWriter(graph_.links.seen[firstUse + i], [&](std::uint32_t use) {
+        const std::uint32_t writer = graph_.links.passOf[use];
+        if (slower == kNone && graph_.passes[writer].cadence != Cadence::always) slower = writer;
+      });
+      if (slower == kNone) continue;
+      auto& report = model_.diagnostics.error(
+          Code::addsUp, work.slot->ref.place,
+          fmt::format("{} runs in every frame and modifies '{}', which '{}' makes only {}", context.user,
+                      work.slot->ref.text, graph_.passNames[slower],
+                      graph_.passes[slower].cadence == Cadence::once ? "once" : "on change"));
+      report.pass = context.pass;
+      report.resource = model_.entities[work.entity].name;
+      report.hint =
+          "it would add up from frame to frame: read it and write another resource, or give both passes "
+          "one \"update\"";
+      return;
     }
   }
 

@@ -155,7 +155,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   const FlatResource& shape = entity.shape;
   const Selection& selection = leaf.selection;
   const bool texture = shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
-  const bool cube = shape.target == Target::texture_cube || shape.target == Target::texture_cube_array;
+  const bool cube = isCube(shape);
   if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
     return selectorMisfit(context, ref, entity,
                           fmt::format("'{}' is no texture, it has no levels, layers or planes", entity.name));
@@ -206,7 +206,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   work.use.mips = static_cast<std::uint16_t>(mips);
   work.use.layer = static_cast<std::uint16_t>(layer);
   work.use.layers = static_cast<std::uint16_t>(layers);
-  work.use.planes = selection.stencil ? 2 : planeCount(shape) > 1 ? 3 : 1;
+  work.use.planes = selection.stencil ? 2 : planeMask(shape);
   work.sampler = leaf.sampler;
   work.state = empty ? SlotWork::State::empty : SlotWork::State::connected;
   return true;
@@ -347,7 +347,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     if (!looksForVersions) return candidate;
     bool complete = true, real = false;
     for (std::uint32_t e = candidate.firstElement; e < candidate.firstElement + candidate.elementCount; ++e) {
-      const VersionCheck check = checkVersion(entity, e, candidate.use);
+      const VersionCheck check = checkVersion(model, candidate.entity, e, candidate.use);
       real = real || check.real;
       if (complete && !check.complete)
         missing.wanted.push_back({candidate.entity, e, check.missing, candidate.use});

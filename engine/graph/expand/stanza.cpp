@@ -123,7 +123,7 @@ void checkFixedSlots(const Stanza& stanza) {
     } else if ((slot.access == Access::read) != (found->access == Access::read)) {
       auto& d = stanza.error(Code::badSlots, slot.place,
                              fmt::format("has the slot '{}' on the wrong side", slot.name));
-      d.expected = fmt::format("'{}' in \"{}\"", slot.name, wordFor(found->access));
+      d.expected = fmt::format("'{}' in \"{}\"", slot.name, nameOf(found->access));
     }
   }
   for (const FixedSlot& slot : fixed)
@@ -131,7 +131,7 @@ void checkFixedSlots(const Stanza& stanza) {
         std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(),
                      [&](const SlotDesc& s) { return s.name == slot.name; }))
       stanza.error(Code::badSlots, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name))
-          .expected = fmt::format("\"{}\": {{ \"{}\": … }}", wordFor(slot.access), slot.name);
+          .expected = fmt::format("\"{}\": {{ \"{}\": … }}", nameOf(slot.access), slot.name);
 }
 
 void checkReference(const Stanza& stanza, const RefDesc& ref) {

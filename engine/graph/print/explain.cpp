@@ -39,16 +39,6 @@ std::string textOf(const FlatGraph& graph, const FlatUse& use) {
   return text;
 }
 
-const char* nameOf(Kind kind) {
-  constexpr const char* names[] = {"sampled", "image",    "uniform", "storage", "vertex",
-                                   "index",   "indirect", "color",   "depth",   "copy"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-const char* nameOf(Access access) {
-  return access == Access::read ? "read" : access == Access::write ? "write" : "modify";
-}
-
 std::string barrierText(std::uint16_t mask) {
   std::string text;
   for (int i = 0; i < kBarrierBitCount; ++i)
@@ -184,10 +174,7 @@ bool Explainer::touchesSameMemory(const Touch& a, std::int64_t frameA, const Tou
   } else if (plan_.storageOf[ra] == kNone || plan_.storageOf[ra] != plan_.storageOf[rb]) {
     return false;
   }
-  if (isBuffer(x)) return true;
-  const bool planes = planesOf(x) == 1 || (a.use.planes & b.use.planes) != 0;
-  return planes && a.use.mip < b.use.mip + b.use.mips && b.use.mip < a.use.mip + a.use.mips &&
-         a.use.layer < b.use.layer + b.use.layers && b.use.layer < a.use.layer + a.use.layers;
+  return isBuffer(x) || overlap(a.use, b.use);
 }
 
 // Calls f(touch, bits needed after a store, is a store) for the clears, then the uses of a step (or of the

@@ -58,8 +58,6 @@ class Explainer {
 
 // "hdr.mip[2]", "maps.layer[0..3]", "depth.stencil", "taa@-1": a use as a person would write it.
 std::string textOf(const FlatGraph& graph, const FlatUse& use);
-const char* nameOf(Kind kind);
-const char* nameOf(Access access);
 // "texture_fetch image_access"
 std::string barrierText(std::uint16_t mask);
 

@@ -1,12 +1,14 @@
 #include "engine/graph/read/ref_parse.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
+#include "engine/graph/subresource.h"
 
 namespace weft::graph {
 
@@ -262,19 +264,18 @@ class RefParser {
 
   bool parseKind(std::string_view word, std::size_t start) {
     std::vector<std::string> known;
-    for (const auto& [name, kind] : kKindWords) {
-      known.emplace_back(name);
-      if (word != name) continue;
+    for (std::size_t kind = 0; kind < kKindNames.size(); ++kind) {
+      known.emplace_back(kKindNames[kind]);
+      if (word != known.back()) continue;
       if (ref_.kind) return fail(start, fmt::format("a second kind, '{}'", word), "a use has one kind");
-      ref_.kind = kind;
+      ref_.kind = static_cast<Kind>(kind);
       return true;
     }
     for (const std::string_view name : kSamplerWords) known.emplace_back(name);
     std::string hint = base::nearestHint(word, known);
     if (hint.empty())
-      hint = fmt::format(
-          "kinds are sampled image uniform storage vertex index indirect color depth copy, filters are "
-          "linear nearest wrap clamp compare");
+      hint = fmt::format("kinds are {}, filters are linear nearest wrap clamp compare",
+                         fmt::join(kKindNames, " "));
     return fail(start, fmt::format("unknown word '{}' after 'as'", word), hint);
   }
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -15,17 +14,7 @@
 
 namespace weft::graph {
 
-// The words that may follow `as`, besides the sampler's linear, nearest, wrap, clamp and compare.
-constexpr std::array<std::pair<std::string_view, Kind>, 10> kKindWords = {{{"sampled", Kind::sampled},
-                                                                           {"image", Kind::image},
-                                                                           {"uniform", Kind::uniform},
-                                                                           {"storage", Kind::storage},
-                                                                           {"vertex", Kind::vertex},
-                                                                           {"index", Kind::index},
-                                                                           {"indirect", Kind::indirect},
-                                                                           {"color", Kind::color},
-                                                                           {"depth", Kind::depth},
-                                                                           {"copy", Kind::copy}}};
+// The words that may follow `as`, besides kKindNames (subresource.h).
 constexpr std::array<std::string_view, 5> kSamplerWords = {"linear", "nearest", "wrap", "clamp", "compare"};
 
 // `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the

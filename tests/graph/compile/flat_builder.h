@@ -9,6 +9,7 @@
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/plan.h"
 #include "engine/graph/subresource.h"
+#include "engine/graph/versions/version_walk.h"
 
 namespace weft::graph {
 
@@ -95,10 +96,12 @@ struct FlatBuilder {
     graph.outputNames.push_back(graph.resourceNames[r]);
     return *this;
   }
-  Plan compiled(CompileOptions options = {}) const {
+  std::shared_ptr<const FlatGraph> linked() const {
     FlatGraph copy = graph;
-    return compile(std::make_shared<const FlatGraph>(std::move(copy)), options);
+    linkVersions(copy);
+    return std::make_shared<const FlatGraph>(std::move(copy));
   }
+  Plan compiled(CompileOptions options = {}) const { return compile(linked(), options); }
 };
 
 inline FlatBuilder emptyGraph() {

@@ -114,7 +114,7 @@ TEST_CASE("equal graphs give equal plans, byte for byte, whatever was compiled b
   CompileScratch scratch;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const FlatBuilder b = randomGraph(seed);
-    const auto graph = std::make_shared<const FlatGraph>(b.graph);
+    const auto graph = b.linked();
     const Plan fresh = b.compiled(), again = compile(graph, {}, scratch);
     CHECK(dumpText(fresh) == dumpText(again));
     CHECK(dumpText(fresh, true) == dumpText(again, true));

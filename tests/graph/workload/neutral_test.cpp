@@ -5,7 +5,7 @@
 
 #include "engine/base/files/file.h"
 #include "engine/graph/compile/compile.h"
-#include "engine/graph/workload/validate_flat.h"
+#include "engine/graph/workload/link_flat.h"
 #include "tests/graph/compile/flat_builder.h"
 
 using namespace weft;
@@ -27,7 +27,7 @@ constexpr const char* kSmall = R"({"textures":[{"name":"A","width":64,"height":3
 
 TEST_CASE("a workload becomes a flat graph") {
   base::Diagnostics d;
-  const auto graph = read(kSmall, d);
+  auto graph = read(kSmall, d);
   REQUIRE(graph.has_value());
   CHECK(d.empty());
   CHECK(graph->resources[0].bytes == 64 * 32 * 4);
@@ -39,12 +39,12 @@ TEST_CASE("a workload becomes a flat graph") {
   CHECK(graph->uses[2].kind == Kind::depth);
   CHECK(graph->passes[1].sideEffect);
   CHECK(graph->present.resource == kNone);
-  CHECK(validateFlat(*graph, d));
+  CHECK(linkFlat(*graph, d));
 }
 
 TEST_CASE("every second pass as compute works by image where the format can") {
   base::Diagnostics d;
-  const auto graph = read(kSmall, d, {.everySecondCompute = true});
+  auto graph = read(kSmall, d, {.everySecondCompute = true});
   REQUIRE(graph.has_value());
   CHECK(graph->uses[0].kind == Kind::color);
   CHECK(graph->uses[1].kind == Kind::image);
@@ -53,7 +53,7 @@ TEST_CASE("every second pass as compute works by image where the format can") {
 
 TEST_CASE("passes may stand before textures") {
   base::Diagnostics d;
-  const auto graph = read(
+  auto graph = read(
       R"({"passes":[{"name":"p","writes":["A"]}],"textures":[{"name":"A","width":1,"height":1,"format":"R8"}]})",
       d);
   REQUIRE(graph.has_value());
@@ -90,7 +90,7 @@ TEST_CASE("text that is no workload is refused with one message and its place") 
 
 TEST_CASE("escapes are read") {
   base::Diagnostics d;
-  const auto graph = read(
+  auto graph = read(
       R"({"textures":[{"name":"\u0041\u00e9\ud83d\ude00\n","width":1,"height":1,"format":"R8"}],"passes":[]})",
       d);
   REQUIRE(graph.has_value());
@@ -100,7 +100,7 @@ TEST_CASE("escapes are read") {
 TEST_CASE("what compile takes for granted is checked") {
   const auto complains = [](FlatBuilder& b, Code code) {
     base::Diagnostics d;
-    return !validateFlat(b.graph, d) && d.contains(code);
+    return !linkFlat(b.graph, d) && d.contains(code);
   };
   {
     FlatBuilder b = emptyGraph();
@@ -147,9 +147,9 @@ TEST_CASE("generated workloads are valid, mostly alive, and the same every time"
       const std::string text = neutralText(shape, passes);
       CHECK(text == neutralText(shape, passes));
       base::Diagnostics d;
-      const auto graph = read(text, d);
+      auto graph = read(text, d);
       REQUIRE(graph.has_value());
-      CHECK(validateFlat(*graph, d));
+      CHECK(linkFlat(*graph, d));
       const Plan plan = compile(std::make_shared<const FlatGraph>(*graph));
       if (shape == NeutralShape::layered)
         CHECK(plan.steps.size() * 10 > passes * 6);
@@ -174,9 +174,9 @@ TEST_CASE("the workload files reach the storage bound") {
     base::Diagnostics d;
     const auto text = base::readFile(folder + name + ".json", d);
     REQUIRE(text.has_value());
-    const auto graph = read(*text, d);
+    auto graph = read(*text, d);
     REQUIRE(graph.has_value());
-    CHECK(validateFlat(*graph, d));
+    CHECK(linkFlat(*graph, d));
     const Plan plan = compile(std::make_shared<const FlatGraph>(*graph));
     CHECK(plan.steps.size() == kept);
     CHECK(plan.bytesAllocated == plan.bytesLowerBound);

@@ -88,13 +88,12 @@ bool mayExpand(Model& model, const StanzaCost& cost, const Place& place, const s
 bool mayUse(Model& model, std::uint32_t index, const FlatUse& rect, std::uint32_t elements,
             const Place& place) {
   const Entity& entity = model.entities[index];
-  const std::uint64_t parts = entity.elements.empty() || entity.elements[0].writers.empty()
-                                  ? 1
-                                  : std::uint64_t{rect.mips} * rect.layers * (rect.planes == 3 ? 2 : 1);
+  const bool split = !entity.elements.empty() && model.versions.isSplit(entity.elements[0].resource);
+  const std::uint64_t parts = split ? subresourceCount(rect, entity.shape) : 1;
   return !exceeds(model, Limit::uses, model.graph.uses.size() + elements, place,
                   "the passes of the graph use too many textures and buffers") &&
          compare(model, parts * elements, place) &&
-         !exceeds(model, Limit::uses, model.flow.deps.size() / kVersionsPerUse, place,
+         !exceeds(model, Limit::uses, model.graph.links.runs.size() / kVersionsPerUse, place,
                   "the passes of the graph read too many versions of sub-resources");
 }
 

@@ -19,6 +19,7 @@
 #include "engine/graph/expand/names/settings.h"
 #include "engine/graph/flat_graph.h"
 #include "engine/graph/registry.h"
+#include "engine/graph/versions/version_walk.h"
 
 namespace weft::graph::expansion {
 
@@ -60,12 +61,9 @@ struct Let {
 
 // The versions of one texture or buffer (one array element of it) while passes are walked in declared order.
 struct Element {
-  std::uint32_t resource = kNone;      // the current FlatResource
-  std::uint32_t count = 0;             // FlatResources made so far
-  std::uint32_t wholeWriter = kNone;   // use that wrote everything, while `writers` is empty
-  std::uint32_t written = 0;           // sub-resources with a version above zero
-  std::vector<std::uint32_t> writers;  // per sub-resource (plane, layer, mip): use, or kNone
-  bool zeroUsed = false;               // version zero was read or modified
+  std::uint32_t resource = kNone;  // the current FlatResource; Model::versions knows who wrote it
+  std::uint32_t count = 0;         // FlatResources made so far
+  bool zeroUsed = false;           // version zero was read or modified
 };
 
 struct Entity {
@@ -130,13 +128,6 @@ struct DisableRule {
   std::string instance;  // full instance name, or empty: all repeats
 };
 
-// Which uses a use sees: the writers of the sub-resources it reads or modifies.
-struct Flow {
-  std::vector<std::uint32_t> passOf;              // per use: index into FlatGraph::passes
-  std::vector<std::uint32_t> firstDep, depCount;  // per use: into deps
-  std::vector<std::uint32_t> deps;                // uses
-};
-
 // Who writes what, enabled or not, in declared order: for "who would have written it".
 struct WriteRecord {
   std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
@@ -183,6 +174,7 @@ struct Model {
   const Settings& settings;
   base::Diagnostics& diagnostics;
   FlatGraph graph{};
+  VersionWalk versions{graph};
   std::deque<Scope> scopes{};  // scopes[0] is the root
   std::vector<Parameter> parameters{};
   std::deque<Let> lets{};
@@ -192,19 +184,17 @@ struct Model {
   std::unordered_map<std::string, std::uint32_t> importIndex{};  // by the text of the request
   std::unordered_map<std::string, std::vector<std::uint32_t>> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
-  Flow flow{};
   std::vector<WriteRecord> writes{};
   std::vector<MissingRead> missing{};
   struct HistoryUse {
     std::uint32_t use, entity, element;
   };
-  std::vector<HistoryUse> historyUses{};     // their resource is the last one, known at the end
-  std::vector<std::uint32_t> presentDeps{};  // uses that write what is presented
-  std::vector<std::uint32_t> positionOf{};   // per pass of the FlatGraph
-  std::vector<Unincluded> unincluded{};      // reported at the end
-  bool incomplete = false;                   // mistakes kept some writes out: what nobody writes is no news
-  std::uint32_t position = 0;                // of the instance being expanded
-  std::vector<std::string> evaluating{};     // what is being evaluated now, for the path of a cycle
+  std::vector<HistoryUse> historyUses{};    // their resource is the last one, known at the end
+  std::vector<std::uint32_t> positionOf{};  // per pass of the FlatGraph
+  std::vector<Unincluded> unincluded{};     // reported at the end
+  bool incomplete = false;                  // mistakes kept some writes out: what nobody writes is no news
+  std::uint32_t position = 0;               // of the instance being expanded
+  std::vector<std::string> evaluating{};    // what is being evaluated now, for the path of a cycle
   Effort effort{};
 };
 

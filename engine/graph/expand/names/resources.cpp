@@ -276,11 +276,4 @@ std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip
   return result;
 }
 
-std::uint32_t planeCount(const FlatResource& shape) {
-  return hasStencil(shape.format) ? 2 : 1;
-}
-std::uint32_t subresourceCount(const FlatResource& shape) {
-  return planeCount(shape) * shape.layers * shape.mips;
-}
-
 }  // namespace weft::graph::expansion

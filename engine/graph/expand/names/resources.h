@@ -24,8 +24,6 @@ std::uint32_t staticTarget(Model& model, std::uint32_t entity, std::uint32_t* mi
 const ImportType* findImportType(const Registry& registry, std::string_view name);
 
 // Sub-resources of one FlatResource: planes x layers x mips.
-std::uint32_t planeCount(const FlatResource& shape);
-std::uint32_t subresourceCount(const FlatResource& shape);
 
 constexpr std::uint32_t kMaxSize = 16384, kMaxSize3d = 2048, kMaxMips = 32, kMaxLayers = 2048,
                         kMaxHistory = 16, kMaxArray = 256;

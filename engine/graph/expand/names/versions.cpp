@@ -8,18 +8,6 @@ namespace weft::graph::expansion {
 
 namespace {
 
-// Calls f(index) for the sub-resources of `rect` until it returns false.
-template <class F>
-void forEachSub(const FlatResource& shape, const FlatUse& rect, F f) {
-  const std::uint32_t planes = planeCount(shape);
-  for (std::uint32_t plane = 0; plane < planes; ++plane) {
-    if ((rect.planes >> plane & 1) == 0) continue;
-    for (std::uint32_t layer = rect.layer; layer < rect.layer + rect.layers; ++layer)
-      for (std::uint32_t mip = rect.mip; mip < static_cast<std::uint32_t>(rect.mip + rect.mips); ++mip)
-        if (!f((plane * shape.layers + layer) * shape.mips + mip)) return;
-  }
-}
-
 std::string flatName(const Entity& entity, std::uint32_t element, std::uint32_t count) {
   std::string name = entity.name;
   if (entity.arrayCount > 0) name += fmt::format("[{}]", element);
@@ -55,97 +43,57 @@ std::uint32_t currentResource(Model& model, std::uint32_t index, std::uint32_t e
   return current != kNone ? current : addResource(model, index, element);
 }
 
-VersionCheck checkVersion(const Entity& entity, std::uint32_t element, const FlatUse& rect) {
+VersionCheck checkVersion(const Model& model, std::uint32_t index, std::uint32_t element,
+                          const FlatUse& rect) {
+  const Entity& entity = model.entities[index];
   if (entity.kind == ResourceDesc::Kind::import) return {entity.exists || entity.fallback, entity.exists, 0};
-  const Element& e = entity.elements[element];
-  if (e.writers.empty()) {
-    const bool written = e.wholeWriter != kNone;
-    VersionCheck check{written || entity.shape.hasClear, written, 0};
-    if (!check.complete)
-      forEachSub(entity.shape, rect, [&](std::uint32_t sub) {
-        check.missing = sub;
-        return false;
-      });
-    return check;
-  }
   VersionCheck check;
-  forEachSub(entity.shape, rect, [&](std::uint32_t sub) {
-    if (e.writers[sub] != kNone) {
+  const auto see = [&](std::uint32_t writer, std::uint32_t first) {
+    if (writer != kNone) {
       check.real = true;
     } else if (!entity.shape.hasClear) {
       check.complete = false;
-      check.missing = sub;
-      return false;
+      check.missing = first;
     }
-    return true;
-  });
+    return check.complete;
+  };
+  FlatUse use = rect;
+  use.resource = entity.elements[element].resource;
+  if (use.resource != kNone)
+    model.versions.forEachRun(
+        use, [&](std::uint32_t writer, std::uint32_t first, std::uint32_t) { return see(writer, first); });
+  else
+    forEachSubresource(use, entity.shape, [&](std::uint32_t first) {
+      see(kNone, first);
+      return false;
+    });
   return check;
 }
 
-void collectWriters(Entity& entity, std::uint32_t element, const FlatUse& rect,
-                    std::vector<std::uint32_t>& out) {
-  if (entity.kind == ResourceDesc::Kind::import) return;
-  Element& e = entity.elements[element];
-  if (e.writers.empty()) {
-    if (e.wholeWriter != kNone)
-      out.push_back(e.wholeWriter);
-    else
-      e.zeroUsed = true;
-    return;
-  }
-  std::uint32_t last = kNone;
-  forEachSub(entity.shape, rect, [&](std::uint32_t sub) {
-    const std::uint32_t writer = e.writers[sub];
-    if (writer == kNone) e.zeroUsed = true;
-    if (writer != kNone && writer != last) out.push_back(writer);
-    last = writer;
-    return true;
+void addUse(Model& model, std::uint32_t index, std::uint32_t element, const FlatUse& use,
+            std::uint32_t pass) {
+  Entity& entity = model.entities[index];
+  VersionLinks& links = model.graph.links;
+  const auto at = static_cast<std::uint32_t>(model.graph.uses.size());
+  model.graph.uses.push_back(use);
+  const bool sees = use.history == 0 && use.access != Access::write;
+  if (use.history > 0) model.historyUses.push_back({at, index, element});
+  if (sees) model.graph.uses[at].resource = currentResource(model, index, element);
+  model.versions.see(at, pass);
+  if (!sees || entity.kind == ResourceDesc::Kind::import) return;
+  links.forEachRun(links.seen[at], [&](std::uint32_t writer, std::uint32_t) {
+    if (writer == kNone) entity.elements[element].zeroUsed = true;
   });
 }
 
 std::uint32_t resourceToWrite(Model& model, std::uint32_t index, std::uint32_t element, bool whole) {
   Element& e = model.entities[index].elements[element];
-  const bool used = e.zeroUsed || e.wholeWriter != kNone || e.written > 0;
+  const bool used = e.zeroUsed || (e.resource != kNone && model.versions.isWritten(e.resource));
   if (!whole || !used) return currentResource(model, index, element);
-  e.writers.clear();
-  e.wholeWriter = kNone;
-  e.written = 0;
+  const std::uint32_t last = e.resource, next = addResource(model, index, element);
   e.zeroUsed = false;
-  return addResource(model, index, element);
-}
-
-void setWriter(Entity& entity, std::uint32_t element, const FlatUse& rect, std::uint32_t use, bool whole) {
-  Element& e = entity.elements[element];
-  const std::uint32_t total = subresourceCount(entity.shape);
-  if (whole || total == 1) {
-    e.writers.clear();
-    e.wholeWriter = use;
-    e.written = total;
-    return;
-  }
-  if (e.writers.empty()) e.writers.assign(total, e.wholeWriter);
-  forEachSub(entity.shape, rect, [&](std::uint32_t sub) {
-    if (e.writers[sub] == kNone) ++e.written;
-    e.writers[sub] = use;
-    return true;
-  });
-  e.wholeWriter = kNone;
-}
-
-std::string subresourceText(const FlatResource& shape, std::uint32_t index) {
-  std::string text;
-  const auto part = [&](const char* word, std::uint32_t n) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", word, n);
-  };
-  if (shape.mips > 1) part("mip", index % shape.mips);
-  const std::uint32_t layer = index / shape.mips % shape.layers;
-  const bool cube = shape.target == Target::texture_cube || shape.target == Target::texture_cube_array;
-  if (shape.target == Target::texture_2d_array || shape.target == Target::texture_cube_array)
-    part("layer", cube ? layer / 6 : layer);
-  if (cube) part("face", layer % 6);
-  if (planeCount(shape) > 1 && index / shape.mips / shape.layers == 1)
-    text += text.empty() ? "stencil" : ", stencil";
-  return text;
+  if (last != kNone) model.versions.replace(last, next);
+  return next;
 }
 
 }  // namespace weft::graph::expansion

@@ -1,6 +1,6 @@
-// Versions: which FlatResource a texture, buffer or import is at this point of the declared order, which of
-// its sub-resources have a version and who wrote them. A whole rewrite makes another FlatResource ("hdr#2").
-// Linear in the sub-resources touched. Does not decide what a missing version means (expand_live).
+// Versions: which FlatResource a texture, buffer or import is at this point of the declared order, and whether it has the
+// versions that a use asks for. A whole rewrite makes another FlatResource ("hdr#2"). Who wrote what is the VersionWalk's
+// (engine/graph/versions/version_walk.h). Does not decide what a missing version means (expand/live.h).
 #pragma once
 
 #include "engine/graph/expand/names/model.h"
@@ -15,20 +15,14 @@ struct VersionCheck {
   bool real = false;          // one of them at least is above zero
   std::uint32_t missing = 0;  // the first sub-resource without one, as an index
 };
-VersionCheck checkVersion(const Entity& entity, std::uint32_t element, const FlatUse& rect);
+VersionCheck checkVersion(const Model& model, std::uint32_t entity, std::uint32_t element,
+                          const FlatUse& rect);
 
-// Appends the uses that wrote the selected sub-resources, each run of equal ones once; marks version zero as
-// used.
-void collectWriters(Entity& entity, std::uint32_t element, const FlatUse& rect,
-                    std::vector<std::uint32_t>& out);
+// Adds `use` of `pass` to the graph, of the resource that it names, and links it to what it sees.
+void addUse(Model& model, std::uint32_t entity, std::uint32_t element, const FlatUse& use,
+            std::uint32_t pass);
 
 // For a whole write: another FlatResource when the current one has been written or its version zero used.
 std::uint32_t resourceToWrite(Model& model, std::uint32_t entity, std::uint32_t element, bool whole);
-
-// `use` is now the version of the selected sub-resources.
-void setWriter(Entity& entity, std::uint32_t element, const FlatUse& rect, std::uint32_t use, bool whole);
-
-// "mip 2, layer 1" of a sub-resource index; "" when there is only one.
-std::string subresourceText(const FlatResource& shape, std::uint32_t index);
 
 }  // namespace weft::graph::expansion

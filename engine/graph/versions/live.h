@@ -1,0 +1,26 @@
+// What is alive: the passes that somebody needs and the uses that they need them for, found along FlatGraph::links. The
+// one walk of liveness: checks of expansion warn, and compile() culls, by it. Does not: say why (print/explain.h) or
+// know versions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/graph/flat_graph.h"
+
+namespace weft::graph {
+
+// `pass`: 1 for what `present`, a side effect or a history that a live pass reads needs, directly or through others.
+// `use`: 1 for all reads of live passes, and for writes and modifies that are kept or that a live use sees. Outputs
+// keep nothing alive.
+struct Liveness {
+  std::vector<std::uint8_t> pass, use;
+};
+
+// The vectors of `live` keep what they hold of memory; so does `stack`, which means nothing afterwards. Linear in uses
+// and runs, also for chains of histories: each link is followed at most once.
+void findLive(const FlatGraph& graph, std::vector<std::uint8_t>& livePass, std::vector<std::uint8_t>& liveUse,
+              std::vector<std::uint32_t>& stack);
+Liveness findLive(const FlatGraph& graph);
+
+}  // namespace weft::graph
