@@ -10,7 +10,7 @@
 //  or
 //      SHADER_STORAGE in between, also when the two resources only share storage.
 //
-// Safe under every cadence, and none to spare while every pass runs. The two meet in one corner only: a
+// Safe under every cadence, and without redundant bits while every pass runs. The two meet in one corner only: a
 // history none of whose writers is `always`, read after a first writer that does not store and before a later
 // one that does. There a frame without writers needs a bit that frames with all of them do not, and safety
 // wins. And what a spread job writes: its copies change places at times the plan does not know, so they count

@@ -1,5 +1,5 @@
 // Every hazard of a plan in steady state as an interval of positions on the circle of the frame that must
-// hold a barrier with a given bit; and the placement of barriers that stabs them all with none to spare.
+// hold a barrier with a given bit; and the placement of barriers that meets them all without redundant bits.
 //
 // Positions: 2t is Step::barriers of step t, 2t + 1 its barriersAfterClears; step S = steps.size() is the end
 // of the frame (finalBarriers); the circle has 2 (S + 1) positions. `lo` is negative when the first access

@@ -27,13 +27,13 @@ Schedule everythingRuns(const Plan& plan);
 std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std::size_t samples);
 
 struct Verdict {
-  std::string complaint;  // "" when there is no hazard under any schedule and no bit is to spare
+  std::string complaint;  // "" when there is no hazard under any schedule and no bit is redundant
   std::size_t bits = 0;   // of the plan
   // Bits that can be dropped while everything runs and publishes, but not under some cadence.
   std::size_t byCadenceOnly = 0;
 };
 
-// A bit is to spare when dropping it leaves no hazard under any of the schedules, nor under many more of
+// A bit is redundant when dropping it leaves no hazard under any of the schedules, nor under many more of
 // them.
 Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples = 64);
 

@@ -70,7 +70,7 @@ TEST_CASE("the random graphs reach every kind of case") {
     CHECK(n > kGraphs / 25);
 }
 
-TEST_CASE("no hazard is left under any cadence, and no bit is to spare") {
+TEST_CASE("no hazard is left under any cadence, and there are no redundant barrier bits") {
   std::size_t bits = 0, steps = 0, byCadenceOnly = 0, ofSpread = 0, failures = 0;
   const auto judge = [&](const Plan& plan, std::uint64_t seed, std::size_t samples, const char* how) {
     const oracle::Verdict verdict = oracle::judgeBarriers(plan, seed, samples);
