@@ -84,7 +84,7 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   if (isCommandInput(kind))
     return report(Code::unusedKind,
                   fmt::format("{} uses '{}' as {}, which no type of pass does yet", context.user, entity.name,
-                              wordFor(kind)),
+                              nameOf(kind)),
                   "uniform, storage or copy for a buffer", "read it as storage; the shader indexes it");
   const bool readOnly = kind == Kind::sampled || kind == Kind::uniform;
   if (readOnly && access != Access::read) return kindMisfit("reading only for this kind");
