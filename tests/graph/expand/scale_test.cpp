@@ -82,7 +82,8 @@ Work workOf(const std::string& json) {
   finishGraph(model, deferred);
   judgeMissing(model);
   CHECK_FALSE(model.effort.stopped);
-  return {{model.effort.terms, model.effort.compared, model.flow.deps.size(), allocationCount() - allocations,
+  return {{model.effort.terms, model.effort.compared,
+           model.graph.links.seen.size() + model.graph.links.runs.size(), allocationCount() - allocations,
            allocatedBytes() - bytes}};
 }
 
