@@ -317,7 +317,7 @@ TEST_CASE(
     CHECK(blurred.variance - sharp.variance < 1.18 * expected);
   }
   Setup bare = scene({cases[1].ball}, cases[1].lens, "4");
-  bare.disables = {"post.dof_fill"};
+  bare.disables = {"post.dof.far_fill"};
   const Panels panels = panelsOf(bare);
   const double sharp = darkOf(panels, false).variance,
                expected = spreadByLens(panels, cases[1].lens, cases[1].ball).variance - sharp;
