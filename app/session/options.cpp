@@ -13,6 +13,7 @@
 #include "engine/base/files/file_access.h"
 #include "engine/base/limits.h"
 #include "engine/base/nearest.h"
+#include "engine/base/printable.h"
 
 namespace weft::app {
 
@@ -101,6 +102,11 @@ std::string presetFile(const std::string& preset) {
                                                            : preset;
 }
 
+// As messages print what files say.
+std::string shown(const std::string& text) {
+  return base::shortened(base::printable(text));
+}
+
 // Whether there was one.
 bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
   std::vector<std::string> names;
@@ -112,7 +118,7 @@ bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
     if (!argument.starts_with("--") || std::ranges::find(names, argument) != names.end()) continue;
     const std::string near = base::nearestName(argument, names);
     printError(
-        fmt::format("weft {}: unknown option '{}'; {}\n", command.get_name(), argument,
+        fmt::format("weft {}: unknown option '{}'; {}\n", command.get_name(), shown(argument),
                     near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near)));
     told = true;
   }
@@ -124,7 +130,9 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
   print(out.str());
-  printError(err.str());
+  // What is wrong repeats what was written; the rest is of the parser.
+  const std::string said = err.str(), what = error.what();
+  printError(said.starts_with(what) ? shown(what) + said.substr(what.size()) : said);
   return code;
 }
 
@@ -284,8 +292,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
     commands.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {
-    printError(
-        fmt::format("weft: unknown command '{}'; {}\n", argv[1], base::nearestHint(argv[1], commands)));
+    printError(fmt::format("weft: unknown command '{}'; {}\n", shown(argv[1]),
+                           base::nearestHint(argv[1], commands)));
     exitCode = 2;
     return std::nullopt;
   }

@@ -95,6 +95,13 @@ std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_
   return pattern.substr(0, at) + number + pattern.substr(end + 1);
 }
 
+std::string pictureKindOf(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& letter : extension)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return extension;
+}
+
 bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool several,
                  base::Diagnostics& diagnostics) {
   const auto fail = [&](const std::string& message, const std::string& hint) {
@@ -108,9 +115,9 @@ bool checkOutput(const std::string& pattern, std::uint32_t firstFrame, bool seve
   if (several && pattern.find('%') == std::string::npos)
     return fail(fmt::format("several frames would all be written to '{}'", pattern),
                 "put a frame number into the name: f_%04d.png");
-  const std::string extension = fs::path(*first).extension().string();
-  if (extension != ".png" && extension != ".exr")
-    return fail(fmt::format("cannot write '{}': unknown kind of image '{}'", *first, extension),
+  if (const std::string kind = pictureKindOf(*first); kind != ".png" && kind != ".exr")
+    return fail(fmt::format("cannot write '{}': unknown kind of image '{}'", *first,
+                            fs::path(*first).extension().string()),
                 "name a .png or an .exr file");
   base::Diagnostics said;
   if (!makeFolderOf(*first, said)) {

@@ -15,6 +15,9 @@ namespace weft::app {
 // such pattern.
 std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_t frame);
 
+// ".png" of "Out.PNG": the kind of picture that a name asks for, in lower case.
+std::string pictureKindOf(const std::string& path);
+
 // Whether pictures can be written under `pattern`, from number `first` on; makes the first one's folder. W180
 // if not.
 bool checkOutput(const std::string& pattern, std::uint32_t first, bool several,

@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "app/session/output_files.h"
+
 namespace weft::app {
 
 void PictureWriter::look(const assets::ImageF& picture, runtime::Renderer& renderer,
@@ -46,7 +48,7 @@ bool PictureWriter::save(runtime::Renderer& renderer, const std::string& path,
     return written(
         assets::savePng8(path, image.width, image.height, image.channels, image.texels, diagnostics));
   };
-  const bool values = path.ends_with(".exr");
+  const bool values = pictureKindOf(path) == ".exr";
   if (!values && renderer.presentsBytes()) {  // they hold no such values, and are read faster
     const auto image = renderer.readPresented8();
     return image && png(*image);

@@ -49,7 +49,15 @@ Overlay::~Overlay() {
   ImGui::DestroyContext();
 }
 
+void Overlay::layOut(const std::function<void()>& draw) {
+  if (!begun_) return;
+  ImGui::NewFrame();
+  draw();
+  ImGui::EndFrame();
+}
+
 void Overlay::begin() {
+  begun_ = true;
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();

@@ -4,6 +4,7 @@
 // or touch the presented texture.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -24,6 +25,10 @@ class Overlay {
   // Panels are made between the two; end() draws them. Framebuffer 0 must be bound.
   void begin();
   void end();
+  // Before the two, when panels appeared or went: the same panels, made by `draw`, without an event or a
+  // picture. ImGui looks for what is under the mouse among those of the time before, and the next begin() is
+  // to find these.
+  void layOut(const std::function<void()>& draw);
   // Between the two: panels made from here on do not see the mouse, unless it drags something; or see it
   // again.
   void hideMouse(bool hidden);
@@ -42,6 +47,7 @@ class Overlay {
  private:
   Overlay() = default;
 
+  bool begun_ = false;       // there was a begin()
   float mouse_[2] = {0, 0};  // while it is hidden
   bool mouseHidden_ = false;
 };

@@ -62,6 +62,7 @@ class Viewer {
   // The last picture again, for the panels over it.
   void redraw(gl::Size size);
   void drawUi();
+  void drawPanels();
   void saveScreenshots();
   void saveLast();  // --screenshot, once
   void say(std::string_view event) const { events_.say(frame_, event); }
@@ -101,6 +102,7 @@ class Viewer {
   bool vsync_ = true, idle_ = false, help_ = false, minimised_ = false;
   bool resting_ = false, shown_ = false;  // as it was said last; a picture was
   bool lastSaved_ = false;
+  bool acted_ = false;   // an action ran since panels were drawn
   bool broken_ = false;  // the driver or an output complained
 };
 

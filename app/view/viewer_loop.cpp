@@ -110,6 +110,7 @@ void Viewer::update(gl::Size size) {
   const std::uint64_t changes = live_.changes();
   for (const std::string_view action : input_.takeActions()) {
     actions_.run(action);
+    acted_ = true;
     say(fmt::format("action {}", action));
   }
   if (live_.changes() != changes) tell(diagnostics_, log_, ui::Log::kChange);
@@ -144,7 +145,7 @@ std::string Viewer::modes() const {
 
 bool Viewer::busy() {
   if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
-      live_.environment().status())
+      input_.movesCamera() || live_.environment().status())
     return true;
   const scene::Camera* camera = sceneCamera();
   return rig_.mode() == CameraRig::Mode::scene && camera && scene::isMoving(*camera);
@@ -246,20 +247,27 @@ void Viewer::redraw(gl::Size size) {
   session_.context->swapBuffers();
 }
 
-void Viewer::drawUi() {
-  if (!overlay_) return;
-  const std::uint64_t before = live_.changes();
-  overlay_->begin();
+void Viewer::drawPanels() {
   overlay_->hideMouse(help_);  // no tooltip over the help
   if (live_.running())
     panels_.draw(report_, diagnostics_);
   else
     drawWaiting(log_.files());
-  const auto click = overlay_->releasedMouse();
   overlay_->hideMouse(false);
   if (!panels_.visible) drawModes(modes());
   if (help_) drawHelp();
+}
+
+void Viewer::drawUi() {
+  const bool acted = std::exchange(acted_, false);
+  if (!overlay_) return input_.panelsDrawn();
+  const std::uint64_t before = live_.changes();
+  if (acted) overlay_->layOut([this] { drawPanels(); });
+  overlay_->begin();
+  drawPanels();
+  const auto click = overlay_->releasedMouse();
   overlay_->end();
+  input_.panelsDrawn();
   if (panels_.wantsFrame()) rest_.disturb();
   if (live_.changes() != before) {
     tell(diagnostics_, log_, ui::Log::kChange);

@@ -39,7 +39,8 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
 void WindowInput::capture(bool on) {
   if (on == captured_) return;
   captured_ = on;
-  turning_ = panning_ = false;
+  turning_ = panning_ = undecided_ = false;
+  waiting_ = {};
   fresh_ = true;  // the cursor is put elsewhere: that is no movement
   glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   if (glfwRawMouseMotionSupported())
@@ -54,7 +55,9 @@ void WindowInput::onKey(int key, int action, int mods) {
 }
 
 void WindowInput::onButton(int button, int action) {
-  const bool down = action == GLFW_PRESS && !captured_ && !(overlay_ && overlay_->wantsMouse());
+  if (action == GLFW_PRESS && !captured_ && !actions_.empty()) undecided_ = true;
+  const bool panels = !undecided_ && overlay_ && overlay_->wantsMouse();
+  const bool down = action == GLFW_PRESS && !captured_ && !panels;
   if (button == GLFW_MOUSE_BUTTON_LEFT) turning_ = down;
   if (button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE) panning_ = down;
 }
@@ -62,16 +65,21 @@ void WindowInput::onButton(int button, int action) {
 void WindowInput::onMove(double x, double y) {
   const glm::dvec2 at(x, y);
   if (!std::exchange(fresh_, false)) {
+    CameraInput& input = undecided_ ? waiting_ : camera_;
     if (captured_ || turning_)
-      camera_.turn += at - last_;
+      input.turn += at - last_;
     else if (panning_)
-      camera_.pan += at - last_;
+      input.pan += at - last_;
   }
   last_ = at;
 }
 
 void WindowInput::onScroll(double steps) {
-  if (captured_ || !(overlay_ && overlay_->wantsMouse())) camera_.wheel += steps;
+  if (!captured_ && !actions_.empty()) undecided_ = true;
+  if (undecided_)
+    waiting_.wheel += steps;
+  else if (captured_ || !(overlay_ && overlay_->wantsMouse()))
+    camera_.wheel += steps;
 }
 
 bool WindowInput::held(std::string_view action) const {
@@ -81,6 +89,22 @@ bool WindowInput::held(std::string_view action) const {
         glfwGetKey(window_, binding.key) == GLFW_PRESS)
       return true;
   return false;
+}
+
+void WindowInput::panelsDrawn() {
+  if (!std::exchange(undecided_, false)) return;
+  const CameraInput input = std::exchange(waiting_, {});
+  if (overlay_ && overlay_->wantsMouse()) {
+    turning_ = panning_ = false;
+    return;
+  }
+  camera_.turn += input.turn;
+  camera_.pan += input.pan;
+  camera_.wheel += input.wheel;
+}
+
+bool WindowInput::movesCamera() const {
+  return camera_.any();
 }
 
 CameraInput WindowInput::takeCamera() {

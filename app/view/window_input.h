@@ -34,6 +34,11 @@ class WindowInput {
 
   // What was done for the camera since it was asked last. Held keys count only while the mouse is captured.
   CameraInput takeCamera();
+  // Whether there is any of it, the mouse's.
+  bool movesCamera() const;
+  // To be called when panels were drawn. A button or wheel that came behind a key waits until then: what the
+  // key does may show or hide the panel under the mouse.
+  void panelsDrawn();
   std::vector<std::string_view> takeActions();
   // Whether a key bound as `held` to this action is down.
   bool held(std::string_view action) const;
@@ -51,6 +56,8 @@ class WindowInput {
   ui::Overlay* overlay_ = nullptr;
   std::vector<std::string_view> actions_;
   CameraInput camera_;
+  CameraInput waiting_;     // what the mouse did since `undecided_`
+  bool undecided_ = false;  // whether a panel or the picture has the mouse
   glm::dvec2 last_{0};
   bool turning_ = false, panning_ = false, captured_ = false, fresh_ = true;
   std::uint64_t events_ = 0;

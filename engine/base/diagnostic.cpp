@@ -39,7 +39,7 @@ std::string format(const Diagnostic& d) {
   std::string out;
   if (d.place.file && !d.place.file->empty()) {
     // Without a line it may be an option as it was written, of any length.
-    out += d.place.line > 0 ? printable(*d.place.file) : shortened(*d.place.file);
+    out += d.place.line > 0 ? printable(*d.place.file) : toldText(*d.place.file);
     if (d.place.line > 0) out += fmt::format(":{}", d.place.line);
     if (d.place.line > 0 && d.place.column > 0) out += fmt::format(":{}", d.place.column);
     out += ": ";

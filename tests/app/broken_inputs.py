@@ -168,6 +168,11 @@ CASES = [
     (rendered(GLOW, "-o", "out_%s.png", "--frames", "0:3"), 1, "W180", r"out_%s\.png"),
     (rendered(GLOW, "-o", "out_%d_%d.png", "--frames", "0:3"), 1, "W180", r"out_%d_%d\.png"),
     (rendered(GLOW, "--set", "blom=false"), 1, "W044", "command line: --set blom=false", "did you mean 'bloom'?"),
+    (rendered(STUDIO, "--set", "nosuch=1"), 1, "W044", "command line: --set nosuch=1", f"'weft params {STUDIO}' lists what there is"),
+    (rendered(GLOW, "--preset", "nosuch"), 1, "W001", r".*/graphs/presets/nosuch\.json", "'weft presets' lists what there is"),
+    (rendered(GLOW, "--preset", "no/such.json"), 1, "W001", r"no/such\.json", "there is no folder 'no'"),
+    (rendered(STUDIO, "--set", "exposure="), 1, "W047", "command line: --set exposure=", "parameter 'post.display.exposure': the value is empty"),
+    (rendered(STUDIO, "--set", "curve="), 1, "W047", "command line: --set curve=", "expected: one of linear, "),
     (rendered(GLOW, "--set", "bloom=maybe"), 1, "W047", "command line: --set bloom=maybe", "expected: true or false, as "),
     (rendered(GLOW, "--set", "bloom=yes"), 1, "W047", "command line: --set bloom=yes", "did you mean 'true'?"),
     (rendered(GLOW, "--set", "bloom=0"), 1, "W047", "command line: --set bloom=0", "did you mean 'false'?"),
@@ -256,6 +261,21 @@ def main():
         (folder / "good.json").write_text(graph())
         good = run(weft, *rendered("good.json"), folder=folder)
         report.check(good.code == 0 and (folder / "out.png").exists() and not good.err, f"good.json: {good.code}\n{good.err}")
+        # The ending of a picture's name may be in capitals; what is written is the same.
+        for name, same in (("OUT.PNG", "out.png"), ("a_%d.Exr", "a.exr")):
+            good = run(weft, *rendered("good.json", "-o", name, "--frames", "0"), folder=folder)
+            report.check(good.code == 0 and not good.err, f"{name}: {good.code}\n{good.err}")
+            run(weft, *rendered("good.json", "-o", same), folder=folder)
+            written = folder / name.replace("%d", "0")
+            report.check(written.exists() and written.read_bytes() == (folder / same).read_bytes(), f"{name} is not {same}")
+        # Limits bind what others wrote, not Weft's own scene and materials; the same scene of a stranger is bound.
+        small = ("--limit", "json_bytes=1200", "--limit", "json_values=90", "--limit", "name_bytes=12")
+        bound = run(weft, *rendered("good.json", *small), folder=folder)
+        report.check(bound.code == 0, f"limits below Weft's own files: {bound.code}\n{bound.err}")
+        for what, own in (("--scene", "scenes/spheres.json"), ("--materials", "materials/pbr_materials.json")):
+            (folder / "own.json").write_bytes((TOP / own).read_bytes())
+            bound = run(weft, *rendered("good.json", "--limit", "json_bytes=500", what, "own.json"), folder=folder)
+            report.check(bound.code == 1 and "W201" in bound.codes() and "own.json: " in bound.err, f"{what}: {bound.code}\n{bound.err}")
     report.end()
 
 

@@ -4,7 +4,7 @@ W180 and exit code 1, by every command that prints and every file that is writte
 away is no error. Frames are counted before they run, numbers that are none are refused, no output is a file that the run reads,
 folders of patterns are made, pictures of NaN are told, and a table that is missing is told where somebody named it.
 
-    hostile_outputs.py WEFT
+    hostile_outputs.py WEFT [--sanitized]
 """
 import json
 import math
@@ -19,7 +19,7 @@ import subprocess
 import sys
 import zlib
 
-from program import TOP, Report, Run, run, temporary_folder
+from program import SLOWER, TOP, Report, Run, count_run, temporary_folder
 from window import display
 
 GLOW, STUDIO = str(TOP / "graphs/glow.json"), str(TOP / "graphs/studio.json")
@@ -46,7 +46,8 @@ class Hostile:
 
     def run(self, *arguments, **options):
         """As program.run, in the test's folder; streams and limits may be given."""
-        options = {"cwd": self.folder, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "errors": "replace", "timeout": 900, **options}
+        options = {"cwd": self.folder, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "errors": "replace", "timeout": 900 * SLOWER, **options}
+        count_run()
         done = subprocess.run([str(self.weft), *map(str, arguments)], **options)
         done.stdout, done.stderr = done.stdout or "", done.stderr or ""
         found = Run(done)

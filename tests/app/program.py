@@ -1,10 +1,18 @@
-"""Running the weft binary from tests: arguments in, exit code, output and diagnostics out."""
+"""Running the weft binary from tests: arguments in, exit code, output and diagnostics out. With --sanitized on the command line the
+binary was built with AddressSanitizer and UBSan, and every report of theirs is a failure (tests/app/sanitize.sh)."""
+import os
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 
+SANITIZED = "--sanitized" in sys.argv
+# Times that guard against hanging are multiplied by this.
+SLOWER = 5 if SANITIZED else 1
+# What a command may take of memory. With the sanitizers, resident memory besides what the program asks for: bytes around each block (a
+# small one takes up to three times its size), shadow of an eighth of everything, and 256 MB that were freed and are kept to find late uses.
+MEMORY_BYTES = (2 if SANITIZED else 1) << 30
 TOP = pathlib.Path(__file__).resolve().parents[2]
 REAL_HDR = TOP / "scenes/environments/spiaggia_di_mondello_1k.hdr"
 DIAGNOSTIC = re.compile(r"^(?:(?P<place>.*?)(?::(?P<line>\d+)(?::(?P<column>\d+))?)?: )?(?P<severity>error|warning|note)\[(?P<code>W\d{3})\]: (?P<text>.*)$")
@@ -19,8 +27,35 @@ class Run:
         return sorted({d["code"] for d in self.diagnostics if d["severity"] == severity})
 
 
-def run(weft, *arguments, before=(), folder=TOP, timeout=300, **options):
+class Sanitizers:
+    """Their reports, which go to files (log_path), so that none hides behind an exit code that is expected or an output that nobody reads."""
+
+    def __init__(self):
+        found = re.search(r"(?:^|:)log_path=([^:]+)", os.environ.get("ASAN_OPTIONS", ""))
+        assert found or not SANITIZED, "--sanitized needs ASAN_OPTIONS=log_path=…: see tests/app/sanitize.sh"
+        self.path = pathlib.Path(found[1]) if found else None
+        self.seen, self.runs = set(), 0
+        self.new()
+
+    def new(self):
+        """The reports that were not there before, as texts."""
+        files = sorted(set(self.path.parent.glob(self.path.name + ".*")) - self.seen) if SANITIZED else []
+        self.seen.update(files)
+        return [file.read_text(errors="replace") for file in files]
+
+
+sanitizers = Sanitizers()
+
+
+def count_run():
+    """To be called by whoever starts the program in another way than run()."""
+    sanitizers.runs += 1
+
+
+def run(weft, *arguments, before=(), folder=TOP, timeout=300 * SLOWER, **options):
     command = [*map(str, before), str(weft), *map(str, arguments)]
+    if pathlib.Path(weft).name != "weft_compare":
+        count_run()
     return Run(subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=timeout, **options))
 
 
@@ -28,25 +63,40 @@ class Report:
     """Collects what does not hold; end() prints it and exits."""
 
     def __init__(self):
-        self.problems, self.checks = [], 0
+        self.problems, self.checks, self.reports = [], 0, 0
 
     def check(self, holds, text):
         self.checks += 1
         if not holds:
             self.problems.append(text)
+        self.look_for_reports(f"at or before the check: {text[:1000]}")
         return bool(holds)
+
+    def look_for_reports(self, where):
+        for found in sanitizers.new():
+            self.reports += 1
+            self.problems.append(f"a report of the sanitizers, {where}\n{found}")
 
     def skip(self, why):
         """Ends the test as skipped (exit code 77), which `./test` repeats in its last line. Only before the first check: ctest
         would call what ran and what did not run by one word, so what may be skipped is a test of its own."""
         assert not self.checks, f"skips after {self.checks} checks: {why}"
+        self.look_for_reports("before this was skipped")
+        if self.problems:
+            self.end()
         print(f"skipped: {why}")
         sys.exit(77)
 
-    def end(self):
+    def sum_up(self):
+        self.look_for_reports("at the end")
         for text in self.problems:
             print(f"FAILED: {text}")
         print(f"{self.checks} checks, {len(self.problems)} failed")
+        if SANITIZED:
+            print(f"{sanitizers.runs} runs under sanitizers, {self.reports} reports", flush=True)
+
+    def end(self):
+        self.sum_up()
         sys.exit(1 if self.problems or not self.checks else 0)
 
 

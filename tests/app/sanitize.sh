@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the weft command, the tests that need no GL, and some that do with AddressSanitizer and UBSan (build/asan, or
-# $WEFT_ASAN_BUILD), then runs them: broken inputs, the cpu tests, the GL tests below, and sessions with the viewer in a virtual
-# display. Leaks of the software GL drivers are excepted (tests/gl/lsan.supp).
+# $WEFT_ASAN_BUILD), then runs them: the cpu tests, the GL tests below, broken and hostile inputs, and sessions with the viewer in a
+# virtual display. Leaks of the software GL drivers are excepted (tests/gl/lsan.supp).
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$top/cmake/plain_path.sh"
@@ -15,37 +15,62 @@ gl_tests="gl_objects_test gl_program_test runtime_reload_test runtime_studio_tes
 start=$SECONDS
 ninja -j2 -C "$build" app/weft tests/app/weft_compare weft_cpu_tests $gl_tests
 echo "built in $((SECONDS - start)) s"
-export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1"
-export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1"
-export LSAN_OPTIONS="suppressions=$top/tests/gl/lsan.supp:print_suppressions=0"
+# Exit code 86 is theirs alone. A run that takes more than 4 GB ends with a report.
+export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:exitcode=86:hard_rss_limit_mb=4096"
+export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:exitcode=86"
+export LSAN_OPTIONS="suppressions=$top/tests/gl/lsan.supp:print_suppressions=0:exitcode=86"
 start=$SECONDS
-python3 "$top/tests/app/broken_inputs.py" "$build/app/weft" --sanitized
-"$top/tests/ctest.sh" "$build" -L cpu
+"$top/tests/ctest.sh" "$build" -L cpu -E '^app_hostile_'
 "$top/tests/ctest.sh" "$build" -R "^(${gl_tests// /|})(_binaries|_mesa_messages)?$"
 
-# The viewer's driver stays loaded until leaks are looked for. A report of the sanitizers goes to a file: it fails the run,
-# whatever became of the exit code.
+# The scripts: a report goes to a file and fails the script that caused it (tests/app/program.py), whatever became of the exit code and
+# the output. The viewer's driver stays loaded until leaks are looked for.
 cc -shared -fPIC -o "$build/keep_drivers.so" "$top/tests/app/keep_drivers.c"
 cat >"$build/weft_kept" <<END
 #!/bin/sh
 LD_PRELOAD="$build/keep_drivers.so" exec "$build/app/weft" "\$@"
 END
 chmod +x "$build/weft_kept"
-rm -f "$build"/sanitizer_report.*
-export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0:log_path=$build/sanitizer_report"
-export UBSAN_OPTIONS="$UBSAN_OPTIONS:log_path=$build/sanitizer_report"
-skipped=
-for session in view "view --window" view_session environments "environments --window"; do
-  echo "viewer: $session"
-  code=0
-  read -ra words <<<"$session"
-  python3 "$top/tests/app/${words[0]}.py" "$build/weft_kept" "$build/tests/app/weft_compare" "${words[@]:1}" || code=$?
-  if compgen -G "$build/sanitizer_report.*" >/dev/null; then
-    cat "$build"/sanitizer_report.*
-    exit 1
+cc -fsanitize=address,undefined -static-libasan -static-libubsan -O1 -g1 -o "$build/sanitizer_reports" "$top/tests/app/sanitizer_reports.c"
+weft="$build/app/weft"
+kept="$build/weft_kept"
+compare="$build/tests/app/weft_compare"
+logs="$build/sanitized"
+rm -rf "$logs"
+mkdir "$logs"
+# run_script LOG SCRIPT ARGUMENTS...: reports and output stand in files of this script alone; the output is shown when it is done.
+run_script() {
+  local log="$logs/$1" began=$SECONDS code=0
+  local reports="log_path=$log.report"
+  ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0:$reports" UBSAN_OPTIONS="$UBSAN_OPTIONS:$reports" LSAN_OPTIONS="$LSAN_OPTIONS:$reports" \
+    python3 "$top/tests/app/$2.py" "${@:3}" --sanitized >"$log" 2>&1 || code=$?
+  printf -- '-- %s: %s s\n%s\n' "$1" $((SECONDS - began)) "$(cat "$log")"
+  if compgen -G "$log.report.*" >/dev/null; then
+    cat "$log".report.*
+    return 1
   fi
-  [ "$code" != 77 ] || skipped="$skipped, $session"
-  [ "$code" = 0 ] || [ "$code" = 77 ] || exit "$code"
-done
-echo "run in $((SECONDS - start)) s"
-if [ -n "$skipped" ]; then echo "skipped: the viewer's sessions ${skipped#, } (why is said above)"; fi
+  [ "$code" = 0 ] || [ "$code" = 77 ]
+}
+# runs LOGS...: how often the program was run by these.
+runs() {
+  (cd "$logs" && sed -n 's/^\([0-9]*\) runs under sanitizers, 0 reports$/\1/p' "$@") | awk '{ sum += $1 } END { print sum + 0 }'
+}
+run_script sanitizer_reports sanitizer_reports "$build/sanitizer_reports"
+# Beside each other: the graphs take as long as all other files.
+run_script hostile_graphs hostile_graphs "$weft" &
+graphs=$!
+code=0
+{ run_script broken_inputs broken_inputs "$weft" && run_script hostile_files hostile_files "$weft" && run_script hostile_files_cache hostile_files "$weft" --cache &&
+  run_script hostile_outputs hostile_outputs "$kept" && run_script hostile_shaders hostile_shaders "$kept" "$compare" && run_script view_files view_files "$kept" "$compare"; } || code=1
+wait "$graphs" || code=1
+[ "$code" = 0 ] || exit 1
+echo "broken and hostile inputs: $(runs broken_inputs hostile_graphs hostile_files hostile_files_cache hostile_outputs hostile_shaders view_files) runs of the program, 0 reports"
+{ run_script view view "$kept" "$compare" && run_script view_window view "$kept" "$compare" --window; } &
+views=$!
+{ run_script view_session view_session "$kept" "$compare" && run_script environments environments "$kept" "$compare" && run_script environments_window environments "$kept" "$compare" --window &&
+  run_script view_panels view_panels "$kept"; } || code=1
+wait "$views" || code=1
+[ "$code" = 0 ] || exit 1
+echo "run in $((SECONDS - start)) s; scripts ran the program $(runs $(ls "$logs" | grep -v sanitizer_reports)) times, 0 reports"
+skipped=$(grep -l '^skipped: ' "$logs"/* | xargs -rn1 basename | paste -sd, | sed 's/,/, /g') || true
+if [ -n "$skipped" ]; then echo "skipped: $skipped (why is said above)"; fi

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """The viewer's panels in a window of a virtual display: each opens, at content scales 1 and 2, and the picture under them
 stays the same to the bit; a trace of the session holds its frames; a value and a pass changed on the command line are
-written into the files with F8, comments and all, and what was changed is the file's from then on."""
+written into the files with F8, comments and all, and what was changed is the file's from then on. A drag that comes with the key
+that hides the panels is the picture's, one with the key that shows them is theirs; at rest in idle mode a drag turns the picture."""
 import json
 import os
 import pathlib
 import re
+import signal
 import sys
 
 from program import Report, temporary_folder
@@ -65,6 +67,65 @@ def write_back(weft, folder, report):
         path.write_text(text)
 
 
+def drag(live):
+    """Along the bar at the top, which does nothing where no menu stands."""
+    live.tool("mousemove", "--window", live.window, 280, 5)
+    live.tool("mousedown", 1)
+    for x in (260, 240, 220):
+        live.tool("mousemove", "--window", live.window, x, 5)
+    live.tool("mouseup", 1)
+
+
+def with_a_key(live, key):
+    """The key and the drag at once: the program sleeps while they come."""
+    live.tool("mousemove", "--window", live.window, 280, 5)
+    live.shot()  # a frame has seen where the mouse is
+    live.process.send_signal(signal.SIGSTOP)
+    before = live.mark()
+    live.tool("key", key)
+    drag(live)
+    live.process.send_signal(signal.SIGCONT)
+    return live.event("action panels", before)
+
+
+def hidden(weft, folder, report):
+    live = Session(weft, folder, graph="graphs/glow.json")
+    try:
+        if not report.check(live.open(), f"no window\n{live.said()}"):
+            return
+        first = live.settled()
+        same = lambda: (s := live.shot()) and s.read_bytes() == first.read_bytes()
+        turns = lambda: live.until(lambda: not same())
+        if not report.check(first, f"no picture\n{live.said()}"):
+            return
+        drag(live)
+        live.shot()
+        report.check(same(), "a drag that begins in the panels turns the picture")
+        for _ in range(3):
+            report.check(with_a_key(live, "space") and turns(), "a drag behind the key that hides the panels is lost")
+            live.act("r", "reset_camera")
+            report.check(live.until(same), "the camera does not come back")
+            with_a_key(live, "space")
+            live.shot()
+            report.check(same(), "a drag behind the key that shows the panels turns the picture")
+            live.act("space", "panels")
+            drag(live)
+            report.check(turns(), "a drag after the panels were hidden is lost")
+            live.act("r", "reset_camera")
+            report.check(live.until(same), "the camera does not come back")
+            live.act("space", "panels")
+        live.act("space", "panels")
+        report.check(live.rest(live.key("i")), "idle mode never comes to rest")
+        drag(live)
+        report.check(turns(), "a drag does not wake idle mode")
+        live.tool("mousemove", "--window", live.window, 160, 90)
+        report.check(live.rest(live.key("r")), "idle mode does not come to rest again")
+        live.leave(report)
+    finally:
+        live.process.send_signal(signal.SIGCONT)
+        live.stop()
+
+
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
     inside_display(report, weft, "none", __file__)
@@ -76,6 +137,7 @@ def main():
             for old in [*folder.glob("weft_*"), *folder.glob("session.json")]:
                 old.unlink()
         write_back(weft, folder, report)
+        hidden(weft, folder, report)
     report.end()
 
 

@@ -76,10 +76,6 @@ def session(weft, compare, folder, report):
 
         live.act("space", "panels")  # no panel in the way
         live.tool("mousemove", "--window", live.window, 100, 90)
-        # A frame whose panels are gone already still asks those of the frame before whether the mouse is over one, after its
-        # screenshot. A second screenshot is of a later frame: from there on the button is the picture's.
-        live.shot()
-        live.shot()
         live.tool("mousedown", 1)
         for x in range(110, 200, 10):
             live.tool("mousemove", "--window", live.window, x, 90)

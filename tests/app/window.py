@@ -11,9 +11,9 @@ import sys
 import tempfile
 import time
 
-from program import TOP
+from program import SANITIZED, SLOWER, TOP, count_run
 
-LIMIT = 300  # seconds for anything to happen
+LIMIT = 300 * SLOWER  # seconds for anything to happen
 
 
 class Session:
@@ -24,6 +24,7 @@ class Session:
         self.folder, self.log, self.told = folder, folder / "stderr.txt", folder / "stdout.txt"
         environment = {**os.environ, **({"WEFT_DATA": str(folder)} if data else {})}
         command = [weft, "view", graph, "--size", size, "--program-cache", "none", "--events", *map(str, arguments)]
+        count_run()
         with open(self.log, "w") as log, open(self.told, "w") as told:
             self.process = subprocess.Popen(list(map(str, command)), cwd=folder, env=environment, stderr=log, stdout=told)
         self.window = None
@@ -177,7 +178,11 @@ def inside_display(report, weft, compare, script):
         return pathlib.Path(os.environ["WEFT_SCREEN"])
     if not shutil.which("Xvfb") or not shutil.which("xdotool"):
         report.skip("Xvfb or xdotool is not installed")
+    if report.checks:
+        report.sum_up()
+        if report.problems:
+            sys.exit(1)
     with tempfile.TemporaryDirectory(prefix="weft_screen_") as screen, display(screen) as environment:
-        command = [sys.executable, script, weft, compare, *sys.argv[3:], "--inside"]
+        command = [sys.executable, script, weft, compare, *sys.argv[3:], "--inside", *(["--sanitized"] if SANITIZED else [])]
         done = subprocess.run(command, env={**environment, "WEFT_SCREEN": screen})
     sys.exit(done.returncode)

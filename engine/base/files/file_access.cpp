@@ -30,6 +30,7 @@ struct Access {
   bool confined = false;
   std::vector<std::string> named;    // as the person wrote them
   std::vector<std::string> folders;  // real paths
+  std::vector<std::string> own;      // of allowFolder(), absolute
   std::vector<std::pair<std::string, std::string>>
       spelled;                        // a folder as written, and its real path, where they differ
   std::map<std::string, int> chosen;  // by absolute path: how often it may be a pipe
@@ -233,6 +234,15 @@ void allowFolder(const std::string& folder) {
   Access& all = access();
   const std::lock_guard lock(all.mutex);
   addFolder(all, folder);
+  all.own.push_back(absoluteOf(folder));
+}
+
+bool isOwnData(const std::string& path) {
+  Access& all = access();
+  const std::lock_guard lock(all.mutex);
+  const std::string absolute = absoluteOf(path);
+  return !all.chosen.contains(absolute) &&
+         std::ranges::any_of(all.own, [&](const std::string& folder) { return isBelow(absolute, folder); });
 }
 
 bool mayRead(const std::string& path) {
@@ -265,6 +275,7 @@ void resetFileAccess() {
   all.confined = false;
   all.named.clear();
   all.folders.clear();
+  all.own.clear();
   all.spelled.clear();
   all.chosen.clear();
 }

@@ -34,6 +34,9 @@ std::optional<std::string> confineTo(const std::string& folder);
 // May be read even then: Weft's own data. It need not exist yet. Confines nothing.
 void allowFolder(const std::string& folder);
 
+// In an allowed folder, and not what the person named: limits of what is read are for the files of others.
+bool isOwnData(const std::string& path);
+
 // False when `path` leads out of the folders, whether or not something is there. Looks at no step outside.
 // For whoever is to look whether a file exists, or to list a folder; readFile() asks by itself.
 bool mayRead(const std::string& path);

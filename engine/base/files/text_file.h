@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/limits.h"
 
 namespace weft::base {
 
@@ -14,6 +15,9 @@ namespace weft::base {
 // read.
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics,
                                         Code code = Code::unreadableFile, const Place& place = {});
+
+// The limit as it binds `file`, which may be null: Weft's own data (file_access.h) has at least the default.
+std::uint64_t limitFor(Limit limit, const std::string* file);
 
 // The same report for a text that is there already.
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics);

@@ -53,8 +53,13 @@ constexpr bool isNumberChar(char c) {
 // reported.
 class Builder {
  public:
-  Builder(const JsonText& text, const std::size_t& consumed, Diagnostics& diagnostics)
-      : text_(text), consumed_(consumed), diagnostics_(diagnostics) {}
+  Builder(const JsonText& text, const std::string* file, const std::size_t& consumed,
+          Diagnostics& diagnostics)
+      : text_(text),
+        consumed_(consumed),
+        diagnostics_(diagnostics),
+        mostValues_(limitFor(Limit::json_values, file)),
+        mostOfName_(limitFor(Limit::name_bytes, file)) {}
 
   JsonValue takeRoot() { return std::move(root_); }
 
@@ -80,7 +85,7 @@ class Builder {
   bool key(std::string& key) {
     key_ = key;
     keyOffset_ = text_.startOfString(consumed_);
-    if (key_.size() <= limitOf(Limit::name_bytes)) return true;
+    if (key_.size() <= mostOfName_) return true;
     reportLimit(diagnostics_, Limit::name_bytes, text_.placeOf(keyOffset_), "a key is too long").found =
         fmt::format("{} bytes", key_.size());
     return false;
@@ -112,7 +117,7 @@ class Builder {
   // The new value, at its place in the tree; a dropped duplicate is built all the same, aside. Null after a
   // report.
   JsonValue* add(JsonValue::Type type, std::size_t offset) {
-    if (++count_ > limitOf(Limit::json_values)) {
+    if (++count_ > mostValues_) {
       reportLimit(diagnostics_, Limit::json_values, text_.placeOf(offset), "the file has too many values");
       return nullptr;
     }
@@ -183,6 +188,7 @@ class Builder {
   const JsonText& text_;
   const std::size_t& consumed_;
   Diagnostics& diagnostics_;
+  const std::uint64_t mostValues_, mostOfName_;
   JsonValue root_;
   std::vector<JsonValue*>
       open_;  // ancestors; each is the last child of the one before, so none of them moves
@@ -211,14 +217,14 @@ Place JsonValue::textPlace() const {
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
                                    Diagnostics& diagnostics) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-  if (text.size() > limitOf(Limit::json_bytes)) {
+  if (text.size() > limitFor(Limit::json_bytes, file.get())) {
     reportTooLarge({file, 0, 0}, text.size(), diagnostics);
     return std::nullopt;
   }
   const JsonText positions(text, file);
   if (!reportUnreadable(positions, diagnostics)) return std::nullopt;
   std::size_t consumed = 0;
-  Builder builder(positions, consumed, diagnostics);
+  Builder builder(positions, file.get(), consumed, diagnostics);
   const bool good = nlohmann::json::sax_parse(CountingIterator(text.data(), &consumed),
                                               CountingIterator(text.data() + text.size(), &consumed),
                                               &builder, nlohmann::json::input_format_t::json, true, true);

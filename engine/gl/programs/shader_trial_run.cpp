@@ -45,6 +45,12 @@ void say(char step) {
   if (::write(STDOUT_FILENO, &step, 1) != 1) leave();  // nobody listens
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kBoundsMemory = false;  // the sanitizers map more than there is
+#else
+constexpr bool kBoundsMemory = true;
+#endif
+
 // Of the address space of this process.
 std::uint64_t mappedBytes() {
   std::ifstream file("/proc/self/statm");
@@ -61,17 +67,19 @@ void lower(int resource, std::uint64_t soft, std::uint64_t hard) {
   ::setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
 }
 
+// How this process ends is what it is for: by the signal itself, not by what a sanitizer or an embedder makes
+// of it.
+void takeSignals() {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::signal(signal, SIG_DFL);
+}
+
 void takeLimits(std::uint64_t seconds, std::uint64_t bytes) {
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
   const auto spent = static_cast<std::uint64_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1;
   lower(RLIMIT_CPU, spent + seconds, spent + seconds + 1);
   lower(RLIMIT_CORE, 0, 0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  lower(RLIMIT_AS, mappedBytes() + bytes, mappedBytes() + bytes);
-#else
-  static_cast<void>(bytes);  // the sanitizers map more than there is
-#endif
+  if (kBoundsMemory) lower(RLIMIT_AS, mappedBytes() + bytes, mappedBytes() + bytes);
 }
 
 GLuint compile(const TrialProgram& program) {
@@ -174,6 +182,7 @@ void runTrial(int argc, char** argv) {
   base::Diagnostics ignored;
   const auto context = createContext({.backend = *backend, .debug = false}, ignored);
   if (!context) leave();
+  takeSignals();
   takeLimits(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
   say(kTrialOpened);
   if (const GLuint linked = compile(*program); linked != 0) {

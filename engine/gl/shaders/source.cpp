@@ -140,6 +140,10 @@ class IncludeExpander {
         return base::reportOutside(*outside, diagnostics_, place);
       std::vector<std::string> folders = roots_;
       if (!folder.empty()) folders.push_back(folder);
+      if (const auto other = resolveOther(name, folder)) {
+        base::readFile(*other, diagnostics_, Code::missingShaderInclude, place);
+        return;
+      }
       base::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
                                                    fmt::format("included file '{}' not found", name));
       error.expected = fmt::format("a file beside the including one or below {}", fmt::join(roots_, ", "));
@@ -206,6 +210,15 @@ class IncludeExpander {
   std::optional<std::string> resolve(const std::string& name, const std::string& folder) const {
     for (const fs::path& candidate : candidatesOf(name, folder))
       if (const fs::path normal = candidate.lexically_normal(); isReadable(normal)) return normal.string();
+    return std::nullopt;
+  }
+
+  // What is there and is no regular file: readFile() says what it is.
+  std::optional<std::string> resolveOther(const std::string& name, const std::string& folder) const {
+    std::error_code ec;
+    for (const fs::path& candidate : candidatesOf(name, folder))
+      if (const fs::path normal = candidate.lexically_normal(); fs::exists(normal, ec))
+        return normal.string();
     return std::nullopt;
   }
 

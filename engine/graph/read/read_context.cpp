@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/base/files/text_file.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/ref_parse.h"
@@ -77,7 +78,7 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
 
 bool ReadContext::checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
                             std::string_view what) {
-  const std::size_t longest = base::limitOf(base::Limit::name_bytes);
+  const std::size_t longest = base::limitFor(base::Limit::name_bytes, place.file.get());
   if (isIdent(name) && !isReservedWord(name) && name.size() <= longest) return true;
   if (name.size() > longest && goesOn()) {
     auto& d = base::reportLimit(diagnostics_, base::Limit::name_bytes, place,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/base/files/file_access.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/dom.h"
 #include "engine/base/limits.h"
@@ -71,6 +72,28 @@ TEST_CASE("a text beyond the limit is refused before it is parsed, a file before
   CHECK(diagnostics.items()[0].code == Code::limitExceeded);
   CHECK(diagnostics.items()[0].found == "1099511627776 bytes");
   CHECK(*diagnostics.items()[0].place.file == path.string());
+}
+
+TEST_CASE("Weft's own data has at least the defaults, unless the person named the file") {
+  const LimitOf bytes(Limit::json_bytes, 10), values(Limit::json_values, 2), names(Limit::name_bytes, 3);
+  const auto folder = std::filesystem::temp_directory_path() / "weft_json_limits_own";
+  std::filesystem::create_directories(folder / "own");
+  allowFolder((folder / "own").string());
+  const auto reads = [&](const std::string& name) {
+    const std::string path = (folder / name).string();
+    std::ofstream(path) << "{ \"long_name\": [1, 2, 3] }";
+    Diagnostics diagnostics;
+    const auto text = readTextFile(path, diagnostics);
+    return text && parseJson(*text, std::make_shared<const std::string>(path), diagnostics);
+  };
+  CHECK(reads("own/a.json"));
+  CHECK(reads("own/../own/b.json"));
+  CHECK_FALSE(reads("own/../a.json"));
+  chooseFile((folder / "own/c.json").string());
+  CHECK_FALSE(reads("own/c.json"));
+  resetFileAccess();
+  CHECK_FALSE(reads("own/a.json"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("pointers of long keys in depth are cut, not multiplied") {

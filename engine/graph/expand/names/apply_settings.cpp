@@ -143,6 +143,8 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
                                       fmt::format("{}no parameter is called '{}'", origin.before, wanted));
     d.pointer = origin.pointer;
     d.hint = suffixHint(wanted, names);
+    if (d.hint.empty() && !model.parameters.empty())
+      d.hint = fmt::format("'weft params {}' lists what there is", model.scopes.front().desc->path);
     return;
   }
   if (reportUnlessOne(model, names, found, wanted, "parameters", origin.place, origin.before)) return;
@@ -241,8 +243,11 @@ bool checkParameterValue(Model& model, const Parameter& parameter, const Value& 
                          const std::string& before) {
   const ParameterDesc& desc = *parameter.desc;
   const auto refuse = [&](Code code, const char* why) {
+    const bool empty = value.type == Value::Type::symbol && value.symbol.empty();
     auto& d = model.diagnostics.error(
-        code, place, fmt::format("{}parameter '{}': {} is {}", before, parameter.path, toText(value), why));
+        code, place,
+        empty ? fmt::format("{}parameter '{}': the value is empty", before, parameter.path)
+              : fmt::format("{}parameter '{}': {} is {}", before, parameter.path, toText(value), why));
     d.expected = expectedOf(desc);
     if (desc.place.file)
       d.expected += fmt::format(", as {}:{}:{} says", *desc.place.file, desc.place.line, desc.place.column);
