@@ -86,7 +86,7 @@ def main():
         report.check(graph.stat().st_mode & 0o777 == 0o640, "permissions")
         # A disk that is full: the file is as it was, and nothing lies beside it.
         graph.write_text(good + " " * 5000)
-        full = run("bash", "-c", f'ulimit -f 0; exec "{weft}" format "{graph}"')
+        full = run("bash", "-c", 'ulimit -f 0; exec "$0" format "$1"', weft, graph)
         report.check(full.code == 1 and full.codes() == ["W180"], f"no room: {full.code}\n{full.err}")
         report.check(graph.read_text() == good + " " * 5000, "no room: the file changed")
         report.check(not [p for p in folder.iterdir() if p.suffix != ".json"], f"left behind: {list(folder.iterdir())}")
