@@ -157,11 +157,13 @@ class GraphReader {
       if (name && name->is(Type::string) && (!pass || (!pass->include && pass->name != name->text)))
         graph.unread.push_back(name->text);
       if (!pass) continue;
+      // A pass that is like another may have taken over even this from it.
+      const char* const key = pass->include ? "include" : "name";
+      const JsonValue* const named = item.find(key) ? item.find(key) : whole->find(key);
       context.pass = pass->name;
-      context.checkFresh(seen, pass->name, pass->namePlace,
-                         item.find(pass->include ? "include" : "name")->pointer, "pass");
+      context.checkFresh(seen, pass->name, pass->namePlace, named ? named->pointer : item.pointer, "pass");
       context.pass.clear();
-      if (pass->include) follow(*item.find("include"), *pass->include, source, graph);
+      if (pass->include && named) follow(*named, *pass->include, source, graph);
       graph.passes.push_back(*std::move(pass));
     }
   }
