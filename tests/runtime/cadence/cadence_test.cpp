@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "engine/graph/compile/compile.h"
+#include "engine/graph/versions/version_walk.h"
 
 using namespace weft::graph;
 using weft::runtime::FrameCadence;
@@ -36,6 +37,7 @@ struct Builder {
   }
   Plan compile(std::uint32_t present) {
     graph->present = {.resource = present};
+    linkVersions(*graph);
     return weft::graph::compile(graph);
   }
 };
