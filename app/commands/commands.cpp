@@ -17,6 +17,7 @@
 #include "engine/graph/print/json.h"
 #include "engine/graph/print/text.h"
 #include "engine/graph/read/read.h"
+#include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
 
@@ -140,7 +141,7 @@ int runSchema(const Options&) {
 
 // What a graph may name, from the registry itself.
 int runTypes(const Options&) {
-  const graph::Registry registry = runtime::makeRegistry(passes::PassRegistry::builtin(), {});
+  const graph::Registry registry = runtime::makeRegistry({}, {});
   print("pass types\n");
   for (const graph::PassType& type : registry.passTypes) {
     print(fmt::format("  {}\n    {}\n", type.name, type.doc));

@@ -78,7 +78,7 @@ bool LiveEnvironment::step(int by) {
   return true;
 }
 
-std::optional<LiveEnvironment::Event> LiveEnvironment::poll(runtime::EnvironmentTextures& textures,
+std::optional<LiveEnvironment::Event> LiveEnvironment::poll(imports::EnvironmentTextures& textures,
                                                             base::Diagnostics& diagnostics) {
   if (auto result = loader_.poll()) {
     ticket_ = 0;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/assets/loader.h"
-#include "engine/runtime/imports/environment_texture.h"
+#include "engine/imports/environment/environment_texture.h"
 
 namespace weft::app {
 
@@ -21,7 +21,7 @@ std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, bas
 
 class LiveEnvironment {
  public:
-  using Map = runtime::EnvironmentTextures::Map;
+  using Map = imports::EnvironmentTextures::Map;
 
   // `path` is already shown.
   void assume(std::string path) { wanted_ = shown_ = std::move(path); }
@@ -36,7 +36,7 @@ class LiveEnvironment {
   struct Event {
     Map map;
   };
-  std::optional<Event> poll(runtime::EnvironmentTextures& textures, base::Diagnostics& diagnostics);
+  std::optional<Event> poll(imports::EnvironmentTextures& textures, base::Diagnostics& diagnostics);
 
   // What is on its way.
   struct Status {

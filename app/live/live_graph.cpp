@@ -1,6 +1,7 @@
 #include "app/live/live_graph.h"
 
 #include <algorithm>
+#include <cassert>
 #include <filesystem>
 #include <memory>
 #include <ranges>
@@ -10,6 +11,7 @@
 #include "engine/base/files/file_access.h"
 #include "engine/graph/edit/write_back.h"
 #include "engine/graph/language/suffix.h"
+#include "engine/imports/environment/environment.h"
 #include "engine/scene/scene_file.h"
 
 namespace weft::app {
@@ -170,7 +172,9 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
 }
 
 bool LiveGraph::pollEnvironment(base::Diagnostics& diagnostics) {
-  const auto event = environment_.poll(renderer_.device().imports.environments(), diagnostics);
+  auto* provider = renderer_.device().imports.find<imports::EnvironmentProvider>();
+  assert(provider && "the viewer runs with all built-in imports");
+  const auto event = environment_.poll(provider->textures(), diagnostics);
   if (!event) return false;
   runtime::World world = world_;
   if (event->map) world.setEnvironment(event->map);
@@ -268,7 +272,7 @@ bool LiveGraph::isChanged(const std::string& parameter) const {
 bool LiveGraph::writeBack(std::vector<std::string>& files, base::Diagnostics& diagnostics) {
   ++changes_;
   if (!renderer_.desc()) return false;
-  const graph::Registry registry = runtime::makeRegistry(renderer_.device().passTypes, world_.facts());
+  const graph::Registry registry = runtime::makeRegistry(renderer_.device().plugIns, world_.facts());
   const auto plan =
       graph::planWriteBack(*renderer_.desc(), renderer_.presets(), registry, settings_, diagnostics);
   if (!plan || !graph::saveWriteBack(*plan, diagnostics)) return false;

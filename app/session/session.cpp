@@ -12,6 +12,7 @@
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/compile/plan_memory.h"
 #include "engine/graph/read/read.h"
+#include "engine/runtime/imports/registry.h"
 #include "engine/scene/scene_file.h"
 
 namespace weft::app {
@@ -73,7 +74,7 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
                                             bool software, base::Diagnostics& diagnostics) {
   const auto desc = graph::readGraph(options.graph, options.presets, diagnostics);
   if (!desc) return nullptr;
-  const auto registry = runtime::makeRegistry(passes::PassRegistry::builtin(), facts);
+  const auto registry = runtime::makeRegistry({}, facts);
   const auto flat = graph::expandGraph(*desc, registry, settingsOf(options, software), diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));

@@ -11,7 +11,7 @@
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
-#include "engine/runtime/imports/world.h"
+#include "engine/runtime/imports/imports.h"
 #include "engine/scene/scene_file.h"
 
 namespace weft::app {

@@ -185,6 +185,7 @@ struct PassSpec {
 
 struct ImportSpec {
   ImportRequest request;
+  std::uint64_t key = 0;  // keyOf(request)
   ImportKind kind = ImportKind::texture;
   std::string name;                   // resource name in the graph, or "@environment"
   bool instances = false;             // as ImportType::instances

@@ -1,5 +1,5 @@
 // What the graph core must know of things that live in other rooms: pass types (engine/passes reflects them) and
-// imports (engine/runtime provides them). Plain data, so that a graph is validated without a device.
+// imports (engine/imports does). Plain data, so that a graph is validated without a device.
 #pragma once
 
 #include <functional>
@@ -45,6 +45,7 @@ struct ImportArgument {
   Value initial;  // default; type none means required
   std::vector<std::string> choices;
   std::string doc;
+  bool drawList = false;  // a word that names a draw list
 };
 
 struct ImportType {
@@ -54,6 +55,8 @@ struct ImportType {
   std::vector<ImportArgument> arguments;
   bool instances = false;  // of buffers: rows of a draw list, laid out as the reading shader's block says
   bool before = false;     // of textures: name@-1 is there, what was shown before
+  bool everyPass =
+      false;  // of views: declared under the type's name, it is the view of every pass that names none
 };
 
 // An import with its arguments evaluated. Two requests with equal type and arguments are one import.
@@ -63,6 +66,8 @@ struct ImportRequest {
       arguments;  // in the order of ImportType::arguments, defaults filled in
   friend bool operator==(const ImportRequest&, const ImportRequest&) = default;
 };
+// A hash: equal for equal requests, and another for others. By it an import is found again without comparing words.
+std::uint64_t keyOf(const ImportRequest& request);
 
 // What is known of an import before anything runs.
 struct ImportFacts {

@@ -44,12 +44,17 @@ inline std::vector<PassType> testPassTypes() {
        .defaultReadTexture = Kind::copy,
        .defaultWriteTexture = Kind::copy,
        .keys = {},
-       .fixedSlots = {{"source", Access::read, ""}, {"result", Access::write, ""}}},
+       .fixedSlots = {{"source", Access::read, ""}, {"result", Access::write, ""}},
+       .fromSource = true},
   };
 }
 
 inline ImportArgument argument(const char* name, Value initial, std::vector<std::string> choices = {}) {
   return {name, std::move(initial), std::move(choices), ""};
+}
+
+inline ImportArgument drawListArgument() {
+  return {.name = "list", .initial = Value::text("spheres"), .choices = {}, .doc = "", .drawList = true};
 }
 
 inline std::vector<ImportType> testImports() {
@@ -59,11 +64,12 @@ inline std::vector<ImportType> testImports() {
   grid.v = {21, 21, 3, 0};
   return {
       {.name = "environment", .kind = ImportKind::texture, .doc = "", .arguments = {}, .before = true},
-      {"camera",
-       ImportKind::view,
-       "",
-       {argument("jitter", Value::number(0)), argument("focal_length", Value::number(0)),
-        argument("sensor_height", Value::number(24))}},
+      {.name = "camera",
+       .kind = ImportKind::view,
+       .doc = "",
+       .arguments = {argument("jitter", Value::number(0)), argument("focal_length", Value::number(0)),
+                     argument("sensor_height", Value::number(24))},
+       .everyPass = true},
       {"cut", ImportKind::event, "", {}},
       {"spheres", ImportKind::buffer, "", {}},
       {"sun", ImportKind::view, "", {}},
@@ -72,13 +78,13 @@ inline std::vector<ImportType> testImports() {
       {"draw_order",
        ImportKind::buffer,
        "",
-       {argument("list", Value::text("spheres")), argument("by", Value::text("depth"), {"depth"}),
+       {drawListArgument(), argument("by", Value::text("depth"), {"depth"}),
         argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"})}},
       {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
       {"probes",
        ImportKind::buffer,
        "",
-       {argument("list", Value::text("spheres")), argument("grid", grid), argument("near", Value::number(1)),
+       {drawListArgument(), argument("grid", grid), argument("near", Value::number(1)),
         argument("far", Value::number(3)), argument("lobe", Value::text("cap"), {"cap", "point"})}},
       {"screen_view", ImportKind::view, "", {}},
   };

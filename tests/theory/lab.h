@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/gl/context/context.h"
+#include "engine/imports/world.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/runtime/imports/world.h"
 
 namespace weft::theory {
 

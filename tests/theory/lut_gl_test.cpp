@@ -134,7 +134,7 @@ TEST_CASE("a table that cannot be used is an error of the graph, before anything
     REQUIRE(desc);
     graph::Settings settings;
     settings.sets = {{"lut", file}};
-    const auto registry = weft::runtime::makeRegistry(weft::passes::PassRegistry::builtin(), {});
+    const auto registry = weft::runtime::makeRegistry({}, {});
     graph::expandGraph(*desc, registry, settings, diagnostics);
     std::string codes;
     for (const auto& d : diagnostics.items())

@@ -204,7 +204,7 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
   if (!from || !to) return true;
   const Entity& source = context.model.entities[from->entity];
   const Entity& target = context.model.entities[to->entity];
-  if (context.type->name == "mipmap") {
+  if (context.type->fromSource) {
     const bool follows = from->entity == to->entity && from->firstElement == to->firstElement &&
                          from->use.mips == 1 && to->use.mip == from->use.mip + 1 &&
                          from->use.layer == to->use.layer && from->use.layers == to->use.layers;

@@ -9,10 +9,13 @@ namespace weft::graph::expansion {
 std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spec) {
   Model& model = context.model;
   if (!desc.view) {
-    // A camera declared here or in an enclosing file is the default of every pass.
-    const std::uint32_t camera = findEntity(model, context.names.scope(), "camera", true);
-    if (camera != kNone && model.entities[camera].desc && ensureShape(model, camera))
-      spec.view = model.entities[camera].import;
+    // Declared under the name of such a type, here or in an enclosing file.
+    for (const ImportType& type : model.registry.imports) {
+      if (!type.everyPass) continue;
+      const std::uint32_t view = findEntity(model, context.names.scope(), type.name, true);
+      if (view != kNone && model.entities[view].desc && ensureShape(model, view))
+        spec.view = model.entities[view].import;
+    }
     return spec.view;
   }
   const RefDesc& ref = *desc.view;

@@ -1,4 +1,4 @@
-// GL things that outlive a plan: programs, samplers, geometries, what graphs import, timers.
+// GL things that outlive a plan: programs, samplers, geometries, pass types, what graphs import, timers.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 #include "engine/gl/context/context.h"
 #include "engine/gl/objects/timers.h"
 #include "engine/gl/programs/program_cache.h"
-#include "engine/passes/pass_registry.h"
-#include "engine/runtime/imports/geometry.h"
+#include "engine/passes/draw/geometry.h"
 #include "engine/runtime/imports/imports.h"
+#include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/sampler_cache.h"
 
 namespace weft::runtime {
@@ -17,14 +17,15 @@ namespace weft::runtime {
 struct Device {
   // `trial` as in gl::ProgramCache::Options.
   Device(gl::Context& context, std::vector<std::string> shaderRoots, std::string cacheFolder,
-         std::vector<std::string> trial = {});
+         std::vector<std::string> trial = {}, PlugIns plugIns = {});
   gl::Context& context;
   gl::SourceLoader sources;
   gl::ProgramCache programs;
   SamplerCache samplers;
-  Geometries geometries;
+  passes::Geometries geometries;
+  const PlugIns plugIns;
   Imports imports;
-  passes::PassRegistry passTypes = passes::PassRegistry::builtin();
+  const passes::PassRegistry& passTypes;  // of plugIns
   gl::PassTimers timers;
 };
 

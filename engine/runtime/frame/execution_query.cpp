@@ -57,7 +57,7 @@ gl::TextureRef Execution::presentedWhole() {
 }
 
 bool Execution::remembers(const World& world) const {
-  return remembersFrames(*plan_, passes_, world);
+  return remembersFrames(*plan_, passes_, device_.imports, world);
 }
 
 const Output* Execution::output(std::string_view name) const {

@@ -10,13 +10,6 @@ namespace weft::runtime {
 
 namespace {
 
-// Whether an import is the same in every frame of a world that nobody changes.
-bool isStill(const graph::ImportSpec& import, const World& world) {
-  const std::string& type = import.request.type;
-  if (type == "spheres") return !scene::isMoving(world.scene(), scene::DrawList::spheres);
-  return type == "environment" || type == "cube_lut" || type == "cut";
-}
-
 // Every resource whose age the folded expression asks, also in branches that are not taken.
 void forEachAge(const graph::ExprNode& node, const std::function<void(std::uint32_t)>& visit) {
   if (node.op == graph::ExprOp::age_key) visit(node.key);
@@ -25,13 +18,14 @@ void forEachAge(const graph::ExprNode& node, const std::function<void(std::uint3
 
 }  // namespace
 
-bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> passes, const World& world) {
+bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> passes, Imports& imports,
+                     const World& world) {
   const graph::FlatGraph& graph = *plan.graph;
   // Written only by passes that are not `always`, or a still import.
   std::vector<std::uint8_t> still(graph.resources.size(), 1);
   for (std::size_t r = 0; r < still.size(); ++r)
     if (const std::uint32_t import = graph.resources[r].import; import != graph::kNone)
-      still[r] = isStill(graph.imports[import], world);
+      still[r] = imports.isStill(graph.imports[import], world);
   const auto passOf = [&](std::size_t step) -> const graph::FlatPass& {
     return graph.passes[plan.steps[step].pass];
   };
@@ -47,7 +41,7 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
     for (const graph::FlatUse& use : usesOf(step))
       if (use.history > 0 && !still[use.resource]) return true;
   for (const graph::HistorySpec& history : graph.histories) {
-    const auto moves = [&](std::uint32_t import) { return !isStill(graph.imports[import], world); };
+    const auto moves = [&](std::uint32_t import) { return !imports.isStill(graph.imports[import], world); };
     const auto changes = [&](std::uint32_t resource) { return !still[resource]; };
     if (std::ranges::any_of(history.resetImports, moves) ||
         std::ranges::any_of(history.resetResources, changes))
@@ -55,8 +49,14 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
   }
   const scene::Camera* camera = scene::findCamera(world.scene(), "");
   const bool cameraMoves = !camera || scene::isMoving(*camera);
+  const auto remembers = [&](std::uint32_t import) {
+    return import != graph::kNone && imports.remembers(graph.imports[import], world);
+  };
   for (std::size_t step = 0; step < passes.size(); ++step) {
     const PreparedPass& pass = passes[step];
+    if (pass.viewBlock && remembers(pass.context.spec->view)) return true;
+    for (const graph::FlatUse& use : usesOf(step))
+      if (remembers(graph.resources[use.resource].import)) return true;
     bool unsteady = false;
     const auto look = [&](const graph::Expr& expr) {
       if (expr.present())

@@ -14,15 +14,6 @@
 
 namespace weft::runtime {
 
-namespace {
-
-bool readsEnvironment(const graph::FlatGraph& graph) {
-  return std::ranges::any_of(
-      graph.imports, [](const graph::ImportSpec& import) { return import.request.type == "environment"; });
-}
-
-}  // namespace
-
 std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder) {
   const std::filesystem::path folder = std::filesystem::path(graphPath).parent_path();
   std::vector<std::string> roots;
@@ -40,7 +31,8 @@ std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::
 Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
     : graphPath_(graphPath),
       options_(std::move(options)),
-      device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder, options_.trial) {}
+      device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder, options_.trial,
+              options_.plugIns) {}
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
   base::Diagnostics said;
@@ -50,8 +42,7 @@ bool Renderer::load(const graph::Settings& settings, const World& world, base::D
   refused_.clear();
   if (!desc) return false;
   if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;
-  const graph::Registry registry =
-      makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles());
+  const graph::Registry registry = registryOf(world);
   if (said.hasErrors()) graph::expandGraph(*desc, registry, settings, diagnostics);  // for what else is wrong
   refused_ = graph::findRefused(*desc, registry, settings);
   return false;
@@ -61,6 +52,10 @@ bool Renderer::apply(const graph::Settings& settings, const World& world, base::
   if (!desc_) return load(settings, world, diagnostics);
   triedFiles_ = runningFiles_;
   return switchTo(desc_, ShaderFiles::keep, settings, world, diagnostics);
+}
+
+graph::Registry Renderer::registryOf(const World& world) {
+  return makeRegistry(device_.plugIns, world.facts(), &device_.imports.files());
 }
 
 std::vector<std::string> Renderer::files() const {
@@ -74,13 +69,13 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFile
   base::Diagnostics diagnostics;  // of this attempt alone
   device_.sources.forgetTouched();
   device_.programs.startTrials();
-  LutFiles& luts = device_.imports.lutFiles();
-  luts.forgetTouched();
+  imports::Files& imported = device_.imports.files();
+  imported.forgetTouched();
   auto made = makeExecution(*desc, files, settings, world, diagnostics);
   all.append(diagnostics);
   const std::set<std::string>& shaders = device_.sources.touched();
   triedFiles_.insert(triedFiles_.end(), shaders.begin(), shaders.end());
-  triedFiles_.insert(triedFiles_.end(), luts.touched().begin(), luts.touched().end());
+  triedFiles_.insert(triedFiles_.end(), imported.touched().begin(), imported.touched().end());
   std::ranges::sort(triedFiles_);
   triedFiles_.erase(std::ranges::unique(triedFiles_).begin(), triedFiles_.end());
   if (!made) return false;
@@ -94,42 +89,59 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFile
 std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
                                                    const graph::Settings& settings, const World& world,
                                                    base::Diagnostics& diagnostics) {
-  const graph::Registry registry =
-      makeRegistry(device_.passTypes, world.facts(), &device_.imports.lutFiles());
+  const graph::Registry registry = registryOf(world);
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
-  device_.imports.renewFiles();
+  device_.imports.prepare(*flat);
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
   if (!graph::checkMemory(*plan, diagnostics)) return nullptr;
   ++plansBuilt_;
-  const bool standIn = !world.environment() && !world.environmentPending();
-  if (standIn && readsEnvironment(*flat) && !prepareFallback(world, diagnostics)) return nullptr;
+  if (!prepareStandIns(*flat, world, diagnostics)) return nullptr;
   return Execution::create(device_, std::move(plan), execution_.get(), files, diagnostics);
 }
 
-bool Renderer::prepareFallback(const World& world, base::Diagnostics& diagnostics) {
-  if (fallback_) return true;
-  const std::string path = options_.dataFolder + "/graphs/daylight.json";
-  const auto desc = graph::readGraph(path, diagnostics);
-  if (!desc || diagnostics.hasErrors()) return false;
+bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world,
+                               base::Diagnostics& diagnostics) {
+  for (const graph::ImportSpec& import : graph.imports) {
+    const std::string path = device_.imports.standInGraph(import, world);
+    if (path.empty()) continue;
+    const StandIn* standIn = prepareStandIn(path, world, diagnostics);
+    if (!standIn) return false;
+    device_.imports.setStandIn(import, standIn->execution->presentedWhole());
+  }
+  return true;
+}
+
+const Renderer::StandIn* Renderer::prepareStandIn(const std::string& name, const World& world,
+                                                  base::Diagnostics& diagnostics) {
+  const std::string path = (std::filesystem::path(options_.dataFolder) / name).string();
+  const auto known = std::ranges::find(standIns_, path, &StandIn::path);
+  if (known != standIns_.end()) return &*known;
+  base::Diagnostics said;
+  const auto desc = graph::readGraph(path, said);
   graph::Settings settings;
   settings.software = device_.context.device().software;
   const auto flat =
-      graph::expandGraph(*desc, makeRegistry(device_.passTypes, world.facts()), settings, diagnostics);
-  if (!flat || diagnostics.hasErrors()) return false;
-  fallbackDevice_ = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder),
-                                             options_.cacheFolder, options_.trial);
-  fallback_ = Execution::create(*fallbackDevice_, std::make_shared<const graph::Plan>(graph::compile(flat)),
-                                nullptr, ShaderFiles::read, diagnostics);
-  if (!fallback_) return false;
-  fallback_->frame(world, headlessFrame(world, 0, 60), diagnostics);
-  device_.imports.setEnvironmentFallback(fallback_->presentedWhole(), 1);
-  return !diagnostics.hasErrors();
+      desc && !said.hasErrors()
+          ? graph::expandGraph(*desc, makeRegistry(device_.plugIns, world.facts()), settings, said)
+          : nullptr;
+  StandIn made{.path = path, .device = nullptr, .execution = nullptr};
+  if (flat && !said.hasErrors()) {
+    made.device = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder),
+                                           options_.cacheFolder, options_.trial, options_.plugIns);
+    made.execution =
+        Execution::create(*made.device, std::make_shared<const graph::Plan>(graph::compile(flat)), nullptr,
+                          ShaderFiles::read, said);
+  }
+  if (made.execution) made.execution->frame(world, headlessFrame(world, 0, 60), said);
+  diagnostics.append(said);
+  if (!made.execution || said.hasErrors()) return nullptr;
+  return &standIns_.emplace_back(std::move(made));
 }
 
 FrameReport Renderer::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
   if (!execution_) return {};
-  if (world.environmentPending() && readsEnvironment(*execution_->plan().graph)) {
+  if (device_.imports.isPending(*execution_->plan().graph, world)) {
     blackOut();
     return {};
   }
@@ -137,8 +149,7 @@ FrameReport Renderer::frame(const World& world, const FrameInput& input, base::D
 }
 
 void Renderer::dropUploaded(World& world) const {
-  const auto& map = world.environment();
-  if (map && device_.imports.environments().isNewest(*map)) world.dropEnvironmentTexels();
+  device_.imports.dropUploaded(world);
 }
 
 void Renderer::blackOut() {

@@ -29,6 +29,7 @@ class Renderer {
     std::vector<std::string>
         trial{};  // starts a process that tries a large shader first (gl::ProgramCache); empty: none
     std::vector<std::string> presets{};  // overlays laid over the graph whenever it is read, in order
+    PlugIns plugIns{};                   // pass types and imports that graphs may name
   };
   Renderer(gl::Context& context, const std::string& graphPath, Options options);
 
@@ -45,7 +46,7 @@ class Renderer {
   std::span<const graph::Refusal> refused() const { return refused_; }
   // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes, tables).
   std::vector<std::string> files() const;
-  // Runs nothing and presents black while the graph reads an environment that is still on its way (World::expectEnvironment).
+  // Runs nothing and presents black while something that the graph imports is still on its way (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
   // After frame(): frees what the world holds and the GPU has. Only when nobody else renders that world.
@@ -75,8 +76,15 @@ class Renderer {
   std::unique_ptr<Execution> makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
                                            const graph::Settings& settings, const World& world,
                                            base::Diagnostics& diagnostics);
-  // The embedded default environment: graphs/daylight.json, run once when a graph needs @environment and none is loaded.
-  bool prepareFallback(const World& world, base::Diagnostics& diagnostics);
+  // What stands in for imports that the world lacks: pictures of graphs that are run once.
+  bool prepareStandIns(const graph::FlatGraph& graph, const World& world, base::Diagnostics& diagnostics);
+  struct StandIn {
+    std::string path;
+    std::unique_ptr<Device> device;
+    std::unique_ptr<Execution> execution;
+  };
+  const StandIn* prepareStandIn(const std::string& path, const World& world, base::Diagnostics& diagnostics);
+  graph::Registry registryOf(const World& world);
   void blackOut();
 
   std::string graphPath_;
@@ -86,8 +94,7 @@ class Renderer {
   std::shared_ptr<const graph::GraphDesc> desc_;  // what runs
   std::vector<std::string> runningFiles_, triedFiles_;
   std::vector<graph::Refusal> refused_;
-  std::unique_ptr<Device> fallbackDevice_;
-  std::unique_ptr<Execution> fallback_;
+  std::vector<StandIn> standIns_;
   gl::Framebuffer presentSource_;
   GLuint presentTexture_ = 0;
   std::uint64_t plansBuilt_ = 0;

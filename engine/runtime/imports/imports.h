@@ -1,144 +1,127 @@
-// The GPU side of what graphs import from the world: the environment texture, instance tables, draw orders, views.
-// Lives across plans; everything is made on first use and renewed when the world's generation moves.
-// Does not: decode files (World holds decoded images) or know passes.
+// What graphs import, on one device: finds the provider of an import, made when a graph first asks for it, and hands it the
+// frame. Lives across plans. Does not: know what any import is (engine/imports has a folder for each) or know passes.
 #pragma once
 
 #include <glad/gl.h>
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/flat_graph.h"
-#include "engine/runtime/imports/environment_texture.h"
-#include "engine/runtime/imports/lut_texture.h"
-#include "engine/runtime/imports/world.h"
-#include "engine/runtime/storage/block_writer.h"
-#include "engine/scene/sort.h"
+#include "engine/imports/camera_views.h"
+#include "engine/imports/files.h"
+#include "engine/imports/import_registry.h"
+#include "engine/imports/scene_tables.h"
 
 namespace weft::runtime {
 
-struct BufferRef {
-  GLuint id = 0;
-  std::uint64_t bytes = 0;
-};
+using imports::BufferRef;
+using imports::FrameInput;
+using imports::headlessFrame;
+using imports::InstanceLayout;
+using imports::World;
+using imports::WorldFacts;
 
 class Imports {
  public:
+  explicit Imports(std::shared_ptr<const imports::ImportRegistry> registry);
+  Imports(const Imports&) = delete;
+  Imports& operator=(const Imports&) = delete;
+
+  // Before a plan is made: files are looked at again on next use, what nobody asked for since the last call goes, and what
+  // `graph` asks for is made.
+  void prepare(const graph::FlatGraph& graph);
+  imports::Files& files() { return files_; }
+
   // Takes the frame's inputs; uploads happen in texture() and buffer(). Call once per frame before anything else.
   void beginFrame(const World& world, const FrameInput& input);
 
-  // The environment, or the fallback when none is loaded; id 0 when there is neither.
-  gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
-  // For sending the next environment beside the one in use.
-  EnvironmentTextures& environments() { return environments_; }
-  const EnvironmentTextures& environments() const { return environments_; }
-  // What `name` and `name@-1` are to passes that do not take part in making anything of it: an environment is shown from
-  // publish() on, other imports at once. After texture().
-  gl::TextureRef shown(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
-  gl::TextureRef before(const graph::ImportSpec& import, base::Diagnostics& diagnostics);
-  void publish(const graph::ImportSpec& import);
-  bool isPublished(const graph::ImportSpec& import) const {
-    return !hasBefore(import) || environments_.isPublished();
+  // Of imports::Provider, which says what they mean.
+  gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+    return of(import).texture(frame(), diagnostics);
   }
-  std::uint64_t publications(const graph::ImportSpec& import) const {
-    return hasBefore(import) ? environments_.publications() : 0;
+  gl::TextureRef shown(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+    return of(import).shown(frame(), diagnostics);
   }
-  // Textures of a graph's own that were in the import's place are what it shows and showed before (may be empty), until
-  // it is published.
+  gl::TextureRef before(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
+    return of(import).before(frame(), diagnostics);
+  }
+  void publish(const graph::ImportSpec& import) { of(import).publish(frame()); }
+  bool isPublished(const graph::ImportSpec& import) { return of(import).isPublished(frame()); }
+  std::uint64_t publications(const graph::ImportSpec& import) { return of(import).publications(frame()); }
   void adopt(const graph::ImportSpec& import, gl::Texture shown, gl::Texture before) {
-    if (import.request.type == "environment") environments_.adopt(std::move(shown), std::move(before));
+    of(import).adopt(std::move(shown), std::move(before));
   }
-  // Nobody fades from what was shown before.
-  void releaseBefore(const graph::ImportSpec& import) {
-    if (hasBefore(import)) environments_.releaseBefore();
-  }
-  // Used while the world has no environment: a texture made by a graph of its own. Not owned.
-  void setEnvironmentFallback(gl::TextureRef texture, std::uint64_t generation);
-
-  // Before a graph is loaded: tables whose file changed are made again on next use, and those unused since the last call go.
-  void renewFiles();
-  LutFiles& lutFiles() { return lutFiles_; }
-
-  // A buffer import: instance tables need the layout of the block that reads them, draw orders do not.
+  void releaseBefore(const graph::ImportSpec& import) { of(import).releaseBefore(frame()); }
   BufferRef buffer(const graph::ImportSpec& import, const InstanceLayout& layout,
-                   base::Diagnostics& diagnostics);
-  BufferRef instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics);
-  std::uint32_t countOf(scene::DrawList list) const;
+                   base::Diagnostics& diagnostics) {
+    return of(import).buffer(frame(), layout, diagnostics);
+  }
+  // Null import: the scene's camera as it is.
+  const scene::ViewData& view(const graph::ImportSpec* import, std::uint32_t width, std::uint32_t height) {
+    return import ? of(*import).view(frame(), width, height) : camera_.view(frame(), width, height);
+  }
+  std::uint64_t generation(const graph::ImportSpec& import) { return of(import).generation(frame()); }
+  bool isStill(const graph::ImportSpec& import, const World& world) { return of(import).isStill(world); }
+  bool remembers(const graph::ImportSpec& import, const World& world) { return of(import).remembers(world); }
 
-  // The camera with its jitter and lens, for a screen of width x height. Null import: the default camera.
-  const scene::ViewData& view(const graph::ImportSpec* import, std::uint32_t width, std::uint32_t height);
+  // The rows of a draw list for draw passes, whether or not a graph imports them.
+  BufferRef instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics) {
+    return tables_.table(list, layout, diagnostics);
+  }
+  std::uint32_t countOf(scene::DrawList list) { return tables_.countOf(list); }
 
-  // Moves whenever what the import stands for changed.
-  std::uint64_t generation(const graph::ImportSpec& import) const;
+  // Something that `graph` imports is on its way.
+  bool isPending(const graph::FlatGraph& graph, const World& world);
+  // The graph whose picture is to stand in for an import that the world lacks; empty: none is needed.
+  std::string standInGraph(const graph::ImportSpec& import, const World& world);
+  void setStandIn(const graph::ImportSpec& import, gl::TextureRef texture) { of(import).setStandIn(texture); }
+
+  // Frees what the world holds and the device has.
+  void dropUploaded(World& world) const;
+
+  // A provider of a class that the caller knows. Types whose arguments all have defaults have one from the start; null: it
+  // went in a prepare(), or there is none yet.
+  template <class T>
+  T* find() {
+    for (Held& each : held_)
+      if (T* found = dynamic_cast<T*>(each.provider.get())) return found;
+    return nullptr;
+  }
 
  private:
-  struct Table {
-    scene::DrawList list{};
-    InstanceLayout layout;
-    gl::Buffer buffer;
-    std::uint64_t generation = 0;
+  struct Held {
+    std::uint64_t key = 0;
+    const imports::Import* import = nullptr;
+    std::unique_ptr<imports::Provider> provider;
+    bool used = false;
   };
-  struct Order {
-    scene::DrawList list{};
-    scene::SortMethod method{};
-    gl::Buffer buffer;
-    std::uint32_t frame = ~0u;
-    std::uint64_t generation = 0;
-  };
-  struct CachedView {
-    std::uint32_t jitter = 0, width = 0, height = 0;
-    double fovDegrees = 0;  // 0: the scene's
-    bool stale = true;
-    scene::ViewData data;
-  };
-  // What is asked of a draw list several times a frame; looking at every sphere each time would cost with a million.
-  struct ListFacts {
-    std::uint64_t scene = 0;  // generation
-    std::uint32_t count = 0;
-    bool moving = false;
-  };
-  const ListFacts& factsOf(scene::DrawList list) const;
-  mutable ListFacts lists_[scene::kDrawListCount];
-
-  std::uint64_t listGeneration(scene::DrawList list) const;
-  BufferRef order(scene::DrawList list, scene::SortMethod method, base::Diagnostics& diagnostics);
-  const std::vector<scene::Instance>& instancesOf(scene::DrawList list);
-
-  struct Lut {
-    std::string file;
-    std::shared_ptr<const assets::CubeLut> table;  // what the texture holds
-    gl::Texture texture;
-    std::uint64_t generation = 0;
-    bool stale = true;
-  };
-  bool hasBefore(const graph::ImportSpec& import) const {
-    return import.request.type == "environment" && world_->environment();
+  Held& hold(const graph::ImportRequest& request, std::uint64_t key);
+  Held& heldOf(const graph::ImportSpec& import) {
+    for (Held& each : held_)
+      if (each.key == import.key) return each;
+    return hold(import.request, import.key);
   }
-  gl::TextureRef lut(const std::string& file, base::Diagnostics& diagnostics);
-  LutFiles lutFiles_;
-  std::vector<Lut> luts_;
-  std::uint64_t lutGenerations_ = 0;
+  imports::Provider& of(const graph::ImportSpec& import) {
+    Held& held = heldOf(import);
+    held.used = true;
+    return *held.provider;
+  }
+  imports::Frame frame() { return {*world_, input_, frames_, files_, tables_, camera_, generations_}; }
 
+  std::shared_ptr<const imports::ImportRegistry> registry_;
+  std::vector<Held> held_;
   const World* world_ = nullptr;
   FrameInput input_;
-  std::uint64_t frames_ = 0;
-  EnvironmentTextures environments_;
-  gl::TextureRef fallback_;
-  std::uint64_t fallbackGeneration_ = 0;
-  std::vector<std::unique_ptr<Table>> tables_;
-  std::vector<std::unique_ptr<Order>> orders_;
-  std::vector<CachedView> views_;
-  struct CpuInstances {
-    std::vector<scene::Instance> rows;
-    std::uint64_t generation = 0;
-  };
-  CpuInstances cpu_[scene::kDrawListCount];
-  std::vector<std::byte> bytes_;
-  std::vector<scene::SortElement> elements_, scratch_;
+  std::uint64_t frames_ = 0, generations_ = 0;
+  imports::Files files_;
+  imports::SceneTables tables_;
+  imports::CameraViews camera_;
 };
 
 }  // namespace weft::runtime

@@ -1,36 +1,26 @@
-// What graphs may name: pass types from the pass registry, and the imports this runtime provides, with what is known of
-// them before anything runs. No GL context is needed, so a graph is checked on a machine that has none.
+// What graphs may name: pass types and imports, of plug-ins that an embedder may add to, and the draw lists of a world. No GL
+// context is needed, so a graph is checked on a machine that has none.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
+#include <memory>
 
 #include "engine/graph/registry.h"
+#include "engine/imports/files.h"
+#include "engine/imports/import_registry.h"
 #include "engine/passes/pass_registry.h"
 
 namespace weft::runtime {
 
-class LutFiles;
-
-// The facts of a scene and an environment that a graph can ask for: size(environment), count(spheres), has(environment).
-struct WorldFacts {
-  bool environment =
-      false;  // one was loaded; otherwise @environment has only its fallback, graphs/daylight.json
-  std::uint32_t environmentWidth = 1024, environmentHeight = 512;
-  struct List {
-    std::string name;  // draw list: "spheres"
-    std::uint64_t count = 0;
-  };
-  std::vector<List> lists;
-  friend bool operator==(const WorldFacts&, const WorldFacts&);
+// Never null.
+struct PlugIns {
+  std::shared_ptr<const passes::PassRegistry> passTypes =
+      std::make_shared<const passes::PassRegistry>(passes::PassRegistry::builtin());
+  std::shared_ptr<const imports::ImportRegistry> imports =
+      std::make_shared<const imports::ImportRegistry>(imports::ImportRegistry::builtin());
 };
 
-// `luts` keeps the tables that were read, and must outlive the registry; without, each is read when it is asked for.
-graph::Registry makeRegistry(const passes::PassRegistry& passTypes, const WorldFacts& facts,
-                             LutFiles* luts = nullptr);
-
-// Levels of a full mip chain of a width x height texture.
-std::uint32_t fullMips(std::uint32_t width, std::uint32_t height);
+// `files` keeps what imports were read from, and must outlive the registry; without, it is read whenever it is asked for.
+graph::Registry makeRegistry(const PlugIns& plugIns, const imports::WorldFacts& facts,
+                             imports::Files* files = nullptr);
 
 }  // namespace weft::runtime

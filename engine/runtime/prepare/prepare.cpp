@@ -103,8 +103,9 @@ class Preparer {
         good &= bindUse(slot, index, k);
       }
     }
-    const gl::Block* instances = out_.variant->program.reflection().findStorageBlock("instances");
-    if (instances && !spec_.list.empty() && !hasSlot("instances")) {
+    const gl::Block* instances =
+        out_.variant->program.reflection().findStorageBlock(imports::kInstancesBlock);
+    if (instances && !spec_.list.empty() && !hasSlot(imports::kInstancesBlock)) {
       BufferBinding binding{.index = instances->binding};
       binding.list = static_cast<int>(*scene::findDrawList(spec_.list));
       takeLayout(*instances, binding);
@@ -122,7 +123,7 @@ class Preparer {
   // checkProgram has seen that the block is a table.
   static void takeLayout(const gl::Block& block, BufferBinding& binding) {
     std::string problem;
-    [[maybe_unused]] const bool good = instanceLayoutOf(block, binding.layout, problem);
+    [[maybe_unused]] const bool good = imports::instanceLayoutOf(block, binding.layout, problem);
     assert(good);
   }
 

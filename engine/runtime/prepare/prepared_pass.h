@@ -13,8 +13,9 @@
 #include "engine/base/diagnostic.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/plan.h"
+#include "engine/imports/instance_layout.h"
+#include "engine/passes/draw/geometry.h"
 #include "engine/passes/pass_registry.h"
-#include "engine/runtime/imports/geometry.h"
 #include "engine/runtime/prepare/sampler_cache.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/runtime/storage/resource_pool.h"
@@ -42,7 +43,7 @@ struct BufferBinding {
   std::uint32_t resource = 0;
   std::uint8_t history = 0;
   std::uint32_t import = graph::kNone;  // into FlatGraph::imports
-  InstanceLayout layout;                // of an imported instance table
+  imports::InstanceLayout layout;       // of an imported instance table
   int list = -1;                        // scene::DrawList of the implicit `instances` block, else -1
 };
 
@@ -115,7 +116,7 @@ struct PrepareContext {
   std::shared_ptr<const gl::Variant> variant;  // of the pass to prepare; null for types without a shader
   std::uint32_t conditions = 0;                // of that variant
   ResourcePool& pool;
-  Geometries& geometries;
+  passes::Geometries& geometries;
   SamplerCache& samplers;
   base::Diagnostics& diagnostics;
 };

@@ -7,6 +7,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/gl/objects/objects.h"
+#include "engine/imports/instance_layout.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/sampler_types.h"
@@ -125,9 +126,9 @@ class Checker {
   }
 
   void checkTable(const gl::Block* block, const base::Place& place) {
-    InstanceLayout layout;
+    imports::InstanceLayout layout;
     std::string problem;
-    if (!block || instanceLayoutOf(*block, layout, problem)) return;
+    if (!block || imports::instanceLayoutOf(*block, layout, problem)) return;
     fail(Code::notAnInstanceTable, place,
          fmt::format("the block '{}' of '{}' is no instance table: {}", block->name, shaders_, problem))
         .hint = "include scene/instances.glsl, or declare its struct";
@@ -246,7 +247,7 @@ class Checker {
       if (!isSlot(image.name)) unfed("an image", image.name);
     for (const auto& block : reflection_.storageBlocks) {
       if (isSlot(block.name)) continue;
-      if (block.name == "instances" && !spec_.list.empty())
+      if (block.name == imports::kInstancesBlock && !spec_.list.empty())
         checkTable(&block, spec_.shaderPlace);
       else
         unfed("a storage block", block.name);

@@ -1,10 +1,8 @@
-// Values into uniform and storage blocks at the offsets that introspection reports: parameters, the View block, the
-// instance table. Layouts are the shader's; nothing here repeats a struct.
+// Values into uniform and storage blocks at the offsets that introspection reports: parameters, the View block. Layouts are the shader's; nothing here repeats a struct.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +11,6 @@
 #include "engine/gl/programs/program.h"
 #include "engine/graph/language/value.h"
 #include "engine/scene/camera.h"
-#include "engine/scene/scene.h"
 
 namespace weft::runtime {
 
@@ -29,16 +26,5 @@ bool isViewMember(std::string_view name);
 // `viewport` replaces the camera's; passes that are not `always` see no time.
 void writeView(std::byte* block, const gl::Block& layout, const scene::ViewData& view, glm::vec2 viewport,
                bool timeless);
-
-// Byte offsets of the fields of scene/instances.glsl within one element of a storage block, -1 for a dropped field.
-struct InstanceLayout {
-  std::uint32_t stride = 0;
-  std::int32_t center = -1, radius = -1, previousCenter = -1, roughness = -1, albedo = -1, metallic = -1;
-  friend bool operator==(const InstanceLayout&, const InstanceLayout&) = default;
-};
-// False, with the problem, when the block is no array of a struct with these fields.
-bool instanceLayoutOf(const gl::Block& block, InstanceLayout& layout, std::string& problem);
-void writeInstances(const InstanceLayout& layout, std::span<const scene::Instance> instances,
-                    std::vector<std::byte>& out);
 
 }  // namespace weft::runtime

@@ -25,7 +25,7 @@ bool evaluateArgument(Model& model, Names& names, const Entity& entity, const Im
     d.hint = std::move(hint);
     return false;
   };
-  if (argument.name == "list" && out.type == Value::Type::symbol) {
+  if (argument.drawList && out.type == Value::Type::symbol) {
     const auto& lists = model.registry.drawLists;
     if (std::find(lists.begin(), lists.end(), out.symbol) == lists.end()) {
       auto& d = model.diagnostics.error(
@@ -52,13 +52,6 @@ bool evaluateArgument(Model& model, Names& names, const Entity& entity, const Im
                 : initial.type == Value::Type::list ? fmt::format("a list of {}", initial.count)
                                                     : "a word",
                 "");
-}
-
-std::string keyOf(const ImportRequest& request) {
-  std::string key = request.type;
-  for (const auto& [name, value] : request.arguments)
-    key += fmt::format("\n{}={}{}", name, static_cast<int>(value.type), toText(value));
-  return key;
 }
 
 }  // namespace
@@ -154,11 +147,11 @@ const ImportType* findImportType(const Registry& registry, std::string_view name
 
 std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind, const std::string& name) {
   auto& imports = model.graph.imports;
-  const auto [known, fresh] =
-      model.importIndex.try_emplace(keyOf(request), static_cast<std::uint32_t>(imports.size()));
+  const std::uint64_t key = keyOf(request);
+  const auto [known, fresh] = model.importIndex.try_emplace(key, static_cast<std::uint32_t>(imports.size()));
   if (!fresh) return known->second;
   const ImportType* type = findImportType(model.registry, request.type);
-  imports.push_back({std::move(request), kind, name, type && type->instances, type && type->before, {}});
+  imports.push_back({std::move(request), key, kind, name, type && type->instances, type && type->before, {}});
   model.importResource.push_back(kNone);
   return static_cast<std::uint32_t>(imports.size() - 1);
 }

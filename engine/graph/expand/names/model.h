@@ -179,9 +179,9 @@ struct Model {
   std::vector<Parameter> parameters{};
   std::deque<Let> lets{};
   std::deque<Entity> entities{};
-  NameMap<std::uint32_t> implicitImports{};                      // "environment" of @environment
-  std::vector<std::uint32_t> importResource{};                   // per import: its FlatResource or kNone
-  std::unordered_map<std::string, std::uint32_t> importIndex{};  // by the text of the request
+  NameMap<std::uint32_t> implicitImports{};                        // "environment" of @environment
+  std::vector<std::uint32_t> importResource{};                     // per import: its FlatResource or kNone
+  std::unordered_map<std::uint64_t, std::uint32_t> importIndex{};  // by keyOf(request)
   std::unordered_map<std::string, std::vector<std::uint32_t>> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<WriteRecord> writes{};

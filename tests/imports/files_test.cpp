@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
-#include "engine/runtime/imports/lut_texture.h"
+#include "engine/imports/cube_lut/lut_texture.h"
 
 using namespace weft;
-using namespace weft::runtime;
+using namespace weft::imports;
 
 TEST_CASE("a table is parsed once, again when its file changed, and its mistakes are said each time") {
   const std::filesystem::path folder =
@@ -18,30 +18,31 @@ TEST_CASE("a table is parsed once, again when its file changed, and its mistakes
   std::filesystem::create_directories(folder);
   const std::string path = (folder / "a.cube").string();
   const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
-  LutFiles files;
+  Files files;
+  const auto table = [&](base::Diagnostics& said) { return tableOf(files, path, said); };
   base::Diagnostics diagnostics;
   for (int i = 0; i < 2; ++i) {
-    CHECK(!files.get(path, diagnostics));
+    CHECK(!table(diagnostics));
     CHECK(diagnostics.contains(base::Code::unreadableFile));
     diagnostics.clear();
   }
   write("LUT_1D_SIZE 2\n0 0 0\n1 1 1\n");
-  const auto first = files.get(path, diagnostics);
+  const auto first = table(diagnostics);
   REQUIRE(first);
-  CHECK(files.get(path, diagnostics) == first);
+  CHECK(table(diagnostics) == first);
   CHECK(lutExtent(*first).width != lutExtent(*first).layers);
   write("LUT_3D_SIZE 2\n" + std::string("0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"));
-  const auto second = files.get(path, diagnostics);
+  const auto second = table(diagnostics);
   REQUIRE(second);
   CHECK(second->dimensions == 3);
   CHECK(first->dimensions == 1);  // who holds it keeps it
   // The same length at another time.
   std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(2));
-  CHECK(files.get(path, diagnostics) != second);
+  CHECK(table(diagnostics) != second);
   CHECK(diagnostics.empty());
   write("LUT_3D_SIZE 2\n0 0 0\n");
   for (int i = 0; i < 2; ++i) {
-    CHECK(!files.get(path, diagnostics));
+    CHECK(!table(diagnostics));
     CHECK(diagnostics.errorCount() == 1);
     diagnostics.clear();
   }

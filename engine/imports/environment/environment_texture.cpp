@@ -1,13 +1,12 @@
-#include "engine/runtime/imports/environment_texture.h"
+#include "engine/imports/environment/environment_texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <span>
 #include <utility>
 
-#include "engine/runtime/imports/registry.h"
-
-namespace weft::runtime {
+namespace weft::imports {
 
 namespace {
 
@@ -28,6 +27,10 @@ std::optional<gl::Texture> makeTexture(const assets::EnvironmentMap& map, base::
 }
 
 }  // namespace
+
+std::uint32_t fullMips(std::uint32_t width, std::uint32_t height) {
+  return static_cast<std::uint32_t>(std::bit_width(std::max({width, height, 1u})));
+}
 
 std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics& diagnostics) {
   if (incoming_.map != map) {
@@ -93,4 +96,4 @@ void EnvironmentTextures::publish() {
   ++publications_;
 }
 
-}  // namespace weft::runtime
+}  // namespace weft::imports

@@ -1,9 +1,12 @@
 // Environments sent beside the one in use, and a graph whose first environment is still on its way.
+#include <algorithm>
 #include <bit>
 
+#include "engine/imports/environment/environment.h"
 #include "tests/runtime/stage.h"
 
 using namespace weft;
+using namespace weft::imports;
 using namespace weft::runtime;
 using namespace weft::runtime::test;
 
@@ -169,7 +172,7 @@ TEST_CASE(
       for (std::size_t i = 0; i < pixels.size(); ++i) REQUIRE(pixels[i] == (i % 4 == 3 ? 255 : 0));
     }
     base::Diagnostics diagnostics;
-    sendAll(late.renderer().device().imports.environments(), map, diagnostics);
+    sendAll(late.renderer().device().imports.find<EnvironmentProvider>()->textures(), map, diagnostics);
     late.world.setEnvironment(map);
     CHECK(!late.world.environmentPending());
     REQUIRE(late.renderer().apply(late.settings, late.world, late.diagnostics));
@@ -209,9 +212,11 @@ TEST_CASE("the stand-in for an environment has all its levels") {
   Stage stage("graphs/glow.json", 32, 18);
   REQUIRE(stage.load());
   stage.run(0);
-  graph::ImportSpec import;
-  import.request.type = "environment";
-  const gl::TextureRef texture = stage.renderer().device().imports.texture(import, stage.diagnostics);
+  const auto& imports = stage.execution().plan().graph->imports;
+  const auto import =
+      std::ranges::find(imports, "environment", [](const auto& each) { return each.request.type; });
+  REQUIRE(import != imports.end());
+  const gl::TextureRef texture = stage.renderer().device().imports.texture(*import, stage.diagnostics);
   REQUIRE(texture.desc.mips == 11);
   const auto meanOf = [](const std::vector<float>& texels) {
     double sum = 0;

@@ -1,11 +1,11 @@
-#include "engine/runtime/imports/geometry.h"
+#include "engine/passes/draw/geometry.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <glm/glm.hpp>
 
-using weft::runtime::makeIcosphere;
+using weft::passes::makeIcosphere;
 
 TEST_CASE("an icosphere has 20 * 4^n outward triangles, 10 * 4^n + 2 vertices, all on the unit sphere") {
   for (int n = 0; n <= 4; ++n) {

@@ -11,7 +11,7 @@
 #include "engine/gl/programs/program.h"
 #include "engine/passes/pass_type.h"
 
-namespace weft::runtime {
+namespace weft::passes {
 
 struct ShapeMesh {
   std::vector<float> positions;        // xyz per vertex, on the unit sphere (the normal equals the position)
@@ -21,12 +21,15 @@ struct ShapeMesh {
 constexpr int kMaxSubdivision = 6;
 ShapeMesh makeIcosphere(int subdivisions);
 
+// What graphs may write as "geometry".
+std::vector<graph::GeometryType> reflectGeometries();
+
 class Geometries {
  public:
-  // `name` is one of the registry's geometries, with all its arguments, in their ranges. Count 0 after an error.
-  passes::Geometry get(const std::string& name, const std::vector<double>& arguments,
-                       const gl::Reflection& reflection, base::Diagnostics& diagnostics);
-  passes::Geometry empty();  // for fullscreen triangles
+  // `name` is one of reflectGeometries(), with all its arguments, in their ranges. Count 0 after an error.
+  Geometry get(const std::string& name, const std::vector<double>& arguments,
+               const gl::Reflection& reflection, base::Diagnostics& diagnostics);
+  Geometry empty();  // for fullscreen triangles
 
  private:
   struct Mesh {
@@ -43,4 +46,4 @@ class Geometries {
   std::vector<Bound> bound_;
 };
 
-}  // namespace weft::runtime
+}  // namespace weft::passes

@@ -1,11 +1,11 @@
-#include "engine/runtime/imports/geometry.h"
+#include "engine/passes/draw/geometry.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-namespace weft::runtime {
+namespace weft::passes {
 
 ShapeMesh makeIcosphere(int subdivisions) {
   ShapeMesh mesh;
@@ -55,14 +55,20 @@ ShapeMesh makeIcosphere(int subdivisions) {
   return mesh;
 }
 
-passes::Geometry Geometries::empty() {
+std::vector<graph::GeometryType> reflectGeometries() {
+  const graph::GeometryArgument subdivision{
+      .name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
+  return {{"quad", {}}, {"octagon", {}}, {"icosphere", {subdivision}}, {"triangle", {}}};
+}
+
+Geometry Geometries::empty() {
   if (!empty_) empty_ = gl::VertexArray::create("no attributes");
   return {.vertexArray = empty_.id(), .mode = GL_TRIANGLES, .count = 3, .indexType = 0};
 }
 
-passes::Geometry Geometries::get(const std::string& name, const std::vector<double>& arguments,
-                                 const gl::Reflection& reflection, base::Diagnostics& diagnostics) {
-  passes::Geometry geometry = empty();
+Geometry Geometries::get(const std::string& name, const std::vector<double>& arguments,
+                         const gl::Reflection& reflection, base::Diagnostics& diagnostics) {
+  Geometry geometry = empty();
   if (name == "quad" || name == "octagon") {
     geometry.mode = GL_TRIANGLE_STRIP;
     geometry.count = name == "quad" ? 4 : 8;
@@ -104,4 +110,4 @@ passes::Geometry Geometries::get(const std::string& name, const std::vector<doub
   return geometry;
 }
 
-}  // namespace weft::runtime
+}  // namespace weft::passes

@@ -1,10 +1,10 @@
-#include "engine/runtime/imports/lut_texture.h"
+#include "engine/imports/cube_lut/lut_texture.h"
 
 #include <algorithm>
 #include <span>
 #include <vector>
 
-namespace weft::runtime {
+namespace weft::imports {
 
 namespace {
 
@@ -12,26 +12,9 @@ constexpr std::uint32_t kRow = 1024, kLeast = 8;  // entries; what the alpha of 
 
 }  // namespace
 
-std::shared_ptr<const assets::CubeLut> LutFiles::get(const std::string& path,
-                                                     base::Diagnostics& diagnostics) {
-  touched_.insert(path);
-  Stamp stamp;
-  std::error_code ec;
-  stamp.time = std::filesystem::last_write_time(path, ec);
-  stamp.exists = !ec;
-  if (ec) stamp.time = {};
-  stamp.size = std::filesystem::file_size(path, ec);
-  if (ec) stamp.size = 0;
-  const auto found = entries_.find(path);
-  const bool known = found != entries_.end() && found->second.stamp == stamp;
-  Entry& entry = known ? found->second : entries_[path];
-  if (!known) {
-    entry = {.stamp = stamp, .table = nullptr, .said = {}};
-    if (auto table = assets::loadCubeLut(path, entry.said))
-      entry.table = std::make_shared<const assets::CubeLut>(std::move(*table));
-  }
-  diagnostics.append(entry.said);
-  return entry.table;
+std::shared_ptr<const assets::CubeLut> tableOf(Files& files, const std::string& path,
+                                               base::Diagnostics& diagnostics) {
+  return files.get<assets::CubeLut>(path, assets::loadCubeLut, diagnostics);
 }
 
 gl::Extent lutExtent(const assets::CubeLut& lut) {
@@ -81,4 +64,4 @@ std::optional<gl::Texture> makeLutTexture(const assets::CubeLut& lut, const std:
   return texture;
 }
 
-}  // namespace weft::runtime
+}  // namespace weft::imports

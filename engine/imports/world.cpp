@@ -1,9 +1,22 @@
-#include "engine/runtime/imports/world.h"
+#include "engine/imports/world.h"
 
 #include <algorithm>
 #include <cassert>
 
-namespace weft::runtime {
+namespace weft::imports {
+
+double WorldFacts::countOf(std::string_view list) const {
+  const auto found = std::ranges::find(lists, list, &List::name);
+  return found == lists.end() ? 0 : static_cast<double>(found->count);
+}
+
+bool operator==(const WorldFacts& a, const WorldFacts& b) {
+  const auto same = [](const WorldFacts::List& x, const WorldFacts::List& y) {
+    return x.name == y.name && x.count == y.count;
+  };
+  return a.environment == b.environment && a.environmentWidth == b.environmentWidth &&
+         a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same);
+}
 
 World::World(scene::Scene scene) : scene_(std::move(scene)) {}
 
@@ -56,4 +69,4 @@ FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps) {
   return input;
 }
 
-}  // namespace weft::runtime
+}  // namespace weft::imports

@@ -7,14 +7,28 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/assets/environment_map.h"
 #include "engine/assets/image.h"
 #include "engine/base/diagnostic.h"
-#include "engine/runtime/imports/registry.h"
 #include "engine/scene/scene.h"
 
-namespace weft::runtime {
+namespace weft::imports {
+
+// The facts of a scene and an environment that a graph can ask for: size(environment), count(spheres), has(environment).
+struct WorldFacts {
+  bool environment = false;  // one was loaded, or is on its way
+  std::uint32_t environmentWidth = 1024, environmentHeight = 512;
+  struct List {
+    std::string name;  // draw list: "spheres"
+    std::uint64_t count = 0;
+  };
+  std::vector<List> lists;
+  double countOf(std::string_view list) const;  // 0 for one that is not there
+  friend bool operator==(const WorldFacts&, const WorldFacts&);
+};
 
 class World {
  public:
@@ -63,4 +77,4 @@ struct FrameInput {
 // Frame `frame` of the world's default camera at `fps` steps per second.
 FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps);
 
-}  // namespace weft::runtime
+}  // namespace weft::imports

@@ -14,7 +14,10 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/objects/pixel_stream.h"
 
-namespace weft::runtime {
+namespace weft::imports {
+
+// Levels of a full mip chain of a width x height texture.
+std::uint32_t fullMips(std::uint32_t width, std::uint32_t height);
 
 class EnvironmentTextures {
  public:
@@ -69,4 +72,4 @@ class EnvironmentTextures {
   std::uint64_t publications_ = 0;
 };
 
-}  // namespace weft::runtime
+}  // namespace weft::imports

@@ -1,0 +1,15 @@
+#include "engine/graph/registry.h"
+
+#include "engine/base/hash.h"
+
+namespace weft::graph {
+
+std::uint64_t keyOf(const ImportRequest& request) {
+  std::uint64_t key = base::hashBytes(request.type);
+  for (const auto& [name, value] : request.arguments)
+    key = base::hashCombine(base::hashBytes(toText(value), base::hashBytes(name, key)),
+                            static_cast<std::uint64_t>(value.type));
+  return key;
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,35 @@
+#include "engine/imports/camera_views.h"
+
+#include "engine/imports/world.h"
+
+namespace weft::imports {
+
+const scene::ViewData& CameraViews::view(const Frame& frame, std::uint32_t width, std::uint32_t height) {
+  Cached* cached = nullptr;
+  for (Cached& each : cached_)
+    if (each.width == width && each.height == height) cached = &each;
+  if (!cached) {
+    // Sizes that the last frame did not ask for go: a window that is being resized makes one per frame.
+    std::erase_if(cached_, [&](const Cached& each) { return each.frame + 1 < frame.number; });
+    cached_.push_back({.width = width, .height = height, .data = {}});
+    cached = &cached_.back();
+  }
+  if (cached->frame != frame.number) {
+    const auto seen = [this](scene::CameraPose pose) {
+      if (fovDegrees_ > 0) pose.fovDegrees = fovDegrees_;
+      return pose;
+    };
+    const FrameInput& input = frame.input;
+    cached->data = scene::makeView({.pose = seen(input.pose),
+                                    .previousPose = seen(input.previousPose),
+                                    .viewport = {width, height},
+                                    .jitter = scene::jitterAt(input.frame, jitter_),
+                                    .frame = input.frame,
+                                    .time = input.time,
+                                    .deltaTime = input.deltaTime});
+    cached->frame = frame.number;
+  }
+  return cached->data;
+}
+
+}  // namespace weft::imports

@@ -1,0 +1,88 @@
+#include "engine/imports/draw_order/draw_order.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/imports/camera_views.h"
+#include "engine/imports/scene_tables.h"
+#include "engine/scene/sort.h"
+
+namespace weft::imports {
+
+namespace {
+
+using graph::Value;
+
+// In the order of reflect().
+const std::string& listOf(const graph::ImportRequest& request) {
+  return request.arguments[0].second.symbol;
+}
+const std::string& methodOf(const graph::ImportRequest& request) {
+  return request.arguments[2].second.symbol;
+}
+
+class DrawOrderProvider : public Provider {
+ public:
+  explicit DrawOrderProvider(const graph::ImportRequest& request)
+      : list_(scene::findDrawList(listOf(request))), method_(scene::findSortMethod(methodOf(request))) {}
+
+  BufferRef buffer(const Frame& frame, const InstanceLayout&, base::Diagnostics& diagnostics) override {
+    if (!list_ || !method_) return {};
+    if (frame_ != frame.number) {
+      const scene::ViewData& view = frame.camera.view(frame, 1, 1);
+      scene::drawOrder(frame.tables.rows(*list_), view.view, *method_, elements_, scratch_);
+      const std::uint64_t bytes = std::max<std::size_t>(elements_.size(), 1) * sizeof(scene::SortElement);
+      if (!buffer_ || buffer_.bytes() != bytes) {
+        auto buffer = gl::Buffer::create(bytes, GL_DYNAMIC_STORAGE_BIT, "draw order", diagnostics);
+        if (!buffer) return {};
+        buffer_ = std::move(*buffer);
+      }
+      if (!elements_.empty()) gl::uploadBuffer(buffer_.id(), 0, std::as_bytes(std::span(elements_)));
+      frame_ = frame.number;
+    }
+    return {buffer_.id(), buffer_.bytes()};
+  }
+
+ private:
+  std::optional<scene::DrawList> list_;
+  std::optional<scene::SortMethod> method_;  // none: a graph's own passes sort
+  gl::Buffer buffer_;
+  std::uint64_t frame_ = 0;  // that it was sorted in
+  std::vector<scene::SortElement> elements_, scratch_;
+};
+
+}  // namespace
+
+graph::ImportType DrawOrder::reflect() const {
+  return {
+      .name = "draw_order",
+      .kind = graph::ImportKind::buffer,
+      .doc = "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame.",
+      .arguments = {
+          {.name = "list",
+           .initial = Value::text(scene::drawListNames().front()),
+           .choices = {},
+           .doc = "a draw list",
+           .drawList = true},
+          {.name = "by", .initial = Value::text("depth"), .choices = {"depth"}, .doc = "what is compared"},
+          {.name = "method",
+           .initial = Value::text("cpu_radix"),
+           .choices = {"cpu_std", "cpu_radix", "gpu_bitonic"},
+           .doc = "how; gpu_bitonic leaves the buffer to a graph's own passes"}}};
+}
+
+graph::ImportFacts DrawOrder::facts(const graph::ImportRequest& request, const WorldFacts& world,
+                                    Files&) const {
+  const double count = world.countOf(listOf(request));
+  return {.exists = true,
+          .bytes = static_cast<std::uint64_t>(std::max(count, 1.0)) * sizeof(scene::SortElement),
+          .count = count};
+}
+
+std::unique_ptr<Provider> DrawOrder::provide(const graph::ImportRequest& request) const {
+  return std::make_unique<DrawOrderProvider>(request);
+}
+
+}  // namespace weft::imports

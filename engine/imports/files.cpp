@@ -1,0 +1,27 @@
+#include "engine/imports/files.h"
+
+namespace weft::imports {
+
+std::shared_ptr<const void> Files::getAny(
+    const std::string& path, std::type_index type,
+    const std::function<std::shared_ptr<const void>(base::Diagnostics&)>& read,
+    base::Diagnostics& diagnostics) {
+  touched_.insert(path);
+  Stamp stamp;
+  std::error_code ec;
+  stamp.time = std::filesystem::last_write_time(path, ec);
+  stamp.exists = !ec;
+  if (ec) stamp.time = {};
+  stamp.size = std::filesystem::file_size(path, ec);
+  if (ec) stamp.size = 0;
+  const auto [found, fresh] = entries_.try_emplace({path, type});
+  Entry& entry = found->second;
+  if (fresh || entry.stamp != stamp) {
+    entry = {.stamp = stamp, .made = nullptr, .said = {}};
+    entry.made = read(entry.said);
+  }
+  diagnostics.append(entry.said);
+  return entry.made;
+}
+
+}  // namespace weft::imports

@@ -1,0 +1,43 @@
+#include "engine/imports/import_registry.h"
+
+#include <cassert>
+
+#include "engine/imports/camera/camera.h"
+#include "engine/imports/cube_lut/cube_lut.h"
+#include "engine/imports/cut/cut.h"
+#include "engine/imports/draw_order/draw_order.h"
+#include "engine/imports/environment/environment.h"
+#include "engine/imports/spheres/spheres.h"
+
+namespace weft::imports {
+
+ImportRegistry ImportRegistry::builtin() {
+  ImportRegistry registry;
+  registry.add(std::make_unique<Environment>());
+  registry.add(std::make_unique<Spheres>());
+  registry.add(std::make_unique<DrawOrder>());
+  registry.add(std::make_unique<Camera>());
+  registry.add(std::make_unique<CubeLut>());
+  registry.add(std::make_unique<Cut>());
+  return registry;
+}
+
+void ImportRegistry::add(std::unique_ptr<Import> import) {
+  std::string name = import->reflect().name;
+  assert(!find(name) && "an import of this name is already registered");
+  imports_.push_back({std::move(name), std::move(import)});
+}
+
+const Import* ImportRegistry::find(std::string_view name) const {
+  for (const Entry& each : imports_)
+    if (each.name == name) return each.import.get();
+  return nullptr;
+}
+
+std::vector<graph::ImportType> ImportRegistry::reflect() const {
+  std::vector<graph::ImportType> all;
+  for (const Entry& each : imports_) all.push_back(each.import->reflect());
+  return all;
+}
+
+}  // namespace weft::imports

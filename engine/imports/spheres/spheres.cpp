@@ -1,0 +1,39 @@
+#include "engine/imports/spheres/spheres.h"
+
+#include "engine/imports/scene_tables.h"
+
+namespace weft::imports {
+
+namespace {
+
+constexpr scene::DrawList kList = scene::DrawList::spheres;
+
+class SpheresProvider : public Provider {
+ public:
+  BufferRef buffer(const Frame& frame, const InstanceLayout& layout,
+                   base::Diagnostics& diagnostics) override {
+    return frame.tables.table(kList, layout, diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override { return frame.tables.generation(kList); }
+  bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), kList); }
+};
+
+}  // namespace
+
+graph::ImportType Spheres::reflect() const {
+  return {.name = "spheres",
+          .kind = graph::ImportKind::buffer,
+          .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
+          .arguments = {},
+          .instances = true};
+}
+
+graph::ImportFacts Spheres::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
+  return {.exists = true, .count = world.countOf(scene::drawListNames()[static_cast<std::size_t>(kList)])};
+}
+
+std::unique_ptr<Provider> Spheres::provide(const graph::ImportRequest&) const {
+  return std::make_unique<SpheresProvider>();
+}
+
+}  // namespace weft::imports

@@ -1,0 +1,191 @@
+// What the built-in imports say of themselves and of a world, and that an embedder's stands beside them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/imports/files.h"
+#include "engine/imports/import_registry.h"
+
+using namespace weft;
+using namespace weft::imports;
+using graph::ImportKind;
+
+namespace {
+
+const ImportRegistry& registry() {
+  static const ImportRegistry builtin = ImportRegistry::builtin();
+  return builtin;
+}
+
+const Import& importOf(std::string_view name) {
+  const Import* import = registry().find(name);
+  REQUIRE(import);
+  return *import;
+}
+
+// A request with the defaults of the type, but for one word.
+graph::ImportRequest requestOf(std::string_view name, std::string_view argument = {},
+                               const std::string& word = {}) {
+  graph::ImportRequest request{.type = std::string(name), .arguments = {}};
+  for (const graph::ImportArgument& each : importOf(name).reflect().arguments)
+    request.arguments.emplace_back(each.name,
+                                   each.name == argument ? graph::Value::text(word) : each.initial);
+  return request;
+}
+
+graph::ImportFacts factsOf(const graph::ImportRequest& request, const WorldFacts& world) {
+  Files files;
+  return importOf(request.type).facts(request, world, files);
+}
+
+class Clouds : public Import {
+ public:
+  graph::ImportType reflect() const override { return {.name = "clouds", .doc = "of an embedder"}; }
+  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<Provider>();
+  }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "every built-in import is found under the name that it reflects, with a text for it and its arguments") {
+  std::set<std::string> names;
+  for (const graph::ImportType& type : registry().reflect()) {
+    CAPTURE(type.name);
+    CHECK(names.insert(type.name).second);
+    CHECK_FALSE(type.doc.empty());
+    for (const graph::ImportArgument& argument : type.arguments) {
+      CAPTURE(argument.name);
+      CHECK_FALSE(argument.doc.empty());
+      const bool chosen =
+          argument.choices.empty() ||
+          std::ranges::find(argument.choices, argument.initial.symbol) != argument.choices.end();
+      CHECK(chosen);
+    }
+    CHECK(importOf(type.name).provide(requestOf(type.name)));
+  }
+  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "spheres"});
+  CHECK_FALSE(registry().find("clouds"));
+}
+
+TEST_CASE(
+    "the environment is a texture with levels, an earlier publication, and a graph that stands in for it") {
+  const graph::ImportType type = importOf("environment").reflect();
+  CHECK(type.kind == ImportKind::texture);
+  CHECK(type.before);
+  CHECK(importOf("environment").standInGraph() == "graphs/daylight.json");
+  WorldFacts world{.environment = true, .environmentWidth = 512, .environmentHeight = 256, .lists = {}};
+  const graph::ImportFacts facts = factsOf(requestOf("environment"), world);
+  CHECK(facts.exists);
+  CHECK(facts.fallback);
+  CHECK(facts.format == graph::Format::rgba16f);
+  CHECK(facts.width == 512);
+  CHECK(facts.height == 256);
+  CHECK(facts.mips == 10);
+  world.environment = false;
+  CHECK_FALSE(factsOf(requestOf("environment"), world).exists);
+}
+
+TEST_CASE("spheres are a table of instances, as many as the world's list has") {
+  const graph::ImportType type = importOf("spheres").reflect();
+  CHECK(type.kind == ImportKind::buffer);
+  CHECK(type.instances);
+  CHECK(type.arguments.empty());
+  CHECK(factsOf(requestOf("spheres"), {.lists = {{"opaque", 3}, {"spheres", 7}}}).count == 7);
+  CHECK(factsOf(requestOf("spheres"), {}).count == 0);
+}
+
+TEST_CASE("a draw order has eight bytes per instance of the list that it names, and room for one") {
+  const graph::ImportType type = importOf("draw_order").reflect();
+  CHECK(type.kind == ImportKind::buffer);
+  CHECK_FALSE(type.instances);
+  const auto lists = std::ranges::count_if(type.arguments, &graph::ImportArgument::drawList);
+  CHECK(lists == 1);
+  const WorldFacts world{.lists = {{"spheres", 7}, {"opaque", 3}}};
+  const graph::ImportFacts facts = factsOf(requestOf("draw_order", "list", "opaque"), world);
+  CHECK(facts.count == 3);
+  CHECK(facts.bytes == 24);
+  CHECK(factsOf(requestOf("draw_order", "list", "opaque"), {}).bytes == 8);
+}
+
+TEST_CASE("the camera is the one view of every pass; a lens and a jitter are its arguments") {
+  const graph::ImportType type = importOf("camera").reflect();
+  CHECK(type.kind == ImportKind::view);
+  CHECK(type.everyPass);
+  std::vector<std::string> names;
+  for (const auto& argument : type.arguments) names.push_back(argument.name);
+  CHECK(names == std::vector<std::string>{"jitter", "focal_length", "sensor_height"});
+  for (const graph::ImportType& other : registry().reflect())
+    CHECK(other.everyPass == (other.name == type.name));
+  CHECK(factsOf(requestOf("camera"), {}).exists);
+}
+
+TEST_CASE("a table is not there without a file; a file that cannot be read is said, and is watched") {
+  CHECK(importOf("cube_lut").reflect().kind == ImportKind::texture);
+  const graph::ImportFacts none = factsOf(requestOf("cube_lut"), {});
+  CHECK_FALSE(none.exists);
+  CHECK(none.problems.empty());
+  Files files;
+  const graph::ImportRequest request = requestOf("cube_lut", "file", "no/such/table.cube");
+  const graph::ImportFacts missing = importOf("cube_lut").facts(request, {}, files);
+  CHECK_FALSE(missing.exists);
+  REQUIRE(missing.problems.size() == 1);
+  CHECK(missing.problems[0].code == base::Code::unreadableFile);
+  CHECK(files.touched() == std::set<std::string>{"no/such/table.cube"});
+}
+
+TEST_CASE("a cut is an event: it changes with the input, and stays in a world that nobody changes") {
+  CHECK(importOf("cut").reflect().kind == ImportKind::event);
+  const World world{scene::Scene{}};
+  CHECK(importOf("cut").provide(requestOf("cut"))->isStill(world));
+}
+
+TEST_CASE("what may differ from frame to frame says so; none of the built-in imports remembers") {
+  scene::Scene scene;
+  World still{scene};
+  scene.spheres.add({.velocity = {1, 0, 0}, .material = {}});
+  World moving{scene};
+  const std::set<std::string> always = {"environment", "cube_lut", "cut"};
+  for (const graph::ImportType& type : registry().reflect()) {
+    CAPTURE(type.name);
+    const auto provider = importOf(type.name).provide(requestOf(type.name));
+    CHECK(provider->isStill(moving) == always.contains(type.name));
+    CHECK(provider->isStill(still) == (always.contains(type.name) || type.instances));
+    CHECK_FALSE(provider->remembers(moving));
+  }
+}
+
+TEST_CASE("an embedder's import stands behind the built-in ones; what it leaves out has defaults") {
+  ImportRegistry own = ImportRegistry::builtin();
+  own.add(std::make_unique<Clouds>());
+  CHECK(own.reflect().back().name == "clouds");
+  const Import* clouds = own.find("clouds");
+  REQUIRE(clouds);
+  Files files;
+  const graph::ImportRequest request{.type = "clouds", .arguments = {}};
+  CHECK(clouds->facts(request, {}, files).exists);
+  CHECK(clouds->standInGraph().empty());
+  const auto provider = clouds->provide(request);
+  const World world{scene::Scene{}};
+  CHECK_FALSE(provider->isStill(world));
+  CHECK_FALSE(provider->isPending(world));
+  CHECK_FALSE(provider->needsStandIn(world));
+  CHECK(provider->renew(true));
+  CHECK_FALSE(provider->renew(false));
+  CHECK_FALSE(registry().find("clouds"));
+}
+
+TEST_CASE("equal requests have equal keys; another type, argument or value another") {
+  const auto key = [](const graph::ImportRequest& request) { return graph::keyOf(request); };
+  CHECK(key(requestOf("draw_order")) == key(requestOf("draw_order", "list", "spheres")));
+  CHECK(key(requestOf("draw_order")) != key(requestOf("draw_order", "list", "opaque")));
+  CHECK(key(requestOf("spheres")) != key(requestOf("environment")));
+  graph::ImportRequest number{.type = "a", .arguments = {{"x", graph::Value::number(1)}}};
+  graph::ImportRequest word{.type = "a", .arguments = {{"x", graph::Value::text("1")}}};
+  graph::ImportRequest other{.type = "a", .arguments = {{"y", graph::Value::number(1)}}};
+  CHECK(key(number) != key(word));
+  CHECK(key(number) != key(other));
+}
