@@ -14,7 +14,7 @@ import sys
 
 from program import Report, TOP, run, temporary_folder
 
-FOLDERS = ("graphs", "tests/theory", "tests/runtime/graphs", "tests/golden")
+FOLDERS = ("graphs", "tests/theory", "tests/runtime/graphs", "tests/imports/graphs", "tests/docs/embed", "tests/golden")
 STRIP = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.S)
 
 
