@@ -155,7 +155,7 @@ class Writer {
         leadingLines(item, indent, last);
         out_.append(static_cast<std::size_t>(indent), ' ');
       }
-      if (place.depth == 1 && (i == 0 || startsBlank(item)))
+      if (place.depth == 1 && !(object && packs) && (i == 0 || startsBlank(item)))
         pad = paddingOf(std::span(node.items).subspan(i));
       entry(item, {.depth = place.depth + 1, .indent = indent, .tail = last ? 0 : 1, .key = item.key}, pad);
       if (movesUp(item, indent, last))
@@ -208,17 +208,18 @@ class Writer {
     value(item.value, place);
   }
 
-  // Of the rows up to the next blank line: the width of the longest key, where all values are objects or
+  // Of the rows up to the next blank line: the width of the longest key, where some values are objects or
   // lists.
   static int paddingOf(std::span<const Item> items) {
     int longest = 0, shortest = kColumns;
+    bool table = false;
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (i > 0 && startsBlank(items[i])) break;
-      if (!items[i].value.isContainer()) return 0;
+      table = table || items[i].value.isContainer();
       longest = std::max(longest, widthOf(items[i].key));
       shortest = std::min(shortest, widthOf(items[i].key));
     }
-    return longest - shortest <= kMostPadding ? longest : 0;
+    return table && longest - shortest <= kMostPadding ? longest : 0;
   }
 
   // The first entry behind the bracket, the others below it, as many to a line as there is room for.

@@ -105,6 +105,27 @@ TEST_CASE("layout: sections a row each, stanzas with their words first, short ob
 )");
 }
 
+TEST_CASE("layout: words in a table of objects stand in its column, words alone and settings do not") {
+  CHECK(checked(R"({"resources":{"hdr":{"input":"texture"},"old_hdr":"hdr@-1","order":["a","b"],
+
+"environment":"ibl.environment","brdf":"ibl.brdf"},"set":{"tint":[1,2,3],"exposure":1.5,"a_name_that_is_long":[1,2,3,4],
+"another_name_that_is_long":true,"a_third_name":3}})") == R"({
+  "resources": {
+    "hdr":     { "input": "texture" },
+    "old_hdr": "hdr@-1",
+    "order":   ["a", "b"],
+
+    "environment": "ibl.environment",
+    "brdf": "ibl.brdf"
+  },
+  "set": {
+    "tint": [1, 2, 3], "exposure": 1.5, "a_name_that_is_long": [1, 2, 3, 4], "another_name_that_is_long": true,
+    "a_third_name": 3
+  }
+}
+)");
+}
+
 TEST_CASE("layout: comments stay beside what they are about, blank lines between entries stay one") {
   CHECK(checked(R"(// before all
 
