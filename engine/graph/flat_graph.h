@@ -125,13 +125,20 @@ struct SlotSpec {
 };
 
 struct UniformSpec {
+  // The last two are no uniforms: they choose the variant of each frame.
+  enum class Role : std::uint8_t {
+    uniform,
+    define,   // #define name 0 or 1
+    enabled,  // whether a timed pass runs; without a name
+  };
   std::string name;
   Value value;       // with the parameters as they are; of one that contains age(): at age 0
   Expr dynamic;      // folded; what changes it without another plan is still in it: age() by FlatResource
                      // index, live parameters by index into FlatGraph::parameters. Absent: nothing does
-  std::string path;  // full name of the parameter behind it ("post.composite.vignette"), or empty
+  std::string path;  // full name of the parameter behind it ("post.dof.aperture"), or empty
   Place place;
-  bool define = false;  // dynamic, and no uniform but #define name 0 or 1: chooses the variant of a frame
+  Role role = Role::uniform;
+  bool choosesVariant() const { return role != Role::uniform; }
 };
 
 struct DefineSpec {
@@ -168,6 +175,7 @@ struct PassSpec {
   std::string type;
   std::string shader;  // a path; of a draw the stem of two, or the fragment shader beside `vertexShader`
   std::string vertexShader;  // of a draw that names both
+  std::string runsWhile;     // of a timed pass: the condition of the frames in which it runs, as written
   Place place, shaderPlace;
   std::uint32_t firstSlot = 0, slotCount = 0;
   std::vector<DefineSpec> defines;
@@ -195,7 +203,7 @@ struct ImportSpec {
 
 struct ParameterSpec {
   ParameterDesc desc;
-  std::string path;                     // full name: "post.exposure", "post.composite.vignette"
+  std::string path;                     // full name: "post.exposure", "post.dof.aperture"
   Value value;                          // after --set
   Origin origin = Origin::declaration;  // of the value
   Place valuePlace;                     // where it was written; no file of a panel

@@ -178,7 +178,7 @@ void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
       continue;
     }
     const Expr& expr = *each.value.expr;
-    if (uniform.define || !isLive(model, *each.scope, expr)) continue;
+    if (uniform.choosesVariant() || !isLive(model, *each.scope, expr)) continue;
     Names names(model, *each.scope);
     names.indices = each.indices;
     names.live = true;

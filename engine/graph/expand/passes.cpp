@@ -10,6 +10,7 @@
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/expand/spec.h"
 #include "engine/graph/expand/stanza.h"
+#include "engine/graph/expand/timing.h"
 
 namespace weft::graph::expansion {
 
@@ -22,27 +23,35 @@ class PassWalk {
   PassWalk(Model& model, std::vector<DeferredUniform>& deferred)
       : model_(model), graph_(model.graph), deferred_(deferred) {}
 
-  void walk(Scope& scope, const std::string& outerWhy) {
+  // `timing`: of the includes around it.
+  void walk(Scope& scope, const std::string& outerWhy, std::uint32_t timing) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
     for (const PassDesc& desc : scope.desc->passes) {
       if (tooMany_ || isOver(model_)) return;
       if (desc.include)
-        walkInclude(scope, desc, why);
+        walkInclude(scope, desc, why, timing);
       else if (scope.passes.find(desc.name)->second == &desc)
-        walkStanza(scope, desc, why);
+        walkStanza(scope, desc, why, timing);
     }
   }
 
  private:
-  void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why) {
+  void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why, std::uint32_t outer) {
     const auto child = scope.includes.find(desc.include->as);
     if (child == scope.includes.end() || child->second->stanza != &desc) return;
-    checkExpr(model_, scope, desc.enabled);
+    checkExpr(model_, scope, desc.enabled, true);
     markStructural(model_, scope, desc.enabled);
+    const std::uint32_t timing = timingOf(model_, scope, desc, outer);
     Names names(model_, scope);
-    const auto enabled = evaluateCondition(names, desc.enabled, true,
-                                           fmt::format("'enabled' of include '{}'", desc.include->as));
-    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why);
+    const auto enabled =
+        holds(names, desc.enabled, fmt::format("'enabled' of include '{}'", desc.include->as));
+    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why, timing);
+  }
+
+  // One that contains age() decides in each frame, not here.
+  std::optional<bool> holds(Names& names, const Expr& enabled, std::string_view what) {
+    if (isDynamic(model_, names.scope(), enabled)) return true;
+    return evaluateCondition(names, enabled, true, what);
   }
 
   // Kept for each instance, so a long expression is cut.
@@ -54,7 +63,7 @@ class PassWalk {
 
   // ---- one stanza: its repeats ----
 
-  void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
+  void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why, std::uint32_t outer) {
     scope_ = &scope;
     desc_ = &desc;
     declared_ = scope.prefix + desc.name;
@@ -64,6 +73,7 @@ class PassWalk {
     rules_ = rules == model_.disables.end() ? nullptr : &rules->second;
     failed_ = false;
     cost_ = costOf(desc, declared_);
+    timing_ = timingOf(model_, scope, desc, outer);
     stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
     Names names(model_, scope);
     repeat(names, 0);
@@ -125,8 +135,7 @@ class PassWalk {
 
   // Why it is disabled; empty: it is not. nullopt after a report.
   std::optional<std::string> whyDisabled(Names& names, const std::string& name, bool& byItself) {
-    const auto enabled =
-        evaluateCondition(names, desc_->enabled, true, fmt::format("'enabled' of pass '{}'", name));
+    const auto enabled = holds(names, desc_->enabled, fmt::format("'enabled' of pass '{}'", name));
     if (!enabled) return std::nullopt;
     byItself = !*enabled;
     if (rules_)
@@ -149,7 +158,7 @@ class PassWalk {
     }
     const bool enabled = why->empty();
     const std::string user = fmt::format("pass '{}'", name);
-    const SlotContext context{model_, names, type_, user, name, enabled, !byItself};
+    const SlotContext context{model_, names, type_, user, name, enabled, !byItself, timing_};
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
 
     std::vector<SlotWork> slots;
@@ -316,13 +325,26 @@ class PassWalk {
       if (slot.useCount == 0 || slot.access == Access::read) continue;
       if (slot.access == Access::modify && flat.cadence == Cadence::always)
         checkAccumulation(context, slots[i], slot.firstUse);
-      emitWrites(slots[i], slot, pass);
+      if (mayMake(context, slots[i])) emitWrites(slots[i], slot, pass);
     }
     for (const DeferredValue& value : deferred) deferred_.push_back({pass, value, scope_, names.indices});
+    if (timing_ != 0) addTiming(pass, spec);
     graph_.passes.push_back(flat);
     graph_.passNames.push_back(context.pass);
     graph_.specs.push_back(std::move(spec));
     model_.positionOf.push_back(model_.position);
+  }
+
+  void addTiming(std::uint32_t pass, PassSpec& spec) {
+    const Timing& condition = model_.timings[timing_ - 1];
+    spec.runsWhile = condition.expr->text();
+    DeferredValue value;
+    value.uniform = static_cast<std::uint32_t>(spec.uniforms.size());
+    value.expr = condition.expr;
+    deferred_.push_back({pass, value, condition.scope, {}});
+    UniformSpec& uniform = spec.uniforms.emplace_back();
+    uniform.place = condition.expr->place();
+    uniform.role = UniformSpec::Role::enabled;
   }
 
   Model& model_;
@@ -338,6 +360,7 @@ class PassWalk {
   const std::vector<DisableRule>* rules_ = nullptr;
   std::string declared_, scopeWhy_;
   StanzaCost cost_;
+  std::uint32_t timing_ = 0;
   bool failed_ = false, stanzaGood_ = true;
 };
 
@@ -349,7 +372,7 @@ void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
     for (const PassDesc& pass : scope.desc->passes) slots += pass.slots.size();
   model.graph.slots.reserve(slots);
   model.graph.uses.reserve(slots);
-  PassWalk(model, deferred).walk(model.scopes[0], {});
+  PassWalk(model, deferred).walk(model.scopes[0], {}, 0);
 }
 
 }  // namespace weft::graph::expansion

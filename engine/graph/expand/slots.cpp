@@ -7,6 +7,7 @@
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/versions.h"
+#include "engine/graph/expand/timing.h"
 
 namespace weft::graph::expansion {
 
@@ -127,6 +128,7 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   leaf.sampler.linear = leaf.sampler.linear || ref.sampler.linear;
   leaf.sampler.wrap = leaf.sampler.wrap || ref.sampler.wrap;
   leaf.sampler.compare = leaf.sampler.compare || ref.sampler.compare;
+  leaf.history += ref.history;
   const Entity& entity = model.entities[leaf.entity];
   if (entity.kind != ResourceDesc::Kind::alternatives) {
     leaves.push_back(std::move(leaf));
@@ -250,10 +252,10 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
   return false;
 }
 
-bool checkHistory(const SlotContext& context, const RefDesc& ref, const Entity& entity) {
+bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, const Entity& entity) {
   const auto depth = static_cast<int>(entity.depth);
   const bool import = entity.kind == ResourceDesc::Kind::import;
-  if (import ? ref.history == 1 && context.model.graph.imports[entity.import].before : ref.history <= depth)
+  if (import ? history == 1 && context.model.graph.imports[entity.import].before : history <= depth)
     return true;
   auto& d = report(
       context, Code::noHistory, ref.place,
@@ -263,7 +265,7 @@ bool checkHistory(const SlotContext& context, const RefDesc& ref, const Entity& 
                : import                                                    ? "this import has no history"
                : depth == 0                                                ? "no history is declared"
                             : fmt::format("@-1 to @-{}", depth);
-  if (!import) d.hint = fmt::format("declare \"history\": {} on '{}'", ref.history, entity.name);
+  if (!import) d.hint = fmt::format("declare \"history\": {} on '{}'", history, entity.name);
   return false;
 }
 
@@ -274,8 +276,9 @@ void mention(Model& model, std::uint32_t index, std::uint32_t position) {
   if (!entity.mentions.empty() && entity.mentions.back() == position) return;
   entity.mentions.push_back(position);
   if (!entity.candidates.empty() && !lookAt(model, entity.candidates.size(), entity.desc->place)) return;
-  for (const std::uint32_t candidate : entity.candidates)
-    if (candidate != kNone) mention(model, candidate, position);
+  for (std::size_t i = 0; i < entity.candidates.size(); ++i)
+    if (entity.candidates[i] != kNone)
+      mention(model, entity.candidates[i], entity.desc->alternatives[i].history > 0 ? kNone : position);
 }
 
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {
@@ -315,8 +318,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   missing.ref = &ref;
   missing.access = slot.access;
 
-  const bool looksForVersions =
-      context.versions && *holds && slot.access != Access::write && ref.history == 0;
+  const bool looksForVersions = context.versions && *holds && slot.access != Access::write;
   bool onlyImports = !leaves.empty();
   const SlotWork blank = work;
   std::optional<SlotWork> zero;  // the first candidate that has no more than version zero
@@ -328,8 +330,9 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     const Entity& entity = model.entities[candidate.entity];
     // An import that is not there has shown nothing before either: one of the other alternatives has.
     const bool last = &leaf == &leaves.back();
-    if (ref.history > 0 && !last && entity.kind == ResourceDesc::Kind::import && !entity.exists) continue;
-    if (ref.history > 0 && !checkHistory(context, ref, entity)) return work;
+    const bool earlier = leaf.history > 0;
+    if (earlier && !last && entity.kind == ResourceDesc::Kind::import && !entity.exists) continue;
+    if (earlier && !checkHistory(context, ref, leaf.history, entity)) return work;
     if (!*holds) {
       candidate.state = slot.access == Access::read && !ref.optional ? State::missing : State::absent;
       work = std::move(candidate);
@@ -343,8 +346,8 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
       if (ref.optional) candidate.state = State::absent;
       return candidate;
     }
-    candidate.use.history = static_cast<std::uint8_t>(ref.history);
-    if (!looksForVersions) return candidate;
+    candidate.use.history = static_cast<std::uint8_t>(leaf.history);
+    if (!looksForVersions || earlier) return candidate;
     bool complete = true, real = false;
     for (std::uint32_t e = candidate.firstElement; e < candidate.firstElement + candidate.elementCount; ++e) {
       const VersionCheck check = checkVersion(model, candidate.entity, e, candidate.use);
@@ -353,7 +356,11 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
         missing.wanted.push_back({candidate.entity, e, check.missing, candidate.use});
       complete = complete && check.complete;
     }
-    if (complete && real) return candidate;
+    if (complete && real) {
+      if (entity.timing == 0 || entity.timing == context.timing) return candidate;
+      reportMadeAtTimes(context, slot, entity);
+      return work;
+    }
     onlyImports = onlyImports && entity.kind == ResourceDesc::Kind::import;
     if (complete && !zero) zero = candidate;
     if (work.entity == kNone) work = std::move(candidate);

@@ -29,6 +29,7 @@ struct Leaf {
   Selection selection;
   std::optional<Kind> kind;
   Sampler sampler;
+  int history = 0;  // n of @-n, of the reference and of the alternatives on the way
 };
 
 // A slot of one pass instance.
@@ -51,12 +52,13 @@ struct SlotWork {
 
 struct SlotContext {
   Model& model;
-  Names& names;             // of the pass instance
-  const PassType* type;     // null: present, outputs, resets
-  const std::string& user;  // "pass 'glow_down[3]'"
-  const std::string& pass;  // "glow_down[3]"
-  bool versions = true;     // false: a disabled pass; the first candidate is validated
-  bool ranges = true;       // false: sub-resource ranges are not held against sizes
+  Names& names;              // of the pass instance
+  const PassType* type;      // null: present, outputs, resets
+  const std::string& user;   // "pass 'glow_down[3]'"
+  const std::string& pass;   // "glow_down[3]"
+  bool versions = true;      // false: a disabled pass; the first candidate is validated
+  bool ranges = true;        // false: sub-resource ranges are not held against sizes
+  std::uint32_t timing = 0;  // of a timed pass, as Entity::timing
 };
 
 // All concrete candidates of a reference whose conditions hold, in order. False after a report.

@@ -213,7 +213,7 @@ class SpecFiller {
     const std::string& name = define.name;
     const Expr& expr = define.expr;
     if (isDynamic(model_, names_.scope(), expr)) {
-      const auto conditions = std::ranges::count_if(spec_.uniforms, &UniformSpec::define);
+      const auto conditions = std::ranges::count_if(spec_.uniforms, &UniformSpec::choosesVariant);
       if (conditions == kMaxConditions) {
         error(Code::badTime, define.place, fmt::format("has more than {} defines with age()", kMaxConditions))
             .hint = "each doubles the number of its shader variants";
@@ -223,7 +223,7 @@ class SpecFiller {
       UniformSpec condition;
       condition.name = name;
       condition.place = expr.place();
-      condition.define = true;
+      condition.role = UniformSpec::Role::define;
       spec_.uniforms.push_back(std::move(condition));
       return;
     }
@@ -290,7 +290,7 @@ class SpecFiller {
     std::vector<std::string_view> all;
     for (const DefineSpec& define : spec_.defines) all.push_back(define.name);
     for (const UniformSpec& uniform : spec_.uniforms)
-      if (uniform.define) all.push_back(uniform.name);
+      if (uniform.role == UniformSpec::Role::define) all.push_back(uniform.name);
     std::sort(all.begin(), all.end());
     if (const auto twice = std::adjacent_find(all.begin(), all.end()); twice != all.end())
       error(Code::nameUsedTwice, desc_.namePlace, fmt::format("defines '{}' twice", *twice)).hint =

@@ -153,7 +153,8 @@ void checkExpressions(const Stanza& stanza) {
     checkExpr(model, scope, expr);
     markStructural(model, scope, expr);
   };
-  structural(desc.enabled);
+  checkExpr(model, scope, desc.enabled, true);
+  markStructural(model, scope, desc.enabled);
   for (const RangeDesc& range : desc.repeat)
     for (const Expr* expr : {&range.first, &range.last, &range.step}) structural(*expr);
   for (const SlotDesc& slot : desc.slots) checkReference(stanza, slot.ref);

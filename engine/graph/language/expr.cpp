@@ -209,6 +209,11 @@ void collectFacts(const ExprNode& node, std::vector<std::pair<Fact, std::string>
   for (const ExprPtr& child : node.children) collectFacts(*child, out);
 }
 
+bool findsWord(const ExprNode& node, std::string_view word) {
+  if (node.op == ExprOp::identifier && node.name == word) return true;
+  return std::ranges::any_of(node.children, [&](const ExprPtr& child) { return findsWord(*child, word); });
+}
+
 }  // namespace
 
 Expr Expr::constant(Value value, base::Place place) {
@@ -290,6 +295,10 @@ std::vector<std::string> Expr::variables() const {
   std::set<std::string_view> seen;
   if (root_ && root_->op != ExprOp::constant) collectVariables(*root_, out, seen);
   return out;
+}
+
+bool Expr::says(std::string_view word) const {
+  return root_ && findsWord(*root_, word);
 }
 
 std::vector<std::pair<Fact, std::string>> Expr::facts() const {

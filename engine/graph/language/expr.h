@@ -79,6 +79,8 @@ class Expr {
   const base::Place& place() const;
   // Every $variable it names (for culling conditions, hot reload and `explain`).
   std::vector<std::string> variables() const;
+  // True when the bare `word` stands in it: a repeat index or a choice.
+  bool says(std::string_view word) const;
   // Every size(x), mips(x), count(x), has(x), age(x) it asks, with the name as written (an @ included), in
   // order.
   std::vector<std::pair<Fact, std::string>> facts() const;

@@ -78,7 +78,7 @@ void Execution::runSteps(FrameReport& report, base::Diagnostics& diagnostics) {
   arena_.upload();
   // Before any step: a pass that reads x@-1 may stand before the one that writes x.
   for (std::size_t step = 0; step < passes_.size(); ++step)
-    if (cadence_->runs(step)) publications_->publishWritten(passes_[step]);
+    if (runs(step)) publications_->publishWritten(passes_[step]);
   for (std::size_t step = 0; step < passes_.size(); ++step) {
     const graph::Step& planned = plan_->steps[step];
     if (planned.barriers) {
@@ -86,7 +86,7 @@ void Execution::runSteps(FrameReport& report, base::Diagnostics& diagnostics) {
       ++report.barriers;
     }
     report.whole = report.whole && !(input_.obsolete && input_.obsolete());
-    if (cadence_->runs(step) && (report.whole || lasting_[step])) {
+    if (runs(step) && (report.whole || lasting_[step])) {
       ran_[step] = 1;
       runner_->run(step, passes_[step], cadence_->slices(step).begins(), diagnostics);
     } else if (planned.barriersAfterClears) {

@@ -110,6 +110,7 @@ class Execution {
   void beginFrame(const World& world, const FrameInput& input);
   void publishFinished(base::Diagnostics& diagnostics);
   void decide(base::Diagnostics& diagnostics);
+  bool runs(std::size_t step) const { return cadence_->runs(step) && !passes_[step].idle; }
   void runSteps(FrameReport& report, base::Diagnostics& diagnostics);
   void endFrame(FrameReport& report, base::Diagnostics& diagnostics);
   void runAhead(FrameReport& report, base::Diagnostics& diagnostics);

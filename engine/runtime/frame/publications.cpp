@@ -79,6 +79,7 @@ void Publications::holdFading() {
     holdBefore(pass.textures);
     holdBefore(pass.images);
     holdBefore(pass.buffers);
+    holdBefore(pass.fixed);
   }
 }
 

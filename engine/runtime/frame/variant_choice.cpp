@@ -32,10 +32,12 @@ bool VariantChoice::take(std::size_t step, std::uint32_t conditions, base::Diagn
   const gl::Limits& limits = device_.context.device().limits;
   PrepareContext context{plan_, device_.passTypes,  nullptr,          conditions,
                          pool_, device_.geometries, device_.samplers, diagnostics};
-  context.variant =
-      device_.programs.get(programRequestOf(*plan_.graph, plan_, pass, type, conditions), diagnostics);
+  const bool shaded = type.shader != graph::ShaderShape::none;
+  if (shaded)
+    context.variant =
+        device_.programs.get(programRequestOf(*plan_.graph, plan_, pass, type, conditions), diagnostics);
   PreparedPass made;
-  if (context.variant && checkProgram(plan_, pass, *context.variant, limits, diagnostics))
+  if (!shaded || (context.variant && checkProgram(plan_, pass, *context.variant, limits, diagnostics)))
     made = preparePass(context, step);
   made.conditions = conditions;
   std::copy_n(limits.computeGroups, 3, made.context.maxGroups);

@@ -44,7 +44,7 @@ bool sameSlot(const SlotSpec& a, const SlotSpec& b) {
 }
 
 bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
-  return a.name == b.name && a.define == b.define && a.value.type == b.value.type &&
+  return a.name == b.name && a.role == b.role && a.value.type == b.value.type &&
          a.value.count == b.value.count;
 }
 

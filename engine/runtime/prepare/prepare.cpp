@@ -32,12 +32,15 @@ class Preparer {
     out_.fromSource = type.fromSource;
     out_.job = c_.plan.jobs.jobOf(step_.pass);
     collectUses();
-    if (type.shader == graph::ShaderShape::none) {
-      out_.usable = bindFixed();
-    } else {
-      out_.usable = takeProgram(type) && bindSlots();
-      if (out_.usable) prepareGeometry(type);
-    }
+    out_.conditions = c_.conditions;
+    out_.conditional = conditionCount(spec_) > 0;
+    out_.passing = out_.conditional && c_.conditions != settledConditionsOf(spec_);
+    out_.idle = !runsUnder(spec_, c_.conditions);
+    const bool shaded = type.shader != graph::ShaderShape::none;
+    out_.usable = !shaded || takeProgram(type);
+    if (!out_.usable || out_.idle) return std::move(out_);
+    out_.usable = shaded ? bindSlots() : bindFixed();
+    if (out_.usable && shaded) prepareGeometry(type);
     collectClears();
     return std::move(out_);
   }
@@ -62,9 +65,6 @@ class Preparer {
 
   bool takeProgram(const graph::PassType& type) {
     out_.variant = c_.variant;
-    out_.conditions = c_.conditions;
-    out_.conditional = conditionCount(spec_) > 0;
-    out_.passing = out_.conditional && c_.conditions != settledConditionsOf(spec_);
     if (!out_.variant) return false;
     out_.programHash = base::kHashSeed;
     for (const gl::StageSource& stage : out_.variant->stages)

@@ -103,9 +103,10 @@ struct PreparedPass {
   std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
-  bool conditional = false;                             // has dynamic defines
+  bool conditional = false;                             // has dynamic defines, or is timed
   std::uint32_t conditions = 0;                         // of its variant, see conditionsOf
   bool passing = false;                                 // that variant is not the one that time settles on
+  bool idle = false;                                    // that variant does not run: nothing of it is bound
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
 

@@ -197,7 +197,7 @@ class Checker {
   void checkParameters() {
     const gl::Block* block = reflection_.findUniformBlock("Parameters");
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
-      if (uniform.define) continue;
+      if (uniform.choosesVariant()) continue;
       const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
       if (!member) {
         if (variant_.mentions(uniform.name)) continue;

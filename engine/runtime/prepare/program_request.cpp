@@ -41,7 +41,8 @@ bool isInstanceTable(const FlatGraph& graph, const FlatUse& use) {
 std::uint32_t conditionsOf(const PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf) {
   std::uint32_t conditions = 0, bit = 0;
   for (const graph::UniformSpec& uniform : spec.uniforms)
-    if (uniform.define) conditions |= (uniform.dynamic.evaluateFolded(ageOf).truth() ? 1u : 0u) << bit++;
+    if (uniform.choosesVariant())
+      conditions |= (uniform.dynamic.evaluateFolded(ageOf).truth() ? 1u : 0u) << bit++;
   return conditions;
 }
 
@@ -50,7 +51,18 @@ std::uint32_t settledConditionsOf(const PassSpec& spec) {
 }
 
 std::uint32_t conditionCount(const PassSpec& spec) {
-  return static_cast<std::uint32_t>(std::ranges::count_if(spec.uniforms, &graph::UniformSpec::define));
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(spec.uniforms, &graph::UniformSpec::choosesVariant));
+}
+
+bool runsUnder(const PassSpec& spec, std::uint32_t conditions) {
+  std::uint32_t bit = 0;
+  for (const graph::UniformSpec& uniform : spec.uniforms) {
+    if (!uniform.choosesVariant()) continue;
+    if (uniform.role == graph::UniformSpec::Role::enabled && (conditions >> bit & 1u) == 0) return false;
+    ++bit;
+  }
+  return true;
 }
 
 gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,
@@ -87,10 +99,12 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
   }
   std::uint32_t bit = 0;
   for (const graph::UniformSpec& uniform : spec.uniforms) {
-    if (uniform.define)
-      request.defines.push_back({uniform.name, (conditions >> bit++ & 1u) != 0 ? "1" : "0"});
-    else
+    if (uniform.choosesVariant()) {
+      const char* const holds = (conditions >> bit++ & 1u) != 0 ? "1" : "0";
+      if (uniform.role == graph::UniformSpec::Role::define) request.defines.push_back({uniform.name, holds});
+    } else {
       request.defines.push_back({"HAS_" + upper(uniform.name), "1"});
+    }
   }
   for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
   return request;

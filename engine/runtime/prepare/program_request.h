@@ -15,6 +15,8 @@ std::uint32_t conditionsOf(const graph::PassSpec& spec, const std::function<doub
 // The same long after everything was published; and how many bits there are.
 std::uint32_t settledConditionsOf(const graph::PassSpec& spec);
 std::uint32_t conditionCount(const graph::PassSpec& spec);
+// Whether the pass runs under them: a timed one has its `enabled` among them.
+bool runsUnder(const graph::PassSpec& spec, std::uint32_t conditions);
 
 // The stages, defines and outputs of a pass's variant under `conditions`: what `check` compiles without running anything.
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan,

@@ -96,10 +96,10 @@ TEST_CASE(
               R"J(, "let": { "fade": "min(age(out) / 0.25, 1)" })J");
   CHECK(e.text() == "");
   const UniformSpec& fade = e.uniform("p", "FADE");
-  CHECK(fade.define);
+  CHECK(fade.role == UniformSpec::Role::define);
   CHECK(fade.dynamic.evaluateFolded([](std::uint32_t) { return 0.1; }).truth());
   CHECK_FALSE(fade.dynamic.evaluateFolded([](std::uint32_t) { return 0.25; }).truth());
-  CHECK_FALSE(e.uniform("p", "t").define);
+  CHECK(e.uniform("p", "t").role == UniformSpec::Role::uniform);
   CHECK(e.spec("p").defines.size() == 1);
   const Expanded slow = tryPass(R"J("update": "on_change", "defines": { "T": "age(out) < 1" })J", "");
   CHECK(slow.of(Code::badTime).pass == "p");

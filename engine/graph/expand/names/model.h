@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,7 +40,7 @@ struct Scope;
 
 struct Parameter {
   const ParameterDesc* desc = nullptr;
-  std::string path;  // "post.exposure", "post.composite.vignette"
+  std::string path;  // "post.exposure", "post.dof.aperture"
   Value value;
   bool structural = false;
   Place valuePlace{};  // where `value` was written: a default, a "set", the command line
@@ -86,6 +87,9 @@ struct Entity {
   Progress bindState = Progress::fresh;
   std::uint32_t bound = kNone;
   Progress listState = Progress::fresh;  // alternatives: cycle check
+  // Made by timed passes: under this condition only (into Model::timings, from 1). 0: not, or not made yet.
+  std::uint32_t timing = 0;
+  bool made = false;  // some pass writes or modifies it
   std::vector<std::uint32_t>
       candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
@@ -126,6 +130,12 @@ struct DisableRule {
   std::string why;       // "--disable fxaa"
   std::string declared;  // full declared name of a pass
   std::string instance;  // full instance name, or empty: all repeats
+};
+
+// A condition of timed passes, see timing.h.
+struct Timing {
+  const Expr* expr = nullptr;
+  Scope* scope = nullptr;
 };
 
 // Who writes what, enabled or not, in declared order: for "who would have written it".
@@ -184,6 +194,8 @@ struct Model {
   std::unordered_map<std::uint64_t, std::uint32_t> importIndex{};  // by keyOf(request)
   std::unordered_map<std::string, std::vector<std::uint32_t>> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
+  std::vector<Timing> timings{};
+  std::map<std::pair<const Scope*, std::string>, std::uint32_t> timingByText{};  // from 1
   std::vector<WriteRecord> writes{};
   std::vector<MissingRead> missing{};
   struct HistoryUse {
