@@ -2,20 +2,14 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <cstring>
 #include <string>
 
 #include "app/ui/panels.h"
+#include "app/ui/pass_switch.h"
 
 namespace weft::app::ui {
 
 namespace {
-
-// --disable NAME of a reason, or nothing when something else turned the pass off.
-std::string disabledBy(const graph::DisabledPass& pass) {
-  constexpr const char* kOption = "--disable ";
-  return pass.why.starts_with(kOption) ? pass.why.substr(std::strlen(kOption)) : std::string();
-}
 
 // "3/24" of a pass that is spread over frames, else nothing.
 std::string sliceText(const runtime::SliceRange& range) {
@@ -68,7 +62,7 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
         ImGui::TableNextColumn();
         bool on = true;
         if (!ran) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        if (ImGui::Checkbox(name.c_str(), &on)) pass = graph.specs[index].declared;
+        if (ImGui::Checkbox(name.c_str(), &on)) pass = switchNameOf(graph, index);
         if (!ran) ImGui::PopStyleColor();
         const bool timed = profile && step < timers.results().size() && timers.results()[step].ran;
         explain(name +
@@ -77,10 +71,11 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
                        : "") +
                 "\n" + (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") +
                 explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
-                (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
+                (ran ? "" : "\n" + whyIdle(graph.specs[index])));
         if (!narrow) {
           ImGui::TableNextColumn();
-          ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str()) : ImGui::TextDisabled("kept");
+          ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str())
+              : ImGui::TextDisabled("%s", idleWord(graph.specs[index]));
         }
         if (timed) {
           ImGui::TableNextColumn();
@@ -117,7 +112,8 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
   };
   for (std::uint32_t i = 0; i < graph.passes.size(); ++i)
     if (plan.stepOf[i] == graph::kNone) listIdle(graph.passNames[i], explainer_->whyPass(i), {});
-  for (const graph::DisabledPass& each : graph.disabled) listIdle(each.name, each.why, disabledBy(each));
+  for (const graph::DisabledPass& each : graph.disabled)
+    listIdle(each.name, each.why, disabledBy(each, live_.settings()));
   if (!pass.empty()) live_.setEnabled(pass, enable, diagnostics);
 }
 

@@ -31,6 +31,11 @@ bool sameText(const Diagnostic& a, const Diagnostic& b) {
 
 }  // namespace
 
+bool isSamePlace(const Place& a, const Place& b) {
+  return a.line == b.line && a.column == b.column &&
+         (a.file == b.file || (a.file && b.file && *a.file == *b.file));
+}
+
 std::string nameOf(Code code) {
   return fmt::format("W{:03}", static_cast<unsigned>(code));
 }

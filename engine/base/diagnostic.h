@@ -20,6 +20,9 @@ struct Place {
   std::uint32_t column = 0;
 };
 
+// Two places in files of the same path are the same, however often the file was read.
+bool isSamePlace(const Place& a, const Place& b);
+
 enum class Severity : std::uint8_t { note, warning, error };
 
 struct Diagnostic {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/ui/log.h"
+#include "app/ui/pass_switch.h"
 #include "app/view/actions.h"
 #include "app/view/frame_clock.h"
 #include "app/view/help_layout.h"
@@ -156,6 +157,37 @@ TEST_CASE(
   CHECK(textOf(log, true).empty());
   log.set(Log::kFiles, {said(error, "broken")});
   CHECK(textOf(log, true) == "broken ");
+}
+
+TEST_CASE("a box of the passes turns off what F8 can write, and turns it on again") {
+  graph::FlatGraph flat;
+  const auto add = [&](const char* name, const char* file, std::uint32_t line) {
+    graph::PassSpec& spec = flat.specs.emplace_back();
+    spec.name = spec.declared = name;
+    spec.place = {std::make_shared<const std::string>(file), line, 5};
+  };
+  add("lit.sky", "lit.json", 3);
+  add("lit.balls", "lit.json", 9);
+  add("fade.old.balls", "lit.json", 9);
+  add("fade.balls", "fade.json", 9);
+  add("one.lit.down", "lit.json", 12);
+  add("two.lit.down", "lit.json", 12);
+  CHECK(ui::switchNameOf(flat, 0) == "lit.sky");
+  CHECK(ui::switchNameOf(flat, 1) == "balls");
+  CHECK(ui::switchNameOf(flat, 2) == "balls");
+  CHECK(ui::switchNameOf(flat, 3) == "fade.balls");
+  CHECK(ui::switchNameOf(flat, 5) == "lit.down");
+
+  graph::Settings settings;
+  settings.disables = {{"sky"}, {"balls", graph::Origin::panel}};
+  for (const graph::Disable& disable : settings.disables)
+    CHECK(ui::disabledBy({"lit." + disable.name, graph::sourceOf(disable)}, settings) == disable.name);
+  CHECK(ui::disabledBy({"lit.sky", "enabled: $sky is false"}, settings).empty());
+
+  flat.specs[1].runsWhile = "age(sky) < 1";
+  CHECK(ui::whyIdle(flat.specs[0]).starts_with("kept: "));
+  CHECK(ui::whyIdle(flat.specs[1]) == "idle: it runs while age(sky) < 1");
+  CHECK(ui::idleWord(flat.specs[1]) == std::string("idle"));
 }
 
 }  // namespace weft::app

@@ -165,7 +165,7 @@ class Planner {
   bool writePass(const std::string& name) {
     const std::vector<std::string> declared = declaredPasses(*now_);
     const std::vector<std::size_t> found = suffixMatches(declared, name);
-    if (found.size() != 1) return true;  // an instance
+    if (found.empty()) return true;  // an instance
     const std::string& pass = declared[found[0]];
     const auto before = expand(*now_);
     if (!before) return fail(fmt::format("pass '{}'", pass), "what is left without it is not valid"), false;

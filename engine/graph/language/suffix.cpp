@@ -20,6 +20,17 @@ std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::
   return found;
 }
 
+std::string commonSuffix(std::string_view a, std::string_view b) {
+  std::string_view common;
+  for (std::size_t dot = a.size(); dot != std::string_view::npos && dot > 0;) {
+    dot = a.rfind('.', dot - 1);
+    const std::string_view suffix = dot == std::string_view::npos ? a : a.substr(dot + 1);
+    if (!hasSuffix(b, suffix)) break;
+    common = suffix;
+  }
+  return std::string(common);
+}
+
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names) {
   if (const std::string near = base::nearestName(wanted, names); !near.empty())
     return fmt::format("did you mean '{}'?", near);

@@ -16,6 +16,9 @@ bool hasSuffix(std::string_view name, std::string_view suffix);
 // Indices of `names` that `wanted` means: the equal one, else all that end in it.
 std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::string_view wanted);
 
+// The longest suffix of both.
+std::string commonSuffix(std::string_view a, std::string_view b);
+
 // The nearest of the names and of their last parts, as a hint; "" when nothing is near and the list is long.
 std::string suffixHint(std::string_view wanted, std::span<const std::string> names);
 

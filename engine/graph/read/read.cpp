@@ -177,14 +177,10 @@ class GraphReader {
     const std::vector<base::Diagnostic>& before = diagnostics_.items();
     for (const base::Diagnostic& each : said.items())
       if (std::ranges::none_of(before, [&](const base::Diagnostic& d) {
-            return d.code == each.code && samePlace(d.place, each.place);
+            return d.code == each.code && base::isSamePlace(d.place, each.place);
           }))
         diagnostics_.add(each);
     return pass;
-  }
-
-  static bool samePlace(const base::Place& a, const base::Place& b) {
-    return a.file == b.file && a.line == b.line && a.column == b.column;
   }
 
   void follow(const JsonValue& stanza, IncludeDesc& include, const Source& source, GraphDesc& graph) {

@@ -322,6 +322,13 @@ TEST_CASE("what has no place in the files is refused whole: W196") {
   CHECK_FALSE(written.plan);
   CHECK(written.diagnostics.contains(Code::cannotWriteBack));
   CHECK(contents(twice) == before);
+  // Disabled in both, it is written into the file that holds it.
+  const auto both = writeBack(twice, {.disables = {"fix"}});
+  INFO(both.diagnostics.text());
+  REQUIRE(both.plan);
+  CHECK(both.plan->rest.disables.empty());
+  CHECK(contents(twice) == before);
+  CHECK(load(twice, {})->passNames == std::vector<std::string>{"left.p", "right.p", "sum"});
 }
 
 TEST_CASE("random tweaks of the bundled graph come back from its files, and only values moved") {

@@ -1,5 +1,6 @@
 // Parameters, lets, --set and --disable, defines, uniforms, age, state, sizes and limits.
 #include "tests/graph/expand/support.h"
+#include "tests/graph/test_folder.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -147,6 +148,45 @@ TEST_CASE("--set and --disable of names that several things end in") {
   CHECK(expandText(text, with({}, {"b[1]"})).names() == "a b[0] b[2]");
   CHECK(expandText(text, with({}, {"bb"})).has(Code::unknownPass));
   CHECK(expandText(text, with({}, {"on"})).of(Code::parameterNotPass).hint == "--set on=false");
+}
+
+TEST_CASE("--disable of a name in a file that is included twice means both, of two files neither") {
+  const TestFolder folder("values_test_files");
+  folder.write("in.json", R"J({ "resources": { "c": { "texture": "rgba8", "size": 8 } }, "passes": [
+    { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "c" } },
+    { "name": "fix", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [0, 1] }, "read": { "s": "c" }, "write": { "r": "c" } } ] })J");
+  folder.write("mid.json", R"J({ "passes": [ { "include": "in.json" } ] })J");
+  const auto names = [&](const std::string& pass, const std::string& more = "") {
+    const std::string path = folder.write(
+        "top.json",
+        R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 } },
+    "passes": [ { "include": "in.json", "as": "a" }, { "include": "mid.json", "as": "b" }, )J" +
+            more +
+            R"J( { "name": "sum", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "s": "a.c", "t": "b.in.c" }, "write": { "r": "out" } } ], "present": "out" })J");
+    Expanded e;
+    const auto desc = readGraph(path, e.diagnostics);
+    REQUIRE_MESSAGE(desc, e.text());
+    e.graph = expandGraph(*desc, testRegistry(), with({}, {pass}), e.diagnostics);
+    return e.has(Code::ambiguousName) ? e.of(Code::ambiguousName).found : e.names();
+  };
+  CHECK(names("fix") == "a.p b.in.p sum");
+  CHECK(names("fix[1]") == "a.p a.fix[0] b.in.p b.in.fix[0] sum");
+  CHECK(names("a.fix") == "a.p b.in.p b.in.fix[0] b.in.fix[1] sum");
+  CHECK(names("in.fix") == "a.p a.fix[0] a.fix[1] b.in.p sum");
+  folder.write("other.json", R"J({ "resources": { "d": { "texture": "rgba8", "size": 8 } }, "passes": [
+    { "name": "fix", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "d" }, "side_effect": true } ] })J");
+  CHECK(names("fix", R"({ "include": "other.json" },)") == "a.fix, b.in.fix, other.fix");
+  // An include likewise.
+  folder.write("high.json", R"J({ "passes": [ { "include": "mid.json" } ] })J");
+  const std::string path = folder.write("top.json",
+                                        R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 } },
+    "passes": [ { "include": "high.json", "as": "a" }, { "include": "high.json", "as": "b" },
+                { "name": "sum", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "s": "a.mid.in.c?" }, "write": { "r": "out" } } ], "present": "out" })J");
+  Expanded e;
+  const auto desc = readGraph(path, e.diagnostics);
+  REQUIRE_MESSAGE(desc, e.text());
+  e.graph = expandGraph(*desc, testRegistry(), with({}, {"mid"}), e.diagnostics);
+  CHECK(e.names() == "sum");
 }
 
 TEST_CASE("state words, flags and per-slot blending") {

@@ -196,30 +196,39 @@ void applyDisable(Model& model, const Disable& disable) {
   struct Candidate {
     Scope* scope;      // an include
     std::string pass;  // or a pass
+    const PassDesc* stanza;
   };
   std::vector<std::string> names;
   std::vector<Candidate> candidates;
   for (Scope& scope : model.scopes) {
     if (scope.parent && declared == wanted) {
       names.push_back(scope.prefix.substr(0, scope.prefix.size() - 1));
-      candidates.push_back({&scope, {}});
+      candidates.push_back({&scope, {}, scope.stanza});
     }
     for (const PassDesc& pass : scope.desc->passes)
       if (!pass.include) {
         names.push_back(scope.prefix + pass.name);
-        candidates.push_back({nullptr, names.back()});
+        candidates.push_back({nullptr, names.back(), &pass});
       }
   }
   const std::vector<std::size_t> found = suffixMatches(names, declared);
   if (!found.empty()) {
-    if (reportUnlessOne(model, names, found, wanted, "passes", place, before)) return;
-    const Candidate& match = candidates[found[0]];
-    if (match.scope) {
-      match.scope->disabledBy = source;
+    // Of a file that is included twice, both.
+    const auto isSame = [&](std::size_t i) {
+      return base::isSamePlace(candidates[i].stanza->place, candidates[found[0]].stanza->place);
+    };
+    if (!std::ranges::all_of(found, isSame) &&
+        reportUnlessOne(model, names, found, wanted, "passes", place, before))
       return;
+    for (const std::size_t i : found) {
+      const Candidate& match = candidates[i];
+      if (match.scope) {
+        match.scope->disabledBy = source;
+        continue;
+      }
+      const std::string instance = declared == wanted ? "" : match.pass + wanted.substr(declared.size());
+      model.disables[match.pass].push_back({source, match.pass, instance});
     }
-    const std::string instance = declared == wanted ? "" : match.pass + wanted.substr(declared.size());
-    model.disables[match.pass].push_back({source, match.pass, instance});
     return;
   }
   std::vector<std::string> parameters;

@@ -24,11 +24,6 @@ const PassDesc* failedInclude(const Scope& scope) {
   return nullptr;
 }
 
-bool samePlace(const Place& a, const Place& b) {
-  return a.line == b.line && a.column == b.column &&
-         (a.file == b.file || (a.file && b.file && *a.file == *b.file));
-}
-
 std::string hintFor(Model& model, const Unincluded& group) {
   const Scope& scope = *group.scope;
   if (group.uses.size() == 1)
@@ -92,7 +87,7 @@ bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place
   }
   // The instances of a repeat come here one after another.
   if (std::ranges::none_of(group->uses,
-                           [&](const Unincluded::Use& use) { return samePlace(use.place, place); }))
+                           [&](const Unincluded::Use& use) { return base::isSamePlace(use.place, place); }))
     group->uses.push_back(
         {place, fmt::format("{} unknown resource '{}'", user, name), std::string(name), pass});
   return true;

@@ -1,0 +1,30 @@
+#include "app/ui/pass_switch.h"
+
+#include "engine/graph/language/suffix.h"
+
+namespace weft::app::ui {
+
+std::string switchNameOf(const graph::FlatGraph& graph, std::uint32_t pass) {
+  const graph::PassSpec& spec = graph.specs[pass];
+  std::string name = spec.declared;
+  for (const graph::PassSpec& other : graph.specs)
+    if (base::isSamePlace(other.place, spec.place)) name = graph::commonSuffix(name, other.declared);
+  return name;
+}
+
+std::string disabledBy(const graph::DisabledPass& pass, const graph::Settings& settings) {
+  for (const graph::Disable& disable : settings.disables)
+    if (graph::sourceOf(disable) == pass.why) return disable.name;
+  return {};
+}
+
+std::string whyIdle(const graph::PassSpec& spec) {
+  return spec.runsWhile.empty() ? "kept: nothing it depends on has changed since it ran"
+                                : "idle: it runs while " + spec.runsWhile;
+}
+
+const char* idleWord(const graph::PassSpec& spec) {
+  return spec.runsWhile.empty() ? "kept" : "idle";
+}
+
+}  // namespace weft::app::ui

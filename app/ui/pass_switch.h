@@ -1,0 +1,24 @@
+// What the boxes of the panel of passes turn on and off, and why a pass did not run. Does not: draw
+// (app/ui/pass_panel.cpp), change anything.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/graph/expand/names/settings.h"
+#include "engine/graph/flat_graph.h"
+
+namespace weft::app::ui {
+
+// What is given to --disable to turn the pass off: its name, or, when its file is included twice, the end of the name that
+// means it in all of them. F8 could not write them apart.
+std::string switchNameOf(const graph::FlatGraph& graph, std::uint32_t pass);
+
+// What --disable or a box named, so that the pass can be turned on again; "" when something else turned it off.
+std::string disabledBy(const graph::DisabledPass& pass, const graph::Settings& settings);
+
+// Why a pass of the plan did not run in a frame, as a sentence and as a word.
+std::string whyIdle(const graph::PassSpec& spec);
+const char* idleWord(const graph::PassSpec& spec);
+
+}  // namespace weft::app::ui
