@@ -5,7 +5,6 @@
 //         velocity   screen UV per frame of a point at infinity
 // params  sky_turn?  by how much of a full turn the environment is rotated, from +X towards +Z
 //         blur?      level of `blurred`; between 0 and 1 a mixture with `sky`
-// FADE    mixes sky_before and blurred_before (1 - fade) and the above (parameter fade)
 #include "maps.glsl"
 
 noperspective in vec3 direction;
@@ -16,12 +15,6 @@ noperspective in vec3 before;
 flat in vec2 sky_lookup;
 #ifdef HAS_BLURRED
 flat in vec2 blurred_lookup;
-#endif
-#if FADE
-flat in vec2 sky_before_lookup;
-#ifdef HAS_BLURRED
-flat in vec2 blurred_before_lookup;
-#endif
 #endif
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -36,13 +29,6 @@ void main() {
   vec3 color = sampleEquirect(sky, at, sky_lookup).rgb;
 #ifdef HAS_BLURRED
   color = mix(color, sampleEquirect(blurred, at, blurred_lookup).rgb, min(blur, 1.0));
-#endif
-#if FADE
-  vec3 old = sampleEquirect(sky_before, at, sky_before_lookup).rgb;
-#ifdef HAS_BLURRED
-  old = mix(old, sampleEquirect(blurred_before, at, blurred_before_lookup).rgb, min(blur, 1.0));
-#endif
-  color = mix(old, color, fade);
 #endif
   radiance = vec4(color, 1.0);
 #endif

@@ -12,12 +12,6 @@ flat out vec2 sky_lookup;
 #ifdef HAS_BLURRED
 flat out vec2 blurred_lookup;
 #endif
-#if FADE
-flat out vec2 sky_before_lookup;
-#ifdef HAS_BLURRED
-flat out vec2 blurred_before_lookup;
-#endif
-#endif
 
 vec2 lookupOf(sampler2D map, float least) {
   vec2 size = vec2(textureSize(map, 0));
@@ -34,11 +28,5 @@ void main() {
   sky_lookup = lookupOf(sky, 0.0);
 #ifdef HAS_BLURRED
   blurred_lookup = lookupOf(blurred, max(blur, 1.0));
-#endif
-#if FADE
-  sky_before_lookup = lookupOf(sky_before, 0.0);
-#ifdef HAS_BLURRED
-  blurred_before_lookup = lookupOf(blurred_before, max(blur, 1.0));
-#endif
 #endif
 }

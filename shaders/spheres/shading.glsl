@@ -8,8 +8,6 @@
 // surfaces add its variance to that of their lobe (Tokuyoshi and Kaplanyan, "Improved geometric specular antialiasing", I3D
 // 2019, with the curvature known instead of derivatives). Nothing depends on the resolution but through that cone.
 // Parameter sky_turn?: by how much of a full turn the environment is rotated.
-// FADE: mixes irradiance_before, specular_before and environment_before (1 - fade), each beside its like, and these (parameter
-// fade).
 #ifndef SPHERES_SHADING_GLSL
 #define SPHERES_SHADING_GLSL
 
@@ -23,41 +21,20 @@
 #define SPECULAR_AA 1
 #endif
 
-#ifndef FADE
-#define FADE 0
-#endif
-
 uniform sampler2D brdf;
-#if defined HAS_SKY_TURN || FADE
-layout(std140) uniform Parameters {
 #ifdef HAS_SKY_TURN
-  float sky_turn;
-#endif
-#if FADE
-  float fade;
-#endif
-};
-#endif
-#ifndef HAS_SKY_TURN
+layout(std140) uniform Parameters { float sky_turn; };
+#else
 const float sky_turn = 0.0;
 #endif
 
 #ifdef HAS_IRRADIANCE
 uniform sampler2D irradiance;
-#if FADE
-uniform sampler2D irradiance_before;
-#endif
 #endif
 #ifdef HAS_SPECULAR
 uniform sampler2D specular;
-#if FADE
-uniform sampler2D specular_before;
-#endif
 #ifdef HAS_ENVIRONMENT
 uniform sampler2D environment;
-#if FADE
-uniform sampler2D environment_before;
-#endif
 #endif
 #endif
 
@@ -103,15 +80,6 @@ vec3 reflection(vec3 lobe, vec3 mirror) {
 #ifdef HAS_ENVIRONMENT
   if (lobe.z < 1.0) sum += (1.0 - lobe.z) * sampleEquirect(environment, at, lobe.x, float(textureSize(environment, 0).y)).rgb;
 #endif
-#if FADE
-  vec3 old = lobe.z * sampleEquirect(specular_before, at, lobe.y, float(textureSize(specular_before, 0).y)).rgb;
-#ifdef HAS_ENVIRONMENT
-  float height = float(textureSize(environment_before, 0).y);
-  float level = clamp(lobe.x + log2(height / float(textureSize(environment, 0).y)), 0.0, float(textureQueryLevels(environment_before) - 1));
-  old += (1.0 - lobe.z) * sampleEquirect(environment_before, at, level, height).rgb;
-#endif
-  sum = mix(old, sum, fade);
-#endif
   return sum;
 }
 #else
@@ -123,10 +91,6 @@ vec3 shade(Surface surface, vec3 normal, vec3 mirror, float nv, vec3 lobe) {
   vec3 around = vec3(0.0), reflected = vec3(0.0);
 #ifdef HAS_IRRADIANCE
   around = sampleEquirect(irradiance, equirectUv(normal) - vec2(sky_turn, 0.0), 0.0, float(textureSize(irradiance, 0).y)).rgb;
-#if FADE
-  around = mix(sampleEquirect(irradiance_before, equirectUv(normal) - vec2(sky_turn, 0.0), 0.0, float(textureSize(irradiance_before, 0).y)).rgb,
-               around, fade);
-#endif
 #endif
 #ifdef HAS_SPECULAR
   reflected = reflection(lobe, mirror);

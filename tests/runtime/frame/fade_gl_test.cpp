@@ -210,12 +210,13 @@ TEST_CASE(
   CHECK(live.frame() == picture);
   const graph::FlatGraph& graph = *live.stage.execution().plan().graph;
   for (const graph::PassSpec& spec : graph.specs)
-    for (const graph::UniformSpec& uniform : spec.uniforms) CHECK(uniform.define == (uniform.name == "FADE"));
+    for (const graph::UniformSpec& uniform : spec.uniforms)
+      CHECK(uniform.role != graph::UniformSpec::Role::define);
 }
 
 TEST_CASE("nothing waits for lighting that is not made: without its readers or its maker the sky is there") {
   const auto a = makeMap(64, 0x3800, 1);
-  for (const char* disabled : {"billboards", "specular_prefilter"}) {
+  for (const char* disabled : {"lit.billboards", "specular_prefilter"}) {
     CAPTURE(disabled);
     const CleanScope clean;
     Live live("false"), still("false", true);

@@ -203,7 +203,7 @@ TEST_CASE("toggle: only passes that differ are prepared, and the picture is that
                  {"grain", "true", 1},
                  {"bloom", "false", 4},
                  {"fxaa", "false", 2},
-                 {"specular_aa", "false", 1}};
+                 {"specular_aa", "false", 2}};  // the spheres, and those of a fade
   for (const auto& toggle : toggles) {
     INFO(std::string(toggle.name));
     stage.settings.sets = {{toggle.name, toggle.value}};
