@@ -2,10 +2,10 @@
 // read    source   from split, with levels, `as linear`
 //         flat_source   instead of it: without levels, while no disc needs more, see the graph
 //         discs    from split, with levels, `as linear`
-//         tiles?   from reach: how far anything before the focus reaches here (layer before the focus only); without
+//         tiles?   from reach: how far the near field reaches here (NEAR only); without
 //                  it every pixel is searched as far as a tile
-// write   result   NEAR 1: what lies before the focus and how much of the pixel it covers, as each disc reaches and is spread thin
-//                  NEAR 0: the mean of what is not before the focus within the pixel's own disc, of those whose discs reach;
+// write   result   NEAR 1: the near field and how much of the pixel it covers, as each disc reaches and is spread thin
+//                  NEAR 0: the mean of the far field within the pixel's own disc, of those whose discs reach;
 //                  behind something nearer the mean of what can be seen beside it. Alpha: how far it can be trusted;
 //                  0 where split says `idle`, by a depth test
 // params  see parameters.glsl
@@ -74,7 +74,7 @@ void main() {
 #if NEAR
   float per_ring = min(sqrt(samples / 2.5) / span, 1.0);
 #endif
-  float radius_of_alpha = behindRadius(1.0, largest);
+  float radius_of_alpha = farRadius(1.0, largest);
   vec2 middle = gl_FragCoord.xy * to_uv;
   vec3 sum = vec3(0.0);
   float weights = 0.0, area = 0.0;

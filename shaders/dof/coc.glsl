@@ -21,9 +21,9 @@ const float kLeastRadius = 0.25;
 // How much a radius in pixels of the full picture counts as blur: what is below half a pixel is left sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
 
-// The layer behind the focus holds radiance times this, and this as alpha: by which it is filtered, so that what is in focus
+// The far field holds radiance times this, and this as alpha: by which it is filtered, so that what is in focus
 // is no part of any mean with something blurred. From a radius in pixels of the half size, and back.
-float behindAlpha(float radius, int largest) { return max(radius, 0.005) * 2.0 / float(largest); }
-float behindRadius(float alpha, int largest) { return alpha * 0.5 * float(largest); }
+float farAlpha(float radius, int largest) { return max(radius, 0.005) * 2.0 / float(largest); }
+float farRadius(float alpha, int largest) { return alpha * 0.5 * float(largest); }
 
 #endif

@@ -19,9 +19,9 @@ float searchRadius(ivec2 pixel) {
 float searchRadius(ivec2 pixel) { return float(tile); }
 #endif
 #else
-// Behind the focus it is the pixel's own disc; where something nearer hides the layer, that one's.
+// In the far field it is the pixel's own disc; where something nearer hides the layer, that one's.
 float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
-  return own_alpha > 0.0 ? behindRadius(own_alpha, largest) : texelFetch(discs, pixel, 0).r;
+  return own_alpha > 0.0 ? farRadius(own_alpha, largest) : texelFetch(discs, pixel, 0).r;
 }
 #endif
 
@@ -34,8 +34,8 @@ float samplesFor(float radius, int rings) { return samplesTo(ringsFor(radius, ri
 // of FILL_START / FILL_SLOPE. The graph defines both, because it leaves the fill out where no disc is larger.
 float fillVariance(float radius) { return clamp(FILL_SLOPE * radius - FILL_START, 0.0, 2.0 / 3.0); }
 
-// How far apart, in texels, the nine lookups of the fill lie, for a gap between samples before the focus: wide enough that highlights of a
-// few texels are no dots, and no wider, as it softens discs. (Behind the focus they lie a texel apart.)
+// How far apart, in texels, the nine lookups of the fill lie, for a gap between samples of the near field: wide enough that highlights of a
+// few texels are no dots, and no wider, as it softens discs. (In the far field they lie a texel apart.)
 float fillStride(float gap) { return max(0.6 * gap, 1.0); }
 
 // Weight of the neighbours along an axis in the fill, 0..1.

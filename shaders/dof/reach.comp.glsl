@@ -1,4 +1,4 @@
-// How far to search for what is before the focus: the largest disc in a tile and the eight around it (no other can reach into
+// How far to search for the near field: the largest disc in a tile and the eight around it (no other can reach into
 // the tile), at the tile's corners that of the four tiles that meet there, so that interpolation between the corners is never
 // less and knows no tile borders.
 // read    tiles    from tiles; any sampler

@@ -1,9 +1,9 @@
-// The picture at half size in two layers, so that what is before the focus and what is not never mix. Scene-referred.
+// The picture at half size in two layers, near field and far field, so that they never mix. Scene-referred.
 // read    color   radiance; both nearest
 //         depth   reversed-Z; the sky, 0, is infinitely far
-// write   near    radiance of what is before the focus, premultiplied, and 1; or nothing, 0
+// write   near    radiance of the near field, premultiplied, and 1; or nothing, 0
 //         disc    radius of its disc in pixels of the half size; 0: nothing there
-//         far     the rest, premultiplied: see behindAlpha; 0 where something nearer hides all of it
+//         far     the rest, premultiplied: see farAlpha; 0 where something nearer hides all of it
 //         idle    depth: 0 where bokeh has anything to do for `far`, else 1
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
@@ -23,10 +23,10 @@ out vec4 far;
 
 void main() {
   vec2 texel = 1.0 / vec2(textureSize(color, 0)), middle = gl_FragCoord.xy * 2.0 * texel;
-  vec4 before = vec4(0.0), behind = vec4(0.0);
-  float before_weight = 0.0, behind_weight = 0.0;
-  int before_count = 0;
-  bool first_before = false;
+  vec4 near_mean = vec4(0.0), far_mean = vec4(0.0);
+  float near_weight = 0.0, far_weight = 0.0;
+  int near_count = 0;
+  bool first_near = false;
   vec4 depths = textureGather(depth, middle).wzxy;
   for (int i = 0; i < 4; ++i) {
     vec2 at = middle + (vec2(i & 1, i >> 1) - 0.5) * texel;
@@ -34,21 +34,21 @@ void main() {
     vec4 c = vec4(finite(textureLod(color, at, 0.0).rgb), abs(radius) * 0.5);
     bool nearer = radius < -0.5;
     float w = nearer ? blur : 0.0;
-    before += c * w;
-    before_weight += w;
-    before_count += int(nearer);
-    first_before = first_before || (nearer && i == 0);
+    near_mean += c * w;
+    near_weight += w;
+    near_count += int(nearer);
+    first_near = first_near || (nearer && i == 0);
     w = nearer ? 0.0 : max(radius > 0.0 ? blur : 0.0, 1e-3);
-    behind += c * w;
-    behind_weight += w;
+    far_mean += c * w;
+    far_weight += w;
   }
-  // By majority, half of the ties: the silhouette encloses as much as before.
-  bool nothing = before_count < (first_before ? 2 : 3) || before_weight <= 0.0;
-  before /= max(before_weight, 1e-6);
-  near = nothing ? vec4(0.0) : vec4(before.rgb, 1.0);
-  disc = nothing ? 0.0 : before.a;
-  behind /= max(behind_weight, 1e-6);
-  float alpha = behind_weight > 0.0 ? behindAlpha(behind.a, largest) : 0.0;
-  far = vec4(behind.rgb * alpha, alpha);
-  gl_FragDepth = (alpha > 0.0 ? behind.a : disc) > kLeastRadius ? 0.0 : 1.0;
+  // By majority, half of the ties: the silhouette encloses as much as it did.
+  bool nothing = near_count < (first_near ? 2 : 3) || near_weight <= 0.0;
+  near_mean /= max(near_weight, 1e-6);
+  near = nothing ? vec4(0.0) : vec4(near_mean.rgb, 1.0);
+  disc = nothing ? 0.0 : near_mean.a;
+  far_mean /= max(far_weight, 1e-6);
+  float alpha = far_weight > 0.0 ? farAlpha(far_mean.a, largest) : 0.0;
+  far = vec4(far_mean.rgb * alpha, alpha);
+  gl_FragDepth = (alpha > 0.0 ? far_mean.a : disc) > kLeastRadius ? 0.0 : 1.0;
 }

@@ -1,4 +1,4 @@
-// The largest disc before the focus in each tile.
+// The largest disc of the near field in each tile.
 // read    discs    from split: radii in its pixels
 // write   tiles    one texel per tile
 // params  tile     pixels along a tile's side

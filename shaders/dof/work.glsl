@@ -1,4 +1,4 @@
-// The tiles that something before the focus reaches; shared by the vertex shaders of that layer, which draw a quad for each.
+// The tiles that the near field reaches; shared by the vertex shaders of that layer, which draw a quad for each.
 // read    tiles?   from reach; without it all of them
 // params  tile     pixels of the half size along a tile's side
 #ifndef DOF_WORK_GLSL

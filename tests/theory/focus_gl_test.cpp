@@ -154,7 +154,7 @@ TEST_CASE("focus: what is in focus does not leak into the blurred sky around it,
   CHECK(largestChange(panels) < 4e-3);
 }
 
-TEST_CASE("focus: what is before the focus covers the sharp sky as far as its disc reaches, and no farther") {
+TEST_CASE("focus: the near field covers the sharp sky as far as its disc reaches, and no farther") {
   const Lens lens{.focalLength = 50, .aperture = 1.4, .focus = 1000, .sensor = 4};
   const double radius = discRadius(lens, 6);
   REQUIRE(radius > 4);
@@ -174,7 +174,7 @@ TEST_CASE("focus: what is before the focus covers the sharp sky as far as its di
 }
 
 TEST_CASE(
-    "focus: a larger disc elsewhere shows no tiles in what is before the focus: neighbours differ as the "
+    "focus: a larger disc elsewhere shows no tiles in the near field: neighbours differ as the "
     "disc says") {
   // Tiles of 128 pixels; the disc of the left ball has a radius of 91, of the right one 127: not all tiles
   // know it.
@@ -224,7 +224,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "focus: a disc before the focus beside a much larger one is even within 10 %, and as wide as by itself "
+    "focus: a disc of the near field beside a much larger one is even within 10 %, and as wide as by itself "
     "within 7 %") {
   constexpr std::uint32_t kWide = 768, kHigh = 256;
   const Lens lens{.focalLength = 200, .aperture = 0.7, .focus = 40};
@@ -265,7 +265,8 @@ TEST_CASE(
   CHECK(radii[1] == doctest::Approx(radii[0]).epsilon(0.07));
 }
 
-TEST_CASE("focus: a surface that runs from before the focus into it shows nothing of what is behind it") {
+TEST_CASE(
+    "focus: a surface that runs from the near field into the focus shows nothing of what is behind it") {
   const Lens lens{.focalLength = 135, .aperture = 0.7, .focus = 6.5};
   for (const float radius : {1.0f, 2.0f}) {
     const Panels panels = panelsOf(scene({{.center = {0, 0, 13}, .radius = radius, .albedo = kGrey}}, lens));
@@ -342,7 +343,8 @@ TEST_CASE("focus: without dof.reach there is still a blurred picture, and GL has
 }
 
 TEST_CASE(
-    "focus: a point of light before and behind the focus is a disc without hole, dots or ring, of the lens's "
+    "focus: a point of light in the near and in the far field is a disc without hole, dots or ring, of the "
+    "lens's "
     "radius") {
   constexpr std::uint32_t kWide = 384, kHigh = 384;
   struct Disc {

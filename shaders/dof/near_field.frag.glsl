@@ -1,4 +1,4 @@
-// What is before the focus, over the rest. Scene-referred.
+// The blurred near field over the rest. Scene-referred.
 // read    blurred  from fill, `as linear`: premultiplied
 // modify  result   radiance, with "blend": "premultiplied"
 uniform sampler2D blurred;

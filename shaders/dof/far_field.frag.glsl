@@ -1,5 +1,5 @@
-// What is out of focus, at full size: the blurred layer that is not before the focus, where before.frag.glsl covers it too. Scene-referred.
-// Drawn at a depth (behind.vert.glsl), so that what is in focus costs a depth test and stays bit for bit.
+// The blurred far field over the sharp picture, at full size, also where near_field.frag.glsl covers it. Scene-referred.
+// Drawn at a depth (far_field.vert.glsl), so that what is in focus costs a depth test and stays bit for bit.
 // read    source   radiance, nearest: own texel of what `result` modifies, with "feedback"
 //         depth    reversed-Z, nearest
 //         blurred  from fill, `as linear`
@@ -7,13 +7,13 @@
 //         tested   the same depth, with "depth_test": "greater", or "less" for NEAR, and "depth_write": false
 // params  infinity, focus   as in split
 //         tile     pixels of the half size along a tile's side, for NEAR
-// defines NEAR, default 0; 1: beside what is before the focus, in the tiles of near_behind.vert.glsl
+// defines NEAR, default 0; 1: beside the near field, in the tiles of far_beside_near.vert.glsl
 #ifndef NEAR
 #define NEAR 0
 #endif
 #include "common/finite.glsl"
 #include "coc.glsl"
-#include "behind.glsl"
+#include "far_field.glsl"
 
 uniform sampler2D source, depth, blurred;
 noperspective in vec2 at, at_half;  // uv of the full picture and of the half size
@@ -24,7 +24,7 @@ void main() {
   vec4 own = textureLod(source, at, 0.0);
   float radius = lens.x - lens.y * textureLod(depth, at, 0.0).r;
 #if NEAR
-  // Small discs before the focus lie on the sharp picture: their surface runs on into the focus, and nothing else is behind it.
+  // Small discs of the near field lie on the sharp picture: their surface runs on into the focus, and nothing else is behind it.
   float blur = smoothstep(kNearStart, 4.0, -radius);
 #else
   float blur = blurOf(radius);

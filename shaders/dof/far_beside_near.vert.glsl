@@ -1,5 +1,5 @@
-// The tiles that behind.frag.glsl works on with NEAR, at the depth from which on something behind can show; parameters as there.
-#include "behind.glsl"
+// The tiles that far_field.frag.glsl works on with NEAR, at the depth from which on the far field can show; parameters as there.
+#include "far_field.glsl"
 #include "coc.glsl"
 #include "work.glsl"
 
