@@ -56,7 +56,7 @@ void checkShaders(const Options& options, const graph::Plan& plan, base::Diagnos
 }
 
 // A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
-// path or include is told together with the graph's own mistakes. Needs no OpenGL.
+// path or include is reported together with the graph's own mistakes. Needs no OpenGL.
 void checkShaderFiles(const Options& options, const graph::GraphDesc& desc, gl::SourceLoader& sources,
                       base::Diagnostics& diagnostics) {
   const passes::PassRegistry types = passes::PassRegistry::builtin();

@@ -30,7 +30,7 @@ class LiveGraph {
   // does; only the first time, when there is nothing to keep running, is it an error.
   bool load(base::Diagnostics& diagnostics);
   // Loads when watched files changed: at once when they are good as they are, else when they have been quiet
-  // for a moment, as more may come. `now` in seconds. True when something came of it that is to be told.
+  // for a moment, as more may come. `now` in seconds. True when something came of it that is to be reported.
   bool poll(double now, base::Diagnostics& diagnostics);
   // Files changed, and poll() has not loaded them yet.
   bool pending() const { return graphStale_ || !changedEnvironment_.empty(); }

@@ -1,5 +1,5 @@
 // The presented texture as it is into picture files: .png has 8 bits of it, .exr its values. Each picture is
-// looked at for values that are no colours (NaN, infinite): it is written all the same, and told (W207). Does
+// looked at for values that are no colours (NaN, infinite): it is written all the same, and reported (W207). Does
 // not: name files, or see what a pass upstream made of NaN before the presented texture took it; one with 8
 // bits cannot hold it.
 #pragma once

@@ -1,5 +1,5 @@
 // What the program says on standard output and standard error, which may be full, closed, or gone (`| head`).
-// Nothing here throws: what could not be written is told at the end, by finishStreams(), and makes the exit
+// Nothing here throws: what could not be written is reported at the end, by finishStreams(), and makes the exit
 // code. Does not: format, or know diagnostics that commands collect.
 #pragma once
 

@@ -27,7 +27,7 @@ constexpr std::chrono::milliseconds kWaitForWrites{5};
 constexpr int kWaitsForWrites = 10;     // who writes for longer than this gets frames in between
 constexpr int kRestlessAfterEvent = 4;  // panels answer an event within so many redraws
 
-// What is wrong with the files or with a change made here is told, and does not count against the program.
+// What is wrong with the files or with a change made here is reported, and does not count against the program.
 void tell(base::Diagnostics& diagnostics, ui::Log& log, ui::Log::Topic topic) {
   report(diagnostics);
   log.set(topic, base::chooseMessages(diagnostics).items());

@@ -77,7 +77,7 @@ class Reader {
     if (key == "DOMAIN_MAX") return readTriple(words, 1, "DOMAIN_MAX", &lut_.domainMax);
     if (key == "LUT_1D_INPUT_RANGE" || key == "LUT_3D_INPUT_RANGE") return readRange(words);
     fail(words[0].column, fmt::format("unknown keyword '{}'", key));
-    // A file of another kind altogether is told once.
+    // A file of another kind altogether is reported once.
     if (lut_.size == 0 && lut_.title.empty()) errors_ = kMaxMessages;
   }
 

@@ -21,7 +21,7 @@ auto keyOf(const Diagnostic& d) {
 }
 
 // A text of any length fits on a screen, and is one line.
-std::string toldText(const std::string& text) {
+std::string printedText(const std::string& text) {
   return printable(shortened(text));
 }
 
@@ -44,7 +44,7 @@ std::string format(const Diagnostic& d) {
   std::string out;
   if (d.place.file && !d.place.file->empty()) {
     // Without a line it may be an option as it was written, of any length.
-    out += d.place.line > 0 ? printable(*d.place.file) : toldText(*d.place.file);
+    out += d.place.line > 0 ? printable(*d.place.file) : printedText(*d.place.file);
     if (d.place.line > 0) out += fmt::format(":{}", d.place.line);
     if (d.place.line > 0 && d.place.column > 0) out += fmt::format(":{}", d.place.column);
     out += ": ";
@@ -52,9 +52,9 @@ std::string format(const Diagnostic& d) {
   const char* severity = d.severity == Severity::error     ? "error"
                          : d.severity == Severity::warning ? "warning"
                                                            : "note";
-  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), toldText(d.message));
+  out += fmt::format("{}[{}]: {}", severity, nameOf(d.code), printedText(d.message));
   const auto line = [&](const char* label, const std::string& text) {
-    if (!text.empty()) out += fmt::format("\n    {}: {}", label, toldText(text));
+    if (!text.empty()) out += fmt::format("\n    {}: {}", label, printedText(text));
   };
   line("pass", d.pass);
   line("resource", d.resource);

@@ -97,7 +97,7 @@ def rendered(graph_file, *more):
 
 
 # (arguments, exit code, codes, places): all errors there are, as their codes and places with a space between. `place` is a regular expression for what stands before the severity. Code None: wrong
-# usage, told by the parser of the command line, where the place is the name of the option.
+# usage, reported by the parser of the command line, where the place is the name of the option.
 # A fifth element is text of the message.
 CASES = [
     (rendered("truncated.json"), 1, "W002", r"truncated\.json:5:41"),
@@ -248,7 +248,7 @@ def main():
         for case in CASES:
             check_case(report, weft, folder, *case)
             report.check(contents(folder) == before, f"{' '.join(case[0])}: wrote {sorted(set(contents(folder)) - set(before))}")
-        # Without a display the files are told too.
+        # Without a display the files are reported too.
         nowhere = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         view = run(weft, "view", "no_such.json", folder=folder, env=nowhere)
         report.check(view.code == 3 and view.codes() == ["W001", "W110"], f"view without display: {view.code}\n{view.err}")

@@ -3,7 +3,7 @@
 format.py WEFT, from the source folder.
 
 Any change of white space comes back, one file at a time and several at once; --check writes nothing and names the first line that
-differs; broken files are told as everywhere and stay as they are; a file that cannot be written stays whole; no line of a bundled graph
+differs; broken files are reported as everywhere and stay as they are; a file that cannot be written stays whole; no line of a bundled graph
 is longer than 120 characters."""
 import json
 import os
@@ -50,7 +50,7 @@ def main():
             copies[-1].write_text(spread if value_of(spread) == value_of(text) else text + "\n\n")
         checked = run(weft, "format", "--check", *copies)
         report.check(checked.code == 1 and checked.codes() == ["W197"], f"--check: {checked.code}\n{checked.err}")
-        report.check(len(checked.diagnostics) == len(copies), f"{len(checked.diagnostics)} of {len(copies)} told")
+        report.check(len(checked.diagnostics) == len(copies), f"{len(checked.diagnostics)} of {len(copies)} reported")
         formatted = run(weft, "format", *copies)
         report.check(formatted.code == 0 and formatted.out.split() == [str(c) for c in copies], f"{formatted.out}{formatted.err}")
         for path, copy in zip(files, copies):

@@ -166,7 +166,7 @@ def confinement(weft, folder, report):
             report.check(all(d["line"] for d in done.diagnostics if d["code"] == "W200"), f"{kind}: no place\n{done.err}")
             report.check("'pr'" in done.err and "--confine FOLDER" in done.err and name + "x" not in done.err, f"{kind}: {done.err}")
         report.check(len(set(answers)) == 1, f"{kind}: the answer tells whether the file is there\n{answers}")
-    # Not even that a link leads back in is told.
+    # Not even that a link leads back in is reported.
     (outside / "back.json").symlink_to(inside / "back.json")
     write(inside / "back.json", graph(passes=[{"include": "../out/back.json"}]))
     done = check("pr/back.json")
@@ -254,7 +254,7 @@ def many(weft, folder, report):
         report.check(len(done.err) < 100_000, f"{len(done.err)} bytes of messages")
         more = limited(weft, "check", "names.json", "--no-shaders", "--limit", "diagnostics=100K", folder=folder)
         report.check(more and len(more.diagnostics) >= 1000 and "messages are left out" not in more.err, "--limit diagnostics does not raise it")
-    # Errors are not hidden behind warnings: 300 culled passes are told of before the one error behind them in the file.
+    # Errors are not hidden behind warnings: 300 culled passes are reported before the one error behind them in the file.
     culled = [{"name": f"c{i}", "type": "fullscreen", "shader": "good.frag.glsl", "write": {"result": "spare"}} for i in range(300)]
     write(folder / "culled.json", {"resources": {"ldr": resources["ldr"], "spare": resources["ldr"]},
                                    "passes": [*culled, {"name": "last", "type": "fullscreen", "shader": "none.frag.glsl", "write": {"result": "ldr"}}],

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Outputs tell the truth. What cannot be written (a full device, a closed stream, a limit of the file system) is told with
+"""Outputs tell the truth. What cannot be written (a full device, a closed stream, a limit of the file system) is reported with
 W180 and exit code 1, by every command that prints and every file that is written, and leaves no half file; a reader that goes
 away is no error. Frames are counted before they run, numbers that are none are refused, no output is a file that the run reads,
-folders of patterns are made, pictures of NaN are told, and a table that is missing is told where somebody named it.
+folders of patterns are made, pictures of NaN are told, and a table that is missing is reported where somebody named it.
 
     hostile_outputs.py WEFT [--sanitized]
 """
@@ -295,7 +295,7 @@ def missing_tables(test):
     done = test.refused("W001", "check", STUDIO, "--preset", "preset.json", "--no-shaders", says="tables/missing.cube': no such file")
     test.report.check("preset.json:4:14: error[W001]" in done.err, done.err)
     test.refused("W001", "check", STUDIO, "--set", "lut=missing.cube", "--no-shaders", says="command line: --set lut=missing.cube: error[W001]")
-    # The last word is what is told.
+    # The last word is what is reported.
     test.refused("W001", "check", STUDIO, "--preset", "preset.json", "--set", "lut=other.cube", "--no-shaders",
                  says="command line: --set lut=other.cube: error[W001]")
     text = plain(more=',\n    "table": { "type": "file", "default": "none.cube" }').replace(

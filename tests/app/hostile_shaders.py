@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shaders that kill a driver, take all memory or keep it busy for minutes: each is told with its place, by `weft check` and
+"""Shaders that kill a driver, take all memory or keep it busy for minutes: each is reported with its place, by `weft check` and
 within a guard of processor time and memory; the viewer over whose shader one is saved keeps its last good picture and goes on,
 and leaves no process behind. hostile_shaders.py WEFT COMPARE [--sanitized]. Nothing is timed but by the guard."""
 import json
@@ -143,7 +143,7 @@ def viewer(weft, folder, report):
             if not report.check(first, f"no picture\n{live.said()}"):
                 return
             save(composite, bomb)
-            report.check(live.until(lambda: f"error[{code}]" in live.said()), f"{code} is not told\n{live.said()}")
+            report.check(live.until(lambda: f"error[{code}]" in live.said()), f"{code} is not reported\n{live.said()}")
             same = live.shot()
             report.check(live.alive() and same and same.read_bytes() == first.read_bytes(), f"{code}: the picture is another one")
             report.check(not children(live.process.pid), f"{code}: a process is left")

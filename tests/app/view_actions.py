@@ -195,7 +195,7 @@ def lose_a_tweak(weft, folder, screen, report):
         save(lost, TWEAKED.replace('"tint"', '"hue"').replace("strength", "power"))
         save(folder / "shaders/lost.frag.glsl", LOST_SHADER.replace("strength", "power"))
         report.check(live.until(lambda: "warning[W044]" in live.said() and "warning[W045]" in live.said()),
-                     f"a tweak that is lost is not told\n{live.said()}")
+                     f"a tweak that is lost is not reported\n{live.said()}")
         without = differs(live, with_tweak, report, "a file without the tweaked parameter")
         save(folder / "shaders/lost.frag.glsl", LOST_SHADER)
         save(lost, TWEAKED)

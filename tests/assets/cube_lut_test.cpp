@@ -72,7 +72,7 @@ TEST_CASE("every mistake names its line") {
   CHECK(failureOf("TITLE no quotes\n").place.line == 1);
 }
 
-TEST_CASE("a file of another kind is told once, a table full of rubbish with a bounded list") {
+TEST_CASE("a file of another kind is reported once, a table full of rubbish with a bounded list") {
   base::Diagnostics diagnostics;
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "rubbish\n";

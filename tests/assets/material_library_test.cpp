@@ -142,7 +142,7 @@ TEST_CASE("duplicate names are errors, and all problems come at once") {
   CHECK(diagnostics.contains(base::Code::duplicateMaterial));
 }
 
-TEST_CASE("a library whose values are all out of range is not told value by value") {
+TEST_CASE("a library whose values are all out of range is not reported value by value") {
   std::string text = "[";
   for (int i = 0; i < 40; ++i)
     text += (i ? ",\n" : "\n") + std::string("{\"name\": \"") + std::to_string(i) +

@@ -22,7 +22,7 @@ struct LimitSet {
 
 }  // namespace
 
-TEST_CASE("up to the limit everything is told, in order") {
+TEST_CASE("up to the limit everything is reported, in order") {
   Diagnostics all;
   for (std::uint32_t i = 100; i > 0; --i) all.warning(Code::culledOverwritten, at(i), "warning");
   const Diagnostics chosen = chooseMessages(all);
@@ -60,7 +60,7 @@ TEST_CASE("beyond it errors stay before warnings, from the first place on, and t
   CHECK(most.items()[0].severity == Severity::warning);  // in the order of places again
 }
 
-TEST_CASE("names that were too many to be compared are told once") {
+TEST_CASE("names that were too many to be compared are reported once") {
   takeUncompared();
   std::vector<std::string> names;
   for (int i = 0; i < 2000; ++i) names.push_back(fmt::format("{:0>100}{:0>100}", i * 7919, i * 104729));

@@ -29,7 +29,7 @@ TEST_CASE("bytes that are no UTF-8 are shown one by one") {
   CHECK(printable("\xf5\x80\x80\x80") == "\\xf5\\x80\\x80\\x80");
 }
 
-TEST_CASE("a word of ten million bytes is cut, and what follows it is told") {
+TEST_CASE("a word of ten million bytes is cut, and what follows it is printed") {
   const std::string long10(10'485'760, 'x');
   const std::string text = shortened("unknown key \"" + long10 + " in a pass");
   CHECK(text == "unknown key \"" + std::string(199, 'x') + "… (10485761 bytes) in a pass");

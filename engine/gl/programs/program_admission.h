@@ -1,5 +1,5 @@
 // Whether a program may be handed to the driver: its stages held against their bounds, tried in a process of
-// its own when they are unusual, and functions that call each other in a circle told with their place. Parts
+// its own when they are unusual, and functions that call each other in a circle reported with their place. Parts
 // of ProgramCache, not for others.
 #pragma once
 

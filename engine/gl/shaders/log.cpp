@@ -130,7 +130,7 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
   LogMessage message;
   base::Diagnostic& pending = message.diagnostic;
   // Mesa gives each overload that does not fit a line of its own, at the place of the call: they are counted,
-  // not told.
+  // not reported.
   constexpr std::string_view kCandidates = "; candidates are:";
   std::uint32_t candidates = 0, callLine = 0, callColumn = 0;
   std::string only;

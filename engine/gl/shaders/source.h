@@ -109,7 +109,7 @@ std::string assembleSource(const ShaderSource& source, std::span<const Define> d
 
 // The log of an assembleSource() text to one diagnostic per message with its true place. Understands Mesa's
 // "0:12(5): error: text" and NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text"; other
-// lines become part of the message before them, or a message at the file itself. What is known is told in plain words
+// lines become part of the message before them, or a message at the file itself. What is known is said in plain words
 // (shader_words.h), what only follows from another message is left out. `code` is W104 (compile) or W105 (link).
 // Returns how many were added.
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,

@@ -1,5 +1,5 @@
 // What shader compilers say, in plain words: tokens of Mesa's grammar become what they stand for, undeclared
-// names are told alike for every driver and get the nearest declared one, a syntax error says what is
+// names are reported alike for every driver and get the nearest declared one, a syntax error says what is
 // probably missing. A message that is not known stays as the driver wrote it. Does not: find places (mapLog
 // in shader_log.cpp does).
 #pragma once

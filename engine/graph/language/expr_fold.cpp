@@ -21,7 +21,7 @@ bool isConstantNumeric(const ExprPtr& node) {
 ExprPtr substitute(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagnostics) {
   if (node->op == ExprOp::variable) {
     const Expr* folded = scope.folded(node->name);
-    if (folded && !folded->present()) return nullptr;  // told where it was folded
+    if (folded && !folded->present()) return nullptr;  // reported where it was folded
     if (folded) return folded->root()->shared_from_this();
     const std::optional<std::uint32_t> key = scope.parameterKey(node->name);
     return key ? Expr::parameter(*key, node->place).root()->shared_from_this() : node;

@@ -292,7 +292,7 @@ ProgramRequest fragmentOf(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Fixture, "what is too large is not compiled, and told again without counting") {
+TEST_CASE_FIXTURE(Fixture, "what is too large is not compiled, and reported again without counting") {
   ProgramCache cache(context().device(), loader, {.capacity = 2, .folder = ""});
   std::string sum = "out vec4 result;\nvoid main() {\n  float a = 1.0;\n  result = vec4(";
   for (int i = 0; i < 50000; ++i) sum += "a + ";
@@ -309,7 +309,7 @@ TEST_CASE_FIXTURE(Fixture, "what is too large is not compiled, and told again wi
   CHECK(cache.stats().hits == 1);
 }
 
-TEST_CASE_FIXTURE(Fixture, "a process that dies over a program is told, one that cannot be had is not") {
+TEST_CASE_FIXTURE(Fixture, "a process that dies over a program is reported, one that cannot be had is not") {
   std::string cases = "out vec4 result;\nvoid main() {\n  switch (int(gl_FragCoord.x)) {\n";
   for (int i = 0; i < 60; ++i) cases += "    case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
   const ProgramRequest request = fragmentOf(cases + "  }\n}\n");
@@ -357,7 +357,7 @@ TEST_CASE_FIXTURE(Fixture, "a process that does not come to an end is ended") {
   CHECK(diagnostics.contains(Code::driverDied));
 }
 
-TEST_CASE_FIXTURE(Fixture, "functions in a circle are told where they stand") {
+TEST_CASE_FIXTURE(Fixture, "functions in a circle are reported where they stand") {
   SourceLoader bad({"tests/bad_shaders"});
   ProgramCache cache(context().device(), bad, {.capacity = 2, .folder = ""});
   ProgramRequest request = fragmentOf("");

@@ -70,7 +70,7 @@ void refuses(const std::string& text, const std::string& message, std::uint32_t 
 
 }  // namespace
 
-TEST_CASE("what kills or stalls a driver is told with its place instead of being compiled") {
+TEST_CASE("what kills or stalls a driver is reported with its place instead of being compiled") {
   refuses(inMain("float a = 1.0;\nresult = vec4(" + times("a + ", 100000) + "a);"), "nested too deeply", 4);
   refuses(inMain("result = vec4(" + times("(", 3000) + "1.0" + times(")", 3000) + ");"), "nested too deeply",
           3);

@@ -134,7 +134,7 @@ TEST_CASE("a missing shader is reported at the one who named it, a directory as 
   CHECK(diagnostics.items()[1].message.find("directory") != std::string::npos);
 }
 
-TEST_CASE("an empty shader is told as that, where it is") {
+TEST_CASE("an empty shader is reported as that, where it is") {
   TempFolder folder;
   folder.write("empty.frag.glsl", " \n\n");
   SourceLoader loader({folder.path()});

@@ -38,7 +38,7 @@ Diagnostic only(const Diagnostics& diagnostics) {
 
 }  // namespace
 
-TEST_CASE("a missing semicolon is told where it is missing") {
+TEST_CASE("a missing semicolon is reported where it is missing") {
   const std::string text = "void main() {\n  float x = 1.0  // one\n\n  // then\n  x = 2.0;\n}\n";
   const Diagnostic d =
       only(said(text, mesa(5, 2, "syntax error, unexpected IDENTIFIER, expecting ',' or ';'")));
@@ -91,7 +91,7 @@ TEST_CASE("where a macro moves columns no token is made up, and what nobody know
   CHECK(d.message == "words of a later driver about 'x'");
 }
 
-TEST_CASE("NVIDIA's and glslang's syntax errors are told in the same words") {
+TEST_CASE("NVIDIA's and glslang's syntax errors are reported in the same words") {
   const std::string line = std::to_string(kTextLine);
   Diagnostic d = only(said(
       "void main() { x = 1 }\n",
@@ -109,7 +109,7 @@ TEST_CASE("NVIDIA's and glslang's syntax errors are told in the same words") {
   CHECK(d.expected == "',' or ';'");
 }
 
-TEST_CASE("undeclared names are told alike for every driver, with the nearest declared one") {
+TEST_CASE("undeclared names are reported alike for every driver, with the nearest declared one") {
   const std::string text = "uniform sampler2D environment;\nvoid main() { environmnt; retrun; }\n",
                     line = std::to_string(kTextLine + 1);
   for (const std::string& log : {mesa(2, 15, "`environmnt' undeclared"),

@@ -174,7 +174,7 @@ TEST_CASE("lets over age() that double in length end in one message") {
   CHECK(e.diagnostics.errorCount() == 1);
 }
 
-TEST_CASE("live: an expression that cannot be evaluated is told as it was before") {
+TEST_CASE("live: an expression that cannot be evaluated is reported as it was before") {
   const std::string head = R"J("parameters": { "n": { "default": 0.0 } })J";
   CHECK(expandPass(head, R"J("parameters": { "a": "1 / $n" })J").has(base::Code::noFiniteResult));
   CHECK(expandPass(head, R"J("parameters": { "a": "age(in) / $n" })J").has(base::Code::noFiniteResult));

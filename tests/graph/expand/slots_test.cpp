@@ -209,7 +209,7 @@ TEST_CASE("cadence: an always pass may not add to what a slower one made") {
   CHECK(bad.of(Code::addsUp).pass == "fast");
 }
 
-TEST_CASE("slices: what could never end, what another writes too, and types that run whole are told") {
+TEST_CASE("slices: what could never end, what another writes too, and types that run whole are reported") {
   const auto tryPasses = [](const std::string& passes) {
     return expandText(R"J({ "resources": {
         "a": { "texture": "rgba8", "size": 8, "mips": 2 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },

@@ -70,16 +70,16 @@ TEST_CASE("timed: passes of one condition pass on what they make, and modify wha
   CHECK(tryPasses(stanza("mix", R"("modify": { "r": "out" })"), with({}, {"mix"})).names() == "pulse draw");
 }
 
-TEST_CASE("timed: who else uses what is made only at times is told") {
+TEST_CASE("timed: who else uses what is made only at times is reported") {
   const std::string make = stanza("make", R"("write": { "r": "late" })");
   const auto use = [&](const std::string& pass) {
     return messageOf(tryPasses(make + ", " + pass), Code::madeAtTimes);
   };
   const std::string read = R"("read": { "a": "late" }, "modify": { "r": "out" })";
   CHECK(use(stanza("show", read, "true")) == "pass 'show' reads 'late', which is made only at times");
-  const Expanded told = tryPasses(make + ", " + stanza("show", read, "true"));
-  CHECK(told.of(Code::madeAtTimes).found == "'late' is made while $young");
-  CHECK(told.of(Code::madeAtTimes).pass == "show");
+  const Expanded shows = tryPasses(make + ", " + stanza("show", read, "true"));
+  CHECK(shows.of(Code::madeAtTimes).found == "'late' is made while $young");
+  CHECK(shows.of(Code::madeAtTimes).pass == "show");
   CHECK(use(stanza("show", read, "age(pulse) < 1")) ==
         "pass 'show' reads 'late', which is made only at times");
   CHECK(use(stanza("show", R"("read": { "a": "late?" }, "modify": { "r": "out" })", "true")) ==

@@ -93,7 +93,7 @@ TEST_CASE("like: what the other declares stays one parameter") {
   CHECK(own.uniform("two", "width").path == "two.width");
 }
 
-TEST_CASE("like: mistakes are told once, where they stand") {
+TEST_CASE("like: mistakes are reported once, where they stand") {
   const auto errors = [](const std::string& passes) {
     base::Diagnostics diagnostics;
     readGraphText(kHead + passes + R"J( ], "present": "hdr" })J", "test.json", diagnostics);

@@ -92,7 +92,8 @@ TEST_CASE("timed: headless, everything was published long ago") {
   CHECK_FALSE(stage.ran("add"));
 }
 
-TEST_CASE("timed: a shader that does not compile is told when the graph is loaded, not when its time comes") {
+TEST_CASE(
+    "timed: a shader that does not compile is reported when the graph is loaded, not when its time comes") {
   const CleanScope clean;
   Stage stage("tests/runtime/graphs/timed_bad.json", 8, 8);
   CHECK_FALSE(stage.load());

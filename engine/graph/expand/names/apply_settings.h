@@ -17,7 +17,7 @@ void applyDisable(Model& model, const Disable& disable);
 bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
                          const std::string& before);
 
-// A problem with a whole file that one of the `arguments` of an import names, told where somebody wrote the
+// A problem with a whole file that one of the `arguments` of an import names, reported where somebody wrote the
 // name: the "set" of a preset, the command line, the default of a parameter, or the argument itself. Any
 // other as it is.
 base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<NamedExpr>& arguments,

@@ -1,5 +1,5 @@
 // Names that are unknown only because something else went wrong: left out by the reader, or of an include that is not
-// there. One mistake is told once.
+// there. One mistake is reported once.
 #pragma once
 
 #include <string>
