@@ -11,7 +11,7 @@ namespace weft::app::ui {
 
 namespace {
 
-// "3/24" of a pass that is spread over frames, else nothing.
+// "3/24" of a pass that runs in slices, else nothing.
 std::string sliceText(const runtime::SliceRange& range) {
   return range.of > 1 && range.count < range.of ? fmt::format("{}/{}", range.first + 1, range.of)
                                                 : std::string();

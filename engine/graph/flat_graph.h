@@ -60,8 +60,9 @@ struct FlatPass {
   std::uint32_t firstUse = 0, useCount = 0;
   Cadence cadence = Cadence::always;
   bool sideEffect = false;
-  std::uint16_t touches = 0;    // as PassType::touches
-  std::uint32_t group = kNone;  // passes of one group publish together
+  std::uint16_t touches = 0;  // as PassType::touches
+  std::uint32_t group =
+      kNone;  // the "group" it names, into groupNames; which groups there are: expand/groups.h
   std::uint32_t slices = 1;
 };
 

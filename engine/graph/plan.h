@@ -16,8 +16,8 @@ namespace weft::graph {
 // the pass is skipped by its cadence, so that any subset of cadences is free of hazards; the clears run with the pass
 // and are skipped with it. `barriersAfterClears` is not 0 only when the pass stores by image or buffer what it clears
 // (7.12.2: a store waits for earlier accesses only behind its own bit).
-// A history resource rotates (x becomes x@-1) at the start of every frame in which one of its writers runs; what a spread job
-// writes rotates when the job publishes.
+// A history resource rotates (x becomes x@-1) at the start of every frame in which one of its writers runs; what a time-sliced group
+// writes rotates when the group publishes.
 struct Step {
   std::uint32_t pass = 0;  // index into FlatGraph::passes
   std::uint16_t barriers = 0;
@@ -47,17 +47,17 @@ struct Storage {
   std::uint64_t bytes = 0;  // of all copies
 };
 
-// Passes that run all or none and publish together (compile_jobs.cpp says which). A job that is spread runs
+// Passes that run all or none and publish together (expand/groups.cpp says which). A time-sliced group runs
 // one slice of one pass per frame and writes a copy that nobody else sees; once all of it is there, its
-// resources publish at the start of the next frame. Its passes read what the job writes from that copy, all
+// resources publish at the start of the next frame. Its passes read what the group writes from that copy, all
 // others from the latest publication, and none of them writes it.
-struct Jobs {
-  std::vector<std::uint32_t> ofPass;  // per pass; kNone: alone, always or culled. Empty: there are no jobs
-  std::vector<std::uint8_t> spread;   // per job
+struct Groups {
+  std::vector<std::uint32_t> ofPass;  // per pass; kNone: alone, always or culled. Empty: there are no groups
+  std::vector<std::uint8_t> sliced;   // per group
   std::vector<std::uint32_t>
-      ofResource;  // per resource: the spread job that writes it, kNone. Empty: none is spread
-  std::uint32_t jobOf(std::uint32_t pass) const { return ofPass.empty() ? kNone : ofPass[pass]; }
-  std::uint32_t spreadWriterOf(std::uint32_t resource) const {
+      ofResource;  // per resource: the time-sliced group that writes it, kNone. Empty: none is time-sliced
+  std::uint32_t groupOf(std::uint32_t pass) const { return ofPass.empty() ? kNone : ofPass[pass]; }
+  std::uint32_t slicedWriterOf(std::uint32_t resource) const {
     return ofResource.empty() ? kNone : ofResource[resource];
   }
 };
@@ -80,7 +80,7 @@ struct Plan {
   std::vector<std::uint32_t> firstStep, lastStep;
   std::vector<std::uint8_t> persistent;  // per resource: own storage kept across frames
   std::vector<Storage> storages;
-  Jobs jobs;
+  Groups groups;
   std::uint64_t arenaBytes = 0;     // transient buffers, packed by offset (alignment 256)
   std::uint16_t finalBarriers = 0;  // before present blit and read-back of outputs
   std::uint64_t bytesDeclared =
@@ -90,9 +90,9 @@ struct Plan {
   std::uint64_t bytesBound = 0;       // sum over steps of the bytes a pass touches
   static constexpr std::uint64_t kNoOffset = ~0ull;
 
-  // Physical copies of a resource: itself, its history, and the one a spread job is writing.
+  // Physical copies of a resource: itself, its history, and the one a time-sliced group is writing.
   std::uint32_t copiesOf(std::uint32_t resource) const {
-    return graph->resources[resource].history + 1u + (jobs.spreadWriterOf(resource) != kNone ? 1u : 0u);
+    return graph->resources[resource].history + 1u + (groups.slicedWriterOf(resource) != kNone ? 1u : 0u);
   }
 };
 

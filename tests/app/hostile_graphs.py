@@ -223,7 +223,7 @@ def imports(n):
     return {"g.json": graph({f"i{i}": {"import": "camera", "jitter": i} for i in range(n)})}
 
 
-def spread_jobs(n):
+def sliced_groups(n):
     resources = {f"r{i}": SMALL for i in range(n)}
     first = [{**PASS, "name": f"a{i}", "update": "once", "slices": 2, "group": f"g{i}", "write": {"o": f"r{i}"}} for i in range(n)]
     second = [{**PASS, "name": f"b{i}", "update": "once", "slices": 2, "group": f"g{i}", "read": {"s": f"r{i}"}, "write": {"o": f"r{i}"}} for i in range(n)]
@@ -322,7 +322,7 @@ CASES = {
     "100,000 resources": (lambda: many("resources", 100_000), [], None, ""),
     "100,000 lets": (lambda: many("let", 100_000), [], None, ""),
     "20,000 imports that differ": (lambda: imports(20_000), [], None, ""),
-    "30,000 spread jobs": (lambda: spread_jobs(30_000), [], "W201", ""),
+    "30,000 time-sliced groups": (lambda: sliced_groups(30_000), [], "W201", ""),
     "40 MB of white space": (lambda: blanks(40 << 20), [], "W201", "(limit json_bytes)"),
     "30 MB of lines": (lambda: blanks(30 << 20), [], None, ""),
     "2,000,000 values": (lambda: values_of(2_000_000), [], "W201", "(limit json_values)"),

@@ -13,7 +13,7 @@
 // Safe under every cadence, and without redundant bits while every pass runs. The two meet in one corner only: a
 // history none of whose writers is `always`, read after a first writer that does not store and before a later
 // one that does. There a frame without writers needs a bit that frames with all of them do not, and safety
-// wins. And what a spread job writes: its copies change places at times the plan does not know, so they count
+// wins. And what a time-sliced group writes: its copies change places at times the plan does not know, so they count
 // as one.
 #pragma once
 

@@ -8,7 +8,7 @@
 #include "engine/graph/compile/order.h"
 #include "engine/graph/compile/scratch.h"
 #include "engine/graph/compile/storage.h"
-#include "engine/graph/expand/jobs.h"
+#include "engine/graph/expand/groups.h"
 #include "engine/graph/versions/live.h"
 
 namespace weft::graph {
@@ -25,7 +25,7 @@ Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& optio
   steps::indexCells(g, scratch);
   findLive(g, scratch.livePass, plan.attached, scratch.stack);
   steps::orderPasses(g, options.orderSeed, plan, scratch);
-  plan.jobs = formJobs(
+  plan.groups = formGroups(
       g, [&](std::uint32_t p) { return plan.stepOf[p] != kNone; },
       [&](std::uint32_t u) { return plan.attached[u] != 0; });
   steps::findLifetimes(g, plan, scratch);

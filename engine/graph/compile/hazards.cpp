@@ -60,12 +60,12 @@ enum class Mode : std::uint8_t {
   arena,    // one cell, which takes over what earlier owners of its bytes left
 };
 
-// Mode::history: `depth` is the number of copies behind the one that is written. What a spread job writes has
-// one more than its history, since everybody else's x is x@-1 of the job's passes; it rotates when the job
+// Mode::history: `depth` is the number of copies behind the one that is written. What a time-sliced group writes has
+// one more than its history, since everybody else's x is x@-1 of the group's passes; it rotates when the group
 // publishes, so it may stand still from one frame to the next although all its writers run.
 struct Track {
   std::uint32_t base = 0;
-  std::uint32_t job = kNone;  // the spread job that writes it
+  std::uint32_t group = kNone;  // the time-sliced group that writes it
   std::uint16_t depth = 0;
   Mode mode = Mode::ignored;
 };
@@ -109,8 +109,8 @@ class Collector {
       if (arena ? !arenaStored : (flags & Scratch::kStored) == 0) continue;
       const std::uint32_t cells =
           (flags & Scratch::kGranular) != 0 ? subresourceCount(graph_.resources[r]) : 1u;
-      track.job = plan_.jobs.spreadWriterOf(r);
-      track.depth = static_cast<std::uint16_t>(graph_.resources[r].history + (track.job != kNone ? 1 : 0));
+      track.group = plan_.groups.slicedWriterOf(r);
+      track.depth = static_cast<std::uint16_t>(graph_.resources[r].history + (track.group != kNone ? 1 : 0));
       track.mode = arena                               ? Mode::arena
                    : track.depth > 0                   ? Mode::history
                    : (flags & Scratch::kGranular) != 0 ? Mode::multi
@@ -133,14 +133,14 @@ class Collector {
   }
 
   // From the end of one frame to the start of the next. A history resource has rotated by then: what is now
-  // the current copy was the oldest, and was last stored to a whole rotation ago. What a spread job writes
+  // the current copy was the oldest, and was last stored to a whole rotation ago. What a time-sliced group writes
   // may have, or may not.
   void turn() {
     std::vector<Cell> ended;
     if (!histories_.empty()) ended = cells_;
     for (Cell& cell : cells_) cell = {back(cell.store, circle_), back(cell.access, circle_)};
     for (const std::uint32_t r : histories_) {
-      const std::int32_t rotation = tracks_[r].job == kNone ? (tracks_[r].depth + 1) * circle_ : circle_;
+      const std::int32_t rotation = tracks_[r].group == kNone ? (tracks_[r].depth + 1) * circle_ : circle_;
       const std::uint32_t count = cellsOf(r);
       for (std::uint32_t i = 0; i < count; ++i) {
         Cell& current = cells_[tracks_[r].base + i];
@@ -161,7 +161,7 @@ class Collector {
     for (std::int32_t t = 0; t < end_; ++t) {
       const Step& step = plan_.steps[static_cast<std::size_t>(t)];
       const FlatPass& pass = graph_.passes[step.pass];
-      job_ = plan_.jobs.jobOf(step.pass);
+      group_ = plan_.groups.groupOf(step.pass);
       if (anyArena_) inherit(t);
       for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c) {
         const FlatUse& use = plan_.clears[c].use;
@@ -183,7 +183,7 @@ class Collector {
         if (plan_.attached[u] != 0) mark(graph_.uses[u], isStore(graph_.uses[u]), 2 * t + 2);
       if (anyArena_) bequeath(t);
     }
-    job_ = kNone;
+    group_ = kNone;
     if (anyArena_) inherit(end_);
     const auto atEnd = [&](auto&& f) {
       if (graph_.present.resource != kNone && plan_.firstStep[graph_.present.resource] != kNone)
@@ -226,7 +226,7 @@ class Collector {
 
   // How far behind the copy that is written the current step looks.
   std::uint32_t ageOf(const FlatUse& use, const Track& track) const {
-    return use.history + (track.job != job_ && track.job != kNone ? 1u : 0u);
+    return use.history + (track.group != group_ && track.group != kNone ? 1u : 0u);
   }
 
   void needHistory(const FlatUse& use, std::uint16_t bits, bool store) {
@@ -244,7 +244,7 @@ class Collector {
       } else {
         demand(bits, current.store);
         // In a frame in which every writer is skipped nothing rotates, and the store was in the frame before.
-        if (track.job == kNone && use.access == Access::read && current.store < 0 &&
+        if (track.group == kNone && use.access == Access::read && current.store < 0 &&
             (scratch_.flags[use.resource] & Scratch::kWrittenAlways) == 0)
           demand(bits, back(stored, circle_));
       }
@@ -346,7 +346,7 @@ class Collector {
   RangeMap storeMap_, accessMap_;
   bool anyArena_ = false;
   std::size_t birth_ = 0;
-  std::uint32_t job_ = kNone;  // of the step that is walked over
+  std::uint32_t group_ = kNone;  // of the step that is walked over
   std::uint16_t due_ = 0;
   std::array<std::int32_t, kBarrierBitCount> lo_{};
 };

@@ -1,11 +1,11 @@
-// What cannot be spread over frames, told once all passes are known: W77.
+// What cannot be spread over frames, reported once all passes are known: W77.
 #include "engine/graph/expand/slices.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "engine/graph/expand/jobs.h"
+#include "engine/graph/expand/groups.h"
 #include "engine/graph/expand/names/limits.h"
 
 namespace weft::graph::expansion {
@@ -32,16 +32,16 @@ bool isToldAlready(const Model& model, std::uint32_t pass) {
   });
 }
 
-// Follows what `job` writes through passes that are not of it: where it comes back to the job, neither could
+// Follows what `group` writes through passes that are not of it: where it comes back to the group, neither could
 // ever end.
 // Both can only stand between its `first` and its `last` pass. `from`, per resource: the pass outside that last touched
 // it; all kNone before and after.
-void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job, std::uint32_t first, std::uint32_t last,
-                  std::vector<std::uint32_t>& from) {
+void checkWayBack(Model& model, const Groups& groups, std::uint32_t group, std::uint32_t first,
+                  std::uint32_t last, std::vector<std::uint32_t>& from) {
   const FlatGraph& graph = model.graph;
   std::vector<std::uint32_t> touched;
   for (std::uint32_t p = first; p <= last; ++p) {
-    if (jobs.jobOf(p) == job) {
+    if (groups.groupOf(p) == group) {
       eachUse(graph, p, [&](const FlatUse& use) {
         if (use.access != Access::read || use.history > 0 || from[use.resource] == kNone) return;
         const std::uint32_t between = from[use.resource];
@@ -57,7 +57,7 @@ void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job, std::uint32
     bool reads = false;
     eachUse(graph, p, [&](const FlatUse& use) {
       if (use.access == Access::read && use.history == 0)
-        reads |= jobs.spreadWriterOf(use.resource) == job || from[use.resource] != kNone;
+        reads |= groups.slicedWriterOf(use.resource) == group || from[use.resource] != kNone;
     });
     if (!reads || graph.passes[p].cadence == Cadence::always) continue;
     eachUse(graph, p, [&](const FlatUse& use) {
@@ -74,15 +74,15 @@ void checkWayBack(Model& model, const Jobs& jobs, std::uint32_t job, std::uint32
 void checkSlices(Model& model) {
   const FlatGraph& graph = model.graph;
   const auto every = [](std::uint32_t) { return true; };
-  const Jobs jobs = formJobs(graph, every, every);
-  if (jobs.ofResource.empty()) return;
+  const Groups groups = formGroups(graph, every, every);
+  if (groups.ofResource.empty()) return;
   std::vector<std::uint32_t> alwaysWriter(graph.resources.size(), kNone);
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
     if (graph.passes[p].cadence != Cadence::always) continue;
     eachUse(graph, p, [&](const FlatUse& use) {
       if (use.access == Access::read) return;
       alwaysWriter[use.resource] = p;
-      if (jobs.spreadWriterOf(use.resource) == kNone) return;
+      if (groups.slicedWriterOf(use.resource) == kNone) return;
       if (use.access == Access::modify && isToldAlready(model, p)) return;
       fail(
           model, p, use.resource,
@@ -92,12 +92,12 @@ void checkSlices(Model& model) {
     });
   }
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
-    const std::uint32_t job = jobs.jobOf(p);
-    if (job == kNone || jobs.spread[job] == 0) continue;
+    const std::uint32_t group = groups.groupOf(p);
+    if (group == kNone || groups.sliced[group] == 0) continue;
     eachUse(graph, p, [&](const FlatUse& use) {
       const std::uint32_t writer =
           use.access == Access::read && use.history == 0 ? alwaysWriter[use.resource] : kNone;
-      if (writer == kNone || jobs.spreadWriterOf(use.resource) != kNone) return;
+      if (writer == kNone || groups.slicedWriterOf(use.resource) != kNone) return;
       fail(model, p, use.resource,
            fmt::format("pass '{}' is spread over frames and reads '{}', which pass '{}' makes anew in each",
                        graph.passNames[p], graph.resourceNames[use.resource], graph.passNames[writer]))
@@ -105,17 +105,17 @@ void checkSlices(Model& model) {
           fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]);
     });
   }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> rangeOf(jobs.spread.size(), {kNone, 0});
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rangeOf(groups.sliced.size(), {kNone, 0});
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
-    if (const std::uint32_t job = jobs.jobOf(p); job != kNone) {
-      rangeOf[job].first = std::min(rangeOf[job].first, p);
-      rangeOf[job].second = p;
+    if (const std::uint32_t group = groups.groupOf(p); group != kNone) {
+      rangeOf[group].first = std::min(rangeOf[group].first, p);
+      rangeOf[group].second = p;
     }
   std::vector<std::uint32_t> from(graph.resources.size(), kNone);
-  for (std::uint32_t job = 0; job < jobs.spread.size(); ++job)
-    if (const auto [first, last] = rangeOf[job]; jobs.spread[job] != 0 && first < last) {
+  for (std::uint32_t group = 0; group < groups.sliced.size(); ++group)
+    if (const auto [first, last] = rangeOf[group]; groups.sliced[group] != 0 && first < last) {
       if (!compare(model, last - first, model.graph.specs[first].place)) return;
-      checkWayBack(model, jobs, job, first, last, from);
+      checkWayBack(model, groups, group, first, last, from);
     }
 }
 

@@ -1,4 +1,4 @@
-// What cannot be spread over frames: a writer or an input of every frame, and a way out of a job and back into it (W77).
+// What cannot be spread over frames: a writer or an input of every frame, and a way out of a group and back into it (W77).
 // Does not: judge a single stanza (expand_stanza.cpp), or know what is live.
 #pragma once
 

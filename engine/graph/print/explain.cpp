@@ -123,7 +123,7 @@ std::string Explainer::whyStorage(std::uint32_t resource) const {
   if (isImported(r)) return "imported";
   if (plan_.firstStep[resource] == kNone) return "none: no live pass touches it";
   if (plan_.persistent[resource] != 0) {
-    if (plan_.jobs.spreadWriterOf(resource) != kNone)
+    if (plan_.groups.slicedWriterOf(resource) != kNone)
       return "its own: written over several frames beside what was published, it needs " +
              std::to_string(plan_.copiesOf(resource)) + " copies";
     if (r.history > 0)
@@ -160,12 +160,12 @@ bool Explainer::touchesSameMemory(const Touch& a, std::int64_t frameA, const Tou
     return plan_.bufferOffsetOf[ra] < plan_.bufferOffsetOf[rb] + std::max<std::uint64_t>(1, y.bytes) &&
            plan_.bufferOffsetOf[rb] < plan_.bufferOffsetOf[ra] + std::max<std::uint64_t>(1, x.bytes);
   if (ra == rb) {
-    const std::uint32_t job = plan_.jobs.spreadWriterOf(ra);
-    if (job == kNone) {
+    const std::uint32_t group = plan_.groups.slicedWriterOf(ra);
+    if (group == kNone) {
       if (((frameA - a.use.history) - (frameB - b.use.history)) % (x.history + 1) != 0) return false;
     } else {  // it may publish at the start of any frame from A's on, or of none
       const auto age = [&](const Touch& touch) {
-        const bool inside = touch.pass != kNone && plan_.jobs.jobOf(touch.pass) == job;
+        const bool inside = touch.pass != kNone && plan_.groups.groupOf(touch.pass) == group;
         return touch.use.history + (inside ? 0 : 1);
       };
       const std::int64_t copies = plan_.copiesOf(ra), turns = (age(b) - age(a) + copies) % copies;

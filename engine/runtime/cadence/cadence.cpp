@@ -44,24 +44,24 @@ FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
   written_.assign(resources, 0);
   blocked_.assign(resources, 0);
   alwaysWritten_.assign(resources, 0);
-  jobOf_.assign(steps, kNone);
-  jobs_.resize(plan.jobs.spread.size());
+  groupOf_.assign(steps, kNone);
+  groups_.resize(plan.groups.sliced.size());
   for (std::uint32_t s = 0; s < steps; ++s) {
     if (passOf(plan, s).cadence == Cadence::always)
       forEachWrite(plan, s, [&](std::uint32_t r) { alwaysWritten_[r] = 1; });
-    jobOf_[s] = plan.jobs.jobOf(plan.steps[s].pass);
-    if (jobOf_[s] != kNone) jobs_[jobOf_[s]].steps.push_back(s);
+    groupOf_[s] = plan.groups.groupOf(plan.steps[s].pass);
+    if (groupOf_[s] != kNone) groups_[groupOf_[s]].steps.push_back(s);
   }
-  for (std::size_t j = 0; j < jobs_.size(); ++j) jobs_[j].spread = plan.jobs.spread[j] != 0;
+  for (std::size_t j = 0; j < groups_.size(); ++j) groups_[j].sliced = plan.groups.sliced[j] != 0;
 }
 
-bool FrameCadence::isHeld(std::uint32_t job) const {
-  return std::ranges::any_of(jobs_[job].steps, [this](std::uint32_t step) { return held_[step] != 0; });
+bool FrameCadence::isHeld(std::uint32_t group) const {
+  return std::ranges::any_of(groups_[group].steps, [this](std::uint32_t step) { return held_[step] != 0; });
 }
 
-// A use of what the step's own spread job writes.
+// A use of what the step's own time-sliced group writes.
 bool FrameCadence::isInside(std::size_t step, std::uint32_t resource) const {
-  return jobOf_[step] != kNone && plan_.jobs.spreadWriterOf(resource) == jobOf_[step];
+  return groupOf_[step] != kNone && plan_.groups.slicedWriterOf(resource) == groupOf_[step];
 }
 
 bool FrameCadence::differs(std::size_t step, const PassMemory& memory, bool inputs,
@@ -85,18 +85,18 @@ bool FrameCadence::wants(std::size_t step, const std::vector<std::uint64_t>& own
   const Cadence cadence = passOf(plan_, step).cadence;
   if (cadence == Cadence::always) return true;
   // Under way, any change of what was seen makes the rest of it another picture, also for `once`.
-  if (jobOf_[step] != kNone && (jobs_[jobOf_[step]].active || jobs_[jobOf_[step]].finished))
+  if (groupOf_[step] != kNone && (groups_[groupOf_[step]].active || groups_[groupOf_[step]].finished))
     return differs(step, latches_[step], true, own, generations);
   return differs(step, memories_[step], cadence == Cadence::on_change, own, generations);
 }
 
-// One walk over the steps in order; true when a job learned something that steps before it should have known.
+// One walk over the steps in order; true when a group learned something that steps before it should have known.
 bool FrameCadence::sweep(bool ahead) {
   bool again = false;
   std::fill(written_.begin(), written_.end(), std::uint8_t{0});
   for (std::size_t r = 0; r < blocked_.size(); ++r) {
-    const std::uint32_t job = plan_.jobs.spreadWriterOf(static_cast<std::uint32_t>(r));
-    blocked_[r] = (job != kNone && !jobs_[job].published) || (ahead && alwaysWritten_[r]);
+    const std::uint32_t group = plan_.groups.slicedWriterOf(static_cast<std::uint32_t>(r));
+    blocked_[r] = (group != kNone && !groups_[group].published) || (ahead && alwaysWritten_[r]);
   }
   for (std::size_t s = 0; s < run_.size(); ++s) {
     const Cadence cadence = passOf(plan_, s).cadence;
@@ -105,24 +105,24 @@ bool FrameCadence::sweep(bool ahead) {
       if (run_[s]) forEachWrite(plan_, s, [&](std::uint32_t r) { written_[r] = 1; });
       continue;
     }
-    Job* job = jobOf_[s] == kNone ? nullptr : &jobs_[jobOf_[s]];
-    bool woken = false, blocked = held_[s] != 0 && !(job && job->spread);
+    Group* group = groupOf_[s] == kNone ? nullptr : &groups_[groupOf_[s]];
+    bool woken = false, blocked = held_[s] != 0 && !(group && group->sliced);
     forEachUse(plan_, s, [&](const FlatUse& use, std::size_t) {
       if (use.access != Access::read || use.history > 0 || isInside(s, use.resource)) return;
       woken |= written_[use.resource] != 0;
       blocked |= blocked_[use.resource] != 0;
     });
-    if (cadence == Cadence::once && !(job && (job->active || job->finished))) woken = false;
+    if (cadence == Cadence::once && !(group && (group->active || group->finished))) woken = false;
     bool want = wants_[s] || woken;
-    if (job) {
-      if ((want && !job->wants) || (blocked && !job->blocked)) again = true;
-      job->wants |= want;
-      job->blocked |= blocked;
-      want = job->wants;
-      blocked = job->blocked;
+    if (group) {
+      if ((want && !group->wants) || (blocked && !group->blocked)) again = true;
+      group->wants |= want;
+      group->blocked |= blocked;
+      want = group->wants;
+      blocked = group->blocked;
     }
     run_[s] = want && !blocked;
-    if (job && job->spread) continue;  // what it writes is seen when it is published
+    if (group && group->sliced) continue;  // what it writes is seen when it is published
     if (run_[s]) forEachWrite(plan_, s, [&](std::uint32_t r) { written_[r] = 1; });
     if (want && blocked) forEachWrite(plan_, s, [&](std::uint32_t r) { blocked_[r] = 1; });
   }
@@ -131,44 +131,44 @@ bool FrameCadence::sweep(bool ahead) {
 
 void FrameCadence::settle(const std::vector<std::uint64_t>& own,
                           const std::vector<std::uint64_t>& generations, bool ahead) {
-  for (Job& job : jobs_) job.wants = job.blocked = job.started = false;
+  for (Group& group : groups_) group.wants = group.blocked = group.started = false;
   for (std::size_t s = 0; s < run_.size(); ++s) {
     wants_[s] = wants(s, own, generations);
     slices_[s] = {};
   }
   while (sweep(ahead)) {
   }
-  for (Job& job : jobs_) {
-    if (!job.spread) continue;
-    for (const std::uint32_t s : job.steps) run_[s] = 0;
-    if (job.blocked) {
-      job.active = job.finished = false;
+  for (Group& group : groups_) {
+    if (!group.sliced) continue;
+    for (const std::uint32_t s : group.steps) run_[s] = 0;
+    if (group.blocked) {
+      group.active = group.finished = false;
       continue;
     }
-    if (job.wants || (ahead && job.active)) {  // from the start: nothing that is half done is kept
-      job.active = job.started = true;
-      job.finished = false;
-      job.at = job.slice = 0;
+    if (group.wants || (ahead && group.active)) {  // from the start: nothing that is half done is kept
+      group.active = group.started = true;
+      group.finished = false;
+      group.at = group.slice = 0;
     }
-    if (job.active) takeTurn(job, ahead);
+    if (group.active) takeTurn(group, ahead);
   }
 }
 
 // The next slice and what rides with it, or all there is.
-void FrameCadence::takeTurn(Job& job, bool whole) {
-  const auto slicesOf = [&](std::uint32_t at) { return passOf(plan_, job.steps[at]).slices; };
-  const auto end = static_cast<std::uint32_t>(job.steps.size());
+void FrameCadence::takeTurn(Group& group, bool whole) {
+  const auto slicesOf = [&](std::uint32_t at) { return passOf(plan_, group.steps[at]).slices; };
+  const auto end = static_cast<std::uint32_t>(group.steps.size());
   do {
-    const std::uint32_t step = job.steps[job.at], of = std::max(1u, slicesOf(job.at));
+    const std::uint32_t step = group.steps[group.at], of = std::max(1u, slicesOf(group.at));
     run_[step] = 1;
-    slices_[step] = whole ? SliceRange{} : SliceRange{job.slice, 1, of};
-    if (!whole && ++job.slice < of) return;
-    job.slice = 0;
-    ++job.at;
-  } while (job.at < end && (whole || slicesOf(job.at) == 0));
-  if (job.at < end) return;
-  job.active = false;
-  job.finished = true;
+    slices_[step] = whole ? SliceRange{} : SliceRange{group.slice, 1, of};
+    if (!whole && ++group.slice < of) return;
+    group.slice = 0;
+    ++group.at;
+  } while (group.at < end && (whole || slicesOf(group.at) == 0));
+  if (group.at < end) return;
+  group.active = false;
+  group.finished = true;
 }
 
 void FrameCadence::decide(const std::vector<std::uint64_t>& own,
@@ -178,10 +178,10 @@ void FrameCadence::decide(const std::vector<std::uint64_t>& own,
 
 bool FrameCadence::decideAhead(const std::vector<std::uint64_t>& own,
                                const std::vector<std::uint64_t>& generations) {
-  if (plan_.jobs.ofResource.empty()) return false;
+  if (plan_.groups.ofResource.empty()) return false;
   settle(own, generations, true);
-  for (std::uint32_t job = 0; job < jobs_.size(); ++job)
-    if (jobs_[job].spread && jobs_[job].finished && !isHeld(job)) return true;
+  for (std::uint32_t group = 0; group < groups_.size(); ++group)
+    if (groups_[group].sliced && groups_[group].finished && !isHeld(group)) return true;
   std::fill(run_.begin(), run_.end(), std::uint8_t{0});
   return false;
 }
@@ -206,20 +206,20 @@ void FrameCadence::take(std::size_t step, PassMemory& memory, std::uint64_t own,
 void FrameCadence::endFrame(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& before,
                             const std::vector<std::uint64_t>& after) {
   for (std::size_t s = 0; s < run_.size(); ++s) {
-    const Job* job = jobOf_[s] == kNone ? nullptr : &jobs_[jobOf_[s]];
-    if (!job || !job->spread) {
+    const Group* group = groupOf_[s] == kNone ? nullptr : &groups_[groupOf_[s]];
+    if (!group || !group->sliced) {
       if (run_[s]) take(s, memories_[s], own[s], before, after);
-    } else if (job->started) {
+    } else if (group->started) {
       take(s, latches_[s], own[s], before, after);
     }
   }
 }
 
 void FrameCadence::markPublished(std::uint32_t index) {
-  Job& job = jobs_[index];
-  job.finished = false;
-  job.published = true;
-  for (const std::uint32_t s : job.steps) {
+  Group& group = groups_[index];
+  group.finished = false;
+  group.published = true;
+  for (const std::uint32_t s : group.steps) {
     memories_[s].ran = true;
     memories_[s].own = latches_[s].own;
     memories_[s].inputs.assign(latches_[s].inputs.begin(), latches_[s].inputs.end());

@@ -49,7 +49,7 @@ void Execution::publishFinished(base::Diagnostics& diagnostics) {
 // publishes, so at most as many rounds as there are groups.
 void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
   bool any = false;
-  for (std::size_t round = 0; round < plan_->jobs.spread.size(); ++round) {
+  for (std::size_t round = 0; round < plan_->groups.sliced.size(); ++round) {
     if (!cadence_->decideAhead(hashes_, publications_->generations())) break;
     runSteps(report, diagnostics);
     publications_->publishFinished();
@@ -160,7 +160,8 @@ void Execution::refreshHashes() {
       hash = base::hashCombine(hash, (*pool_)[resource].serial + ((*pool_)[resource].resets << 40));
     // An import that is shown later than it changes.
     for (const std::uint32_t resource : pass.read)
-      if (const std::uint32_t maker = (*pool_)[resource].maker; maker != kNone && maker != pass.job)
+      if (const std::uint32_t publisher = (*pool_)[resource].publisher;
+          publisher != kNone && publisher != pass.group)
         hash = base::hashCombine(hash, device_.imports.publications(
                                            plan_->graph->imports[plan_->graph->resources[resource].import]));
     for (const std::uint32_t axis : pass.context.spec->threads) hash = base::hashCombine(hash, axis);

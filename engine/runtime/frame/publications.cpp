@@ -35,24 +35,25 @@ Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports&
   made_.assign(resources, 0);
   resetState_.assign(plan.graph->histories.size(), 0);
   for (std::uint64_t& generation : generations_) generation = nextGeneration_++;
-  findMakers();
+  findPublishers();
 }
 
 // An import that an `on_change` pass of a group reads is shown with what the group makes of it; a time-sliced
 // group goes before others.
-void Publications::findMakers() {
+void Publications::findPublishers() {
   const graph::FlatGraph& graph = *plan_.graph;
   for (const graph::Step& step : plan_.steps) {
     const graph::FlatPass& pass = graph.passes[step.pass];
-    const std::uint32_t group = plan_.jobs.jobOf(step.pass);
+    const std::uint32_t group = plan_.groups.groupOf(step.pass);
     if (group == kNone || pass.cadence != Cadence::on_change) continue;
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
       const graph::FlatUse& use = graph.uses[u];
       GpuResource& resource = pool_[use.resource];
       const bool import = graph.resources[use.resource].kind == ResourceKind::imported_texture;
       if (!import || use.history > 0) continue;
-      if (resource.maker == kNone || (plan_.jobs.spread[group] && !plan_.jobs.spread[resource.maker]))
-        resource.maker = group;
+      if (resource.publisher == kNone ||
+          (plan_.groups.sliced[group] && !plan_.groups.sliced[resource.publisher]))
+        resource.publisher = group;
     }
   }
 }
@@ -91,17 +92,17 @@ void Publications::hold(std::uint32_t r) {
   for (std::size_t step = 0; step < passes_.size(); ++step) {
     if (cadenceOf(step) == Cadence::always) continue;
     const PreparedPass& pass = passes_[step];
-    cadence_.held()[step] |= import ? pass.job != kNone && pass.job == pool_[r].maker
+    cadence_.held()[step] |= import ? pass.group != kNone && pass.group == pool_[r].publisher
                                     : std::ranges::find(pass.written, r) != pass.written.end();
   }
 }
 
 bool Publications::publishFinished() {
   bool any = false;
-  for (std::uint32_t group = 0; group < plan_.jobs.spread.size(); ++group) {
+  for (std::uint32_t group = 0; group < plan_.groups.sliced.size(); ++group) {
     if (!cadence_.isFinished(group) || cadence_.isHeld(group)) continue;
     for (std::uint32_t r = 0; r < generations_.size(); ++r)
-      if (pool_[r].job == group) publish(r);
+      if (pool_[r].group == group) publish(r);
     publishImports(group);
     cadence_.markPublished(group);
     any = true;
@@ -119,7 +120,7 @@ void Publications::publish(std::uint32_t r) {
 
 void Publications::publishImports(std::uint32_t group) {
   for (std::size_t r = 0; r < generations_.size(); ++r)
-    if (pool_[r].maker == group) imports_.publish(importOf(r));
+    if (pool_[r].publisher == group) imports_.publish(importOf(r));
 }
 
 void Publications::refreshImports(base::Diagnostics& diagnostics) {
@@ -129,7 +130,7 @@ void Publications::refreshImports(base::Diagnostics& diagnostics) {
     const graph::ImportSpec& import = importOf(r);
     if (desc.kind == ResourceKind::imported_texture) {
       pool_[r].imported = imports_.texture(import, diagnostics);
-      if (pool_[r].maker == kNone && !imports_.isPublished(import)) imports_.publish(import);
+      if (pool_[r].publisher == kNone && !imports_.isPublished(import)) imports_.publish(import);
     }
     generations_[r] = imports_.generation(import);
   }
@@ -172,16 +173,16 @@ bool Publications::announce() {
   for (std::size_t step = 0; step < passes_.size(); ++step) {
     if (!cadence_.runs(step) || cadenceOf(step) == Cadence::always) continue;
     for (const std::uint32_t r : passes_[step].written)
-      if (pool_[r].job == kNone) {
+      if (pool_[r].group == kNone) {
         publishing_[r] = 1;
         any = true;
       }
   }
-  for (std::uint32_t group = 0; group < plan_.jobs.spread.size(); ++group) {
-    if (plan_.jobs.spread[group]) continue;
+  for (std::uint32_t group = 0; group < plan_.groups.sliced.size(); ++group) {
+    if (plan_.groups.sliced[group]) continue;
     bool runs = false;
     for (std::size_t step = 0; step < passes_.size(); ++step)
-      runs |= passes_[step].job == group && cadence_.runs(step);
+      runs |= passes_[step].group == group && cadence_.runs(step);
     if (!runs) continue;
     publishImports(group);
     any = true;
@@ -197,7 +198,7 @@ void Publications::beginRound() {
 // Of what a time-sliced group writes nothing turns yet.
 void Publications::publishWritten(const PreparedPass& pass) {
   for (const std::uint32_t r : pass.written) {
-    if (pool_[r].job != kNone) continue;
+    if (pool_[r].group != kNone) continue;
     if (std::exchange(turned_[r], std::uint8_t{1}) != 0)
       generations_[r] = nextGeneration_++;
     else
@@ -252,11 +253,11 @@ void Publications::takeGenerations(const Publications& before) {
 
 // A group is published when all it writes is.
 void Publications::takeGroups() {
-  std::vector<std::uint8_t> published(plan_.jobs.spread.begin(), plan_.jobs.spread.end());
+  std::vector<std::uint8_t> published(plan_.groups.sliced.begin(), plan_.groups.sliced.end());
   for (std::uint32_t r = 0; r < generations_.size(); ++r) {
     const GpuResource& resource = pool_[r];
-    if (resource.job != kNone && plan_.firstStep[r] != kNone && resource.publications == 0)
-      published[resource.job] = 0;
+    if (resource.group != kNone && plan_.firstStep[r] != kNone && resource.publications == 0)
+      published[resource.group] = 0;
   }
   for (std::uint32_t group = 0; group < published.size(); ++group)
     if (published[group]) cadence_.restorePublished(group);

@@ -67,7 +67,7 @@ class Publications {
   double time() const { return input_.time; }
 
  private:
-  void findMakers();
+  void findPublishers();
   void publish(std::uint32_t resource);
   void publishImports(std::uint32_t group);
   void hold(std::uint32_t resource);

@@ -34,7 +34,7 @@ void StepRunner::clear(const PreparedPass& pass, GLuint framebuffer, base::Diagn
   openMasks(states_);
   for (const ClearCommand& clear : pass.clears) {
     const GpuResource& resource = pool_[clear.use.resource];
-    const std::uint32_t copy = resource.copyOf(0, pass.job);
+    const std::uint32_t copy = resource.copyOf(0, pass.group);
     if (!resource.texture) {
       clearBuffer(resource.buffers[copy], resource.offset, resource.bytes, clear.value);
     } else if (clear.attachment >= 0 && framebuffer) {
@@ -85,7 +85,7 @@ GLuint StepRunner::framebufferOf(const PreparedPass& pass, base::Diagnostics& di
   for (const AttachmentBinding& attachment : pass.attachments) {
     const GpuResource& resource = pool_[attachment.resource];
     scratch_.push_back({.point = attachment.point,
-                        .texture = attachment.textures[resource.copyOf(attachment.use.history, pass.job)],
+                        .texture = attachment.textures[resource.copyOf(attachment.use.history, pass.group)],
                         .mip = attachment.mip,
                         .layer = attachment.layer});
   }
@@ -117,13 +117,14 @@ void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
   for (const TextureBinding& binding : pass.textures) {
     states_.bindTexture(binding.unit,
-                        viewOf(pool_[binding.resource], binding.views, binding.history, pass.job));
+                        viewOf(pool_[binding.resource], binding.views, binding.history, pass.group));
     states_.bindSampler(binding.unit, binding.sampler);
   }
   for (const ImageBinding& binding : pass.images)
-    states_.bindImage(binding.unit, viewOf(pool_[binding.resource], binding.views, binding.history, pass.job),
+    states_.bindImage(binding.unit,
+                      viewOf(pool_[binding.resource], binding.views, binding.history, pass.group),
                       binding.layered, binding.access, binding.format);
-  for (const BufferBinding& binding : pass.buffers) bindBuffer(binding, pass.job, diagnostics);
+  for (const BufferBinding& binding : pass.buffers) bindBuffer(binding, pass.group, diagnostics);
   bindBlock(pass.parametersBlock, pass.parametersOffset);
   bindBlock(pass.viewBlock, pass.viewOffset);
   bindBlock(pass.sliceBlock, pass.sliceOffset);
@@ -157,7 +158,7 @@ void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
 // What a pass type without a shader works on: names of textures, and framebuffers around them if it wants some.
 void StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
   passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
-  bound.name = viewOf(pool_[binding.resource], binding.views, binding.history, pass.job);
+  bound.name = viewOf(pool_[binding.resource], binding.views, binding.history, pass.group);
   if (!pass.framebuffers) return;
   const GLenum point = attachmentPointOf(plan_.graph->resources[binding.resource].format);
   const gl::Attachment attachment{.point = point, .texture = bound.name};

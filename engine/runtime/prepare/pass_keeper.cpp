@@ -171,7 +171,7 @@ PreparedPass PassKeeper::take(std::size_t step, std::uint32_t old, PreparedPass 
   for (std::uint32_t& resource : prepared.written) resource = nowOf(resource);
   for (std::uint32_t& resource : prepared.read) resource = nowOf(resource);
   prepared.context.spec = &graph.specs[pass];
-  prepared.job = plan_.jobs.jobOf(pass);
+  prepared.group = plan_.groups.groupOf(pass);
   return prepared;
 }
 

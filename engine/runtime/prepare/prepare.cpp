@@ -30,7 +30,7 @@ class Preparer {
     const graph::PassType type = out_.type->reflect();
     out_.framebuffers = type.framebuffers;
     out_.fromSource = type.fromSource;
-    out_.job = c_.plan.jobs.jobOf(step_.pass);
+    out_.group = c_.plan.groups.groupOf(step_.pass);
     collectUses();
     out_.conditions = c_.conditions;
     out_.conditional = conditionCount(spec_) > 0;

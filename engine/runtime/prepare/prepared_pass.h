@@ -93,7 +93,7 @@ struct PreparedPass {
   std::vector<std::uint32_t> written, read;  // resources (attached writes; reads)
   std::uint32_t width = 0, height = 0;       // of the attachments
   bool feedback = false;
-  std::uint32_t job = graph::kNone;               // as Plan::jobs
+  std::uint32_t group = graph::kNone;             // as Plan::groups
   bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
   // uniform bytes live in one shared buffer; offsets are aligned, size 0: the program has no such block

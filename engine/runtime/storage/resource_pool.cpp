@@ -174,11 +174,11 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
   for (const graph::ClearSpec& clear : plan.graph->clears) clearOf[clear.resource] = &clear.value;
   for (const graph::HistorySpec& history : plan.graph->histories)
     if ((*pool)[history.resource].fresh) pool->fill(plan, history.resource, history.first, diagnostics);
-  // What others see of a spread job's resource before it is first published: version zero, else zeros.
+  // What others see of a time-sliced group's resource before it is first published: version zero, else zeros.
   for (std::uint32_t r = 0; r < pool->resources_.size(); ++r) {
     GpuResource& mine = (*pool)[r];
-    mine.job = plan.jobs.spreadWriterOf(r);
-    if (mine.job == kNone || !mine.fresh || plan.graph->resources[r].history > 0) continue;
+    mine.group = plan.groups.slicedWriterOf(r);
+    if (mine.group == kNone || !mine.fresh || plan.graph->resources[r].history > 0) continue;
     const auto clear = clearOf.find(r);
     pool->fill(plan, r, clear == clearOf.end() ? graph::Value::number(0) : *clear->second, diagnostics);
   }

@@ -61,24 +61,26 @@ struct PersistentBuffer {
 struct GpuResource {
   PhysicalTexture* texture = nullptr;  // own textures
   gl::TextureRef imported, shown,
-      before;                             // imported textures: the newest; as others than `maker` see it; @-1
-  std::uint32_t maker = graph::kNone;     // of an import: the job that makes something of it and publishes it
-  std::vector<GLuint> buffers;            // per copy
-  std::uint64_t offset = 0, bytes = 0;    // range within the buffer
+      before;  // imported textures: the newest; as others than `publisher` see it; @-1
+  std::uint32_t publisher =
+      graph::kNone;                     // of an import: the group that makes something of it and publishes it
+  std::vector<GLuint> buffers;          // per copy
+  std::uint64_t offset = 0, bytes = 0;  // range within the buffer
   std::uint32_t copies = 1, current = 0;  // current: the latest publication
-  std::uint32_t job = graph::kNone;  // the spread job that writes it: its passes see the copy after `current`
-  std::uint64_t resets = 0;          // how often its history went back to the first value
-  std::uint64_t serial = 0;          // identity of the storage
+  std::uint32_t group =
+      graph::kNone;          // the time-sliced group that writes it: its passes see the copy after `current`
+  std::uint64_t resets = 0;  // how often its history went back to the first value
+  std::uint64_t serial = 0;  // identity of the storage
   std::uint64_t publications = 0;
   double publishedAt = -std::numeric_limits<double>::infinity();
   bool fresh = true;  // storage was made for this plan: contents undefined
   GLuint importedFor(std::uint32_t history, std::uint32_t reader) const {
     if (history > 0) return before.id;
-    return maker != graph::kNone && maker == reader ? imported.id : shown.id;
+    return publisher != graph::kNone && publisher == reader ? imported.id : shown.id;
   }
-  // As passes of `reader`, a job or kNone, see it.
+  // As passes of `reader`, a group or kNone, see it.
   std::uint32_t copyOf(std::uint32_t history, std::uint32_t reader = graph::kNone) const {
-    const std::uint32_t newest = current + (job != graph::kNone && job == reader ? 1 : 0);
+    const std::uint32_t newest = current + (group != graph::kNone && group == reader ? 1 : 0);
     return (newest + copies - history % copies) % copies;
   }
 };

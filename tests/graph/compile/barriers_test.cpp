@@ -175,7 +175,7 @@ TEST_CASE("a history is waited for where it was published") {
 }
 
 TEST_CASE(
-    "what a spread job stores is waited for by its own passes in the frame, by others from the frame "
+    "what a time-sliced group stores is waited for by its own passes in the frame, by others from the frame "
     "before") {
   FlatBuilder b = emptyGraph();
   const auto a = b.texture("a"), sum = b.texture("sum"), shown = b.texture("shown");
@@ -186,8 +186,8 @@ TEST_CASE(
   b.graph.passes.back().group = 0;
   b.pass("show").read(sum).write(shown).present(shown);
   const Plan plan = b.compiled();
-  REQUIRE(plan.jobs.spreadWriterOf(a) != kNone);
-  REQUIRE(plan.jobs.spreadWriterOf(sum) == plan.jobs.spreadWriterOf(a));
+  REQUIRE(plan.groups.slicedWriterOf(a) != kNone);
+  REQUIRE(plan.groups.slicedWriterOf(sum) == plan.groups.slicedWriterOf(a));
   // Each waits for stores of the frame before, of which there is none too many: `show` looks at another copy
   // of `sum` than `rides` stores to. What `rides` samples was stored in this frame.
   CHECK(plan.steps[0].barriers == kBarrierImage);
@@ -198,7 +198,7 @@ TEST_CASE(
   CHECK(verdict.bits == 2);
 }
 
-TEST_CASE("who writes what a spread job writes is of the job") {
+TEST_CASE("who writes what a time-sliced group writes is of the group") {
   FlatBuilder b = emptyGraph();
   const auto a = b.texture("a"), mips = b.texture("mips", Format::rgba8, 64, 3), last = b.texture("last"),
              shown = b.texture("shown");
@@ -212,8 +212,8 @@ TEST_CASE("who writes what a spread job writes is of the job") {
   b.pass("free", Cadence::once).write(shown);
   b.pass("show").read(a).read(mips).read(last).modify(shown).present(shown);
   const Plan plan = b.compiled();
-  for (const std::uint32_t p : {0u, 1u, 2u, 3u}) CHECK(plan.jobs.jobOf(p) == 0);
-  CHECK(plan.jobs.jobOf(4) == kNone);
+  for (const std::uint32_t p : {0u, 1u, 2u, 3u}) CHECK(plan.groups.groupOf(p) == 0);
+  CHECK(plan.groups.groupOf(4) == kNone);
   for (const std::uint32_t r : {a, mips, last}) CHECK(plan.copiesOf(r) == 2);
   CHECK(plan.copiesOf(shown) == 1);
 }

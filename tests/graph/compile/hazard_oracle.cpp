@@ -187,7 +187,7 @@ class Replay {
            use.layers == range.layers && use.planes == range.planes;
   }
 
-  // x becomes x@-1 at the start of every frame in which a writer of x runs; of a spread job, in which it
+  // x becomes x@-1 at the start of every frame in which a writer of x runs; of a time-sliced group, in which it
   // publishes.
   void rotate(const std::vector<bool>& runs) {
     std::vector<bool> rotates(graph_.resources.size(), false);
@@ -199,8 +199,8 @@ class Replay {
           rotates[graph_.uses[u].resource] = true;
     }
     for (std::uint32_t r = 0; r < rotates.size(); ++r) {
-      const std::uint32_t job = plan_.jobs.spreadWriterOf(r);
-      if (job == kNone ? rotates[r] : runs[graph_.passes.size() + job]) ++published_[r];
+      const std::uint32_t group = plan_.groups.slicedWriterOf(r);
+      if (group == kNone ? rotates[r] : runs[graph_.passes.size() + group]) ++published_[r];
     }
   }
 
@@ -217,12 +217,12 @@ class Replay {
     ++clock_;
   }
 
-  // Passes of a spread job see the copy that is being written, one ahead of the latest publication.
+  // Passes of a time-sliced group see the copy that is being written, one ahead of the latest publication.
   void touch(const FlatUse& use, Op op, bool store, std::uint32_t pass) {
     const FlatResource& r = graph_.resources[use.resource];
-    const std::uint32_t job = plan_.jobs.spreadWriterOf(use.resource);
-    const std::uint32_t copies = r.history + (job == kNone ? 1u : 2u);
-    const bool inside = job != kNone && pass != kNone && plan_.jobs.jobOf(pass) == job;
+    const std::uint32_t group = plan_.groups.slicedWriterOf(use.resource);
+    const std::uint32_t copies = r.history + (group == kNone ? 1u : 2u);
+    const bool inside = group != kNone && pass != kNone && plan_.groups.groupOf(pass) == group;
     const auto copy = static_cast<std::uint32_t>(
         (published_[use.resource] + (inside ? 1 : 0) + copies - use.history) % copies);
     const auto visit = [&](const Unit& unit) {
@@ -290,7 +290,7 @@ Schedule everythingRuns(const Plan& plan) {
   std::size_t deepest = 0;
   for (const FlatResource& r : plan.graph->resources) deepest = std::max<std::size_t>(deepest, r.history);
   return Schedule(3 + 2 * deepest,
-                  std::vector<bool>(plan.graph->passes.size() + plan.jobs.spread.size(), true));
+                  std::vector<bool>(plan.graph->passes.size() + plan.groups.sliced.size(), true));
 }
 
 std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std::size_t samples) {
@@ -304,7 +304,7 @@ std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std
   std::mt19937_64 random(seed);
   std::vector<Schedule> schedules;
   for (std::size_t i = 0; i < count; ++i) {
-    Schedule schedule(frames, std::vector<bool>(graph.passes.size() + plan.jobs.spread.size(), true));
+    Schedule schedule(frames, std::vector<bool>(graph.passes.size() + plan.groups.sliced.size(), true));
     std::size_t k = 0;
     for (auto& frame : schedule)
       for (const std::uint32_t p : optional) {
@@ -312,8 +312,8 @@ std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std
         ++k;
       }
     for (auto& frame : schedule)
-      for (std::size_t job = 0; job < plan.jobs.spread.size(); ++job)
-        frame[graph.passes.size() + job] = (random() & 1) != 0;
+      for (std::size_t group = 0; group < plan.groups.sliced.size(); ++group)
+        frame[graph.passes.size() + group] = (random() & 1) != 0;
     schedules.push_back(std::move(schedule));
   }
   return schedules;

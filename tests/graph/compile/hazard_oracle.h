@@ -12,7 +12,7 @@
 
 namespace weft::graph::oracle {
 
-// One flag per frame and pass: does it run? Indexed [frame][pass]; behind the passes one flag per job: what
+// One flag per frame and pass: does it run? Indexed [frame][pass]; behind the passes one flag per group: what
 // it wrote over the frames before is published at the start of this one.
 using Schedule = std::vector<std::vector<bool>>;
 

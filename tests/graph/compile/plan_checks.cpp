@@ -76,7 +76,7 @@ std::string checkLiveness(const Plan& plan) {
 
 // What a pass in slices writes, or any pass that must publish with it: by closure, one pass after the other.
 // All that write what is written so belong to it.
-static std::vector<char> spreadResources(const Plan& plan) {
+static std::vector<char> slicedResources(const Plan& plan) {
   const FlatGraph& graph = *plan.graph;
   const auto writes = [&](std::uint32_t p, std::uint32_t r) {
     for (std::uint32_t u = graph.passes[p].firstUse; u < graph.passes[p].firstUse + graph.passes[p].useCount;
@@ -101,11 +101,11 @@ static std::vector<char> spreadResources(const Plan& plan) {
       if (plan.stepOf[p] != kNone && graph.passes[p].cadence != Cadence::always &&
           std::ranges::find(members, p) == members.end() && together(p, members[i]))
         members.push_back(p);
-  std::vector<char> spread(graph.resources.size(), 0);
+  std::vector<char> sliced(graph.resources.size(), 0);
   for (const std::uint32_t p : members)
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r)
-      if (writes(p, r)) spread[r] = 1;
-  return spread;
+      if (writes(p, r)) sliced[r] = 1;
+  return sliced;
 }
 
 std::string checkStorage(const Plan& plan) {
@@ -134,7 +134,7 @@ std::string checkStorage(const Plan& plan) {
   for (std::size_t i = 0; i < graph.outputs.size(); ++i)
     if (plan.outputLive[i] != 0) touch(graph.outputs[i].resource, steps);
 
-  const std::vector<char> spread = spreadResources(plan);
+  const std::vector<char> sliced = slicedResources(plan);
   using Class = std::tuple<int, std::uint32_t, std::uint32_t, std::uint32_t, int, int, int, int>;
   const auto classOf = [&](const FlatResource& r) {
     const int family = r.target == Target::texture_3d               ? 1
@@ -156,7 +156,7 @@ std::string checkStorage(const Plan& plan) {
     if (plan.firstStep[r] != life[r].first || plan.lastStep[r] != life[r].second)
       return name + " has a wrong lifetime";
     if ((plan.persistent[r] != 0) != mine) return name + " is persistent or not, wrongly";
-    const std::uint32_t copies = resource.history + (spread[r] != 0 ? 2u : 1u);
+    const std::uint32_t copies = resource.history + (sliced[r] != 0 ? 2u : 1u);
     declared += resource.bytes * copies;
     if (mine) fixed += resource.bytes * copies;
     if (isBuffer(resource)) {

@@ -13,9 +13,9 @@ namespace {
 constexpr std::uint64_t kGraphs = 2500;
 
 // The corners in which a bit may be there for a cadence alone: a history that does not turn in each frame,
-// and a job that publishes now and then.
+// and a group that publishes now and then.
 bool turnsNowAndThen(const Plan& plan) {
-  if (!plan.jobs.ofResource.empty()) return true;
+  if (!plan.groups.ofResource.empty()) return true;
   const FlatGraph& graph = *plan.graph;
   for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
     if (graph.resources[r].history == 0 || plan.firstStep[r] == kNone) continue;
@@ -33,7 +33,7 @@ bool turnsNowAndThen(const Plan& plan) {
 
 // How often the graphs reach the interesting cases.
 struct Coverage {
-  std::size_t spread = 0, shared = 0, overlapping = 0, histories = 0, persistent = 0, splitClears = 0,
+  std::size_t sliced = 0, shared = 0, overlapping = 0, histories = 0, persistent = 0, splitClears = 0,
               feedback = 0, parts = 0;
 
   void add(const Plan& plan) {
@@ -42,7 +42,7 @@ struct Coverage {
     std::uint64_t buffers = 0;
     for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
       if (plan.firstStep[r] == kNone) continue;
-      spread += plan.copiesOf(r) > graph.resources[r].history + 1u ? 1 : 0;
+      sliced += plan.copiesOf(r) > graph.resources[r].history + 1u ? 1 : 0;
       histories += graph.resources[r].history > 0 ? 1 : 0;
       persistent += plan.persistent[r];
       if (plan.bufferOffsetOf[r] != Plan::kNoOffset) buffers += (graph.resources[r].bytes + 255) / 256 * 256;
@@ -62,21 +62,21 @@ struct Coverage {
 TEST_CASE("the random graphs reach every kind of case") {
   Coverage c;
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) c.add(randomGraph(seed).compiled());
-  MESSAGE("spread " << c.spread << ", shared " << c.shared << ", overlapping arenas " << c.overlapping
+  MESSAGE("sliced " << c.sliced << ", shared " << c.shared << ", overlapping arenas " << c.overlapping
                     << ", histories " << c.histories << ", persistent " << c.persistent << ", split clears "
                     << c.splitClears << ", feedback " << c.feedback << ", parts " << c.parts);
   for (const std::size_t n :
-       {c.spread, c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
+       {c.sliced, c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
     CHECK(n > kGraphs / 25);
 }
 
 TEST_CASE("no hazard is left under any cadence, and there are no redundant barrier bits") {
-  std::size_t bits = 0, steps = 0, byCadenceOnly = 0, ofSpread = 0, failures = 0;
+  std::size_t bits = 0, steps = 0, byCadenceOnly = 0, ofSliced = 0, failures = 0;
   const auto judge = [&](const Plan& plan, std::uint64_t seed, std::size_t samples, const char* how) {
     const oracle::Verdict verdict = oracle::judgeBarriers(plan, seed, samples);
     bits += verdict.bits;
     steps += plan.steps.size();
-    (plan.jobs.ofResource.empty() ? byCadenceOnly : ofSpread) += verdict.byCadenceOnly;
+    (plan.groups.ofResource.empty() ? byCadenceOnly : ofSliced) += verdict.byCadenceOnly;
     const bool excused = verdict.byCadenceOnly == 0 || turnsNowAndThen(plan);
     if ((!verdict.complaint.empty() || !excused) && ++failures < 10)
       FAIL_CHECK("graph " << seed << how << ": " << verdict.complaint);
@@ -89,10 +89,11 @@ TEST_CASE("no hazard is left under any cadence, and there are no redundant barri
   }
   CHECK(failures == 0);
   MESSAGE(kGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly
-                  << " by cadence only, " << ofSpread << " by frames in which a spread job does not publish");
+                  << " by cadence only, " << ofSliced
+                  << " by frames in which a time-sliced group does not publish");
   CHECK(bits > kGraphs * 8);  // the graphs do need barriers
   CHECK(byCadenceOnly * 1000 < bits);
-  CHECK(ofSpread * 500 < bits);
+  CHECK(ofSliced * 500 < bits);
 }
 
 TEST_CASE("liveness, order and storage agree with slow second opinions") {

@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/graph/expand/jobs.h"
+#include "engine/graph/expand/groups.h"
 
 namespace weft::graph {
 
@@ -188,17 +188,17 @@ class Generator {
     }
   }
 
-  // What a spread job writes is no other's to write (W77): who does joins the job. False: nobody does any
+  // What a time-sliced group writes is no other's to write (W77): who does joins the group. False: nobody does any
   // more.
   bool joinAlwaysWriters() {
     const auto every = [](std::uint32_t) { return true; };
-    const Jobs jobs = formJobs(b_.graph, every, every);
+    const Groups groups = formGroups(b_.graph, every, every);
     bool any = false;
     for (FlatPass& pass : b_.graph.passes)
       for (std::uint32_t u = pass.firstUse;
            pass.cadence == Cadence::always && u < pass.firstUse + pass.useCount; ++u)
         if (b_.graph.uses[u].access != Access::read &&
-            jobs.spreadWriterOf(b_.graph.uses[u].resource) != kNone) {
+            groups.slicedWriterOf(b_.graph.uses[u].resource) != kNone) {
           pass.cadence = Cadence::on_change;
           any = true;
         }

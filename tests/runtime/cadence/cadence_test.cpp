@@ -150,14 +150,14 @@ TEST_CASE("an on_change pass that reads history runs after each publication, and
 
 namespace {
 
-// A frame of a plan with spread jobs: "2:1/3 4" is slice 1 of 3 of step 2, and all of step 4.
+// A frame of a plan with time-sliced groups: "2:1/3 4" is slice 1 of 3 of step 2, and all of step 4.
 std::string runSlices(FrameCadence& cadence, const Plan& plan, const std::vector<std::uint64_t>& own,
                       std::vector<std::uint64_t>& generations) {
-  for (std::uint32_t job = 0; job < plan.jobs.spread.size(); ++job) {
-    if (!cadence.isFinished(job) || cadence.isHeld(job)) continue;
+  for (std::uint32_t group = 0; group < plan.groups.sliced.size(); ++group) {
+    if (!cadence.isFinished(group) || cadence.isHeld(group)) continue;
     for (std::uint32_t r = 0; r < generations.size(); ++r)
-      if (plan.jobs.spreadWriterOf(r) == job) ++generations[r];
-    cadence.markPublished(job);
+      if (plan.groups.slicedWriterOf(r) == group) ++generations[r];
+    cadence.markPublished(group);
   }
   cadence.decide(own, generations);
   const std::vector<std::uint64_t> before = generations;
@@ -170,7 +170,7 @@ std::string runSlices(FrameCadence& cadence, const Plan& plan, const std::vector
     const FlatPass& pass = plan.graph->passes[plan.steps[s].pass];
     for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
       const std::uint32_t r = plan.graph->uses[u].resource;
-      if (plan.graph->uses[u].access != Access::read && plan.jobs.spreadWriterOf(r) == kNone)
+      if (plan.graph->uses[u].access != Access::read && plan.groups.slicedWriterOf(r) == kNone)
         ++generations[r];
     }
   }
@@ -241,7 +241,7 @@ TEST_CASE("slices: once takes no notice of inputs, unless it is under way") {
 }
 
 TEST_CASE(
-    "slices: ahead of a headless frame a job runs whole, and nothing runs when there is nothing to do") {
+    "slices: ahead of a headless frame a group runs whole, and nothing runs when there is nothing to do") {
   SlicedGraph g;
   FrameCadence cadence(g.plan);
   REQUIRE(cadence.decideAhead(g.own, g.generations));
@@ -256,7 +256,8 @@ TEST_CASE(
   CHECK(runSlices(cadence, g.plan, g.own, g.generations) == "4 5");
 }
 
-TEST_CASE("slices: a job that is held is done beforehand, stays finished, and begins again after a change") {
+TEST_CASE(
+    "slices: a group that is held is done beforehand, stays finished, and begins again after a change") {
   SlicedGraph g;
   FrameCadence cadence(g.plan);
   const auto frame = [&] { return runSlices(cadence, g.plan, g.own, g.generations); };

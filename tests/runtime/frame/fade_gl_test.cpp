@@ -214,7 +214,9 @@ TEST_CASE(
       CHECK(uniform.role != graph::UniformSpec::Role::define);
 }
 
-TEST_CASE("nothing waits for lighting that is not made: without its readers or its maker the sky is there") {
+TEST_CASE(
+    "nothing waits for lighting that is not made: without its readers or the pass that makes it the sky is "
+    "there") {
   const auto a = makeMap(64, 0x3800, 1);
   for (const char* disabled : {"lit.billboards", "specular_prefilter"}) {
     CAPTURE(disabled);

@@ -1,4 +1,4 @@
-#include "engine/graph/expand/jobs.h"
+#include "engine/graph/expand/groups.h"
 
 #include <algorithm>
 #include <utility>
@@ -14,7 +14,7 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i) {
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
 
-// Joins to each pass in slices all that a spread job draws in: who is joined already, and who writes what one
+// Joins to each pass in slices all that a time-sliced group draws in: who is joined already, and who writes what one
 // of those writes. Everybody is visited once.
 template <class EachWrite, class Join>
 void drawIn(const FlatGraph& graph, const std::vector<std::uint32_t>& members,
@@ -50,13 +50,13 @@ void drawIn(const FlatGraph& graph, const std::vector<std::uint32_t>& members,
 
 }  // namespace
 
-Jobs formJobs(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
-              const std::function<bool(std::uint32_t use)>& isAttached) {
-  Jobs jobs;
+Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
+                  const std::function<bool(std::uint32_t use)>& isAttached) {
+  Groups groups;
   std::vector<std::uint32_t> members;  // live passes that are not always
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     if (graph.passes[p].cadence != Cadence::always && isLive(p)) members.push_back(p);
-  if (members.empty()) return jobs;
+  if (members.empty()) return groups;
 
   std::vector<std::uint8_t> joint(graph.resources.size(), 0);
   for (std::size_t r = 0; r < joint.size(); ++r) joint[r] = graph.resources[r].history > 0;
@@ -93,27 +93,27 @@ Jobs formJobs(const FlatGraph& graph, const std::function<bool(std::uint32_t pas
   }
   drawIn(graph, members, parents, eachWrite, join);
 
-  std::vector<std::uint32_t> size(graph.passes.size(), 0), jobOfRoot(graph.passes.size(), kNone);
+  std::vector<std::uint32_t> size(graph.passes.size(), 0), groupOfRoot(graph.passes.size(), kNone);
   for (const std::uint32_t p : members) ++size[rootOf(parents, p)];
-  jobs.ofPass.assign(graph.passes.size(), kNone);
+  groups.ofPass.assign(graph.passes.size(), kNone);
   for (const std::uint32_t p : members) {
     const std::uint32_t root = rootOf(parents, p);
     if (size[root] < 2 && graph.passes[p].slices < 2) continue;
-    if (jobOfRoot[root] == kNone) {
-      jobOfRoot[root] = static_cast<std::uint32_t>(jobs.spread.size());
-      jobs.spread.push_back(0);
+    if (groupOfRoot[root] == kNone) {
+      groupOfRoot[root] = static_cast<std::uint32_t>(groups.sliced.size());
+      groups.sliced.push_back(0);
     }
-    jobs.ofPass[p] = jobOfRoot[root];
-    if (graph.passes[p].slices > 1) jobs.spread[jobs.ofPass[p]] = 1;
+    groups.ofPass[p] = groupOfRoot[root];
+    if (graph.passes[p].slices > 1) groups.sliced[groups.ofPass[p]] = 1;
   }
-  if (std::ranges::find(jobs.spread, std::uint8_t{1}) == jobs.spread.end()) return jobs;
-  jobs.ofResource.assign(graph.resources.size(), kNone);
+  if (std::ranges::find(groups.sliced, std::uint8_t{1}) == groups.sliced.end()) return groups;
+  groups.ofResource.assign(graph.resources.size(), kNone);
   for (const std::uint32_t p : members) {
-    const std::uint32_t job = jobs.ofPass[p];
-    if (job == kNone || jobs.spread[job] == 0) continue;
-    eachWrite(p, [&](const FlatUse& use) { jobs.ofResource[use.resource] = job; });
+    const std::uint32_t group = groups.ofPass[p];
+    if (group == kNone || groups.sliced[group] == 0) continue;
+    eachWrite(p, [&](const FlatUse& use) { groups.ofResource[use.resource] = group; });
   }
-  return jobs;
+  return groups;
 }
 
 }  // namespace weft::graph
