@@ -12,7 +12,7 @@ import sys
 # The same word for something else, as (file, word): what it is there.
 OTHER_MEANINGS = {
     ("engine/scene/scene.cpp", "spheres"): "a draw list",
-    ("engine/scene/scene_file.cpp", "spheres"): "a key of scene files",
+    ("engine/scene/files/scene_file.cpp", "spheres"): "a key of scene files",
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')

@@ -35,6 +35,8 @@ SUB_ROOMS = {
         "edit": {".", "language", "read", "expand/names", "expand"},
         "workload": {".", "language", "versions"},
     },
+    "assets": {".": set(), "models": {"."}},
+    "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "models"}},
     "gl": {
         "context": set(),
         "objects": {"context"},

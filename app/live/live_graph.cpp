@@ -12,7 +12,7 @@
 #include "engine/graph/edit/write_back.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/imports/environment/environment.h"
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
 

@@ -14,7 +14,7 @@
 #include "engine/base/files/file_watcher.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
 

@@ -13,7 +13,7 @@
 #include "engine/graph/compile/plan_memory.h"
 #include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
 

@@ -12,7 +12,7 @@
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/imports/imports.h"
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
 

@@ -124,7 +124,6 @@ namespace weft::base {
   X(W160, badSceneValue,             "scene value out of range")                                    \
   X(W161, unknownMaterial,           "unknown material")                                            \
   X(W162, unknownSceneList,          "unknown draw list")                                           \
-  X(W163, unusedLights,              "lights that nothing uses yet")                                \
   /* command line, runtime, outputs */                                                              \
   X(W180, outputNotWritten,          "output cannot be written")                                    \
   X(W181, slotNotInShader,           "slot is not in the shader")                                   \

@@ -1,12 +1,13 @@
 #include "engine/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace weft::scene {
 
 const std::vector<std::string>& drawListNames() {
-  static const std::vector<std::string> names = {"spheres", "opaque", "shadow_casters",
-                                                 "transparent_spheres"};
+  static const std::vector<std::string> names = {"spheres", "opaque", "shadow_casters", "transparent_spheres",
+                                                 "transparent"};
   return names;
 }
 
@@ -15,6 +16,16 @@ std::optional<DrawList> findDrawList(std::string_view name) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return {};
   return static_cast<DrawList>(found - names.begin());
+}
+
+glm::mat4 matrixOf(const Transform& transform) {
+  const glm::mat3 rotation = glm::mat3_cast(transform.rotation);
+  return {glm::vec4(rotation[0] * transform.scale.x, 0), glm::vec4(rotation[1] * transform.scale.y, 0),
+          glm::vec4(rotation[2] * transform.scale.z, 0), glm::vec4(transform.translation, 1)};
+}
+
+float rangeOf(glm::vec3 intensity) {
+  return std::sqrt(std::max({intensity.x, intensity.y, intensity.z}) / kLeastIrradiance);
 }
 
 const Camera* findCamera(const Scene& scene, std::string_view name) {
@@ -27,6 +38,11 @@ std::size_t countInstances(const Scene& scene, DrawList list) {
   const std::span<const Sphere> spheres = scene.spheres.rows();
   return static_cast<std::size_t>(std::count_if(
       spheres.begin(), spheres.end(), [&](const Sphere& s) { return (s.lists & maskOf(list)) != 0; }));
+}
+
+std::size_t countMeshInstances(const Scene& scene, DrawList list) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      scene.meshInstances.rows(), [&](const MeshInstance& m) { return (m.lists & maskOf(list)) != 0; }));
 }
 
 bool isMoving(const Scene& scene, DrawList list) {

@@ -1,37 +1,33 @@
 // The scene as tables with stable ids. Rows are plain values; nothing here owns GPU memory or knows a clock:
-// motion is a function of the time that the caller gives. Meshes and textures join as further tables when
-// models are loaded.
+// motion is a function of the time that the caller gives. What of it depends on time is worked out in engine/scene/frame.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/scene/camera.h"
+#include "engine/scene/light.h"
+#include "engine/scene/material.h"
+#include "engine/scene/mesh.h"
+#include "engine/scene/node.h"
 #include "engine/scene/table.h"
 
 namespace weft::scene {
 
-// The draw lists a graph may name. A sphere may stand in several.
-enum class DrawList : std::uint8_t { spheres, opaque, shadow_casters, transparent_spheres };
-constexpr int kDrawListCount = 4;
+// The draw lists a graph may name. A list holds spheres and mesh instances; each may stand in several.
+enum class DrawList : std::uint8_t { spheres, opaque, shadow_casters, transparent_spheres, transparent };
+constexpr int kDrawListCount = 5;
 const std::vector<std::string>& drawListNames();  // in the order of the enum
 std::optional<DrawList> findDrawList(std::string_view name);
 constexpr std::uint8_t maskOf(DrawList list) {
   return static_cast<std::uint8_t>(1u << static_cast<unsigned>(list));
 }
-
-struct Material {
-  std::string name;
-  glm::vec3 albedo{0.5f};  // linear; F0 of a metal
-  float metallic = 0;
-  float roughness = 0.5f;  // perceptual
-};
-using MaterialId = Table<Material>::Id;
 
 struct Sphere {
   glm::vec3 center{0};    // world, at time 0
@@ -42,25 +38,29 @@ struct Sphere {
 };
 using SphereId = Table<Sphere>::Id;
 
-struct PointLight {
-  std::string name;
-  glm::vec3 position{0};
-  glm::vec3 intensity{1};  // linear RGB radiant intensity: irradiance at distance d is intensity / d^2
-  float range = 0;         // no contribution beyond; 0 for none
-  bool shadow = false;
+struct MeshInstance {
+  NodeId node;
+  MeshId mesh;
+  MaterialId material;
+  SkinId skin;  // of a skinned mesh; its joints place it then, and not its node
+  std::uint8_t lists = static_cast<std::uint8_t>(maskOf(DrawList::opaque) | maskOf(DrawList::shadow_casters));
 };
-
-struct Sun {
-  glm::vec3 direction{0, 1, 0};  // unit, from the scene towards the sun
-  glm::vec3 irradiance{1};       // linear RGB on a surface that faces it
-};
+using MeshInstanceId = Table<MeshInstance>::Id;
 
 struct Scene {
   std::string name;
   Table<Material> materials;
   Table<Sphere> spheres;
-  Table<PointLight> pointLights;
+  Table<Texture> textures;
+  std::shared_ptr<const MeshData> meshData;  // null: no meshes
+  Table<Mesh> meshes;
+  Table<Node> nodes;  // parents before children
+  Table<Skin> skins;
+  Table<Animation> animations;  // that play
+  Table<MeshInstance> meshInstances;
+  Table<Lamp> lamps;
   std::optional<Sun> sun;
+  float nits = 10000;              // cd/m² that one scene-referred unit stands for
   Table<Camera> cameras;           // at least one after loading; the first is the default
   std::vector<std::string> files;  // what it was read from, for watching
 };
@@ -68,7 +68,7 @@ struct Scene {
 // Null when no camera has the name; the first camera for "".
 const Camera* findCamera(const Scene& scene, std::string_view name);
 
-// One row of a draw list, spelled as the Instance of scene/instances.glsl.
+// One sphere of a draw list, spelled as the Instance of scene/instances.glsl.
 struct Instance {
   glm::vec3 center{0};
   float radius = 1;
@@ -78,8 +78,9 @@ struct Instance {
   float metallic = 0;
 };
 
-std::size_t countInstances(const Scene& scene, DrawList list);
-// Whether the list's instances differ from one time to another.
+std::size_t countInstances(const Scene& scene, DrawList list);      // spheres
+std::size_t countMeshInstances(const Scene& scene, DrawList list);  // mesh instances
+// Whether the list's spheres differ from one time to another.
 bool isMoving(const Scene& scene, DrawList list);
 // Replaces `out` by the list's instances in table order. Linear in spheres; reuses the capacity of `out`.
 void fillInstances(const Scene& scene, DrawList list, double time, double previousTime,

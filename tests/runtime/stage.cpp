@@ -1,6 +1,6 @@
 #include "tests/runtime/stage.h"
 
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 #include "tests/skip.h"
 
 namespace weft::runtime::test {

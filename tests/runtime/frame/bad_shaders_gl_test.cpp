@@ -7,7 +7,7 @@
 
 #include "engine/gl/context/context.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 
 using namespace weft;
 

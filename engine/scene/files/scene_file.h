@@ -1,6 +1,6 @@
 // Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W2..W6 with
 // their place, values out of range and an unknown camera as W160, unknown materials as W161, unknown draw
-// lists as W162, lights as W163, and what its material library reports. The format is described in docs/scenes.md.
+// lists as W162, and what its material library reports. The format is described in docs/scenes.md.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,6 @@ struct SceneChoice {
   std::string camera;  // becomes the first, the default one; unknown: W160
   std::string
       materials;  // path of a library that takes the place of the grid's `materials`; without a grid: W161
-  // Whether anything is lit by the scene's lights. No pass or import is yet, so that a scene with lights is W163.
-  bool lights = false;
 };
 
 // Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that

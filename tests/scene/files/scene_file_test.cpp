@@ -1,4 +1,4 @@
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -21,19 +21,16 @@ Scene loadGood(const std::string& path) {
   return std::move(*scene);
 }
 
-// As if something were lit by lights, so that their values can be looked at.
-const SceneChoice kLit{.camera = {}, .materials = {}, .lights = true};
-
 Scene readGood(std::string_view text) {
   base::Diagnostics diagnostics;
-  auto scene = readScene(text, "s.json", diagnostics, kLit);
+  auto scene = readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   return std::move(*scene);
 }
 
 base::Diagnostic failureOf(std::string_view text) {
   base::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(text, "s.json", diagnostics, kLit));
+  CHECK_FALSE(readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, text << "\n" << diagnostics.text());
   return diagnostics.items()[0];
 }
@@ -121,27 +118,6 @@ TEST_CASE("a million spheres") {
   CHECK(instances.back().center == glm::vec3(123.75f, -123.75f, -123.75f));
 }
 
-TEST_CASE(
-    "lights are an error with a place until something is lit by them, and their values are still checked") {
-  const std::string text =
-      "{\n\"point_lights\": {\"a\": {\"position\": [0, 0, 0], \"intensity\": [1, 0, 0]}},\n"
-      "\"sun\": {\"direction\": [0, 1, 0], \"irradiance\": [1, 1, 1]}}";
-  base::Diagnostics diagnostics;
-  CHECK_FALSE(readScene(text, "lit.json", diagnostics));
-  REQUIRE_MESSAGE(diagnostics.size() == 2, diagnostics.text());
-  for (std::uint32_t line : {2u, 3u}) {
-    const base::Diagnostic& d = diagnostics.items()[line - 2];
-    CHECK(d.code == base::Code::unusedLights);
-    CHECK(d.place.line == line);
-    CHECK_FALSE(d.expected.empty());
-    CHECK_FALSE(d.hint.empty());
-  }
-  base::Diagnostics both;
-  CHECK_FALSE(readScene(R"({"sun": {"direction": [0, 0, 0], "irradiance": [1, 1, 1]}})", "lit.json", both));
-  CHECK(both.contains(base::Code::unusedLights));
-  CHECK(both.contains(base::Code::badSceneValue));
-}
-
 TEST_CASE("spheres, cameras, lights and the sun, with comments") {
   const Scene scene = readGood(withMaterials(R"(
     // three ways to say a material
@@ -153,8 +129,8 @@ TEST_CASE("spheres, cameras, lights and the sun, with comments") {
       "turn": {"position": [0, 0, 5], "orbit": 30, "near": 0.25},
       "fly": {"path": [{"time": 0, "position": [0, 0, 9]}, {"time": 2, "position": [0, 4, 9], "target": [0, 1, 0], "fov": 30}]}
     },
-    "point_lights": {"key": {"position": [0, 5, 0], "intensity": [10, 9, 8], "range": 20, "shadow": true}},
-    "sun": {"direction": [0, 3, 4], "irradiance": [3, 3, 2]})"));
+    "lamps": {"key": {"position": [0, 5, 0], "candela": 20000, "color": [1, 0.5, 0.25], "range": 20, "shadow": true}},
+    "sun": {"direction": [0, 3, 4], "lux": 30000, "color": [1, 1, 0.5]})"));
   REQUIRE(scene.spheres.size() == 2);
   CHECK(scene.spheres.rows()[0].radius == 2);
   CHECK(scene.materials.find(scene.spheres.rows()[0].material)->name == "b");
@@ -166,9 +142,9 @@ TEST_CASE("spheres, cameras, lights and the sun, with comments") {
   CHECK(findCamera(scene, "turn")->pose.nearPlane == 0.25);
   CHECK(poseAt(*findCamera(scene, "fly"), 1).position == glm::dvec3(0, 2, 9));
   CHECK(poseAt(*findCamera(scene, "fly"), 1).fovDegrees == 45);
-  REQUIRE(scene.pointLights.size() == 1);
-  CHECK(scene.pointLights.rows()[0].shadow);
-  CHECK(scene.pointLights.rows()[0].intensity == glm::vec3(10, 9, 8));
+  REQUIRE(scene.lamps.size() == 1);
+  CHECK(scene.lamps.rows()[0].shadow);
+  CHECK(scene.lamps.rows()[0].intensity == glm::vec3(2, 1, 0.5f));
   REQUIRE(scene.sun);
   CHECK(scene.sun->direction.y == doctest::Approx(0.6));
 }
@@ -240,13 +216,11 @@ TEST_CASE("every mistake has its code and place") {
       R"({"spheres": [{"center": [0, 0, 0], "material": {"albedo": [1, 1, 1]}, "lists": ["sphere"]}]})");
   CHECK(list.code == Code::unknownSceneList);
   CHECK(list.hint == "did you mean 'spheres'?");
-  CHECK(failureOf(R"({"point_lights": {"a": {"position": [0, 0, 0], "intensity": [-1, 0, 0]}}})").code ==
-        Code::badSceneValue);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 0, 0], "irradiance": [1, 1, 1]}})").code ==
-        Code::badSceneValue);
+  CHECK(failureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": -1}}})").code == Code::badSceneValue);
+  CHECK(failureOf(R"({"sun": {"direction": [0, 0, 0], "lux": 1}})").code == Code::badSceneValue);
   CHECK(failureOf(R"({"sun": 3})").code == Code::wrongType);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "direction": [0, 1, 0], "irradiance": [1, 1, 1]}})")
-            .code == Code::duplicateKey);
+  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "direction": [0, 1, 0], "lux": 1}})").code ==
+        Code::duplicateKey);
 }
 
 TEST_CASE("a name in both the library and the scene, a broken library, a missing scene, a directory") {
@@ -307,6 +281,6 @@ TEST_CASE("everything wrong is reported at once") {
   base::Diagnostics diagnostics;
   CHECK_FALSE(readScene(
       R"({"nam": "x", "sun": 3, "spheres": [{"center": [0, 0], "material": "q"}], "grid": {"count": [1, 1, 1], "materials": "no.json"}})",
-      "s.json", diagnostics, kLit));
+      "s.json", diagnostics));
   CHECK(diagnostics.errorCount() == 5);
 }

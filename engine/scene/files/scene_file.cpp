@@ -1,4 +1,4 @@
-#include "engine/scene/scene_file.h"
+#include "engine/scene/files/scene_file.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,8 @@
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/fields.h"
 #include "engine/base/nearest.h"
+#include "engine/scene/files/lights.h"
+#include "engine/scene/files/reading.h"
 
 namespace weft::scene {
 
@@ -20,24 +22,10 @@ using base::Diagnostics;
 using base::JsonFields;
 using base::JsonMember;
 using base::JsonValue;
-using base::NumberRange;
 
 namespace {
 
-constexpr NumberRange kUnit{.min = 0, .max = 1};
-constexpr NumberRange kWorld{.min = -1e9, .max = 1e9};  // float keeps 64 units apart there
-constexpr NumberRange kSize{.min = 0, .max = 1e9, .aboveMin = true};
-constexpr NumberRange kRadiance{.min = 0, .max = 1e9};
-constexpr NumberRange kFov{.min = 1, .max = 170};
-constexpr NumberRange kGridCount{.min = 1, .max = 65536, .whole = true};
 constexpr double kMaxSpheres = 1 << 24;
-
-glm::vec3 toVec3(const std::array<double, 3>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-glm::dvec3 toDvec3(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
 
 class Reader {
  public:
@@ -66,11 +54,7 @@ class Reader {
            fmt::format("there is no grid to give the materials of '{}' to", choice_.materials));
     if (const JsonValue* spheres = fields.array("spheres"))
       for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
-    if (const JsonValue* lights = fields.object("point_lights"))
-      for (const JsonMember& member : lights->members) readPointLight(member.key, member.value);
-    if (const JsonValue* sun = fields.find("sun")) readSun(*sun);
-    for (const char* key : {"point_lights", "sun"})
-      if (const JsonValue* lights = fields.find(key); lights && !choice_.lights) failLights(key, *lights);
+    readLights(fields, scene_, diagnostics_);
     fields.finish();
     if (diagnostics_.errorCount() > errorsBefore) return {};
     return std::move(scene_);
@@ -85,9 +69,7 @@ class Reader {
 
  private:
   base::Diagnostic& fail(Code code, const JsonValue& value, std::string message) {
-    base::Diagnostic& d = diagnostics_.error(code, value.place, std::move(message));
-    d.pointer = value.pointer;
-    return d;
+    return failAt(diagnostics_, code, value, std::move(message));
   }
 
   MaterialId add(Material material) {
@@ -121,10 +103,12 @@ class Reader {
              fmt::format("a second material '{}', from '{}'", preset.name, path));
         continue;
       }
-      ids.push_back(add({preset.name,
-                         {preset.albedo[0], preset.albedo[1], preset.albedo[2]},
-                         preset.metallic,
-                         preset.roughness}));
+      Material material;
+      material.name = preset.name;
+      material.albedo = {preset.albedo[0], preset.albedo[1], preset.albedo[2]};
+      material.metallic = preset.metallic;
+      material.roughness = preset.roughness;
+      ids.push_back(add(std::move(material)));
     }
     return ids;
   }
@@ -304,44 +288,6 @@ class Reader {
     camera.pose.position = camera.path.front().position;
     camera.pose.target = camera.path.front().target;
     camera.pose.fovDegrees = camera.path.front().fovDegrees;
-  }
-
-  void readPointLight(const std::string& name, const JsonValue& value) {
-    JsonFields fields(value, fmt::format("point light '{}'", name), Code::badSceneValue, diagnostics_);
-    fields.require({"position", "intensity"});
-    PointLight light;
-    light.name = name;
-    light.position = toVec3(fields.triple("position", kWorld).value_or(std::array<double, 3>{}));
-    light.intensity = toVec3(fields.triple("intensity", kRadiance).value_or(std::array<double, 3>{}));
-    light.range = static_cast<float>(fields.number("range", kSize).value_or(0));
-    light.shadow = fields.boolean("shadow").value_or(false);
-    fields.finish();
-    scene_.pointLights.add(std::move(light));
-  }
-
-  void failLights(const char* key, const JsonValue& value) {
-    auto& d =
-        fail(Code::unusedLights, value, fmt::format("'{}': no pass is lit by lights of a scene yet", key));
-    d.expected = "a scene that is lit by its environment alone";
-    d.found = fmt::format("'{}'", key);
-    d.hint = fmt::format("remove '{}'; light comes from the sky or from --environment FILE", key);
-  }
-
-  void readSun(const JsonValue& value) {
-    JsonFields fields(value, "the sun", Code::badSceneValue, diagnostics_);
-    fields.require({"direction", "irradiance"});
-    Sun sun;
-    const auto direction = fields.triple("direction", kWorld);
-    if (direction) {
-      const double length = glm::length(toDvec3(*direction));
-      if (length < 1e-6)
-        fail(Code::badSceneValue, *value.find("direction"), "the sun's direction has no length");
-      else
-        sun.direction = glm::vec3(toDvec3(*direction) / length);
-    }
-    if (const auto irradiance = fields.triple("irradiance", kRadiance)) sun.irradiance = toVec3(*irradiance);
-    fields.finish();
-    scene_.sun = sun;
   }
 
   const std::string name_;

@@ -1,0 +1,152 @@
+#include "engine/scene/frame/mesh_frame.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace weft::scene {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+template <class Row>
+std::uint32_t rowOf(const Table<Row>& table, typename Table<Row>::Id id) {
+  const Row* row = table.find(id);
+  return row ? static_cast<std::uint32_t>(row - table.rows().data()) : kNone;
+}
+
+}  // namespace
+
+void MeshFrame::rebuild(const Scene& scene) {
+  firstJoint_.clear();
+  jointNodes_.clear();
+  skinMoves_.clear();
+  for (const Skin& skin : scene.skins.rows()) {
+    firstJoint_.push_back(static_cast<std::uint32_t>(jointNodes_.size()));
+    bool moves = false;
+    for (const NodeId joint : skin.joints) {
+      jointNodes_.push_back(rowOf(scene.nodes, joint));
+      assert(jointNodes_.back() != kNone && "joints are nodes of the scene");
+      moves = moves || transforms_.isMoving(jointNodes_.back());
+    }
+    skinMoves_.push_back(moves ? 1 : 0);
+  }
+  joints_.assign(jointNodes_.size() * 2, glm::mat4(1));
+
+  facts_.clear();
+  for (const MeshInstance& instance : scene.meshInstances.rows()) {
+    InstanceFacts facts;
+    facts.node = rowOf(scene.nodes, instance.node);
+    facts.mesh = rowOf(scene.meshes, instance.mesh);
+    facts.material = rowOf(scene.materials, instance.material);
+    facts.skin = rowOf(scene.skins, instance.skin);
+    assert(facts.node != kNone && facts.mesh != kNone && facts.material != kNone &&
+           "an instance names rows of its scene");
+    if (!scene.meshes.rows()[facts.mesh].skinned) facts.skin = kNone;
+    facts.moving = facts.skin != kNone ? skinMoves_[facts.skin] != 0 : transforms_.isMoving(facts.node);
+    facts_.push_back(facts);
+  }
+
+  std::vector<ListTable> tables(1);
+  tables[0].generation = ++count_;
+  for (int i = 0; i < kDrawListCount; ++i) {
+    const auto list = static_cast<DrawList>(i);
+    std::vector<std::uint32_t> instances;
+    for (std::size_t row = 0; row < facts_.size(); ++row)
+      if ((scene.meshInstances.rows()[row].lists & maskOf(list)) != 0)
+        instances.push_back(static_cast<std::uint32_t>(row));
+    std::ranges::stable_sort(instances, {}, [&](std::uint32_t row) { return facts_[row].mesh; });
+    auto found = std::ranges::find(tables, instances, &ListTable::instances);
+    if (found == tables.end()) {
+      ListTable& table = tables.emplace_back();
+      for (std::size_t row = 0; row < instances.size(); ++row)
+        if (facts_[instances[row]].moving) table.moving.push_back(static_cast<std::uint32_t>(row));
+      table.rows.resize(instances.size());
+      table.bounds.resize(instances.size());
+      table.instances = std::move(instances);
+      found = tables.end() - 1;
+    }
+    tableOf_[i] = static_cast<std::uint32_t>(found - tables.begin());
+  }
+  tables_ = std::move(tables);
+}
+
+void MeshFrame::fillJoints(const Scene& scene, bool all) {
+  for (std::size_t s = 0; s < skinMoves_.size(); ++s) {
+    if (!all && skinMoves_[s] == 0) continue;
+    const Skin& skin = scene.skins.rows()[s];
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      const std::size_t joint = firstJoint_[s] + j;
+      const std::uint32_t node = jointNodes_[joint];
+      joints_[2 * joint] = transforms_.now()[node] * skin.inverseBind[j];
+      joints_[2 * joint + 1] = transforms_.previous()[node] * skin.inverseBind[j];
+    }
+    jointsGeneration_ = count_;
+  }
+}
+
+void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const {
+  const InstanceFacts& facts = facts_[table.instances[row]];
+  const Mesh& mesh = scene.meshes.rows()[facts.mesh];
+  MeshRow& out = table.rows[row];
+  out.material = facts.material;
+  out.mesh = facts.mesh;
+  if (facts.skin == kNone) {
+    out.transform = transforms_.now()[facts.node];
+    out.previous_transform = transforms_.previous()[facts.node];
+    table.bounds[row] = transformBox(out.transform, mesh.bounds);
+    return;
+  }
+  out.first_joint = firstJoint_[facts.skin];
+  Box box;
+  for (std::size_t j = 0; j < mesh.jointBounds.size(); ++j)
+    box.add(transformBox(joints_[2 * (out.first_joint + j)], mesh.jointBounds[j]));
+  table.bounds[row] = box;
+}
+
+void MeshFrame::fillBounds(const Scene& scene, double time) {
+  bounds_ = sphereBounds_;
+  if (spheresMove_) {
+    bounds_ = {};
+    for (const Sphere& sphere : scene.spheres.rows()) {
+      const glm::vec3 center = sphere.center + sphere.velocity * static_cast<float>(time);
+      bounds_.add(Box{center - sphere.radius, center + sphere.radius});
+    }
+    sphereBounds_ = bounds_;
+  }
+  for (const ListTable& table : tables_)
+    for (const Box& box : table.bounds) bounds_.add(box);
+}
+
+void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime) {
+  const bool another = sceneGeneration != sceneGeneration_;
+  if (!another && time == time_ && previousTime == previousTime_) return;
+  transforms_.update(scene, sceneGeneration, time, previousTime);
+  ++count_;
+  if (another) rebuild(scene);
+  fillJoints(scene, another);
+  bool changed = another;
+  for (ListTable& table : tables_) {
+    if (!another && table.moving.empty()) continue;
+    if (another)
+      for (std::uint32_t row = 0; row < table.rows.size(); ++row) fillRow(scene, table, row);
+    else
+      for (const std::uint32_t row : table.moving) fillRow(scene, table, row);
+    table.generation = count_;
+    changed = true;
+  }
+  if (another)
+    spheresMove_ =
+        std::ranges::any_of(scene.spheres.rows(), [](const Sphere& s) { return s.velocity != glm::vec3(0); });
+  if (another && !spheresMove_) {
+    sphereBounds_ = {};
+    for (const Sphere& s : scene.spheres.rows())
+      sphereBounds_.add(Box{s.center - s.radius, s.center + s.radius});
+  }
+  if (changed || spheresMove_) fillBounds(scene, time);
+  sceneGeneration_ = sceneGeneration;
+  time_ = time;
+  previousTime_ = previousTime;
+}
+
+}  // namespace weft::scene

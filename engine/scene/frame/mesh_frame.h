@@ -1,0 +1,78 @@
+// What a frame draws of the scene's mesh instances: a row per instance and draw list with its matrices of this frame and of
+// the one before, boxes to cull, and the matrices of joints. Owns its tables and works out again only what moved. Does not:
+// cull (engine/scene/frame/cull.h), know views or GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/scene/frame/transforms.h"
+#include "engine/scene/scene.h"
+
+namespace weft::scene {
+
+// Spelled as the MeshRow of shaders/scene/meshes.glsl. Of a skinned mesh `transform` is the identity: its joints take a
+// vertex from the mesh to the world.
+struct MeshRow {
+  glm::mat4 transform{1}, previous_transform{1};
+  std::uint32_t material = 0;     // row of Scene::materials
+  std::uint32_t first_joint = 0;  // of a skinned mesh: counts joints, not matrices
+  std::uint32_t mesh = 0;         // row of Scene::meshes
+};
+
+class MeshFrame {
+ public:
+  // Nothing happens for a generation and times that are those of the last call.
+  void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
+
+  // Of the last update. Rows of one mesh stand together, in the order of Scene::meshes, and those in table order.
+  std::span<const MeshRow> rows(DrawList list) const { return tableOf(list).rows; }
+  // World space, parallel to rows.
+  std::span<const Box> bounds(DrawList list) const { return tableOf(list).bounds; }
+  // Two per joint: now, previous. From the mesh to the world.
+  std::span<const glm::mat4> joints() const { return joints_; }
+  // Moves when a row may be another.
+  std::uint64_t generation(DrawList list) const { return tableOf(list).generation; }
+  std::uint64_t jointsGeneration() const { return jointsGeneration_; }
+  // Of everything that stands in any list, spheres too, at the time of the last update.
+  Box sceneBounds() const { return bounds_; }
+  // How many times a node was placed since this was made.
+  std::uint64_t nodeUpdates() const { return transforms_.updates(); }
+
+ private:
+  // One set of instances. Lists that hold the same ones share it.
+  struct ListTable {
+    std::vector<std::uint32_t> instances;  // rows of Scene::meshInstances
+    std::vector<std::uint32_t> moving;     // rows of this table
+    std::vector<MeshRow> rows;
+    std::vector<Box> bounds;
+    std::uint64_t generation = 0;
+  };
+  struct InstanceFacts {
+    std::uint32_t node = 0, mesh = 0, material = 0, skin = 0;  // rows; skin may be none
+    bool moving = false;
+  };
+  const ListTable& tableOf(DrawList list) const { return tables_[tableOf_[static_cast<std::size_t>(list)]]; }
+  void rebuild(const Scene& scene);
+  void fillJoints(const Scene& scene, bool all);
+  void fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const;
+  void fillBounds(const Scene& scene, double time);
+
+  std::uint64_t sceneGeneration_ = 0;  // 0: none yet
+  double time_ = 0, previousTime_ = 0;
+  WorldTransforms transforms_;
+  std::vector<InstanceFacts> facts_;  // by row of Scene::meshInstances
+  std::vector<ListTable> tables_{1};  // the first is empty
+  std::uint32_t tableOf_[kDrawListCount] = {};
+  std::vector<std::uint32_t> firstJoint_;  // by row of Scene::skins
+  std::vector<std::uint32_t> jointNodes_;  // rows, of all skins one after another
+  std::vector<glm::mat4> joints_;
+  std::vector<std::uint8_t> skinMoves_;  // by row of Scene::skins
+  std::uint64_t jointsGeneration_ = 0, count_ = 0;
+  bool spheresMove_ = false;
+  Box sphereBounds_, bounds_;
+};
+
+}  // namespace weft::scene

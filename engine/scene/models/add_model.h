@@ -1,0 +1,38 @@
+// Puts a model (engine/assets/models/model.h) into a scene: its textures, materials and meshes once, its nodes, skins and
+// instances once per copy. Does not: read files, or know JSON.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/assets/models/model.h"
+#include "engine/scene/scene.h"
+
+namespace weft::scene {
+
+// What all copies share: rows of the scene, parallel to the model's tables.
+struct ModelRows {
+  std::vector<TextureId> textures;
+  std::vector<MaterialId> materials;
+  std::vector<MeshId> meshes;
+};
+
+// `data` is what Scene::meshData becomes when all models are in; vertices and indices are appended to it. Textures whose
+// content the scene has already are not added again.
+ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& model);
+
+struct ModelCopy {
+  Node root;  // above the model's own; its parent must be in the scene
+  std::optional<std::uint8_t>
+      lists;  // empty: opaque and shadow_casters, or transparent where the material blends
+  std::optional<MaterialId> material;      // of every instance
+  std::optional<std::uint32_t> animation;  // row of the model's animations
+  float speed = 1;
+};
+void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy);
+
+// The box of the model at time 0, at its own coordinates; empty when it has no vertex.
+Box boundsOf(const assets::Model& model);
+
+}  // namespace weft::scene
