@@ -36,7 +36,7 @@ SUB_ROOMS = {
         "workload": {".", "language", "versions"},
     },
     "assets": {".": set(), "models": {"."}},
-    "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "models"}},
+    "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
         "context": set(),
         "objects": {"context"},

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/assets/image.h"
 
@@ -18,6 +19,9 @@ void reportUnreadable(base::Diagnostics& diagnostics, const std::string& name, c
 // True when the size is sound; else adds W152.
 bool checkSize(base::Diagnostics& diagnostics, const std::string& name, long long width, long long height);
 
+// Width and height of what decodeBytes would take, without decoding texels.
+std::optional<std::pair<int, int>> readImageSize(std::string_view bytes, const std::string& name,
+                                                 base::Diagnostics& diagnostics);
 std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
                                 base::Diagnostics& diagnostics);
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,

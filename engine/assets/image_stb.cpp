@@ -154,6 +154,13 @@ std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& na
   return linearize<8>(*header, *values);
 }
 
+std::optional<std::pair<int, int>> readImageSize(std::string_view bytes, const std::string& name,
+                                                 Diagnostics& diagnostics) {
+  const std::optional<Header> header = readPictureHeader(bytes, name, diagnostics);
+  if (!header) return {};
+  return std::pair{header->width, header->height};
+}
+
 std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const std::string& name,
                                   Diagnostics& diagnostics) {
   assert(channels >= 0 && channels <= 4);

@@ -124,6 +124,12 @@ namespace weft::base {
   X(W160, badSceneValue,             "scene value out of range")                                    \
   X(W161, unknownMaterial,           "unknown material")                                            \
   X(W162, unknownSceneList,          "unknown draw list")                                           \
+  X(W164, unreadableModel,           "model cannot be read")                                        \
+  X(W165, badModelValue,             "value in a model that cannot be")                             \
+  X(W166, outsideModelFolder,        "file outside the model's folder")                             \
+  X(W167, missingModelTexture,       "texture of a model is missing")                               \
+  X(W168, modelPartLeftOut,          "part of a model was left out")                                \
+  X(W169, unknownAnimation,          "unknown animation")                                           \
   /* command line, runtime, outputs */                                                              \
   X(W180, outputNotWritten,          "output cannot be written")                                    \
   X(W181, slotNotInShader,           "slot is not in the shader")                                   \

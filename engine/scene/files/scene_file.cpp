@@ -9,10 +9,14 @@
 #include <memory>
 
 #include "engine/assets/material_library.h"
+#include "engine/assets/models/model_file.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/fields.h"
 #include "engine/base/nearest.h"
 #include "engine/scene/files/lights.h"
+#include "engine/scene/files/lists.h"
+#include "engine/scene/files/model_scene.h"
+#include "engine/scene/files/models.h"
 #include "engine/scene/files/reading.h"
 
 namespace weft::scene {
@@ -29,8 +33,12 @@ constexpr double kMaxSpheres = 1 << 24;
 
 class Reader {
  public:
-  Reader(const std::string& name, Diagnostics& diagnostics, const SceneChoice& choice)
-      : name_(name), diagnostics_(diagnostics), choice_(choice) {}
+  Reader(const std::string& name, Diagnostics& diagnostics, const SceneChoice& choice,
+         const assets::LoadObserver& observer)
+      : name_(name),
+        diagnostics_(diagnostics),
+        choice_(choice),
+        models_(scene_, name_, diagnostics, observer) {}
 
   std::optional<Scene> read(std::string_view text) {
     const std::size_t errorsBefore = diagnostics_.errorCount();
@@ -55,15 +63,21 @@ class Reader {
     if (const JsonValue* spheres = fields.array("spheres"))
       for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
     readLights(fields, scene_, diagnostics_);
+    models_.read(fields, [this](const JsonValue& value, const std::string& what) {
+      return value.is(JsonValue::Type::object) ? addMaterial("", value, value.place)
+                                               : findMaterial(value, what);
+    });
+    models_.finish();
     fields.finish();
-    if (diagnostics_.errorCount() > errorsBefore) return {};
+    if (diagnostics_.errorCount() > errorsBefore || models_.failed()) return {};
     return std::move(scene_);
   }
 
-  // Paths of the material libraries, readable or not.
-  std::vector<std::string> libraries() const {
+  // Paths of the material libraries and of what belongs to models, readable or not.
+  std::vector<std::string> others() const {
     std::vector<std::string> paths;
     for (const auto& [path, ids] : libraries_) paths.push_back(path);
+    paths.insert(paths.end(), models_.files().begin(), models_.files().end());
     return paths;
   }
 
@@ -144,22 +158,6 @@ class Reader {
     return {};
   }
 
-  std::uint8_t readLists(JsonFields& fields, const std::string& what) {
-    const JsonValue* lists = fields.array("lists");
-    if (!lists) return maskOf(DrawList::spheres);
-    std::uint8_t mask = 0;
-    for (const JsonValue& item : lists->items) {
-      const auto name = base::readText(item, fmt::format("a draw list of {}", what), diagnostics_);
-      if (!name) continue;
-      if (const auto list = findDrawList(*name))
-        mask = static_cast<std::uint8_t>(mask | maskOf(*list));
-      else
-        fail(Code::unknownSceneList, item, fmt::format("unknown draw list '{}'", *name)).hint =
-            base::nearestHint(*name, drawListNames());
-    }
-    return mask;
-  }
-
   void readGrid(const JsonValue& value) {
     JsonFields fields(value, "the grid", Code::badSceneValue, diagnostics_);
     fields.require({"count", "materials"});
@@ -169,7 +167,7 @@ class Reader {
     Sphere sphere;
     sphere.radius = static_cast<float>(fields.number("radius", kSize).value_or(1));
     sphere.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
-    sphere.lists = readLists(fields, "the grid");
+    sphere.lists = readLists(fields, "the grid", diagnostics_).value_or(maskOf(DrawList::spheres));
     const JsonValue* materials = fields.find("materials");
     fields.finish();
 
@@ -216,7 +214,7 @@ class Reader {
     sphere.center = toVec3(fields.triple("center", kWorld).value_or(std::array<double, 3>{}));
     sphere.radius = static_cast<float>(fields.number("radius", kSize).value_or(1));
     sphere.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
-    sphere.lists = readLists(fields, what);
+    sphere.lists = readLists(fields, what, diagnostics_).value_or(maskOf(DrawList::spheres));
     if (const JsonValue* material = fields.find("material"))
       sphere.material = material->is(JsonValue::Type::object)
                             ? addMaterial("", *material, material->place)
@@ -296,24 +294,63 @@ class Reader {
   Scene scene_;
   std::map<std::string, MaterialId> byName_;
   std::map<std::string, std::vector<MaterialId>> libraries_;  // by path
+  SceneModels models_;
 };
+
+}  // namespace
+
+namespace {
+
+// `camera` becomes the first one. False when there is none of that name.
+bool putFirst(Scene& scene, const std::string& camera) {
+  const Camera* chosen = findCamera(scene, camera);
+  if (!chosen) return false;
+  Table<Camera> cameras;
+  cameras.add(*chosen);
+  for (const Camera& each : scene.cameras.rows())
+    if (&each != chosen) cameras.add(each);
+  scene.cameras = std::move(cameras);
+  return true;
+}
+
+std::optional<Scene> loadModelFile(const std::string& path, Diagnostics& diagnostics,
+                                   std::vector<std::string>* files, const SceneChoice& choice,
+                                   const assets::LoadObserver& observer) {
+  std::optional<Scene> scene = loadModelScene(path, diagnostics, files, observer);
+  if (!scene) return {};
+  const base::Place place{std::make_shared<const std::string>(path)};
+  if (!choice.materials.empty()) {
+    diagnostics.error(Code::unknownMaterial, place,
+                      fmt::format("there is no grid to give the materials of '{}' to", choice.materials));
+    return {};
+  }
+  if (putFirst(*scene, choice.camera)) return scene;
+  std::vector<std::string> names;
+  for (const Camera& camera : scene->cameras.rows()) names.push_back(camera.name);
+  diagnostics.error(Code::badSceneValue, place, fmt::format("the scene has no camera '{}'", choice.camera))
+      .hint = base::nearestHint(choice.camera, names);
+  return {};
+}
 
 }  // namespace
 
 std::optional<Scene> readScene(std::string_view text, const std::string& name, Diagnostics& diagnostics,
                                const SceneChoice& choice) {
-  return Reader(name, diagnostics, choice).read(text);
+  const assets::LoadObserver nobody;
+  return Reader(name, diagnostics, choice, nobody).read(text);
 }
 
 std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics,
-                               std::vector<std::string>* files, const SceneChoice& choice) {
+                               std::vector<std::string>* files, const SceneChoice& choice,
+                               const assets::LoadObserver& observer) {
   if (files) *files = {path};
+  if (assets::isModelName(path)) return loadModelFile(path, diagnostics, files, choice, observer);
   const std::optional<std::string> text = base::readTextFile(path, diagnostics);
   if (!text) return {};
-  Reader reader(path, diagnostics, choice);
+  Reader reader(path, diagnostics, choice, observer);
   std::optional<Scene> scene = reader.read(*text);
   if (files)
-    for (const std::string& library : reader.libraries()) files->push_back(library);
+    for (const std::string& other : reader.others()) files->push_back(other);
   return scene;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/assets/environment_map.h"
 #include "engine/base/diagnostic.h"
 #include "engine/scene/scene.h"
 
@@ -20,10 +21,12 @@ struct SceneChoice {
       materials;  // path of a library that takes the place of the grid's `materials`; without a grid: W161
 };
 
-// Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that
+// A model file (.gltf, .glb, .obj, .fbx) is a scene too: engine/scene/files/model_scene.h. `observer` hears how far the
+// loading of models is, and may end it: empty then, without a message. Paths in the file are relative to it. Empty after any error. `files`, when given, is set to every file that
 // took part or should have, also after errors: what to watch.
 std::optional<Scene> loadScene(const std::string& path, base::Diagnostics& diagnostics,
-                               std::vector<std::string>* files = nullptr, const SceneChoice& choice = {});
+                               std::vector<std::string>* files = nullptr, const SceneChoice& choice = {},
+                               const assets::LoadObserver& observer = {});
 // The same for text in memory; paths are relative to the folder of `name`.
 std::optional<Scene> readScene(std::string_view text, const std::string& name, base::Diagnostics& diagnostics,
                                const SceneChoice& choice = {});

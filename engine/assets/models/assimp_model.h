@@ -1,0 +1,16 @@
+// Wavefront OBJ and FBX to a Model, through Assimp. What Assimp 5.2.5 does not survive is refused before it sees a file:
+// engine/assets/models/model_check.h. Internal to the folder.
+#pragma once
+
+#include <string>
+
+#include "engine/assets/models/model.h"
+#include "engine/assets/models/model_files.h"
+
+namespace weft::assets {
+
+// False after errors, or when `observer` gave up.
+bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& observer,
+                    base::Diagnostics& diagnostics, Model& model);
+
+}  // namespace weft::assets

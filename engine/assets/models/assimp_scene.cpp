@@ -1,0 +1,328 @@
+#include "engine/assets/models/assimp_scene.h"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "engine/assets/models/gltf_nodes.h"
+#include "engine/assets/models/mesh_builder.h"
+#include "engine/assets/models/texture_pool.h"
+
+namespace weft::assets {
+
+using base::Code;
+using base::Diagnostics;
+
+namespace {
+
+constexpr double kFarthest = 1e9;
+
+Float3 toFloat3(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
+}
+
+// Assimp's matrices are rows.
+Matrix4 toMatrix(const aiMatrix4x4& m) {
+  return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+}
+
+class AssimpReader {
+ public:
+  AssimpReader(const aiScene& scene, ModelFiles& files, Diagnostics& diagnostics, Model& model)
+      : scene_(scene),
+        files_(files),
+        diagnostics_(diagnostics),
+        model_(model),
+        builder_(model),
+        pool_(diagnostics) {}
+
+  bool read(const LoadObserver& observer) {
+    const std::size_t before = diagnostics_.errorCount();
+    if (!readNodes()) return false;
+    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
+      if (observer && !observer(LoadStage::decoding, 0.5 + 0.5 * i / scene_.mNumMaterials)) return false;
+      readMaterial(*scene_.mMaterials[i]);
+    }
+    model_.textures = pool_.take();
+    if (pool_.full()) return false;
+    for (const auto& [node, row] : nodeRows_)
+      for (unsigned i = 0; i < node->mNumMeshes; ++i)
+        if (!readInstance(node->mMeshes[i], row)) return false;
+    std::ranges::stable_sort(model_.instances, {}, &ModelInstance::node);
+    readAnimations();
+    return diagnostics_.errorCount() == before;
+  }
+
+ private:
+  base::Diagnostic& fail(std::string message) {
+    return diagnostics_.error(Code::badModelValue, files_.place(), std::move(message));
+  }
+
+  bool readNodes() {
+    std::vector<std::pair<const aiNode*, std::uint32_t>> work{{scene_.mRootNode, kNoRow}};
+    while (!work.empty()) {
+      const auto [from, parent] = work.back();
+      work.pop_back();
+      ModelNode node;
+      node.name = from->mName.C_Str();
+      node.parent = parent;
+      if (!decompose(toMatrix(from->mTransformation), node)) {
+        fail(fmt::format("the matrix of node '{}' is none of translation, rotation and scale", node.name));
+        return false;
+      }
+      const auto row = static_cast<std::uint32_t>(model_.nodes.size());
+      rowByName_.emplace(node.name, row);
+      nodeRows_.emplace_back(from, row);
+      model_.nodes.push_back(std::move(node));
+      for (unsigned c = from->mNumChildren; c-- > 0;) work.emplace_back(from->mChildren[c], row);
+    }
+    return true;
+  }
+
+  // The image of a texture: embedded, or beside the model, by its own name if its path leads elsewhere (models often keep
+  // the paths of the machine that they were made on).
+  std::uint32_t mapOf(const aiMaterial& material, aiTextureType type, bool srgb) {
+    aiString path;
+    if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS || path.length == 0) return kNoRow;
+    std::string name = path.C_Str();
+    auto known = images_.find(name);
+    if (known == images_.end()) known = images_.emplace(name, readImage(name)).first;
+    return pool_.add(known->second, name, srgb);
+  }
+
+  std::shared_ptr<const Image8> readImage(const std::string& given) {
+    if (const aiTexture* embedded = scene_.GetEmbeddedTexture(given.c_str())) {
+      if (embedded->mHeight == 0)
+        return pool_.decode({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth}, given,
+                            files_.place());
+      pool_.reportMissing(given, "it is packed without a file format", files_.place());
+      return nullptr;
+    }
+    std::string name = given;
+    std::ranges::replace(name, '\\', '/');
+    if (!files_.hasBeside(name)) name = name.substr(name.rfind('/') + 1);
+    const auto bytes = files_.readOptional(name, files_.place(), Code::missingModelTexture, false);
+    return bytes ? pool_.decode(*bytes, name, files_.place()) : nullptr;
+  }
+
+  static float unitOf(float value, float otherwise) {
+    return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
+  }
+  static Float3 colorOf(const aiMaterial& from, const char* key, unsigned type, unsigned index,
+                        Float3 otherwise) {
+    aiColor3D color;
+    if (from.Get(key, type, index, color) != aiReturn_SUCCESS) return otherwise;
+    return {unitOf(color.r, 0), unitOf(color.g, 0), unitOf(color.b, 0)};
+  }
+
+  void readMaterial(const aiMaterial& from) {
+    ModelMaterial material;
+    material.name = from.GetName().C_Str();
+    material.baseColor = colorOf(from, AI_MATKEY_COLOR_DIFFUSE, {0.6f, 0.6f, 0.6f});
+    material.specular = colorOf(from, AI_MATKEY_COLOR_SPECULAR, {0, 0, 0});
+    material.emissive = colorOf(from, AI_MATKEY_COLOR_EMISSIVE, {0, 0, 0});
+    float shininess = 0, strength = 1, opacity = 1, metallic = 0, roughness = 0;
+    from.Get(AI_MATKEY_SHININESS, shininess);
+    if (from.Get(AI_MATKEY_SHININESS_STRENGTH, strength) == aiReturn_SUCCESS && std::isfinite(strength))
+      for (float& c : material.specular) c = unitOf(c * strength, 0);
+    if (from.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS) material.alpha = unitOf(opacity, 1);
+    material.blend = material.alpha < 1;
+    material.shininess = std::isfinite(shininess) ? std::clamp(shininess, 0.0f, 10000.0f) : 0;
+    int both = 0;
+    material.doubleSided = from.Get(AI_MATKEY_TWOSIDED, both) == aiReturn_SUCCESS && both != 0;
+    if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == aiReturn_SUCCESS) {
+      from.Get(AI_MATKEY_METALLIC_FACTOR, metallic);
+      material.metallic = unitOf(metallic, 0);
+      material.roughness = unitOf(roughness, 0.5f);
+    } else {
+      toMetallicRoughness(material);
+    }
+    material.baseColorMap = mapOf(from, aiTextureType_DIFFUSE, true);
+    if (material.baseColorMap == kNoRow) material.baseColorMap = mapOf(from, aiTextureType_BASE_COLOR, true);
+    material.emissiveMap = mapOf(from, aiTextureType_EMISSIVE, true);
+    material.normalMap = mapOf(from, aiTextureType_NORMALS, false);
+    if (material.normalMap == kNoRow) material.normalMap = normalMapOf(from);
+    model_.materials.push_back(std::move(material));
+  }
+
+  // A bump map of OBJ is a height, but most exporters write normal maps there: taken where it is blue.
+  std::uint32_t normalMapOf(const aiMaterial& from) {
+    aiString path;
+    if (from.GetTexture(aiTextureType_HEIGHT, 0, &path) != aiReturn_SUCCESS) return kNoRow;
+    auto known = images_.find(path.C_Str());
+    if (known == images_.end()) known = images_.emplace(path.C_Str(), readImage(path.C_Str())).first;
+    if (!known->second) return kNoRow;
+    double sums[3] = {};
+    for (std::size_t i = 0; i < known->second->texels.size(); ++i)
+      if (i % 4 < 3) sums[i % 4] += known->second->texels[i];
+    if (sums[2] > 1.2 * sums[0] && sums[2] > 1.2 * sums[1])
+      return pool_.add(known->second, path.C_Str(), false);
+    diagnostics_
+        .warning(Code::modelPartLeftOut, files_.place(),
+                 fmt::format("the bump map '{}' was left out: it holds heights, not normals", path.C_Str()))
+        .hint = "make a normal map of it";
+    return kNoRow;
+  }
+
+  // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
+  // has no diffuse colour but a bright highlight is taken for metal.
+  static void toMetallicRoughness(ModelMaterial& material) {
+    material.blinnPhong = true;
+    material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
+    const float diffuse = *std::ranges::max_element(material.baseColor);
+    const float specular = *std::ranges::max_element(material.specular);
+    if (diffuse >= 0.04f || specular < 0.25f) return;
+    material.metallic = 1;
+    material.baseColor = material.specular;
+  }
+
+  bool readInstance(unsigned index, std::uint32_t node) {
+    const aiMesh& from = *scene_.mMeshes[index];
+    if ((from.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return true;
+    auto known = meshes_.find(index);
+    if (known == meshes_.end()) {
+      const std::optional<std::uint32_t> row = readMesh(from, index);
+      if (!row) return false;
+      known = meshes_.emplace(index, *row).first;
+    }
+    const bool skinned = model_.meshes[known->second].skinned;
+    model_.instances.push_back({node, known->second, from.mMaterialIndex, skinned ? skins_[index] : kNoRow});
+    return true;
+  }
+
+  std::optional<std::uint32_t> readMesh(const aiMesh& from, unsigned index) {
+    const std::uint64_t corners = std::uint64_t{from.mNumFaces} * 3;
+    if (!builder_.hasRoom(from.HasNormals() ? from.mNumVertices : corners, corners, files_.place(),
+                          diagnostics_))
+      return {};
+    RawMesh mesh;
+    mesh.name = from.mName.C_Str();
+    mesh.join = true;
+    for (unsigned v = 0; v < from.mNumVertices; ++v) {
+      const Float3 position = toFloat3(from.mVertices[v]);
+      const aiVector3D uv = from.HasTextureCoords(0) ? from.mTextureCoords[0][v] : aiVector3D();
+      for (const float c : {position[0], position[1], position[2], uv.x, uv.y})
+        if (!(std::abs(c) <= kFarthest)) {
+          base::Diagnostic& d =
+              fail(fmt::format("vertex {} of mesh '{}' is no number that can be used", v, mesh.name));
+          d.expected = fmt::format("finite numbers within {}", kFarthest);
+          d.found = fmt::format("{}", c);
+          d.hint = "repair the mesh and export it again";
+          return {};
+        }
+      mesh.positions.push_back(position);
+      if (from.HasNormals()) mesh.normals.push_back(toFloat3(from.mNormals[v]));
+      if (from.HasTextureCoords(0)) mesh.uvs.push_back({uv.x, 1 - uv.y});  // Assimp's v goes up
+    }
+    for (unsigned f = 0; f < from.mNumFaces; ++f) {
+      const aiFace& face = from.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        if (face.mIndices[i] >= from.mNumVertices) {
+          base::Diagnostic& d =
+              fail(fmt::format("a face of mesh '{}' names a vertex that is not there", mesh.name));
+          d.expected = fmt::format("an index below {}", from.mNumVertices);
+          d.found = fmt::format("{}", face.mIndices[i]);
+          return {};
+        }
+        mesh.indices.push_back(face.mIndices[i]);
+      }
+    }
+    readBones(from, index, mesh);
+    return builder_.add(std::move(mesh));
+  }
+
+  void readBones(const aiMesh& from, unsigned index, RawMesh& mesh) {
+    if (from.mNumBones == 0 || from.mNumBones > 65535) return;
+    ModelSkin skin;
+    mesh.joints.resize(from.mNumVertices);
+    mesh.weights.resize(from.mNumVertices);
+    for (unsigned b = 0; b < from.mNumBones; ++b) {
+      const aiBone& bone = *from.mBones[b];
+      const auto node = rowByName_.find(bone.mName.C_Str());
+      skin.joints.push_back(node == rowByName_.end() ? 0 : node->second);
+      skin.inverseBind.push_back(toMatrix(bone.mOffsetMatrix));
+      for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+        const aiVertexWeight& weight = bone.mWeights[w];
+        if (weight.mVertexId >= from.mNumVertices || !(weight.mWeight > 0) || !std::isfinite(weight.mWeight))
+          continue;
+        auto& weights = mesh.weights[weight.mVertexId];
+        const auto least = static_cast<std::size_t>(std::ranges::min_element(weights) - weights.begin());
+        if (weights[least] >= weight.mWeight) continue;
+        weights[least] = weight.mWeight;
+        mesh.joints[weight.mVertexId][least] = b;
+      }
+    }
+    skins_[index] = static_cast<std::uint32_t>(model_.skins.size());
+    model_.skins.push_back(std::move(skin));
+  }
+
+  template <class Key, class Value>
+  static void addTrack(const Key* keys, unsigned count, double perSecond, std::uint32_t node, TrackPath path,
+                       const Value& value, ModelAnimation& out) {
+    ModelTrack track{.node = node, .path = path};
+    for (unsigned k = 0; k < count; ++k) {
+      const auto time = static_cast<float>(keys[k].mTime / perSecond);
+      const Float4 v = value(keys[k].mValue);
+      const bool finite =
+          std::isfinite(time) && std::ranges::all_of(v, [](float c) { return std::isfinite(c); });
+      if (!finite || (!track.times.empty() && time < track.times.back())) continue;
+      track.times.push_back(time);
+      track.values.push_back(v);
+    }
+    if (track.times.empty()) return;
+    out.duration = std::max(out.duration, track.times.back());
+    out.tracks.push_back(std::move(track));
+  }
+
+  void readAnimations() {
+    for (unsigned a = 0; a < scene_.mNumAnimations; ++a) {
+      const aiAnimation& from = *scene_.mAnimations[a];
+      ModelAnimation animation;
+      animation.name = from.mName.C_Str();
+      const double perSecond = from.mTicksPerSecond > 0 ? from.mTicksPerSecond : 25;
+      for (unsigned c = 0; c < from.mNumChannels; ++c) {
+        const aiNodeAnim& channel = *from.mChannels[c];
+        const auto node = rowByName_.find(channel.mNodeName.C_Str());
+        if (node == rowByName_.end()) continue;
+        const auto vector = [](const aiVector3D& v) { return Float4{v.x, v.y, v.z, 0}; };
+        const auto rotation = [](aiQuaternion q) {
+          q.Normalize();
+          return Float4{q.x, q.y, q.z, q.w};
+        };
+        addTrack(channel.mPositionKeys, channel.mNumPositionKeys, perSecond, node->second,
+                 TrackPath::translation, vector, animation);
+        addTrack(channel.mRotationKeys, channel.mNumRotationKeys, perSecond, node->second,
+                 TrackPath::rotation, rotation, animation);
+        addTrack(channel.mScalingKeys, channel.mNumScalingKeys, perSecond, node->second, TrackPath::scale,
+                 vector, animation);
+      }
+      model_.animations.push_back(std::make_shared<const ModelAnimation>(std::move(animation)));
+    }
+  }
+
+  const aiScene& scene_;
+  ModelFiles& files_;
+  Diagnostics& diagnostics_;
+  Model& model_;
+  MeshBuilder builder_;
+  TexturePool pool_;
+  std::vector<std::pair<const aiNode*, std::uint32_t>> nodeRows_;
+  std::map<std::string, std::uint32_t, std::less<>> rowByName_;
+  std::map<std::string, std::shared_ptr<const Image8>> images_;
+  std::map<unsigned, std::uint32_t> meshes_, skins_;
+};
+
+}  // namespace
+
+bool readAssimpScene(const aiScene& scene, ModelFiles& files, const LoadObserver& observer,
+                     Diagnostics& diagnostics, Model& model) {
+  return AssimpReader(scene, files, diagnostics, model).read(observer);
+}
+
+}  // namespace weft::assets

@@ -1,0 +1,15 @@
+// Assimp's scene to a Model: nodes, materials, meshes, skins and animations. Internal to the folder.
+#pragma once
+
+#include "engine/assets/models/model.h"
+#include "engine/assets/models/model_files.h"
+
+struct aiScene;
+
+namespace weft::assets {
+
+// False after errors, or when `observer` gave up. The scene's faces are triangles, lines and points.
+bool readAssimpScene(const aiScene& scene, ModelFiles& files, const LoadObserver& observer,
+                     base::Diagnostics& diagnostics, Model& model);
+
+}  // namespace weft::assets

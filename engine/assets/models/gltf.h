@@ -1,0 +1,15 @@
+// glTF 2.0, .gltf and .glb, to a Model. Everything that a file says is held against the file before it is used: indices,
+// ranges, cycles, sizes, numbers. Left out, with W168: points and lines, morph targets, further uv sets, vertex colours,
+// cameras and lights. Does not: stray, whatever the file says. Internal to the folder.
+#pragma once
+
+#include "engine/assets/models/model.h"
+#include "engine/assets/models/model_files.h"
+
+namespace weft::assets {
+
+// False after errors, or when `observer` gave up.
+bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer,
+              base::Diagnostics& diagnostics, Model& model);
+
+}  // namespace weft::assets

@@ -1,0 +1,32 @@
+// Materials and images of a glTF document. Internal to the folder.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/assets/models/gltf_document.h"
+#include "engine/assets/models/texture_pool.h"
+
+namespace weft::assets {
+
+// Which uv set a material's maps are looked up with, and how they are moved: KHR_texture_transform. One for all maps of a
+// material, because a vertex has one uv; maps that want another are left out, with W168.
+struct GltfUv {
+  std::uint32_t set = 0;
+  std::array<float, 2> offset{0, 0}, scale{1, 1};
+  float rotation = 0;  // radians
+  friend bool operator==(const GltfUv&, const GltfUv&) = default;
+};
+
+struct GltfMaterials {
+  std::vector<ModelMaterial> materials;  // the file's, and then one for meshes without
+  std::vector<GltfUv> uvs;               // parallel
+};
+
+// Decodes what the materials use. `observer` hears how far it is; empty after errors, or when it gave up.
+std::optional<GltfMaterials> readGltfMaterials(GltfDocument& document, ModelFiles& files, TexturePool& pool,
+                                               const LoadObserver& observer, base::Diagnostics& diagnostics);
+
+}  // namespace weft::assets

@@ -1,0 +1,319 @@
+#include "engine/assets/models/gltf_nodes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::assets {
+
+using base::JsonValue;
+
+namespace {
+
+constexpr double kTiny = 1e-12;
+
+bool normalizeRotation(Float4& q) {
+  const double length =
+      std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+  if (!(length > kTiny)) return false;
+  for (float& c : q) c = static_cast<float>(c / length);
+  return true;
+}
+
+// Of a rotation matrix with columns x, y, z. Shepperd, "Quaternion from Rotation Matrix", 1978.
+Float4 rotationOf(const double m[3][3]) {
+  const double trace = m[0][0] + m[1][1] + m[2][2];
+  double q[4];
+  if (trace > 0) {
+    const double s = std::sqrt(trace + 1) * 2;
+    q[3] = s / 4;
+    q[0] = (m[1][2] - m[2][1]) / s;
+    q[1] = (m[2][0] - m[0][2]) / s;
+    q[2] = (m[0][1] - m[1][0]) / s;
+  } else {
+    const int i = m[0][0] > m[1][1] && m[0][0] > m[2][2] ? 0 : m[1][1] > m[2][2] ? 1 : 2;
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double s = std::sqrt(std::max(0.0, 1 + m[i][i] - m[j][j] - m[k][k])) * 2;
+    q[i] = s / 4;
+    q[3] = (m[j][k] - m[k][j]) / s;
+    q[j] = (m[i][j] + m[j][i]) / s;
+    q[k] = (m[i][k] + m[k][i]) / s;
+  }
+  return {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
+          static_cast<float>(q[3])};
+}
+
+}  // namespace
+
+bool decompose(const Matrix4& matrix, ModelNode& node) {
+  double columns[3][3], scale[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t r = 0; r < 3; ++r) columns[c][r] = static_cast<double>(matrix[c * 4 + r]);
+    scale[c] = std::sqrt(columns[c][0] * columns[c][0] + columns[c][1] * columns[c][1] +
+                         columns[c][2] * columns[c][2]);
+    if (!std::isfinite(scale[c])) return false;
+  }
+  const auto& [x, y, z] = columns;
+  const double determinant = x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0]) +
+                             x[2] * (y[0] * z[1] - y[1] * z[0]);
+  if (determinant < 0) scale[0] = -scale[0];
+  node.translation = {matrix[12], matrix[13], matrix[14]};
+  node.rotation = {0, 0, 0, 1};
+  for (std::size_t c = 0; c < 3; ++c) {
+    node.scale[c] = static_cast<float>(scale[c]);
+    if (std::abs(scale[c]) < kTiny) continue;
+    for (double& r : columns[c]) r /= scale[c];
+  }
+  const bool flat = std::any_of(scale, scale + 3, [](double s) { return std::abs(s) < kTiny; });
+  if (!flat) node.rotation = rotationOf(columns);
+  return normalizeRotation(node.rotation);
+}
+
+namespace {
+
+bool readNode(GltfDocument& document, const JsonValue& value, std::size_t number, ModelNode& node) {
+  node.name = document.text(value, "name");
+  if (node.name.empty()) node.name = fmt::format("node {}", number);
+  const JsonValue *matrix = value.find("matrix"), *t = value.find("translation"), *r = value.find("rotation"),
+                  *s = value.find("scale");
+  if (matrix) {
+    Matrix4 m{};
+    if (!document.numbers(value, "matrix", 16, m.data())) return false;
+    if (decompose(m, node)) return true;
+    document.fail(*matrix,
+                  fmt::format("the matrix of node {} is none of translation, rotation and scale", number));
+    return false;
+  }
+  if (t && !document.numbers(value, "translation", 3, node.translation.data())) return false;
+  if (s && !document.numbers(value, "scale", 3, node.scale.data())) return false;
+  if (r && !document.numbers(value, "rotation", 4, node.rotation.data())) return false;
+  if (normalizeRotation(node.rotation)) return true;
+  document.fail(*r, fmt::format("the rotation of node {} has no length", number)).expected =
+      "a quaternion x, y, z, w";
+  return false;
+}
+
+// Each node's parent, by the file's index.
+bool readParents(GltfDocument& document, std::vector<std::uint32_t>& parents) {
+  const std::vector<JsonValue>& rows = document.rows("nodes");
+  parents.assign(rows.size(), kNoRow);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const JsonValue* children = rows[i].find("children");
+    if (!children) continue;
+    for (const JsonValue& item : children->items) {
+      const auto child = document.index("nodes", &item);
+      if (!child) return false;
+      if (parents[*child] != kNoRow || *child == i) {
+        base::Diagnostic& d =
+            document.fail(item, fmt::format("node {} cannot be a child of node {}", *child, i));
+        d.expected = "one parent for each node";
+        d.found = *child == i ? "itself" : fmt::format("a child of node {} already", parents[*child]);
+        return false;
+      }
+      parents[*child] = static_cast<std::uint32_t>(i);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool readGltfNodes(GltfDocument& document, Model& model, GltfNodes& nodes) {
+  const std::vector<JsonValue>& rows = document.rows("nodes");
+  std::vector<std::uint32_t> parents, work;
+  if (!readParents(document, parents)) return false;
+  nodes.rowOf.assign(rows.size(), kNoRow);
+  for (std::size_t i = rows.size(); i-- > 0;)
+    if (parents[i] == kNoRow) work.push_back(static_cast<std::uint32_t>(i));
+  while (!work.empty()) {
+    const std::uint32_t at = work.back();
+    work.pop_back();
+    ModelNode node;
+    if (!readNode(document, rows[at], at, node)) return false;
+    if (parents[at] != kNoRow) node.parent = nodes.rowOf[parents[at]];
+    nodes.rowOf[at] = static_cast<std::uint32_t>(model.nodes.size());
+    model.nodes.push_back(std::move(node));
+    if (const JsonValue* children = rows[at].find("children"))
+      for (std::size_t c = children->items.size(); c-- > 0;)
+        work.push_back(static_cast<std::uint32_t>(children->items[c].number));
+  }
+  if (const auto missing = std::ranges::find(nodes.rowOf, kNoRow); missing != nodes.rowOf.end()) {
+    const auto number = static_cast<std::size_t>(missing - nodes.rowOf.begin());
+    base::Diagnostic& d = document.fail(rows[number], fmt::format("node {} is its own ancestor", number));
+    d.expected = "nodes that form trees";
+    d.found = "a circle of children";
+    return false;
+  }
+  // What the scene shows: its roots and all below. Without a scene everything.
+  nodes.shown.assign(rows.size(), document.rows("scenes").empty());
+  if (nodes.shown.empty() || nodes.shown[0]) return true;
+  const JsonValue* chosen = document.root().find("scene");
+  const auto scene = chosen ? document.index("scenes", chosen) : std::optional<std::uint32_t>(0);
+  if (!scene) return false;
+  if (const JsonValue* roots = document.rows("scenes")[*scene].find("nodes"))
+    for (const JsonValue& item : roots->items) {
+      const auto root = document.index("nodes", &item);
+      if (!root) return false;
+      work.push_back(*root);
+    }
+  while (!work.empty()) {
+    const std::uint32_t at = work.back();
+    work.pop_back();
+    if (nodes.shown[at]) continue;
+    nodes.shown[at] = true;
+    if (const JsonValue* children = rows[at].find("children"))
+      for (const JsonValue& child : children->items) work.push_back(static_cast<std::uint32_t>(child.number));
+  }
+  return true;
+}
+
+bool readGltfSkins(GltfDocument& document, const GltfNodes& nodes, Model& model) {
+  for (const JsonValue& row : document.rows("skins")) {
+    ModelSkin& skin = model.skins.emplace_back();
+    const JsonValue* joints = row.find("joints");
+    if (!joints || joints->items.empty() || joints->items.size() > 65535) {
+      document.fail(row, "a skin has no joints, or too many").expected = "1 to 65535 joints";
+      return false;
+    }
+    for (const JsonValue& item : joints->items) {
+      const auto joint = document.index("nodes", &item);
+      if (!joint) return false;
+      skin.joints.push_back(nodes.rowOf[*joint]);
+    }
+    skin.inverseBind.assign(skin.joints.size(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    const JsonValue* matrices = row.find("inverseBindMatrices");
+    if (!matrices) continue;
+    const GltfAccessor* accessor = document.accessor(matrices, "MAT4", true);
+    if (!accessor) return false;
+    if (accessor->count < skin.joints.size() || accessor->count > 65536 || accessor->type != 5126) {
+      base::Diagnostic& d = document.fail(*matrices, "the skin's matrices do not fit its joints");
+      d.expected = fmt::format("{} matrices of floats", skin.joints.size());
+      d.found = fmt::format("{}, componentType {}", accessor->count, accessor->type);
+      return false;
+    }
+    const std::vector<float> values = readFloats(*accessor);
+    if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); })) {
+      document.fail(*matrices, "a matrix of the skin holds what is no number").expected = "finite numbers";
+      return false;
+    }
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(16 * j), 16, skin.inverseBind[j].begin());
+  }
+  return true;
+}
+
+namespace {
+
+class AnimationReader {
+ public:
+  AnimationReader(GltfDocument& document, ModelFiles& files, const GltfNodes& nodes)
+      : document_(document), files_(files), nodes_(nodes) {}
+
+  bool read(const JsonValue& row, std::size_t number, ModelAnimation& out) {
+    out.name = document_.text(row, "name");
+    if (out.name.empty()) out.name = fmt::format("animation {}", number);
+    const JsonValue *channels = row.find("channels"), *samplers = row.find("samplers");
+    if (!channels || !samplers) return true;
+    for (const JsonValue& channel : channels->items) {
+      const JsonValue* target = channel.find("target");
+      const JsonValue* node = target ? target->find("node") : nullptr;
+      const std::string path = target ? document_.text(*target, "path") : "";
+      if (!node || (path != "translation" && path != "rotation" && path != "scale"))
+        continue;  // morph weights
+      ModelTrack track;
+      const auto at = document_.index("nodes", node);
+      if (!at) return false;
+      track.node = nodes_.rowOf[*at];
+      track.path = path == "rotation" ? TrackPath::rotation
+                   : path == "scale"  ? TrackPath::scale
+                                      : TrackPath::translation;
+      const JsonValue* sampler = channel.find("sampler");
+      if (!sampler || sampler->number < 0 ||
+          !(sampler->number < static_cast<double>(samplers->items.size()))) {
+        base::Diagnostic& d =
+            document_.fail(sampler ? *sampler : channel, "there is no such sampler in the animation");
+        d.expected = fmt::format("an index below {}", samplers->items.size());
+        return false;
+      }
+      if (!readTrack(samplers->items[static_cast<std::size_t>(sampler->number)], track)) return false;
+      out.duration = std::max(out.duration, track.times.back());
+      out.tracks.push_back(std::move(track));
+    }
+    return true;
+  }
+
+ private:
+  bool readTrack(const JsonValue& sampler, ModelTrack& track) {
+    const std::string how = document_.text(sampler, "interpolation");
+    track.interpolation = how == "STEP"          ? TrackInterpolation::step
+                          : how == "CUBICSPLINE" ? TrackInterpolation::cubic
+                                                 : TrackInterpolation::linear;
+    const bool rotation = track.path == TrackPath::rotation;
+    const GltfAccessor* input = document_.accessor(sampler.find("input"), "SCALAR", true);
+    const GltfAccessor* output = document_.accessor(sampler.find("output"), rotation ? "VEC4" : "VEC3", true);
+    if (!input || !output) {
+      if (!sampler.find("input") || !sampler.find("output"))
+        document_.fail(sampler, "a sampler needs 'input' and 'output'").expected = "two accessors";
+      return false;
+    }
+    const std::uint64_t values =
+        std::uint64_t{input->count} * (track.interpolation == TrackInterpolation::cubic ? 3 : 1);
+    if (output->count != values) {
+      base::Diagnostic& d = document_.fail(sampler, "a sampler has not one value for each time");
+      d.expected = fmt::format("{} values", values);
+      d.found = fmt::format("{}", output->count);
+      return false;
+    }
+    // The same accessor may serve any number of tracks.
+    if (!files_.count(std::uint64_t{input->count} * 4 + values * 16, sampler.place)) return false;
+    track.times = readFloats(*input);
+    const std::vector<float> numbers = readFloats(*output);
+    for (std::size_t i = 0; i < values; ++i) {
+      Float4& value = track.values.emplace_back();
+      for (std::size_t c = 0; c < output->components; ++c) value[c] = numbers[i * output->components + c];
+    }
+    return check(sampler, track);
+  }
+
+  bool check(const JsonValue& sampler, ModelTrack& track) {
+    for (std::size_t i = 0; i < track.times.size(); ++i)
+      if (!(track.times[i] >= (i == 0 ? 0.0f : track.times[i - 1])) || !std::isfinite(track.times[i])) {
+        base::Diagnostic& d = document_.fail(sampler, "the times of an animation do not ascend");
+        d.expected = "seconds from 0 on, each later than the one before";
+        d.found = fmt::format("{} after {}", track.times[i], i == 0 ? 0.0f : track.times[i - 1]);
+        return false;
+      }
+    const bool cubic = track.interpolation == TrackInterpolation::cubic;
+    for (std::size_t i = 0; i < track.values.size(); ++i) {
+      Float4& v = track.values[i];
+      bool good = std::ranges::all_of(v, [](float c) { return std::isfinite(c); });
+      if (good && track.path == TrackPath::rotation && (!cubic || i % 3 == 1)) good = normalizeRotation(v);
+      if (good) continue;
+      document_
+          .fail(sampler, fmt::format("value {} of an animation is no {}", i,
+                                     track.path == TrackPath::rotation ? "rotation" : "number"))
+          .expected = "finite numbers, and quaternions with a length";
+      return false;
+    }
+    return true;
+  }
+
+  GltfDocument& document_;
+  ModelFiles& files_;
+  const GltfNodes& nodes_;
+};
+
+}  // namespace
+
+bool readGltfAnimations(GltfDocument& document, ModelFiles& files, const GltfNodes& nodes, Model& model) {
+  const std::vector<JsonValue>& rows = document.rows("animations");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ModelAnimation animation;
+    if (!AnimationReader(document, files, nodes).read(rows[i], i, animation)) return false;
+    model.animations.push_back(std::make_shared<const ModelAnimation>(std::move(animation)));
+  }
+  return true;
+}
+
+}  // namespace weft::assets

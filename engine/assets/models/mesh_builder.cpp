@@ -1,0 +1,318 @@
+#include "engine/assets/models/mesh_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <unordered_map>
+
+#include "engine/base/hash.h"
+#include "engine/base/limit_report.h"
+#include "engine/base/limits.h"
+
+namespace weft::assets {
+
+namespace {
+
+struct Vec {
+  double x = 0, y = 0, z = 0;
+};
+Vec toVec(const Float3& v) {
+  return {v[0], v[1], v[2]};
+}
+Vec operator+(Vec a, Vec b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Vec operator-(Vec a, Vec b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Vec operator*(Vec a, double s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+double dot(Vec a, Vec b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Vec cross(Vec a, Vec b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+// `otherwise` for a vector without length.
+Vec unit(Vec v, Vec otherwise) {
+  const double length = std::sqrt(dot(v, v));
+  return length > 1e-30 && std::isfinite(length) ? v * (1 / length) : otherwise;
+}
+Float3 toFloat3(Vec v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+// Any unit vector at right angles to `n`. Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
+Vec perpendicular(Vec n) {
+  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+  return {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+}
+
+template <class T>
+void pick(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
+  if (values.empty()) return;
+  std::vector<T> picked;
+  picked.reserve(order.size());
+  for (const std::uint32_t i : order) picked.push_back(values[i]);
+  values = std::move(picked);
+}
+
+// The vertices become those of `order`, in that order.
+void reorder(RawMesh& mesh, const std::vector<std::uint32_t>& order) {
+  pick(mesh.positions, order);
+  pick(mesh.normals, order);
+  pick(mesh.tangents, order);
+  pick(mesh.uvs, order);
+  pick(mesh.joints, order);
+  pick(mesh.weights, order);
+}
+
+// glTF 2.0, 3.7.2.1: flat normals where a file has none. A vertex per corner, because corners may not share.
+void makeNormals(RawMesh& mesh) {
+  reorder(mesh, std::vector<std::uint32_t>(mesh.indices));
+  mesh.normals.resize(mesh.positions.size());
+  mesh.tangents.clear();
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec a = toVec(mesh.positions[i]);
+    const Vec n = cross(toVec(mesh.positions[i + 1]) - a, toVec(mesh.positions[i + 2]) - a);
+    mesh.normals[i] = mesh.normals[i + 1] = mesh.normals[i + 2] = toFloat3(unit(n, {0, 0, 1}));
+  }
+}
+
+void cleanNormals(RawMesh& mesh) {
+  for (Float3& normal : mesh.normals) {
+    for (float& c : normal)
+      if (!std::isfinite(c)) normal = {0, 0, 0};
+    normal = toFloat3(unit(toVec(normal), {0, 0, 1}));
+  }
+}
+
+struct TriangleFrame {
+  Vec tangent;
+  double sign = 0;  // of the bitangent; 0: the triangle has no area in uv
+};
+
+// Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; v upwards, as normal maps have green.
+TriangleFrame frameOf(const RawMesh& mesh, std::size_t corner) {
+  const std::uint32_t a = mesh.indices[corner], b = mesh.indices[corner + 1], c = mesh.indices[corner + 2];
+  const Vec e1 = toVec(mesh.positions[b]) - toVec(mesh.positions[a]);
+  const Vec e2 = toVec(mesh.positions[c]) - toVec(mesh.positions[a]);
+  const double u1 = mesh.uvs[b][0] - mesh.uvs[a][0], v1 = mesh.uvs[a][1] - mesh.uvs[b][1];
+  const double u2 = mesh.uvs[c][0] - mesh.uvs[a][0], v2 = mesh.uvs[a][1] - mesh.uvs[c][1];
+  const double area = u1 * v2 - u2 * v1;
+  if (area == 0 || !std::isfinite(area)) return {};
+  const double sign = area > 0 ? 1 : -1;
+  return {(e1 * v2 - e2 * v1) * sign, sign};
+}
+
+template <class T>
+void repeatRow(std::vector<T>& values, std::uint32_t row) {
+  if (values.empty()) return;
+  const T value = values[row];
+  values.push_back(value);
+}
+
+void makeTangents(RawMesh& mesh) {
+  std::vector<Vec> sums(mesh.positions.size());
+  std::vector<double> signs(mesh.positions.size(), 0);
+  std::unordered_map<std::uint32_t, std::uint32_t> mirrored;  // vertex to its copy with the other sign
+  for (std::size_t corner = 0; corner + 2 < mesh.indices.size() && !mesh.uvs.empty(); corner += 3) {
+    const TriangleFrame frame = frameOf(mesh, corner);
+    if (frame.sign == 0) continue;
+    for (std::size_t i = corner; i < corner + 3; ++i) {
+      std::uint32_t vertex = mesh.indices[i];
+      if (signs[vertex] == -frame.sign) {
+        const auto [found, isNew] = mirrored.try_emplace(vertex, static_cast<std::uint32_t>(sums.size()));
+        if (isNew) {
+          repeatRow(mesh.positions, vertex);
+          repeatRow(mesh.normals, vertex);
+          repeatRow(mesh.uvs, vertex);
+          repeatRow(mesh.joints, vertex);
+          repeatRow(mesh.weights, vertex);
+          sums.emplace_back();
+          signs.push_back(frame.sign);
+        }
+        mesh.indices[i] = vertex = found->second;
+      }
+      signs[vertex] = frame.sign;
+      sums[vertex] = sums[vertex] + frame.tangent;  // longer where the triangle is larger: it counts for more
+    }
+  }
+  mesh.tangents.resize(mesh.positions.size());
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec n = toVec(mesh.normals[v]);
+    const Float3 t = toFloat3(unit(sums[v] - n * dot(n, sums[v]), perpendicular(n)));
+    mesh.tangents[v] = {t[0], t[1], t[2], signs[v] < 0 ? -1.0f : 1.0f};
+  }
+}
+
+bool soundTangents(const RawMesh& mesh) {
+  return mesh.tangents.size() == mesh.positions.size() &&
+         std::ranges::all_of(mesh.tangents, [](const Float4& t) {
+           const double length = double(t[0]) * t[0] + double(t[1]) * t[1] + double(t[2]) * t[2];
+           return std::isfinite(length) && length > 1e-12 && (t[3] == 1 || t[3] == -1);
+         });
+}
+
+// The four heaviest, adding up to 1.
+ModelSkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights) {
+  std::array<std::size_t, 8> order{0, 1, 2, 3, 4, 5, 6, 7};
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
+  ModelSkinVertex out;
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum += std::max(0.0f, weights[order[i]]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const float weight = std::max(0.0f, weights[order[i]]);
+    if (sum > 0 && !(weight > 0)) continue;
+    out.joints[i] = static_cast<std::uint16_t>(joints[order[i]]);
+    out.weights[i] = sum > 0 ? static_cast<float>(weight / sum) : (i == 0 ? 1.0f : 0.0f);
+  }
+  return out;
+}
+
+struct BytesHash {
+  std::size_t operator()(std::string_view bytes) const { return std::hash<std::string_view>()(bytes); }
+};
+
+// Equal vertices become one, in the order in which they come first.
+void joinVertices(RawMesh& mesh) {
+  const bool normals = !mesh.normals.empty(), uvs = !mesh.uvs.empty(), skin = !mesh.weights.empty();
+  constexpr std::size_t kBytes = sizeof(Float3) * 2 + sizeof(Float2) + 64;
+  std::vector<char> keys(mesh.positions.size() * kBytes, 0);
+  std::unordered_map<std::string_view, std::uint32_t, BytesHash> known;
+  known.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> order, to(mesh.positions.size());
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    char* key = keys.data() + v * kBytes;
+    const auto put = [&](const auto& value) {
+      key = std::copy_n(reinterpret_cast<const char*>(&value), sizeof value, key);
+    };
+    put(mesh.positions[v]);
+    if (normals) put(mesh.normals[v]);
+    if (uvs) put(mesh.uvs[v]);
+    if (skin) {
+      put(mesh.joints[v]);
+      put(mesh.weights[v]);
+    }
+    const auto [found, isNew] =
+        known.try_emplace({keys.data() + v * kBytes, kBytes}, static_cast<std::uint32_t>(order.size()));
+    if (isNew) order.push_back(static_cast<std::uint32_t>(v));
+    to[v] = found->second;
+  }
+  if (order.size() == mesh.positions.size()) return;
+  for (std::uint32_t& index : mesh.indices) index = to[index];
+  mesh.tangents.clear();
+  reorder(mesh, order);
+}
+
+}  // namespace
+
+bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const base::Place& place,
+                          base::Diagnostics& diagnostics) {
+  vertices_ += vertices;
+  corners_ += corners;
+  const std::uint64_t most = base::limitOf(base::Limit::model_vertices);
+  const std::uint64_t counted = std::max(vertices_, corners_ / 3);
+  if (counted <= most) return true;
+  if (!full_)
+    base::reportLimit(diagnostics, base::Limit::model_vertices, place, "the model has too many vertices",
+                      counted)
+        .found = fmt::format("{} vertices and {} corners of triangles", vertices_, corners_);
+  full_ = true;
+  return false;
+}
+
+std::uint32_t MeshBuilder::add(RawMesh mesh) {
+  assert(mesh.indices.size() % 3 == 0);
+  if (mesh.join) joinVertices(mesh);
+  if (mesh.normals.empty())
+    makeNormals(mesh);
+  else
+    cleanNormals(mesh);
+  if (!soundTangents(mesh)) makeTangents(mesh);
+
+  ModelMesh row;
+  row.name = std::move(mesh.name);
+  row.firstVertex = static_cast<std::uint32_t>(model_.vertices.size());
+  row.vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
+  row.firstIndex = static_cast<std::uint32_t>(model_.indices.size());
+  row.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
+  row.skinned = !mesh.weights.empty();
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    model_.vertices.push_back(
+        {mesh.positions[v], mesh.normals[v], mesh.tangents[v], mesh.uvs.empty() ? Float2{} : mesh.uvs[v]});
+  if (row.skinned || !model_.skinVertices.empty()) {
+    model_.skinVertices.resize(row.firstVertex);
+    for (std::size_t v = 0; v < mesh.weights.size(); ++v)
+      model_.skinVertices.push_back(heaviest(mesh.joints[v], mesh.weights[v]));
+    model_.skinVertices.resize(model_.vertices.size());
+  }
+  model_.indices.insert(model_.indices.end(), mesh.indices.begin(), mesh.indices.end());
+  model_.meshes.push_back(std::move(row));
+  return static_cast<std::uint32_t>(model_.meshes.size() - 1);
+}
+
+Matrix4 matrixOf(const ModelNode& node) {
+  const auto [x, y, z, w] = node.rotation;
+  const Float3& s = node.scale;
+  const Float3& t = node.translation;
+  return {(1 - 2 * (y * y + z * z)) * s[0],
+          2 * (x * y + w * z) * s[0],
+          2 * (x * z - w * y) * s[0],
+          0,
+          2 * (x * y - w * z) * s[1],
+          (1 - 2 * (x * x + z * z)) * s[1],
+          2 * (y * z + w * x) * s[1],
+          0,
+          2 * (x * z + w * y) * s[2],
+          2 * (y * z - w * x) * s[2],
+          (1 - 2 * (x * x + y * y)) * s[2],
+          0,
+          t[0],
+          t[1],
+          t[2],
+          1};
+}
+
+Matrix4 multiply(const Matrix4& a, const Matrix4& b) {
+  Matrix4 out{};
+  for (std::size_t column = 0; column < 4; ++column)
+    for (std::size_t row = 0; row < 4; ++row)
+      for (std::size_t k = 0; k < 4; ++k) out[column * 4 + row] += a[k * 4 + row] * b[column * 4 + k];
+  return out;
+}
+
+void windMirrored(Model& model) {
+  // A product of rotations, translations and scales mirrors when an odd number of scales is negative.
+  std::vector<bool> mirrors(model.nodes.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const ModelNode& node = model.nodes[i];
+    const bool own = (node.scale[0] < 0) != ((node.scale[1] < 0) != (node.scale[2] < 0));
+    mirrors[i] = own != (node.parent != kNoRow && mirrors[node.parent]);
+  }
+  std::map<std::uint32_t, std::uint32_t> turned;
+  for (ModelInstance& instance : model.instances) {
+    if (instance.skin != kNoRow || !mirrors[instance.node]) continue;
+    const auto [found, isNew] =
+        turned.try_emplace(instance.mesh, static_cast<std::uint32_t>(model.meshes.size()));
+    if (isNew) {
+      ModelMesh copy = model.meshes[instance.mesh];
+      const std::uint32_t from = copy.firstIndex;
+      copy.firstIndex = static_cast<std::uint32_t>(model.indices.size());
+      for (std::uint32_t i = 0; i + 2 < copy.indexCount; i += 3)
+        for (const std::uint32_t corner : {0u, 2u, 1u}) {
+          const std::uint32_t index = model.indices[from + i + corner];
+          model.indices.push_back(index);
+        }
+      model.meshes.push_back(std::move(copy));
+    }
+    instance.mesh = found->second;
+  }
+}
+
+}  // namespace weft::assets

@@ -1,0 +1,273 @@
+#include "engine/assets/models/model_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <unordered_map>
+#include <vector>
+
+namespace weft::assets {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 65536;
+constexpr std::size_t kMostCorners = 4096;  // of one face: Assimp cuts ears, which costs their square
+constexpr std::size_t kDeepest = 64;
+
+std::string_view nextWord(std::string_view& line) {
+  const std::size_t from = line.find_first_not_of(" \t\r");
+  if (from == std::string_view::npos) return line = {};
+  line.remove_prefix(from);
+  const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+template <class T>
+T load(std::string_view bytes, std::size_t at) {
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+// A circle among edges from child to parent.
+bool hasCircle(const std::vector<std::pair<std::int64_t, std::int64_t>>& edges) {
+  std::unordered_map<std::int64_t, std::vector<std::int64_t>> children;
+  std::unordered_map<std::int64_t, std::size_t> parents;
+  for (const auto& [child, parent] : edges) {
+    children[parent].push_back(child);
+    ++parents[child];
+    parents.try_emplace(parent, 0);
+  }
+  // Kahn, 1962: what is left when everything without a parent was taken away lies on circles or below them.
+  std::vector<std::int64_t> work;
+  std::size_t taken = 0;
+  for (const auto& [id, count] : parents)
+    if (count == 0) work.push_back(id);
+  while (!work.empty()) {
+    const std::int64_t id = work.back();
+    work.pop_back();
+    ++taken;
+    for (const std::int64_t child : children[id])
+      if (--parents[child] == 0) work.push_back(child);
+  }
+  return taken != parents.size();
+}
+
+ModelProblem circleProblem() {
+  return {"a node of it is its own ancestor", "connections that form trees", "a circle of them"};
+}
+
+}  // namespace
+
+ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
+  std::uint32_t number = 0;
+  std::int64_t highest = 0;
+  std::uint32_t highestLine = 0;
+  const auto outside = [&](std::int64_t index, std::uint32_t line) {
+    return ModelProblem{"a face names a vertex that is not there",
+                        fmt::format("an index from 1 to {}, or from the end", counts.vertices),
+                        fmt::format("{}", index), line};
+  };
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    std::string_view line = bytes.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    if (line.size() > kLongestLine)
+      return {"a line of it is too long", fmt::format("lines of at most {} bytes", kLongestLine),
+              fmt::format("{} bytes", line.size()), number};
+    const std::string_view key = nextWord(line);
+    if (key == "v") ++counts.vertices;
+    if (key != "f") continue;
+    std::size_t corners = 0;
+    for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {
+      if (word == "\\") break;
+      ++corners;
+      std::int64_t index = 0;
+      std::from_chars(word.data(), word.data() + word.size(), index);
+      if (index < 0 && -index > static_cast<std::int64_t>(counts.vertices)) return outside(index, number);
+      if (index > highest) {
+        highest = index;
+        highestLine = number;
+      }
+    }
+    if (corners > kMostCorners)
+      return {"a face of it has too many corners", fmt::format("at most {}", kMostCorners),
+              fmt::format("{}", corners), number};
+    counts.corners += corners > 2 ? (corners - 2) * 3 : 0;
+  }
+  if (highest > static_cast<std::int64_t>(counts.vertices)) return outside(highest, highestLine);
+  return {};
+}
+
+bool isBinaryFbx(std::string_view bytes) {
+  return bytes.starts_with("Kaydara FBX Binary");
+}
+
+namespace {
+
+// The binary form as Blender's developers wrote it down: records of end, number of properties, their bytes, name; then
+// properties, then records within.
+class FbxWalk {
+ public:
+  FbxWalk(std::string_view bytes, ModelCounts& counts) : bytes_(bytes), counts_(counts) {}
+
+  ModelProblem check() {
+    if (bytes_.size() < 27) return early(27);
+    const bool wide = load<std::uint32_t>(bytes_, 23) >= 7500;
+    word_ = wide ? 8 : 4;
+    std::vector<std::size_t> ends{bytes_.size()};  // of the records that are open
+    std::size_t at = 27;
+    while (true) {
+      while (ends.size() > 1 && at >= ends.back()) {
+        if (at > ends.back()) return strays(at);
+        ends.pop_back();
+      }
+      if (at + 3 * word_ + 1 > ends.back()) {
+        if (ends.size() == 1) break;
+        return strays(at);
+      }
+      const std::uint64_t end = word(at), properties = word(at + word_), length = word(at + 2 * word_);
+      const std::size_t nameBytes = static_cast<unsigned char>(bytes_[at + 3 * word_]);
+      const std::size_t start = at + 3 * word_ + 1 + nameBytes;
+      if (end == 0) {  // ends a list
+        if (ends.size() == 1) break;
+        at += 3 * word_ + 1;
+        if (at != ends.back()) return strays(at);
+        continue;
+      }
+      if (end <= at || end > ends.back() || start > end || length > end - start) return strays(at);
+      const std::string_view name = bytes_.substr(start - nameBytes, nameBytes);
+      if (!checkProperties(start, start + length, properties, name)) return strays(at);
+      at = start + length;
+      ends.push_back(end);
+      if (ends.size() > kDeepest)
+        return {"its records nest too deeply", fmt::format("at most {} levels", kDeepest), "more", 0};
+    }
+    return hasCircle(edges_) ? circleProblem() : ModelProblem{};
+  }
+
+ private:
+  std::uint64_t word(std::size_t at) const {
+    return word_ == 8 ? load<std::uint64_t>(bytes_, at) : load<std::uint32_t>(bytes_, at);
+  }
+  ModelProblem early(std::size_t wanted) const {
+    return {"the file ends early", fmt::format("{} bytes at least", wanted),
+            fmt::format("{} bytes", bytes_.size()), 0};
+  }
+  static ModelProblem strays(std::size_t at) {
+    return {"a record of it reaches beyond what it stands in", "records inside each other",
+            fmt::format("one at byte {}", at), 0};
+  }
+
+  bool checkProperties(std::size_t at, std::size_t end, std::uint64_t count, std::string_view name) {
+    std::vector<std::int64_t> ids;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (at >= end) return false;
+      const char kind = bytes_[at++];
+      std::size_t size = 0, packed = 0;
+      switch (kind) {
+        case 'C':
+        case 'B':
+          size = 1;
+          break;
+        case 'Y':
+          size = 2;
+          break;
+        case 'I':
+        case 'F':
+          size = 4;
+          break;
+        case 'D':
+        case 'L':
+          size = 8;
+          break;
+        case 'S':
+        case 'R':
+          if (end - at < 4) return false;
+          size = std::size_t{4} + load<std::uint32_t>(bytes_, at);
+          break;
+        case 'f':
+        case 'i':
+          packed = 4;
+          break;
+        case 'd':
+        case 'l':
+          packed = 8;
+          break;
+        case 'b':
+        case 'c':
+          packed = 1;
+          break;
+        default:
+          return false;
+      }
+      if (packed != 0) {
+        if (end - at < 12) return false;
+        const std::uint64_t elements = load<std::uint32_t>(bytes_, at);
+        const std::uint32_t encoding = load<std::uint32_t>(bytes_, at + 4);
+        size = std::size_t{12} + load<std::uint32_t>(bytes_, at + 8);
+        // zlib packs 1032 to 1 at most; an array that says more is none.
+        if (encoding > 1 || elements * packed > (encoding == 0 ? size - 12 : (size - 12) * 1040))
+          return false;
+        counts_.unpacked += elements * packed;
+      }
+      if (size > end - at) return false;
+      if (kind == 'L' && name == "C") ids.push_back(load<std::int64_t>(bytes_, at));
+      at += size;
+    }
+    if (ids.size() == 2) edges_.emplace_back(ids[0], ids[1]);
+    return at == end;
+  }
+
+  std::string_view bytes_;
+  ModelCounts& counts_;
+  std::size_t word_ = 4;
+  std::vector<std::pair<std::int64_t, std::int64_t>> edges_;
+};
+
+// C: "OO",child,parent
+ModelProblem checkTextFbx(std::string_view bytes) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> edges;
+  std::size_t depth = 0;
+  std::uint32_t number = 0;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    std::string_view line = bytes.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == ';' && !quoted) break;
+      if (c == '"') quoted = !quoted;
+      if (quoted) continue;
+      if (c == '{' && ++depth > kDeepest)
+        return {"its records nest too deeply", fmt::format("at most {} levels", kDeepest), "more", number};
+      if (c == '}' && depth > 0) --depth;
+    }
+    if (nextWord(line) != "C:") continue;
+    const std::size_t first = line.find(','),
+                      second = first == std::string_view::npos ? first : line.find(',', first + 1);
+    if (second == std::string_view::npos) continue;
+    std::int64_t child = 0, parent = 0;
+    const auto read = [&](std::size_t from, std::int64_t& out) {
+      while (from < line.size() && line[from] == ' ') ++from;
+      std::from_chars(line.data() + from, line.data() + line.size(), out);
+    };
+    read(first + 1, child);
+    read(second + 1, parent);
+    edges.emplace_back(child, parent);
+  }
+  return hasCircle(edges) ? circleProblem() : ModelProblem{};
+}
+
+}  // namespace
+
+ModelProblem checkFbx(std::string_view bytes, ModelCounts& counts) {
+  return isBinaryFbx(bytes) ? FbxWalk(bytes, counts).check() : checkTextFbx(bytes);
+}
+
+}  // namespace weft::assets

@@ -1,0 +1,28 @@
+// What Assimp 5.2.5 does not survive, or answers with minutes and gigabytes: OBJ files of one endless line, faces of a
+// million corners or of vertices that are not there; FBX files whose records reach beyond the file, nest without end, unpack
+// to more than memory, or whose nodes are their own ancestors. These functions walk a file's structure without making
+// anything of it. Does not: validate what Assimp itself reports. Internal to the folder.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace weft::assets {
+
+// What is wrong with a file; `message` is empty when nothing is.
+struct ModelProblem {
+  std::string message, expected, found;
+  std::uint32_t line = 0;  // of a text file
+};
+
+struct ModelCounts {
+  std::uint64_t vertices = 0, corners = 0;
+  std::uint64_t unpacked = 0;  // bytes that packed arrays hold
+};
+
+ModelProblem checkObj(std::string_view bytes, ModelCounts& counts);
+ModelProblem checkFbx(std::string_view bytes, ModelCounts& counts);
+bool isBinaryFbx(std::string_view bytes);
+
+}  // namespace weft::assets

@@ -1,0 +1,65 @@
+#include "engine/assets/models/model_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "engine/assets/models/assimp_model.h"
+#include "engine/assets/models/gltf.h"
+#include "engine/assets/models/mesh_builder.h"
+#include "engine/assets/models/model_files.h"
+
+namespace weft::assets {
+
+namespace {
+
+std::string extensionOf(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool isGltfName(const std::string& name) {
+  const std::string extension = extensionOf(name);
+  return extension == ".gltf" || extension == ".glb";
+}
+
+}  // namespace
+
+bool isModelName(const std::string& name) {
+  const std::string extension = extensionOf(name);
+  return isGltfName(name) || extension == ".obj" || extension == ".fbx";
+}
+
+std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagnostics,
+                               const LoadObserver& observer, std::vector<std::string>* files) {
+  ModelFiles mine(path, diagnostics, observer);
+  Model model;
+  model.name = std::filesystem::path(path).stem().string();
+  bool good = false;
+  if (!isModelName(path)) {
+    base::Diagnostic& d = diagnostics.error(base::Code::unreadableModel, mine.place(),
+                                            fmt::format("'{}' is no kind of model that is known", path));
+    d.expected = ".gltf, .glb, .obj or .fbx";
+    d.found = extensionOf(path).empty() ? "no extension" : extensionOf(path);
+  } else if (auto bytes = mine.readModel()) {
+    good = isGltfName(path) ? readGltf(std::move(*bytes), mine, observer, diagnostics, model)
+                            : readWithAssimp(std::move(*bytes), mine, observer, diagnostics, model);
+  }
+  model.files = mine.files();
+  if (files) *files = model.files;
+  if (!good || mine.gaveUp()) return {};
+  if (model.instances.empty()) {
+    base::Diagnostic& d = diagnostics.error(base::Code::unreadableModel, mine.place(),
+                                            fmt::format("the model '{}' has nothing to draw", path));
+    d.expected = "at least one mesh of triangles in its scene";
+    return {};
+  }
+  windMirrored(model);
+  return model;
+}
+
+}  // namespace weft::assets

@@ -1,0 +1,25 @@
+// Model files to Model: .gltf and .glb (engine/assets/models/gltf.h), .obj and .fbx (through Assimp). Everything that a model
+// names is looked for in its own folder and nowhere else. Failures are values: W164 (cannot be read), W165 (a value that
+// cannot be), W166 (a file outside the folder), W201 (limits model_bytes, model_vertices, model_texels); warnings W167 (a
+// texture is missing) and W168 (a part was left out). Thread safe: no state is shared between calls.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/assets/environment_map.h"
+#include "engine/assets/models/model.h"
+#include "engine/base/diagnostic.h"
+
+namespace weft::assets {
+
+// By the end of its name.
+bool isModelName(const std::string& name);
+
+// Empty after errors, and without any when `observer` gave up. `files`, when given, is set to everything that was read or
+// should have been, also after errors: what to watch.
+std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagnostics,
+                               const LoadObserver& observer = {}, std::vector<std::string>* files = nullptr);
+
+}  // namespace weft::assets

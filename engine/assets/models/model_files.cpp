@@ -1,0 +1,188 @@
+#include "engine/assets/models/model_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+
+#include "engine/base/files/file.h"
+#include "engine/base/files/file_access.h"
+#include "engine/base/limit_report.h"
+
+namespace weft::assets {
+
+using base::Code;
+using base::Place;
+
+namespace {
+
+int hexOf(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  const char lower = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+std::string unescape(const std::string& uri) {
+  std::string out;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] == '%' && i + 2 < uri.size() && hexOf(uri[i + 1]) >= 0 && hexOf(uri[i + 2]) >= 0) {
+      out.push_back(static_cast<char>(hexOf(uri[i + 1]) * 16 + hexOf(uri[i + 2])));
+      i += 2;
+    } else {
+      out.push_back(uri[i]);
+    }
+  }
+  return out;
+}
+
+// RFC 3986, 3.1; also "C:" of Windows.
+bool hasScheme(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string::npos || colon == 0 || !std::isalpha(static_cast<unsigned char>(name[0])))
+    return false;
+  return std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(colon),
+                     [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
+}
+
+bool leadsOut(const std::filesystem::path& relative) {
+  const std::filesystem::path plain = relative.lexically_normal();
+  return plain.empty() || plain.is_absolute() || *plain.begin() == "..";
+}
+
+}  // namespace
+
+ModelFiles::ModelFiles(std::string path, base::Diagnostics& diagnostics, const LoadObserver& observer)
+    : path_(std::move(path)), diagnostics_(diagnostics), observer_(observer), files_{path_} {}
+
+Place ModelFiles::place() const {
+  return {std::make_shared<const std::string>(path_)};
+}
+
+std::optional<std::string> ModelFiles::readModel() {
+  return readCounted(path_, {}, Code::unreadableModel, diagnostics_);
+}
+
+std::string ModelFiles::resolve(const std::string& name) const {
+  if (name.empty() || name.find('\0') != std::string::npos || name.find('\\') != std::string::npos ||
+      hasScheme(name) || leadsOut(name))
+    return "";
+  const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+  const std::string target = (folder / name).lexically_normal().string();
+  // A link in the folder may lead out as well. What reading is confined to is looked at by whoever opens the file, first.
+  if (!base::mayRead(target)) return target;
+  std::error_code ec;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(target, ec);
+  const std::filesystem::path top =
+      std::filesystem::weakly_canonical(folder.empty() ? std::filesystem::path(".") : folder, ec);
+  return ec || leadsOut(real.lexically_relative(top)) ? "" : target;
+}
+
+std::optional<std::string> ModelFiles::locate(const std::string& uri, const Place& place, bool escaped) {
+  const std::string name = escaped ? unescape(uri) : uri;
+  const std::string target = resolve(name);
+  if (target.empty()) {
+    base::Diagnostic& d =
+        diagnostics_.error(Code::outsideModelFolder, place,
+                           fmt::format("the model names a file outside its folder: '{}'", name));
+    d.expected = "a path below the folder of the model";
+    d.found = fmt::format("'{}'", uri);
+    d.hint = "copy the file into the model's folder and name it by its relative path";
+    return {};
+  }
+  if (std::ranges::find(files_, target) == files_.end()) files_.push_back(target);
+  return target;
+}
+
+std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const Place& place, Code code,
+                                                  bool escaped) {
+  const std::optional<std::string> target = locate(uri, place, escaped);
+  if (!target) return {};
+  return readCounted(*target, place, code, diagnostics_);
+}
+
+std::optional<std::string> ModelFiles::readOptional(const std::string& uri, const Place& place, Code code,
+                                                    bool escaped) {
+  const std::optional<std::string> target = locate(uri, place, escaped);
+  if (!target) return {};
+  base::Diagnostics found;
+  std::optional<std::string> bytes = readCounted(*target, place, code, found);
+  for (base::Diagnostic each : found.items()) {
+    if (each.code == code) each.severity = base::Severity::warning;
+    diagnostics_.add(std::move(each));
+  }
+  return bytes;
+}
+
+bool ModelFiles::hasBeside(const std::string& name) const {
+  const std::string target = resolve(name);
+  std::error_code ec;
+  return !target.empty() && base::mayRead(target) && std::filesystem::is_regular_file(target, ec);
+}
+
+bool ModelFiles::count(std::uint64_t bytes, const Place& place) {
+  bytes_ += bytes;
+  if (bytes_ <= base::limitOf(base::Limit::model_bytes)) return true;
+  base::reportLimit(diagnostics_, base::Limit::model_bytes, place, "the model is too large", bytes_).found =
+      fmt::format("{} bytes", bytes_);
+  return false;
+}
+
+std::optional<std::string> ModelFiles::readCounted(const std::string& path, const Place& place, Code code,
+                                                   base::Diagnostics& diagnostics) {
+  const std::uint64_t left =
+      base::limitOf(base::Limit::model_bytes) - std::min(bytes_, base::limitOf(base::Limit::model_bytes));
+  std::uint64_t found = 0;
+  bool tooLarge = false;
+  const auto goOn = [&](std::uint64_t done, std::uint64_t total) {
+    found = std::max(done, total);
+    tooLarge = found > left;
+    if (tooLarge) return false;
+    if (observer_ && !observer_(LoadStage::reading,
+                                total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0))
+      gaveUp_ = true;
+    return !gaveUp_;
+  };
+  std::optional<std::string> bytes = base::readFile(path, diagnostics, code, place, goOn);
+  if (tooLarge) {
+    count(found, place.file ? place : this->place());
+    return {};
+  }
+  if (bytes && !count(bytes->size(), place.file ? place : this->place())) return {};
+  return bytes;
+}
+
+std::optional<std::string> decodeDataUri(std::string_view uri) {
+  if (!uri.starts_with("data:")) return {};
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return {};
+  static const std::array<std::int8_t, 256> kDigits = [] {
+    std::array<std::int8_t, 256> digits{};
+    digits.fill(-1);
+    const std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < alphabet.size(); ++i)
+      digits[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int8_t>(i);
+    return digits;
+  }();
+  std::string_view text = uri.substr(comma + 1);
+  while (text.ends_with('=')) text.remove_suffix(1);
+  std::string out;
+  out.reserve(text.size() * 3 / 4);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const std::int8_t digit = kDigits[static_cast<unsigned char>(c)];
+    if (digit < 0) return {};
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      out.push_back(static_cast<char>(bits >> count & 0xff));
+    }
+  }
+  return out;
+}
+
+}  // namespace weft::assets

@@ -1,0 +1,63 @@
+// What a model reads: its own file and those beside it. One door for glTF, OBJ, FBX and Assimp, so that a model never
+// reads anything outside its folder, whatever it names, and never more than the limit model_bytes in all. The rest of what
+// holds for files (pipes, --confine) is engine/base/files/file_access.h. Does not: decode anything.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/assets/environment_map.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/limits.h"
+
+namespace weft::assets {
+
+class ModelFiles {
+ public:
+  // `path` is the model's own file. `observer` may be empty.
+  ModelFiles(std::string path, base::Diagnostics& diagnostics, const LoadObserver& observer);
+
+  const std::string& path() const { return path_; }
+  base::Place place() const;  // of the model's own file
+  // Everything that was read or should have been, each once, the model's own first.
+  const std::vector<std::string>& files() const { return files_; }
+  bool gaveUp() const { return gaveUp_; }
+
+  // The model's own file; W164, W200 or W201 when it cannot be read.
+  std::optional<std::string> readModel();
+  // A file beside it. `uri` is relative to the model's folder; percent escapes are resolved first when `escaped`. W166 for
+  // one that leads out of the folder, in whatever spelling; `code` for one that cannot be read.
+  std::optional<std::string> readBeside(const std::string& uri, const base::Place& place, base::Code code,
+                                        bool escaped);
+  // The same for what a model can do without: one that cannot be read is a warning.
+  std::optional<std::string> readOptional(const std::string& uri, const base::Place& place, base::Code code,
+                                          bool escaped);
+  // Whether there is such a file in the folder; nothing is said.
+  bool hasBeside(const std::string& name) const;
+
+  // Counts bytes that are not files of their own against the limit. False after W201.
+  bool count(std::uint64_t bytes, const base::Place& place);
+
+ private:
+  std::optional<std::string> readCounted(const std::string& path, const base::Place& place, base::Code code,
+                                         base::Diagnostics& diagnostics);
+  // The path of a file beside the model, among files() from now on; empty after W166.
+  std::optional<std::string> locate(const std::string& uri, const base::Place& place, bool escaped);
+  // "" for a way out.
+  std::string resolve(const std::string& name) const;
+
+  std::string path_;
+  base::Diagnostics& diagnostics_;
+  const LoadObserver& observer_;
+  std::vector<std::string> files_;
+  std::uint64_t bytes_ = 0;
+  bool gaveUp_ = false;
+};
+
+// Bytes of a "data:" URI with base64; empty when it is none, or damaged.
+std::optional<std::string> decodeDataUri(std::string_view uri);
+
+}  // namespace weft::assets

@@ -1,0 +1,65 @@
+// The key `models` of a scene file: files read by engine/assets/models/model_file.h, placed, copied, moved and animated. A
+// file that several entries name is read once. What is wrong is W160, W161, W162, W169, or what reading the model reports.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/assets/environment_map.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/json/fields.h"
+#include "engine/scene/models/add_model.h"
+#include "engine/scene/scene.h"
+
+namespace weft::scene {
+
+constexpr std::size_t kMaxNodes = std::size_t{1} << 21;
+
+class SceneModels {
+ public:
+  // A material of the scene by name, or null after an error.
+  using FindMaterial = std::function<MaterialId(const base::JsonValue& value, const std::string& what)>;
+
+  // `sceneFile`: paths are relative to it. All must outlive this.
+  SceneModels(Scene& scene, const std::string& sceneFile, base::Diagnostics& diagnostics,
+              const assets::LoadObserver& observer)
+      : scene_(scene), sceneFile_(sceneFile), diagnostics_(diagnostics), observer_(observer) {}
+
+  void read(base::JsonFields& fields, const FindMaterial& findMaterial);
+  // One model at its own coordinates, with its first animation. False after errors.
+  bool addWhole(const std::string& path);
+  // Puts the vertices into the scene: once everything is read.
+  void finish();
+
+  // Whether a model is missing from the scene: after errors, or because the observer gave up.
+  bool failed() const { return failed_; }
+  // Everything that the models read or should have read.
+  const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  struct Loaded {
+    assets::Model model;
+    ModelRows rows;
+  };
+  const Loaded* load(const std::string& path);
+  void readModel(const std::string& name, const base::JsonValue& value, const FindMaterial& findMaterial);
+  void readPlace(base::JsonFields& fields, const std::string& what, ModelCopy& copy);
+  void readAnimation(const base::JsonValue& value, const std::string& what, const assets::Model& model,
+                     ModelCopy& copy);
+  void addCopies(const base::JsonValue& value, const std::string& name, const Loaded& loaded, ModelCopy copy,
+                 const std::array<double, 3>& count, float spacing);
+
+  Scene& scene_;
+  const std::string& sceneFile_;
+  base::Diagnostics& diagnostics_;
+  const assets::LoadObserver& observer_;
+  std::map<std::string, std::unique_ptr<Loaded>> loaded_;  // by path; null: it failed
+  std::shared_ptr<MeshData> data_ = std::make_shared<MeshData>();
+  std::vector<std::string> files_;
+  bool failed_ = false;
+};
+
+}  // namespace weft::scene

@@ -1,0 +1,170 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/scene/files/scene_file.h"
+#include "engine/scene/frame/mesh_frame.h"
+#include "tests/assets/temporary.h"
+
+using namespace weft;
+using namespace weft::scene;
+
+namespace {
+
+const std::string kTop = WEFT_SOURCE_DIR "/";
+
+Scene loadGood(const std::string& path) {
+  base::Diagnostics diagnostics;
+  auto scene = loadScene(path, diagnostics);
+  REQUIRE_MESSAGE(scene, diagnostics.text());
+  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+  return std::move(*scene);
+}
+
+// One triangle of 1 x 1 in the plane z = 0.
+void writeTriangle(const TemporaryFolder& folder) {
+  folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+}
+
+base::Diagnostics failuresOf(const TemporaryFolder& folder, std::string_view text) {
+  base::Diagnostics diagnostics;
+  CHECK_FALSE(loadScene(folder.write("s.json", text), diagnostics));
+  return diagnostics;
+}
+
+}  // namespace
+
+TEST_CASE("the scenes with models that come with Weft") {
+  const Scene helmet = loadGood(kTop + "scenes/helmet.json");
+  CHECK(helmet.meshes.size() == 6);
+  CHECK(helmet.meshInstances.size() == 6);
+  CHECK(helmet.textures.size() == 15);  // 15 images, two materials that share theirs
+  REQUIRE(helmet.meshData);
+  CHECK(helmet.meshData->skin.empty());
+  CHECK(helmet.lamps.size() == 2);
+  CHECK(helmet.files.size() == 18);  // the scene, the .gltf, its .bin and 15 images
+  int transparent = 0;
+  for (const MeshInstance& instance : helmet.meshInstances.rows())
+    transparent += instance.lists == maskOf(DrawList::transparent) ? 1 : 0;
+  CHECK(transparent == 1);  // the lenses
+
+  const Scene fox = loadGood(kTop + "scenes/fox.json");
+  REQUIRE(fox.animations.size() == 1);
+  CHECK(fox.animations.rows()[0].tracks->name == "Walk");
+  CHECK(fox.skins.size() == 1);
+  CHECK(fox.meshData->skin.size() == fox.meshData->vertices.size());
+
+  const Scene crowd = loadGood(kTop + "scenes/crowd.json");
+  CHECK(crowd.meshInstances.size() == 100000);
+  CHECK(crowd.meshes.size() == 1);
+  CHECK(crowd.meshData->indices.size() == 60);
+}
+
+TEST_CASE("a model file is a scene: framed, lit, with cameras all round") {
+  for (const char* file :
+       {"scenes/models/FlightHelmet/FlightHelmet.gltf", "scenes/models/Fox.glb", "scenes/models/rock.obj"}) {
+    const Scene scene = loadGood(kTop + file);
+    CHECK(scene.sun);
+    CHECK(scene.cameras.size() == 5);
+    CHECK(findCamera(scene, "")->name == "front");
+    MeshFrame frame;
+    frame.update(scene, 1, 0, 0);
+    // Every corner of the box is in every camera's picture.
+    const Box box = frame.sceneBounds();
+    for (const Camera& camera : scene.cameras.rows())
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                           corner & 4 ? box.high.z : box.low.z);
+        const glm::dvec4 clip = projectionMatrix(camera.pose.fovDegrees, 1, camera.pose.nearPlane) *
+                                (viewMatrix(camera.pose) * glm::dvec4(p, 1));
+        CHECK(clip.w > camera.pose.nearPlane);
+        CHECK(std::abs(clip.x) <= clip.w * 1.0001);
+        CHECK(std::abs(clip.y) <= clip.w * 1.0001);
+      }
+  }
+  base::Diagnostics diagnostics;
+  const auto top = loadScene(kTop + "scenes/models/rock.obj", diagnostics, nullptr, {.camera = "top"});
+  REQUIRE(top);
+  CHECK(findCamera(*top, "")->name == "top");
+  CHECK(top->cameras.size() == 5);
+  CHECK_FALSE(loadScene(kTop + "scenes/models/rock.obj", diagnostics, nullptr, {.camera = "tpo"}));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].hint == "did you mean 'top'?");
+}
+
+TEST_CASE("a model is placed, turned, copied, and given lists and a material") {
+  const TemporaryFolder folder;
+  writeTriangle(folder);
+  const Scene scene = loadGood(folder.write("s.json", R"({
+    "materials": {"red": {"albedo": [1, 0, 0]}},
+    "models": {
+      "one": {"file": "t.obj", "position": [10, 0, 0], "rotation": [0, 90, 0], "scale": 2},
+      "many": {"file": "t.obj", "count": [3, 1, 2], "spacing": 4, "material": "red", "lists": ["opaque"]},
+      "odd": {"file": "t.obj", "material": {"albedo": [0, 0, 1]}, "velocity": [0, 3, 0], "spin": 180}
+    }})"));
+  CHECK(scene.meshes.size() == 1);  // read once
+  CHECK(scene.meshData->vertices.size() == 3);
+  REQUIRE(scene.meshInstances.size() == 8);
+  CHECK(countMeshInstances(scene, DrawList::opaque) == 8);
+  CHECK(countMeshInstances(scene, DrawList::shadow_casters) == 2);
+  MeshFrame frame;
+  frame.update(scene, 1, 1, 0.5);
+  const std::span<const MeshRow> rows = frame.rows(DrawList::opaque);
+  REQUIRE(rows.size() == 8);
+  // 90 degrees about +Y take +X to -Z.
+  CHECK(glm::distance(rows[0].transform * glm::vec4(1, 0, 0, 1), glm::vec4(10, 0, -2, 1)) < 1e-5f);
+  CHECK(glm::distance(rows[1].transform[3], glm::vec4(-4, 0, 2, 1)) < 1e-5f);  // left in front
+  CHECK(glm::distance(rows[6].transform[3], glm::vec4(4, 0, -2, 1)) < 1e-5f);
+  CHECK(scene.materials.rows()[rows[1].material].name == "red");
+  CHECK(scene.materials.rows()[rows[7].material].albedo == glm::vec3(0, 0, 1));
+  CHECK(glm::distance(rows[7].transform * glm::vec4(1, 0, 0, 1), glm::vec4(-1, 3, 0, 1)) < 1e-5f);
+  CHECK(glm::distance(rows[7].previous_transform * glm::vec4(1, 0, 0, 1), glm::vec4(0, 1.5f, -1, 1)) < 1e-5f);
+}
+
+TEST_CASE("what is wrong with a model of a scene has a place") {
+  const TemporaryFolder folder;
+  writeTriangle(folder);
+  const auto codeOf = [&](const std::string& model) {
+    const base::Diagnostics d = failuresOf(folder, "{\"models\": {\"m\": " + model + "}}");
+    REQUIRE_MESSAGE(d.size() == 1, d.text());
+    CHECK(d.items()[0].place.file);
+    return d.items()[0].code;
+  };
+  CHECK(codeOf(R"({"file": "missing.obj"})") == base::Code::unreadableModel);
+  CHECK(codeOf(R"({"file": "s.json"})") == base::Code::unreadableModel);
+  CHECK(codeOf(R"({"flie": "t.obj", "file": "t.obj"})") == base::Code::unknownKey);
+  CHECK(codeOf(R"({})") == base::Code::missingKey);
+  CHECK(codeOf(R"({"file": "t.obj", "scale": 0})") == base::Code::badSceneValue);
+  CHECK(codeOf(R"({"file": "t.obj", "lists": ["opaqe"]})") == base::Code::unknownSceneList);
+  CHECK(codeOf(R"({"file": "t.obj", "material": "gold"})") == base::Code::unknownMaterial);
+  CHECK(codeOf(R"({"file": "t.obj", "animation": "Walk"})") == base::Code::unknownAnimation);
+  CHECK(codeOf(R"({"file": "t.obj", "count": [65536, 65536, 1]})") == base::Code::badSceneValue);
+  std::filesystem::copy(kTop + "scenes/models/Fox.glb", folder.at("Fox.glb"));
+  const base::Diagnostics walk = failuresOf(
+      folder,
+      R"({"models": {"f": {"file": "Fox.glb", "animation": "Wlak"}, "g": {"file": "Fox.glb", "animation": 3}}})");
+  REQUIRE_MESSAGE(walk.size() == 2, walk.text());
+  CHECK(walk.items()[0].hint == "did you mean 'Walk'?");
+  CHECK(walk.items()[1].expected == "Survey, Walk, Run");
+}
+
+TEST_CASE("every file of a scene's models is watched, also after errors") {
+  const TemporaryFolder folder;
+  folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  base::Diagnostics diagnostics;
+  std::vector<std::string> files;
+  const std::string path =
+      folder.write("s.json", R"({"models": {"m": {"file": "m.obj"}, "n": {"file": "gone.glb"}}})");
+  CHECK_FALSE(loadScene(path, diagnostics, &files));
+  CHECK(files == std::vector{path, folder.at("m.obj"), folder.at("m.mtl"), folder.at("gone.glb")});
+}
+
+TEST_CASE("loading can be watched and given up") {
+  base::Diagnostics diagnostics;
+  int calls = 0;
+  const assets::LoadObserver stop = [&](assets::LoadStage, double) { return ++calls < 5; };
+  CHECK_FALSE(loadScene(kTop + "scenes/helmet.json", diagnostics, nullptr, {}, stop));
+  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+  CHECK(calls == 5);
+}
