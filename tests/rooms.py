@@ -35,7 +35,13 @@ SUB_ROOMS = {
         "edit": {".", "language", "read", "expand/names", "expand"},
         "workload": {".", "language", "versions"},
     },
-    "assets": {".": set(), "models": {"."}},
+    "assets": {
+        ".": set(),
+        "models/parts": {"."},
+        "models/gltf": {".", "models/parts"},
+        "models/assimp": {".", "models/parts"},
+        "models": {".", "models/parts", "models/gltf", "models/assimp"},
+    },
     "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
         "context": set(),

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/models/model.h"
+#include "engine/assets/model.h"
 #include "engine/scene/table.h"
 
 namespace weft::scene {

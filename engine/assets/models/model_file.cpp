@@ -6,10 +6,10 @@
 #include <cctype>
 #include <filesystem>
 
-#include "engine/assets/models/assimp_model.h"
-#include "engine/assets/models/gltf.h"
-#include "engine/assets/models/mesh_builder.h"
-#include "engine/assets/models/model_files.h"
+#include "engine/assets/models/assimp/assimp_model.h"
+#include "engine/assets/models/gltf/gltf.h"
+#include "engine/assets/models/parts/mesh_builder.h"
+#include "engine/assets/models/parts/model_files.h"
 
 namespace weft::assets {
 

@@ -1,4 +1,4 @@
-// Model files to Model: .gltf and .glb (engine/assets/models/gltf.h), .obj and .fbx (through Assimp). Everything that a model
+// Model files to Model: .gltf and .glb (engine/assets/models/gltf/gltf.h), .obj and .fbx (through Assimp). Everything that a model
 // names is looked for in its own folder and nowhere else. Failures are values: W164 (cannot be read), W165 (a value that
 // cannot be), W166 (a file outside the folder), W201 (limits model_bytes, model_vertices, model_texels); warnings W167 (a
 // texture is missing) and W168 (a part was left out). Thread safe: no state is shared between calls.
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/assets/environment_map.h"
-#include "engine/assets/models/model.h"
+#include "engine/assets/model.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::assets {

@@ -1,4 +1,4 @@
-// Puts a model (engine/assets/models/model.h) into a scene: its textures, materials and meshes once, its nodes, skins and
+// Puts a model (engine/assets/model.h) into a scene: its textures, materials and meshes once, its nodes, skins and
 // instances once per copy. Does not: read files, or know JSON.
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/assets/models/model.h"
+#include "engine/assets/model.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {

@@ -1,4 +1,4 @@
-#include "engine/assets/models/mesh_builder.h"
+#include "engine/assets/models/parts/mesh_builder.h"
 
 #include <fmt/format.h>
 
@@ -255,36 +255,6 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
   model_.indices.insert(model_.indices.end(), mesh.indices.begin(), mesh.indices.end());
   model_.meshes.push_back(std::move(row));
   return static_cast<std::uint32_t>(model_.meshes.size() - 1);
-}
-
-Matrix4 matrixOf(const ModelNode& node) {
-  const auto [x, y, z, w] = node.rotation;
-  const Float3& s = node.scale;
-  const Float3& t = node.translation;
-  return {(1 - 2 * (y * y + z * z)) * s[0],
-          2 * (x * y + w * z) * s[0],
-          2 * (x * z - w * y) * s[0],
-          0,
-          2 * (x * y - w * z) * s[1],
-          (1 - 2 * (x * x + z * z)) * s[1],
-          2 * (y * z + w * x) * s[1],
-          0,
-          2 * (x * z + w * y) * s[2],
-          2 * (y * z - w * x) * s[2],
-          (1 - 2 * (x * x + y * y)) * s[2],
-          0,
-          t[0],
-          t[1],
-          t[2],
-          1};
-}
-
-Matrix4 multiply(const Matrix4& a, const Matrix4& b) {
-  Matrix4 out{};
-  for (std::size_t column = 0; column < 4; ++column)
-    for (std::size_t row = 0; row < 4; ++row)
-      for (std::size_t k = 0; k < 4; ++k) out[column * 4 + row] += a[k * 4 + row] * b[column * 4 + k];
-  return out;
 }
 
 void windMirrored(Model& model) {

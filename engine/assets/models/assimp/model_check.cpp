@@ -1,4 +1,4 @@
-#include "engine/assets/models/model_check.h"
+#include "engine/assets/models/assimp/model_check.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/assets/models/model_files.h"
+#include "engine/assets/models/parts/model_files.h"
 
 namespace weft::assets {
 

@@ -1,8 +1,8 @@
 // Assimp's scene to a Model: nodes, materials, meshes, skins and animations. Internal to the folder.
 #pragma once
 
-#include "engine/assets/models/model.h"
-#include "engine/assets/models/model_files.h"
+#include "engine/assets/model.h"
+#include "engine/assets/models/parts/model_files.h"
 
 struct aiScene;
 

@@ -1,11 +1,11 @@
 // Wavefront OBJ and FBX to a Model, through Assimp. What Assimp 5.2.5 does not survive is refused before it sees a file:
-// engine/assets/models/model_check.h. Internal to the folder.
+// engine/assets/models/assimp/model_check.h. Internal to the folder.
 #pragma once
 
 #include <string>
 
-#include "engine/assets/models/model.h"
-#include "engine/assets/models/model_files.h"
+#include "engine/assets/model.h"
+#include "engine/assets/models/parts/model_files.h"
 
 namespace weft::assets {
 

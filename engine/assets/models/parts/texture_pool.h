@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/models/model.h"
+#include "engine/assets/model.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::assets {

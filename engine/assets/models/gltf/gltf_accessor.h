@@ -1,4 +1,4 @@
-// Elements of a glTF accessor: bytes to numbers. What strays was refused before (engine/assets/models/gltf_document.h).
+// Elements of a glTF accessor: bytes to numbers. What strays was refused before (engine/assets/models/gltf/gltf_document.h).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "engine/assets/models/gltf_document.h"
+#include "engine/assets/models/gltf/gltf_document.h"
 
 #include <fmt/format.h>
 

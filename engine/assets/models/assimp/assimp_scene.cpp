@@ -1,4 +1,4 @@
-#include "engine/assets/models/assimp_scene.h"
+#include "engine/assets/models/assimp/assimp_scene.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
@@ -9,9 +9,9 @@
 #include <map>
 #include <memory>
 
-#include "engine/assets/models/gltf_nodes.h"
-#include "engine/assets/models/mesh_builder.h"
-#include "engine/assets/models/texture_pool.h"
+#include "engine/assets/models/parts/decompose.h"
+#include "engine/assets/models/parts/mesh_builder.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 

@@ -1,4 +1,4 @@
-#include "engine/assets/models/texture_pool.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "engine/assets/models/gltf_materials.h"
+#include "engine/assets/models/gltf/gltf_materials.h"
 
 #include <fmt/format.h>
 

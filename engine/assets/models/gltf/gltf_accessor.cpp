@@ -1,4 +1,4 @@
-#include "engine/assets/models/gltf_accessor.h"
+#include "engine/assets/models/gltf/gltf_accessor.h"
 
 #include <algorithm>
 #include <cstring>

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/models/gltf_accessor.h"
-#include "engine/assets/models/model.h"
-#include "engine/assets/models/model_files.h"
+#include "engine/assets/model.h"
+#include "engine/assets/models/gltf/gltf_accessor.h"
+#include "engine/assets/models/parts/model_files.h"
 #include "engine/base/json/dom.h"
 
 namespace weft::assets {

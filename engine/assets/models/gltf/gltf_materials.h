@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/models/gltf_document.h"
-#include "engine/assets/models/texture_pool.h"
+#include "engine/assets/models/gltf/gltf_document.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/assets/models/gltf_document.h"
+#include "engine/assets/models/gltf/gltf_document.h"
 
 namespace weft::assets {
 
@@ -13,9 +13,6 @@ struct GltfNodes {
   std::vector<std::uint32_t> rowOf;  // the file's index to the row
   std::vector<bool> shown;           // by the file's index: in the scene that is shown
 };
-
-// Translation, rotation and scale of a matrix without shear; false when it has none.
-bool decompose(const Matrix4& matrix, ModelNode& node);
 
 // False after errors: a node that is its own ancestor, that has two parents, an index that is none.
 bool readGltfNodes(GltfDocument& document, Model& model, GltfNodes& nodes);

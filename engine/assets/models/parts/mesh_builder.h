@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/models/model.h"
+#include "engine/assets/model.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::assets {
@@ -42,9 +42,5 @@ class MeshBuilder {
 
 // Turns the triangles of instances round whose node mirrors, in a copy of the mesh that shares its vertices.
 void windMirrored(Model& model);
-
-// The node's place in the model, by walking up.
-Matrix4 matrixOf(const ModelNode& node);
-Matrix4 multiply(const Matrix4& a, const Matrix4& b);
 
 }  // namespace weft::assets

@@ -1,4 +1,4 @@
-#include "engine/assets/models/gltf.h"
+#include "engine/assets/models/gltf/gltf.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <map>
 #include <tuple>
 
-#include "engine/assets/models/gltf_materials.h"
-#include "engine/assets/models/gltf_nodes.h"
-#include "engine/assets/models/mesh_builder.h"
+#include "engine/assets/models/gltf/gltf_materials.h"
+#include "engine/assets/models/gltf/gltf_nodes.h"
+#include "engine/assets/models/parts/mesh_builder.h"
 
 namespace weft::assets {
 

@@ -3,8 +3,8 @@
 // cameras and lights. Does not: stray, whatever the file says. Internal to the folder.
 #pragma once
 
-#include "engine/assets/models/model.h"
-#include "engine/assets/models/model_files.h"
+#include "engine/assets/model.h"
+#include "engine/assets/models/parts/model_files.h"
 
 namespace weft::assets {
 

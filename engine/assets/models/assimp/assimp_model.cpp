@@ -1,4 +1,4 @@
-#include "engine/assets/models/assimp_model.h"
+#include "engine/assets/models/assimp/assimp_model.h"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -9,10 +9,10 @@
 #include <cctype>
 #include <filesystem>
 
-#include "engine/assets/models/assimp_io.h"
-#include "engine/assets/models/assimp_scene.h"
-#include "engine/assets/models/mesh_builder.h"
-#include "engine/assets/models/model_check.h"
+#include "engine/assets/models/assimp/assimp_io.h"
+#include "engine/assets/models/assimp/assimp_scene.h"
+#include "engine/assets/models/assimp/model_check.h"
+#include "engine/assets/models/parts/mesh_builder.h"
 #include "engine/base/limit_report.h"
 
 namespace weft::assets {

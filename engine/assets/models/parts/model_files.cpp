@@ -1,4 +1,4 @@
-#include "engine/assets/models/model_files.h"
+#include "engine/assets/models/parts/model_files.h"
 
 #include <fmt/format.h>
 
