@@ -13,6 +13,15 @@ import sys
 OTHER_MEANINGS = {
     ("engine/scene/scene.cpp", "spheres"): "a draw list",
     ("engine/scene/files/scene_file.cpp", "spheres"): "a key of scene files",
+    ("engine/scene/files/scene_file.cpp", "materials"): "a key of scene files",
+    ("engine/scene/files/lights.cpp", "sun"): "a key of scene files",
+    ("engine/scene/files/lights.cpp", "lamps"): "a key of scene files",
+    ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
+    ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
+    ("engine/graph/read/overlay_apply.cpp", "name"): "a key of passes",
+    ("engine/graph/read/overlay_find.cpp", "name"): "a key of passes",
+    ("engine/graph/workload/neutral.cpp", "name"): "a key of neutral workloads",
+    ("engine/graph/workload/neutral.cpp", "height"): "a key of neutral workloads",
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')

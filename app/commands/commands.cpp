@@ -155,6 +155,9 @@ int runTypes(const Options&) {
     for (const graph::ImportArgument& argument : type.arguments)
       print(fmt::format("    {} (default {}): {}\n", argument.name, graph::toText(argument.initial),
                         argument.doc));
+    for (const graph::TableColumn& column : type.columns)
+      print(fmt::format("    .{} {}{}{}\n", column.name, column.type, column.doc.empty() ? "" : ": ",
+                        column.doc));
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-// The one translation unit that holds stb_image and stb_image_write, so that sanitizers see them too.
+// The one translation unit that holds stb_image, stb_image_write and stb_image_resize, so that sanitizers see them too.
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
@@ -10,3 +10,6 @@
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
+
+#define STB_IMAGE_RESIZE_IMPLEMENTATION
+#include <stb/stb_image_resize.h>

@@ -137,7 +137,7 @@ namespace weft::base {
   X(W183, slotTypeMismatch,          "slot and shader type do not fit")                             \
   X(W184, parameterTypeMismatch,     "parameter and shader type do not fit")                        \
   X(W185, unknownViewMember,         "unknown member of the View block")                            \
-  X(W186, notAnInstanceTable,        "storage block is no instance table")                          \
+  X(W186, notAnInstanceTable,        "storage block does not fit its table")                          \
   X(W187, undeclaredShaderInput,     "shader uses what its pass does not name")                     \
   X(W188, presentsNothing,           "graph presents nothing")                                      \
   X(W195, fileChanged,               "file changed since it was read")                              \

@@ -188,6 +188,7 @@ struct PassSpec {
   std::string list;             // draw list or ""
   std::string geometry;
   std::vector<double> geometryArguments;
+  bool meshes = false;         // as GeometryType::meshes
   std::uint32_t view = kNone;  // import index; kNone: the default camera
   std::uint16_t viewLayer = 0, viewFace = 0;
 };
@@ -197,7 +198,7 @@ struct ImportSpec {
   std::uint64_t key = 0;  // keyOf(request)
   ImportKind kind = ImportKind::texture;
   std::string name;                   // resource name in the graph, or "@environment"
-  bool instances = false;             // as ImportType::instances
+  std::vector<TableColumn> columns;   // as ImportType::columns
   bool before = false;                // as ImportType::before
   std::vector<std::string> standIns;  // names of own textures that a list of alternatives offers in its place
 };

@@ -12,4 +12,9 @@ std::uint64_t keyOf(const ImportRequest& request) {
   return key;
 }
 
+std::uint32_t elementOf(const ImportRequest& request) {
+  const bool has = !request.arguments.empty() && request.arguments.back().first == "element";
+  return has ? static_cast<std::uint32_t>(request.arguments.back().second.v[0]) : 0;
+}
+
 }  // namespace weft::graph

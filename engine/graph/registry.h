@@ -48,13 +48,22 @@ struct ImportArgument {
   bool drawList = false;  // a word that names a draw list
 };
 
+// A field of the rows of a table that shaders read as an array of structs, by name.
+struct TableColumn {
+  std::string name;  // "center"
+  std::string type;  // as GLSL spells it: "vec3"
+  std::string doc;   // with its unit
+};
+
 struct ImportType {
   std::string name;  // "environment", "spheres", "camera", "cut"
   ImportKind kind = ImportKind::texture;
   std::string doc;
   std::vector<ImportArgument> arguments;
-  bool instances = false;  // of buffers: rows of a draw list, laid out as the reading shader's block says
-  bool before = false;     // of textures: name@-1 is there, what was shown before
+  std::vector<TableColumn> columns{};  // of buffers: rows, laid out as the reading shader's block says
+  std::uint32_t array = 0;  // of textures: this many in one slot, as resources with "array"; see elementOf()
+  bool views = false;       // of buffers: its elements are views as well: @lamps[l].face[f]
+  bool before = false;      // of textures: name@-1 is there, what was shown before
   bool everyPass =
       false;  // of views: declared under the type's name, it is the view of every pass that names none
 };
@@ -68,6 +77,8 @@ struct ImportRequest {
 };
 // A hash: equal for equal requests, and another for others. By it an import is found again without comparing words.
 std::uint64_t keyOf(const ImportRequest& request);
+// Of a type with `array`: which of its textures a request stands for. Its last argument, which expansion adds; 0 without.
+std::uint32_t elementOf(const ImportRequest& request);
 
 // What is known of an import before anything runs.
 struct ImportFacts {
@@ -75,6 +86,7 @@ struct ImportFacts {
   bool fallback = false;  // the runtime has a stand-in that plain reads accept, as they accept a version zero
   Format format = Format::none;  // textures
   std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
+  bool layered = false;                      // an array texture, also with one layer
   std::uint64_t bytes = 0;                   // buffers; 0 when not yet known
   double count = 0;                          // count(x): rows of a list or buffer
   std::vector<base::Diagnostic> problems{};  // reported with the import; an error makes it unusable
@@ -90,6 +102,8 @@ struct GeometryArgument {
 struct GeometryType {
   std::string name;
   std::vector<GeometryArgument> arguments;
+  bool meshes =
+      false;  // draws the meshes of a draw list, each with its own vertices, and not one shape per sphere of it
 };
 
 struct Registry {

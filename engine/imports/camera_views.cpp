@@ -15,13 +15,10 @@ const scene::ViewData& CameraViews::view(const Frame& frame, std::uint32_t width
     cached = &cached_.back();
   }
   if (cached->frame != frame.number) {
-    const auto seen = [this](scene::CameraPose pose) {
-      if (fovDegrees_ > 0) pose.fovDegrees = fovDegrees_;
-      return pose;
-    };
     const FrameInput& input = frame.input;
-    cached->data = scene::makeView({.pose = seen(input.pose),
-                                    .previousPose = seen(input.previousPose),
+    const auto [pose, previous] = poses_ ? poses_(frame) : std::pair(input.pose, input.previousPose);
+    cached->data = scene::makeView({.pose = pose,
+                                    .previousPose = previous,
                                     .viewport = {width, height},
                                     .jitter = scene::jitterAt(input.frame, jitter_),
                                     .frame = input.frame,

@@ -1,8 +1,10 @@
-// The scene's camera through one lens and one jitter: a view per size of screen, made once a frame. Shared by what needs
-// the camera as it is, and one more per camera that a graph declares.
+// A camera through one lens and one jitter: a view per size of screen, made once a frame. Shared by what needs
+// the scene's camera as it is, and one more per camera that a graph declares.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "engine/imports/frame.h"
@@ -12,9 +14,11 @@ namespace weft::imports {
 
 class CameraViews {
  public:
-  // `jitter`: length of the sub-pixel sequence, 0 for none. `fovDegrees`: 0 for the scene's.
-  explicit CameraViews(std::uint32_t jitter = 0, double fovDegrees = 0)
-      : jitter_(jitter), fovDegrees_(fovDegrees) {}
+  // Where it stands in a frame, and where in the one before.
+  using Poses = std::function<std::pair<scene::CameraPose, scene::CameraPose>(const Frame&)>;
+  // `jitter`: length of the sub-pixel sequence, 0 for none. `poses`: empty for the scene's camera.
+  explicit CameraViews(std::uint32_t jitter = 0, Poses poses = {})
+      : jitter_(jitter), poses_(std::move(poses)) {}
   // Valid until the next call.
   const scene::ViewData& view(const Frame& frame, std::uint32_t width, std::uint32_t height);
 
@@ -25,7 +29,7 @@ class CameraViews {
     scene::ViewData data;
   };
   std::uint32_t jitter_;
-  double fovDegrees_;
+  Poses poses_;
   std::vector<Cached> cached_;
 };
 

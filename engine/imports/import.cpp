@@ -4,12 +4,12 @@
 
 namespace weft::imports {
 
-BufferRef Provider::buffer(const Frame&, const InstanceLayout&, base::Diagnostics&) {
+BufferRef Provider::buffer(const Frame&, const RowLayout&, base::Diagnostics&) {
   return {};
 }
 
-const scene::ViewData& Provider::view(const Frame& frame, std::uint32_t width, std::uint32_t height) {
-  return frame.camera.view(frame, width, height);
+const scene::ViewData& Provider::view(const Frame& frame, const ViewPart& part) {
+  return frame.camera.view(frame, part.width, part.height);
 }
 
 graph::ImportFacts Import::facts(const graph::ImportRequest&, const WorldFacts&, Files&) const {

@@ -12,13 +12,19 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/graph/registry.h"
 #include "engine/imports/frame.h"
-#include "engine/imports/instance_layout.h"
+#include "engine/imports/row_layout.h"
 #include "engine/imports/world.h"
 #include "engine/scene/camera.h"
 
 namespace weft::imports {
 
 class Files;
+
+// What a pass looks from: `@lamps[element].face[face]`, in a picture of width x height pixels.
+struct ViewPart {
+  std::uint32_t width = 1, height = 1;
+  std::uint16_t element = 0, face = 0;
+};
 
 // What one request (a type and its arguments) stands for, on one device. Most types give one of texture(), buffer() and
 // view(), as their ImportKind says; events give a generation alone. Called within a frame where a Frame is an argument.
@@ -28,10 +34,10 @@ class Provider {
 
   // What is newest. Id 0: there is nothing.
   virtual gl::TextureRef texture(const Frame&, base::Diagnostics&) { return {}; }
-  // `layout` is for types that reflect `instances`: how the reading shader lays a row out.
-  virtual BufferRef buffer(const Frame&, const InstanceLayout& layout, base::Diagnostics&);
+  // `layout` is for types that reflect `columns`: how the reading shader lays a row out.
+  virtual BufferRef buffer(const Frame&, const RowLayout& layout, base::Diagnostics&);
   // Valid until the next call.
-  virtual const scene::ViewData& view(const Frame& frame, std::uint32_t width, std::uint32_t height);
+  virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part);
   // Moves whenever what it stands for changed; passes that are `on_change` run then, and histories that it resets begin
   // again. Unless overridden: in every frame.
   virtual std::uint64_t generation(const Frame& frame) { return frame.number; }

@@ -7,7 +7,13 @@
 #include "engine/imports/cut/cut.h"
 #include "engine/imports/draw_order/draw_order.h"
 #include "engine/imports/environment/environment.h"
+#include "engine/imports/joints/joints.h"
+#include "engine/imports/lamps/lamps.h"
+#include "engine/imports/material_maps/material_maps.h"
+#include "engine/imports/materials/materials.h"
+#include "engine/imports/meshes/meshes.h"
 #include "engine/imports/spheres/spheres.h"
+#include "engine/imports/sun/sun.h"
 
 namespace weft::imports {
 
@@ -16,6 +22,12 @@ ImportRegistry ImportRegistry::builtin() {
   registry.add(std::make_unique<Environment>());
   registry.add(std::make_unique<Spheres>());
   registry.add(std::make_unique<DrawOrder>());
+  registry.add(std::make_unique<Meshes>());
+  registry.add(std::make_unique<Materials>());
+  registry.add(std::make_unique<MaterialMaps>());
+  registry.add(std::make_unique<Joints>());
+  registry.add(std::make_unique<Sun>());
+  registry.add(std::make_unique<Lamps>());
   registry.add(std::make_unique<Camera>());
   registry.add(std::make_unique<CubeLut>());
   registry.add(std::make_unique<Cut>());

@@ -4,6 +4,32 @@
 
 namespace weft::imports {
 
+std::span<const graph::TableColumn> sphereColumns() {
+  static const std::vector<graph::TableColumn> columns = {{"center", "vec3", "world"},
+                                                          {"radius", "float", "world units"},
+                                                          {"previous_center", "vec3", "of the frame before"},
+                                                          {"roughness", "float", "perceptual"},
+                                                          {"albedo", "vec3", "linear; F0 of a metal"},
+                                                          {"metallic", "float", "0 to 1"}};
+  return columns;
+}
+
+std::span<const graph::TableColumn> meshColumns() {
+  static const std::vector<graph::TableColumn> columns = {
+      {"transform", "mat4", "model to world"},
+      {"previous_transform", "mat4", "of the frame before"},
+      {"material", "uint", "row of @materials"},
+      {"first_joint", "uint", "of @joints; of a mesh whose weights are not 0"}};
+  return columns;
+}
+
+SceneTables::SceneTables() {
+  for (const std::string& name : scene::drawListNames()) {
+    sphereTables_.emplace_back(name);
+    meshTables_.emplace_back(name + " meshes");
+  }
+}
+
 void SceneTables::beginFrame(const World& world, const FrameInput& input, std::uint64_t number) {
   world_ = &world;
   input_ = &input;
@@ -38,31 +64,55 @@ const std::vector<scene::Instance>& SceneTables::rows(scene::DrawList list) {
   return mine.rows;
 }
 
-BufferRef SceneTables::table(scene::DrawList list, const InstanceLayout& layout,
-                             base::Diagnostics& diagnostics) {
-  Table* table = nullptr;
-  for (auto& each : tables_)
-    if (each->list == list && each->layout == layout) table = each.get();
-  if (!table) {
-    tables_.push_back(std::make_unique<Table>());
-    table = tables_.back().get();
-    table->list = list;
-    table->layout = layout;
-  }
-  const std::uint64_t wanted = generation(list);
-  if (table->generation != wanted) {
-    writeInstances(layout, rows(list), bytes_);
-    if (bytes_.empty()) bytes_.assign(std::max(layout.stride, 16u), std::byte{0});
-    if (!table->buffer || table->buffer.bytes() != bytes_.size()) {
-      auto buffer = gl::Buffer::create(bytes_.size(), GL_DYNAMIC_STORAGE_BIT,
-                                       scene::drawListNames()[static_cast<std::size_t>(list)], diagnostics);
-      if (!buffer) return {};
-      table->buffer = std::move(*buffer);
+BufferRef SceneTables::spheres(scene::DrawList list, const RowLayout& layout,
+                               base::Diagnostics& diagnostics) {
+  const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
+    const std::vector<scene::Instance>& all = rows(list);
+    RowWriter writer(wanted, all.size(), bytes);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      writer.put(i, 0, all[i].center);
+      writer.put(i, 1, all[i].radius);
+      writer.put(i, 2, all[i].previous_center);
+      writer.put(i, 3, all[i].roughness);
+      writer.put(i, 4, all[i].albedo);
+      writer.put(i, 5, all[i].metallic);
     }
-    gl::uploadBuffer(table->buffer.id(), 0, bytes_);
-    table->generation = wanted;
+  };
+  return sphereTables_[static_cast<std::size_t>(list)].get(layout, generation(list), fill, diagnostics);
+}
+
+const scene::MeshFrame& SceneTables::meshFrame() {
+  if (meshFrameNumber_ != number_) {
+    meshFrame_.update(world_->scene(), world_->sceneGeneration(), input_->time,
+                      input_->time - input_->deltaTime);
+    meshFrameNumber_ = number_;
   }
-  return {table->buffer.id(), table->buffer.bytes()};
+  return meshFrame_;
+}
+
+std::uint64_t SceneTables::meshGeneration(scene::DrawList list) {
+  return meshFrame().generation(list);
+}
+
+BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics) {
+  const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
+    const std::span<const scene::MeshRow> all = meshFrame().rows(list);
+    RowWriter writer(wanted, all.size(), bytes);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      writer.put(i, 0, all[i].transform);
+      writer.put(i, 1, all[i].previous_transform);
+      writer.put(i, 2, all[i].material);
+      writer.put(i, 3, all[i].first_joint);
+    }
+  };
+  return meshTables_[static_cast<std::size_t>(list)].get(layout, meshGeneration(list), fill, diagnostics);
+}
+
+MeshDraw SceneTables::draw(MeshPass& pass, scene::DrawList list, const scene::ViewData& view,
+                           base::Diagnostics& diagnostics) {
+  const scene::MeshFrame& frame = meshFrame();
+  if (!meshBuffers_.renew(world_->scene(), world_->sceneGeneration(), diagnostics)) return {};
+  return pass.draw(world_->scene(), meshBuffers_, frame, list, view, diagnostics);
 }
 
 }  // namespace weft::imports

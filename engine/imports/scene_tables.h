@@ -1,30 +1,52 @@
-// The rows of the draw lists, on the CPU and as tables on the device, one per list and layout: made on first use and
-// renewed when the scene changed or moves. Shared by every provider of a device.
+// The scene on the CPU and on the device at the time of a frame: the rows of the draw lists, as tables and as what to draw,
+// made on first use and renewed when the scene changed or moves. Shared by every provider of a device.
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/gl/objects/objects.h"
+#include "engine/graph/registry.h"
 #include "engine/imports/frame.h"
-#include "engine/imports/instance_layout.h"
+#include "engine/imports/material_textures.h"
+#include "engine/imports/mesh_draws.h"
+#include "engine/imports/row_layout.h"
+#include "engine/imports/row_table.h"
 #include "engine/imports/world.h"
+#include "engine/scene/frame/mesh_frame.h"
 #include "engine/scene/scene.h"
 
 namespace weft::imports {
 
+// Of the rows of a list's spheres, and of its meshes.
+std::span<const graph::TableColumn> sphereColumns();
+std::span<const graph::TableColumn> meshColumns();
+
 class SceneTables {
  public:
+  SceneTables();
   // Both must live until the next call.
   void beginFrame(const World& world, const FrameInput& input, std::uint64_t number);
 
-  BufferRef table(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics);
+  // The spheres of a draw list.
+  BufferRef spheres(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics);
   const std::vector<scene::Instance>& rows(scene::DrawList list);
   std::uint32_t countOf(scene::DrawList list);
   // Moves when a row may be another.
   std::uint64_t generation(scene::DrawList list);
+
+  // Its meshes.
+  BufferRef meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics);
+  std::uint64_t meshGeneration(scene::DrawList list);
+  // What of them `view` sees, for a draw with the vertices of `draw`.
+  MeshDraw draw(MeshPass& pass, scene::DrawList list, const scene::ViewData& view,
+                base::Diagnostics& diagnostics);
+  const scene::MeshFrame& meshFrame();
+  std::uint64_t jointGeneration() { return meshFrame().jointsGeneration(); }
+  scene::Box bounds() { return meshFrame().sceneBounds(); }  // of everything, world
+
+  MaterialTextures& textures() { return textures_; }
 
  private:
   // What is asked of a draw list several times a frame; looking at every sphere each time would cost with a million.
@@ -37,12 +59,6 @@ class SceneTables {
     std::vector<scene::Instance> rows;
     std::uint64_t generation = 0;
   };
-  struct Table {
-    scene::DrawList list{};
-    InstanceLayout layout;
-    gl::Buffer buffer;
-    std::uint64_t generation = 0;
-  };
   const ListFacts& factsOf(scene::DrawList list);
 
   const World* world_ = nullptr;
@@ -50,8 +66,11 @@ class SceneTables {
   std::uint64_t number_ = 0;
   ListFacts facts_[scene::kDrawListCount];
   Rows rows_[scene::kDrawListCount];
-  std::vector<std::unique_ptr<Table>> tables_;
-  std::vector<std::byte> bytes_;
+  std::vector<RowTable> sphereTables_, meshTables_;  // per draw list
+  scene::MeshFrame meshFrame_;
+  std::uint64_t meshFrameNumber_ = 0;
+  MeshBuffers meshBuffers_;
+  MaterialTextures textures_;
 };
 
 }  // namespace weft::imports

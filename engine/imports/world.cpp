@@ -1,7 +1,10 @@
 #include "engine/imports/world.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
+
+#include "engine/imports/material_textures.h"
 
 namespace weft::imports {
 
@@ -10,12 +13,19 @@ double WorldFacts::countOf(std::string_view list) const {
   return found == lists.end() ? 0 : static_cast<double>(found->count);
 }
 
+double WorldFacts::meshesOf(std::string_view list) const {
+  const auto found = std::ranges::find(lists, list, &List::name);
+  return found == lists.end() ? 0 : static_cast<double>(found->meshes);
+}
+
 bool operator==(const WorldFacts& a, const WorldFacts& b) {
   const auto same = [](const WorldFacts::List& x, const WorldFacts::List& y) {
-    return x.name == y.name && x.count == y.count;
+    return x.name == y.name && x.count == y.count && x.meshes == y.meshes;
   };
   return a.environment == b.environment && a.environmentWidth == b.environmentWidth &&
-         a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same);
+         a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same) &&
+         a.materials == b.materials && a.maps == b.maps && a.skins == b.skins && a.sun == b.sun &&
+         a.lamps == b.lamps && a.castingLamps == b.castingLamps && a.cameras == b.cameras;
 }
 
 World::World(scene::Scene scene) : scene_(std::move(scene)) {}
@@ -51,9 +61,24 @@ WorldFacts World::facts() const {
   }
   for (int i = 0; i < scene::kDrawListCount; ++i) {
     const auto list = static_cast<scene::DrawList>(i);
-    facts.lists.push_back(
-        {scene::drawListNames()[static_cast<std::size_t>(i)], scene::countInstances(scene_, list)});
+    facts.lists.push_back({scene::drawListNames()[static_cast<std::size_t>(i)],
+                           scene::countInstances(scene_, list), scene::countMeshInstances(scene_, list)});
   }
+  facts.materials = scene_.materials.size();
+  for (const MaterialArray& array : batchTextures(scene_)) {
+    WorldFacts::Maps& maps = facts.maps;
+    ++maps.arrays;
+    maps.width = std::max(maps.width, array.width);
+    maps.height = std::max(maps.height, array.height);
+    maps.layers = std::max(maps.layers, static_cast<std::uint32_t>(array.textures.size()));
+    maps.mips = static_cast<std::uint32_t>(std::bit_width(std::max(maps.width, maps.height)));
+  }
+  facts.skins = scene_.skins.size();
+  facts.sun = scene_.sun.has_value();
+  facts.lamps = static_cast<std::uint32_t>(scene_.lamps.size());
+  facts.castingLamps =
+      static_cast<std::uint32_t>(std::ranges::count_if(scene_.lamps.rows(), &scene::Lamp::shadow));
+  for (const scene::Camera& camera : scene_.cameras.rows()) facts.cameras.push_back(camera.name);
   return facts;
 }
 

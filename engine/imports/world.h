@@ -22,11 +22,22 @@ struct WorldFacts {
   bool environment = false;  // one was loaded, or is on its way
   std::uint32_t environmentWidth = 1024, environmentHeight = 512;
   struct List {
-    std::string name;  // draw list: "spheres"
-    std::uint64_t count = 0;
+    std::string name;         // draw list: "spheres"
+    std::uint64_t count = 0;  // spheres
+    std::uint64_t meshes = 0;
   };
   std::vector<List> lists;
-  double countOf(std::string_view list) const;  // 0 for one that is not there
+  std::uint64_t materials = 0;
+  struct Maps {  // the arrays that materials' textures are batched in: how many, and the greatest of each
+    std::uint32_t arrays = 0, width = 1, height = 1, layers = 1, mips = 1;
+    friend bool operator==(const Maps&, const Maps&) = default;
+  } maps;
+  std::uint64_t skins = 0;
+  bool sun = false;
+  std::uint32_t lamps = 0, castingLamps = 0;  // all; those with a shadow
+  std::vector<std::string> cameras;
+  double countOf(std::string_view list) const;  // spheres; 0 for a list that is not there
+  double meshesOf(std::string_view list) const;
   friend bool operator==(const WorldFacts&, const WorldFacts&);
 };
 

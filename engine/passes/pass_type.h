@@ -26,6 +26,7 @@ struct Geometry {
   GLenum mode = GL_TRIANGLES;
   GLsizei count = 0;  // indices, or vertices when indexType is 0
   GLenum indexType = 0;
+  GLuint commands = 0;  // a buffer of `count` commands for glMultiDrawElementsIndirect instead
 };
 
 struct PassContext {

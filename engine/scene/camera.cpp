@@ -79,11 +79,25 @@ glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane, 
   return projection;
 }
 
+glm::dmat4 orthographicMatrix(double height, double aspect, double nearPlane, double reach,
+                              glm::dvec2 jitterNdc) {
+  assert(height > 0 && aspect > 0 && reach > 0);
+  glm::dmat4 projection(1);
+  projection[0][0] = 2 / (height * aspect);
+  projection[1][1] = 2 / height;
+  projection[2][2] = 1 / reach;
+  projection[3] = {jitterNdc.x, jitterNdc.y, (nearPlane + reach) / reach, 1};
+  return projection;
+}
+
 ViewData makeView(const ViewRequest& request) {
   assert(request.viewport.x > 0 && request.viewport.y > 0);
   const glm::dvec2 size(request.viewport);
   const glm::dvec2 jitter = glm::dvec2(request.jitter) * 2.0 / size;
   const auto projectionOf = [&](const CameraPose& pose) {
+    if (pose.height > 0)
+      return orthographicMatrix(pose.height, size.x / size.y, pose.nearPlane,
+                                kOrthographicReach * pose.height, jitter);
     return projectionMatrix(pose.fovDegrees, size.x / size.y, pose.nearPlane, jitter);
   };
   const glm::dmat4 view = viewMatrix(request.pose), projection = projectionOf(request.pose);

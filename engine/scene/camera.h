@@ -18,8 +18,12 @@ struct CameraPose {
   glm::dvec3 target{0, 0, 0};  // differs from position
   double fovDegrees = 60;      // vertical, over 0 and under 180
   double nearPlane = 0.1;      // world units, over 0
+  double height = 0;  // over 0: orthographic, this many world units high, and kOrthographicReach of them deep
   friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
+
+// Depth of an orthographic view behind its near plane, in heights of its picture.
+constexpr double kOrthographicReach = 100;
 
 struct CameraKey {
   double time = 0;  // seconds, ascending within a path
@@ -71,6 +75,9 @@ glm::dmat4 viewMatrix(
     const CameraPose& pose);  // straight down shows -Z upwards, straight up shows +Z upwards
 glm::dmat4 projectionMatrix(double fovDegrees, double aspect, double nearPlane,
                             glm::dvec2 jitterNdc = {0, 0});
+// Depth 1 at `nearPlane`, 0 at nearPlane + reach.
+glm::dmat4 orthographicMatrix(double height, double aspect, double nearPlane, double reach,
+                              glm::dvec2 jitterNdc = {0, 0});
 
 // The angle of view, degrees, of a lens of this focal length before a sensor of this height, both in one unit
 // and over 0.

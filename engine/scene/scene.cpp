@@ -52,6 +52,15 @@ bool isMoving(const Scene& scene, DrawList list) {
   });
 }
 
+bool isMoving(const Scene& scene) {
+  return scene.animations.size() > 0 ||
+         std::ranges::any_of(scene.spheres.rows(),
+                             [](const Sphere& s) { return s.velocity != glm::vec3(0); }) ||
+         std::ranges::any_of(scene.nodes.rows(), [](const Node& n) {
+           return n.velocity != glm::vec3(0) || n.spin != glm::vec3(0);
+         });
+}
+
 void fillInstances(const Scene& scene, DrawList list, double time, double previousTime,
                    std::vector<Instance>& out) {
   out.clear();

@@ -82,6 +82,7 @@ std::size_t countInstances(const Scene& scene, DrawList list);      // spheres
 std::size_t countMeshInstances(const Scene& scene, DrawList list);  // mesh instances
 // Whether the list's spheres differ from one time to another.
 bool isMoving(const Scene& scene, DrawList list);
+bool isMoving(const Scene& scene);  // any sphere or node
 // Replaces `out` by the list's instances in table order. Linear in spheres; reuses the capacity of `out`.
 void fillInstances(const Scene& scene, DrawList list, double time, double previousTime,
                    std::vector<Instance>& out);

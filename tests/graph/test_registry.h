@@ -128,7 +128,7 @@ inline Registry testRegistry(const World& world = {}) {
   registry.drawLists = {"spheres", "opaque", "shadow_casters", "transparent_spheres", "ui"};
   registry.geometries = {{"quad", {}},
                          {"icosphere", {{"subdivision", 0, 6, 2}}},
-                         {"mesh", {}},
+                         {"mesh", {}, true},
                          {"octagon", {}},
                          {"triangle", {}}};
   registry.factsOf = [world](const ImportRequest& request) { return testFacts(world, request); };

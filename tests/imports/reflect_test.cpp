@@ -67,7 +67,8 @@ TEST_CASE(
     }
     CHECK(importOf(type.name).provide(requestOf(type.name)));
   }
-  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "spheres"});
+  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "joints",
+                                       "lamps", "material_maps", "materials", "meshes", "spheres", "sun"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -92,7 +93,7 @@ TEST_CASE(
 TEST_CASE("spheres are a table of instances, as many as the world's list has") {
   const graph::ImportType type = importOf("spheres").reflect();
   CHECK(type.kind == ImportKind::buffer);
-  CHECK(type.instances);
+  CHECK(type.columns.size() == 6);
   CHECK(type.arguments.empty());
   CHECK(factsOf(requestOf("spheres"), {.lists = {{"opaque", 3}, {"spheres", 7}}}).count == 7);
   CHECK(factsOf(requestOf("spheres"), {}).count == 0);
@@ -101,7 +102,7 @@ TEST_CASE("spheres are a table of instances, as many as the world's list has") {
 TEST_CASE("a draw order has eight bytes per instance of the list that it names, and room for one") {
   const graph::ImportType type = importOf("draw_order").reflect();
   CHECK(type.kind == ImportKind::buffer);
-  CHECK_FALSE(type.instances);
+  CHECK(type.columns.empty());
   const auto lists = std::ranges::count_if(type.arguments, &graph::ImportArgument::drawList);
   CHECK(lists == 1);
   const WorldFacts world{.lists = {{"spheres", 7}, {"opaque", 3}}};
@@ -117,7 +118,8 @@ TEST_CASE("the camera is the one view of every pass; a lens and a jitter are its
   CHECK(type.everyPass);
   std::vector<std::string> names;
   for (const auto& argument : type.arguments) names.push_back(argument.name);
-  CHECK(names == std::vector<std::string>{"jitter", "focal_length", "sensor_height"});
+  CHECK(names == std::vector<std::string>{"jitter", "focal_length", "sensor_height", "name", "position",
+                                          "target", "angle", "height"});
   for (const graph::ImportType& other : registry().reflect())
     CHECK(other.everyPass == (other.name == type.name));
   CHECK(factsOf(requestOf("camera"), {}).exists);
@@ -148,12 +150,13 @@ TEST_CASE("what may differ from frame to frame says so; none of the built-in imp
   World still{scene};
   scene.spheres.add({.velocity = {1, 0, 0}, .material = {}});
   World moving{scene};
-  const std::set<std::string> always = {"environment", "cube_lut", "cut"};
+  const std::set<std::string> always = {"environment", "cube_lut",      "cut",      "joints",
+                                        "lamps",       "material_maps", "materials"};
   for (const graph::ImportType& type : registry().reflect()) {
     CAPTURE(type.name);
     const auto provider = importOf(type.name).provide(requestOf(type.name));
     CHECK(provider->isStill(moving) == always.contains(type.name));
-    CHECK(provider->isStill(still) == (always.contains(type.name) || type.instances));
+    CHECK(provider->isStill(still) == (always.contains(type.name) || !type.columns.empty()));
     CHECK_FALSE(provider->remembers(moving));
   }
 }

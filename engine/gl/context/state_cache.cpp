@@ -30,7 +30,7 @@ void StateCache::forget() {
   std::ranges::fill(samplers_, std::nullopt);
   std::ranges::fill(images_, std::nullopt);
   forgetBuffers();
-  scissorTest_ = depthTest_ = cull_ = offsetFill_ = depthMask_ = colorMask_ = std::nullopt;
+  scissorTest_ = depthTest_ = cull_ = srgb_ = offsetFill_ = depthMask_ = colorMask_ = std::nullopt;
   viewport_ = std::nullopt;
   scissor_ = std::nullopt;
   depthFunc_ = cullFace_ = polygonMode_ = std::nullopt;
@@ -79,10 +79,11 @@ void StateCache::bindVertexArray(GLuint vertexArray) {
 }
 
 void StateCache::enable(GLenum capability, bool on) {
-  std::optional<bool>& known = capability == GL_SCISSOR_TEST ? scissorTest_
-                               : capability == GL_DEPTH_TEST ? depthTest_
-                               : capability == GL_CULL_FACE  ? cull_
-                                                             : offsetFill_;
+  std::optional<bool>& known = capability == GL_SCISSOR_TEST       ? scissorTest_
+                               : capability == GL_DEPTH_TEST       ? depthTest_
+                               : capability == GL_CULL_FACE        ? cull_
+                               : capability == GL_FRAMEBUFFER_SRGB ? srgb_
+                                                                   : offsetFill_;
   assert(&known != &offsetFill_ || capability == GL_POLYGON_OFFSET_FILL);
   if (!takes(known, on)) return;
   if (on)

@@ -28,7 +28,7 @@ class StateCache {
   void bindFramebuffer(GLuint framebuffer);
   void bindVertexArray(GLuint vertexArray);
 
-  // GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL
+  // GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL, GL_FRAMEBUFFER_SRGB
   void enable(GLenum capability, bool on);
   void viewport(GLsizei width, GLsizei height);
   void scissor(GLint y, GLsizei width, GLsizei height);
@@ -73,7 +73,7 @@ class StateCache {
   std::vector<std::optional<GLuint>> textures_, samplers_;
   std::vector<std::optional<Image>> images_;
   std::vector<std::optional<Range>> uniformBuffers_, storageBuffers_;
-  std::optional<bool> scissorTest_, depthTest_, cull_, offsetFill_, depthMask_, colorMask_;
+  std::optional<bool> scissorTest_, depthTest_, cull_, srgb_, offsetFill_, depthMask_, colorMask_;
   std::optional<std::array<GLsizei, 2>> viewport_;
   std::optional<std::array<GLint, 3>> scissor_;
   std::optional<GLenum> depthFunc_, cullFace_, polygonMode_;

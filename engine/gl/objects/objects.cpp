@@ -147,9 +147,11 @@ VertexArray VertexArray::create(std::string_view label) {
   return array;
 }
 
-void VertexArray::setVertices(GLuint buffer, std::uint64_t offset, std::uint32_t stride,
-                              std::span<const VertexAttribute> attributes) {
-  glVertexArrayVertexBuffer(id_, 0, buffer, static_cast<GLintptr>(offset), static_cast<GLsizei>(stride));
+void VertexArray::setVertices(GLuint binding, GLuint buffer, std::uint64_t offset, std::uint32_t stride,
+                              std::span<const VertexAttribute> attributes, GLuint divisor) {
+  glVertexArrayVertexBuffer(id_, binding, buffer, static_cast<GLintptr>(offset),
+                            static_cast<GLsizei>(stride));
+  glVertexArrayBindingDivisor(id_, binding, divisor);
   for (const VertexAttribute& attribute : attributes) {
     glEnableVertexArrayAttrib(id_, attribute.location);
     if (attribute.integer)
@@ -158,8 +160,12 @@ void VertexArray::setVertices(GLuint buffer, std::uint64_t offset, std::uint32_t
     else
       glVertexArrayAttribFormat(id_, attribute.location, attribute.components, attribute.type, GL_FALSE,
                                 attribute.offset);
-    glVertexArrayAttribBinding(id_, attribute.location, 0);
+    glVertexArrayAttribBinding(id_, attribute.location, binding);
   }
+}
+
+void VertexArray::disable(std::span<const VertexAttribute> attributes) {
+  for (const VertexAttribute& attribute : attributes) glDisableVertexArrayAttrib(id_, attribute.location);
 }
 
 void VertexArray::setIndices(GLuint buffer) {

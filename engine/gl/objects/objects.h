@@ -183,9 +183,11 @@ struct VertexAttribute {
 class VertexArray : public Owner<ObjectKind::vertex_array> {
  public:
   static VertexArray create(std::string_view label);
-  // All attributes from one interleaved buffer binding; indices may be 0. The buffers are not owned.
-  void setVertices(GLuint buffer, std::uint64_t offset, std::uint32_t stride,
-                   std::span<const VertexAttribute> attributes);
+  // Attributes from one interleaved buffer, at binding point `binding`; `divisor` 1: one element per instance. Indices may be
+  // 0. The buffers are not owned.
+  void setVertices(GLuint binding, GLuint buffer, std::uint64_t offset, std::uint32_t stride,
+                   std::span<const VertexAttribute> attributes, GLuint divisor = 0);
+  void disable(std::span<const VertexAttribute> attributes);
   void setIndices(GLuint buffer);
 
  private:

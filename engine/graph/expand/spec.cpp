@@ -348,6 +348,7 @@ class SpecFiller {
     const auto& types = model_.registry.geometries;
     const auto type = std::ranges::find(types, desc_.geometry, &GeometryType::name);
     if (type == types.end()) return;
+    spec_.meshes = type->meshes;
     for (std::size_t i = 0; i < type->arguments.size(); ++i) {
       const GeometryArgument& argument = type->arguments[i];
       std::optional<std::int64_t> value = argument.initial;

@@ -96,6 +96,10 @@ void checkLists(const Stanza& stanza) {
         .error(Code::unknownGeometry, desc.geometryPlace,
                fmt::format("draws the unknown geometry '{}'", desc.geometry))
         .hint = base::nearestHint(desc.geometry, names);
+  } else if (geometry->meshes && desc.list.empty()) {
+    auto& d = stanza.error(Code::keyNeeded, desc.geometryPlace,
+                           fmt::format("draws '{}' of no list", desc.geometry));
+    d.expected = "\"list\": the draw list whose meshes are drawn";
   } else if (desc.geometryArguments.size() > geometry->arguments.size()) {
     auto& d = stanza.error(Code::numberOutOfRange, desc.geometryPlace,
                            fmt::format("gives '{}' too many arguments", desc.geometry));

@@ -6,6 +6,16 @@
 
 namespace weft::graph::expansion {
 
+namespace {
+
+bool givesViews(const Model& model, std::uint32_t import) {
+  const ImportSpec& spec = model.graph.imports[import];
+  const ImportType* type = findImportType(model.registry, spec.request.type);
+  return spec.kind == ImportKind::view || (type && type->views);
+}
+
+}  // namespace
+
 std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spec) {
   Model& model = context.model;
   if (!desc.view) {
@@ -32,11 +42,10 @@ std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassD
                                            context.user + " is seen from the", context.pass);
   if (found == kNone || !ensureShape(model, found)) return std::nullopt;
   const Entity& entity = model.entities[found];
-  if (entity.kind != ResourceDesc::Kind::import ||
-      model.graph.imports[entity.import].kind != ImportKind::view) {
+  if (entity.kind != ResourceDesc::Kind::import || !givesViews(model, entity.import)) {
     std::string views;
     for (const ImportType& type : model.registry.imports)
-      if (type.kind == ImportKind::view) views += (views.empty() ? "@" : ", @") + type.name;
+      if (type.kind == ImportKind::view || type.views) views += (views.empty() ? "@" : ", @") + type.name;
     return fail(Code::notAView, fmt::format("is seen from '{}', which is no view", ref.text),
                 "a view: " + views, "");
   }

@@ -1,7 +1,10 @@
 #include "engine/imports/camera/camera.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "engine/base/nearest.h"
 #include "engine/imports/camera_views.h"
 
 namespace weft::imports {
@@ -11,21 +14,99 @@ namespace {
 using graph::Value;
 
 // In the order of reflect().
+enum Argument : std::size_t {
+  kJitter,
+  kFocalLength,
+  kSensorHeight,
+  kName,
+  kPosition,
+  kTarget,
+  kAngle,
+  kHeight
+};
+
 std::uint32_t jitterOf(const graph::ImportRequest& request) {
-  return static_cast<std::uint32_t>(std::clamp(request.arguments[0].second.v[0], 0.0, 4294967295.0));
+  return static_cast<std::uint32_t>(std::clamp(request.arguments[kJitter].second.v[0], 0.0, 4294967295.0));
 }
 
 double fovOf(const graph::ImportRequest& request) {
-  const double focal = request.arguments[1].second.v[0];
-  const double sensor = std::clamp(request.arguments[2].second.v[0], 1e-3, 1e5);
-  return focal > 0 ? scene::fovOfLens(std::clamp(focal, 0.01 * sensor, 1e4 * sensor), sensor) : 0;
+  const double focal = request.arguments[kFocalLength].second.v[0];
+  const double sensor = std::clamp(request.arguments[kSensorHeight].second.v[0], 1e-3, 1e5);
+  if (focal > 0) return scene::fovOfLens(std::clamp(focal, 0.01 * sensor, 1e4 * sensor), sensor);
+  const double angle = request.arguments[kAngle].second.v[0];
+  return angle > 0 ? std::clamp(angle, 1.0, 170.0) : 0;
+}
+
+glm::dvec3 pointOf(const Value& value) {
+  return {value.v[0], value.v[1], value.v[2]};
+}
+
+// Where a graph's own camera stands; empty: where the scene's does.
+CameraViews::Poses posesOf(const graph::ImportRequest& request) {
+  const std::string name = request.arguments[kName].second.symbol;
+  const glm::dvec3 position = pointOf(request.arguments[kPosition].second);
+  const glm::dvec3 target = pointOf(request.arguments[kTarget].second);
+  const double fov = fovOf(request), height = std::max(request.arguments[kHeight].second.v[0], 0.0);
+  const bool placed = position != target;
+  if (name.empty() && !placed && fov == 0 && height == 0) return {};
+  return [=](const Frame& frame) {
+    const auto seen = [&](scene::CameraPose pose) {
+      if (placed) {
+        pose.position = position;
+        pose.target = target;
+      }
+      if (fov > 0) pose.fovDegrees = fov;
+      pose.height = height;
+      return pose;
+    };
+    const FrameInput& input = frame.input;
+    const scene::Camera* camera = name.empty() ? nullptr : scene::findCamera(frame.world.scene(), name);
+    if (!camera) return std::pair(seen(input.pose), seen(input.previousPose));
+    return std::pair(seen(scene::poseAt(*camera, input.time)),
+                     seen(scene::poseAt(*camera, input.time - input.deltaTime)));
+  };
+}
+
+std::vector<graph::ImportArgument> arguments() {
+  const Value number = Value::number(0), origin = Value{Value::Type::list, 3, {}, {}};
+  return {
+      {.name = "jitter",
+       .initial = number,
+       .choices = {},
+       .doc = "length of the sub-pixel Halton sequence; 0 for none"},
+      {.name = "focal_length",
+       .initial = number,
+       .choices = {},
+       .doc = "of its lens in mm: sets the angle of view; 0 for the scene's angle"},
+      {.name = "sensor_height",
+       .initial = Value::number(24),
+       .choices = {},
+       .doc = "mm that the picture's height stands for"},
+      {.name = "name",
+       .initial = Value::text(""),
+       .choices = {},
+       .doc = "of a camera of the scene; empty for the one that is looked through"},
+      {.name = "position",
+       .initial = origin,
+       .choices = {},
+       .doc = "world; it stands there when `target` differs"},
+      {.name = "target", .initial = origin, .choices = {}, .doc = "world; what it looks at from `position`"},
+      {.name = "angle",
+       .initial = number,
+       .choices = {},
+       .doc = "of view, vertical, degrees; 0 for the camera's"},
+      {.name = "height",
+       .initial = number,
+       .choices = {},
+       .doc = "over 0: orthographic, this many world units from bottom to top"}};
 }
 
 class CameraProvider : public Provider {
  public:
-  explicit CameraProvider(const graph::ImportRequest& request) : views_(jitterOf(request), fovOf(request)) {}
-  const scene::ViewData& view(const Frame& frame, std::uint32_t width, std::uint32_t height) override {
-    return views_.view(frame, width, height);
+  explicit CameraProvider(const graph::ImportRequest& request)
+      : views_(jitterOf(request), posesOf(request)) {}
+  const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
+    return views_.view(frame, part.width, part.height);
   }
 
  private:
@@ -37,20 +118,24 @@ class CameraProvider : public Provider {
 graph::ImportType Camera::reflect() const {
   return {.name = "camera",
           .kind = graph::ImportKind::view,
-          .doc = "The scene's camera. Declared under the name `camera` it is the view of every pass.",
-          .arguments = {{.name = "jitter",
-                         .initial = Value::number(0),
-                         .choices = {},
-                         .doc = "length of the sub-pixel Halton sequence; 0 for none"},
-                        {.name = "focal_length",
-                         .initial = Value::number(0),
-                         .choices = {},
-                         .doc = "of its lens in mm: sets the angle of view; 0 for the scene's angle"},
-                        {.name = "sensor_height",
-                         .initial = Value::number(24),
-                         .choices = {},
-                         .doc = "mm that the picture's height stands for"}},
+          .doc =
+              "The scene's camera, or one that stands elsewhere. Declared under the name `camera` it is the "
+              "view of every pass.",
+          .arguments = arguments(),
           .everyPass = true};
+}
+
+graph::ImportFacts Camera::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {
+  graph::ImportFacts facts{.exists = true};
+  const std::string& name = request.arguments[kName].second.symbol;
+  if (name.empty() || world.cameras.empty() || std::ranges::find(world.cameras, name) != world.cameras.end())
+    return facts;
+  base::Diagnostics said;
+  base::Diagnostic& d =
+      said.error(base::Code::badImportArgument, {}, fmt::format("the scene has no camera '{}'", name));
+  d.hint = base::nearestHint(name, world.cameras);
+  facts.problems = said.items();
+  return facts;
 }
 
 std::unique_ptr<Provider> Camera::provide(const graph::ImportRequest& request) const {

@@ -7,6 +7,8 @@ namespace weft::imports {
 class Camera : public Import {
  public:
   graph::ImportType reflect() const override;
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files& files) const override;
   std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override;
 };
 

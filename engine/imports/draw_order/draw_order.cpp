@@ -28,7 +28,7 @@ class DrawOrderProvider : public Provider {
   explicit DrawOrderProvider(const graph::ImportRequest& request)
       : list_(scene::findDrawList(listOf(request))), method_(scene::findSortMethod(methodOf(request))) {}
 
-  BufferRef buffer(const Frame& frame, const InstanceLayout&, base::Diagnostics& diagnostics) override {
+  BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
     if (!list_ || !method_) return {};
     if (frame_ != frame.number) {
       const scene::ViewData& view = frame.camera.view(frame, 1, 1);

@@ -10,9 +10,8 @@ constexpr scene::DrawList kList = scene::DrawList::spheres;
 
 class SpheresProvider : public Provider {
  public:
-  BufferRef buffer(const Frame& frame, const InstanceLayout& layout,
-                   base::Diagnostics& diagnostics) override {
-    return frame.tables.table(kList, layout, diagnostics);
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+    return frame.tables.spheres(kList, layout, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override { return frame.tables.generation(kList); }
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), kList); }
@@ -25,7 +24,7 @@ graph::ImportType Spheres::reflect() const {
           .kind = graph::ImportKind::buffer,
           .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
           .arguments = {},
-          .instances = true};
+          .columns = {sphereColumns().begin(), sphereColumns().end()}};
 }
 
 graph::ImportFacts Spheres::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {

@@ -14,8 +14,13 @@ graph::PassType Draw::reflect() const {
 }
 
 void Draw::execute(const PassContext& context) const {
-  if (context.instances == 0) return;
   const Geometry& geometry = context.geometry;
+  if (context.instances == 0 || geometry.count == 0) return;
+  if (geometry.commands) {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, geometry.commands);
+    glMultiDrawElementsIndirect(geometry.mode, geometry.indexType, nullptr, geometry.count, 0);
+    return;
+  }
   const auto instances = static_cast<GLsizei>(context.instances);
   if (geometry.indexType)
     glDrawElementsInstanced(geometry.mode, geometry.count, geometry.indexType, nullptr, instances);

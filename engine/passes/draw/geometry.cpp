@@ -58,7 +58,7 @@ ShapeMesh makeIcosphere(int subdivisions) {
 std::vector<graph::GeometryType> reflectGeometries() {
   const graph::GeometryArgument subdivision{
       .name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
-  return {{"quad", {}}, {"octagon", {}}, {"icosphere", {subdivision}}, {"triangle", {}}};
+  return {{"quad", {}}, {"octagon", {}}, {"icosphere", {subdivision}}, {"triangle", {}}, {"mesh", {}, true}};
 }
 
 Geometry Geometries::empty() {
@@ -103,7 +103,7 @@ Geometry Geometries::get(const std::string& name, const std::vector<double>& arg
   std::vector<gl::VertexAttribute> attributes;
   for (const GLint location : {position, normal})
     if (location >= 0) attributes.push_back({.location = static_cast<GLuint>(location), .components = 3});
-  bound.vertexArray.setVertices(mesh.vertices.id(), 0, 12, attributes);
+  bound.vertexArray.setVertices(0, mesh.vertices.id(), 0, 12, attributes);
   bound.vertexArray.setIndices(mesh.indices.id());
   geometry.vertexArray = bound.vertexArray.id();
   bound_.push_back(std::move(bound));

@@ -140,9 +140,7 @@ void Execution::refreshUniforms(bool alwaysOnly) {
     if (!pass.usable || (alwaysOnly && timeless)) continue;
     values_.refresh(pass, publications_->ages(), arena_);
     if (!pass.viewBlock) continue;
-    const std::uint32_t declared = pass.context.spec->view;
-    const graph::ImportSpec* import = declared == kNone ? nullptr : &graph.imports[declared];
-    const scene::ViewData& view = device_.imports.view(import, graph.screenWidth, graph.screenHeight);
+    const scene::ViewData& view = device_.imports.view(graph, *pass.context.spec, pass.width, pass.height);
     arena_.writeView(pass.viewOffset, *pass.viewBlock, view,
                      {static_cast<float>(pass.width), static_cast<float>(pass.height)}, timeless);
   }
@@ -165,6 +163,9 @@ void Execution::refreshHashes() {
         hash = base::hashCombine(hash, device_.imports.publications(
                                            plan_->graph->imports[plan_->graph->resources[resource].import]));
     for (const std::uint32_t axis : pass.context.spec->threads) hash = base::hashCombine(hash, axis);
+    if (pass.list >= 0)
+      hash = base::hashCombine(
+          hash, device_.imports.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
     hashes_[step] = hash;
   }
 }

@@ -68,7 +68,9 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
     // What is kept must have been made of what stays: else it matters when it was made.
     if (std::ranges::any_of(usesOf(step), [&](const graph::FlatUse& use) { return !still[use.resource]; }))
       return true;
-    if (pass.list >= 0 && scene::isMoving(world.scene(), static_cast<scene::DrawList>(pass.list)))
+    if (pass.meshes
+            ? scene::isMoving(world.scene())
+            : pass.list >= 0 && scene::isMoving(world.scene(), static_cast<scene::DrawList>(pass.list)))
       return true;
     if (pass.viewBlock && (cameraMoves || pass.context.spec->view != graph::kNone)) return true;
   }

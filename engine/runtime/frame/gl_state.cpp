@@ -43,6 +43,7 @@ void openMasks(gl::StateCache& states) {
   states.depthMask(true);
   states.stencilMask(0xff);
   states.enable(GL_SCISSOR_TEST, false);
+  states.enable(GL_FRAMEBUFFER_SRGB, false);  // clears and copies keep bits
 }
 
 void openMasks() {
@@ -54,6 +55,7 @@ void openMasks() {
 
 void releaseBindings() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glDisable(GL_FRAMEBUFFER_SRGB);  // present copies bits
   glUseProgram(0);
   glBindVertexArray(0);
   glActiveTexture(GL_TEXTURE0);
@@ -76,6 +78,7 @@ void applyState(const PreparedPass& pass, gl::StateCache& states) {
       if (buffer == index) mode = blend;
     states.blend(index, blendOf(mode));
   }
+  states.enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
   states.viewport(static_cast<GLsizei>(pass.width), static_cast<GLsizei>(pass.height));
   // Writing depth needs the test enabled; a pass that writes it without asking for a test passes always.
   const bool depthTest = depthAttached && (state.depthTest || depthWritable);

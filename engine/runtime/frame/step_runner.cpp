@@ -113,6 +113,7 @@ GLenum attachmentPointOf(graph::Format format) {
 }  // namespace
 
 void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
+  if (pass.meshes) gatherMeshes(pass, diagnostics);
   if (pass.variant) states_.useProgram(pass.variant->program.id());
   if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
   for (const TextureBinding& binding : pass.textures) {
@@ -129,15 +130,29 @@ void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   bindBlock(pass.viewBlock, pass.viewOffset);
   bindBlock(pass.sliceBlock, pass.sliceOffset);
   for (const FixedBinding& binding : pass.fixed) bindFixed(binding, pass, diagnostics);
-  if (pass.list >= 0)
-    pass.context.instances = device_.imports.countOf(static_cast<scene::DrawList>(pass.list));
+  if (pass.list >= 0 && !pass.meshes)
+    pass.context.instances = device_.imports.tables().countOf(static_cast<scene::DrawList>(pass.list));
+}
+
+// What its view sees of the meshes of its list.
+void StepRunner::gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics) {
+  const imports::MeshDraw draw = device_.imports.tables().draw(
+      *pass.meshes, static_cast<scene::DrawList>(pass.list),
+      device_.imports.view(*plan_.graph, *pass.context.spec, pass.width, pass.height), diagnostics);
+  pass.context.geometry = {.vertexArray = draw.vertexArray,
+                           .mode = GL_TRIANGLES,
+                           .count = draw.count,
+                           .indexType = GL_UNSIGNED_INT,
+                           .commands = draw.commands};
 }
 
 void StepRunner::bindBuffer(const BufferBinding& binding, std::uint32_t group,
                             base::Diagnostics& diagnostics) {
   if (binding.list >= 0) {
     const auto list = static_cast<scene::DrawList>(binding.list);
-    const BufferRef table = device_.imports.instances(list, binding.layout, diagnostics);
+    imports::SceneTables& tables = device_.imports.tables();
+    const BufferRef table = binding.meshes ? tables.meshes(list, binding.layout, diagnostics)
+                                           : tables.spheres(list, binding.layout, diagnostics);
     states_.bindBuffer(binding.target, binding.index, table.id, 0, 0);
   } else if (binding.import != kNone) {
     const graph::ImportSpec& import = plan_.graph->imports[binding.import];

@@ -32,6 +32,7 @@ class StepRunner {
   void clear(const PreparedPass& pass, GLuint framebuffer, base::Diagnostics& diagnostics);
   static void clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear);
   void bind(PreparedPass& pass, base::Diagnostics& diagnostics);
+  void gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics);
   void bindBuffer(const BufferBinding& binding, std::uint32_t group, base::Diagnostics& diagnostics);
   void bindBlock(const gl::Block* block, std::uint32_t offset);
   void bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics);

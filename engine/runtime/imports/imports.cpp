@@ -9,7 +9,7 @@ Imports::Imports(std::shared_ptr<const imports::ImportRegistry> registry) : regi
   // Those that need no arguments, for find().
   for (const graph::ImportType& type : registry_->reflect()) {
     graph::ImportRequest request{.type = type.name, .arguments = {}};
-    bool complete = true;
+    bool complete = type.array == 0;
     for (const graph::ImportArgument& argument : type.arguments) {
       complete = complete && argument.initial.type != graph::Value::Type::none;
       request.arguments.emplace_back(argument.name, argument.initial);
@@ -35,6 +35,18 @@ void Imports::beginFrame(const World& world, const FrameInput& input) {
   input_ = input;
   ++frames_;
   tables_.beginFrame(world, input_, frames_);
+}
+
+const scene::ViewData& Imports::view(const graph::FlatGraph& graph, const graph::PassSpec& spec,
+                                     std::uint32_t width, std::uint32_t height) {
+  if (spec.view == graph::kNone) return camera_.view(frame(), graph.screenWidth, graph.screenHeight);
+  const graph::ImportSpec& import = graph.imports[spec.view];
+  imports::ViewPart part{graph.screenWidth, graph.screenHeight, spec.viewLayer, spec.viewFace};
+  if (import.kind != graph::ImportKind::view) {
+    part.width = width;
+    part.height = height;
+  }
+  return of(import).view(frame(), part);
 }
 
 bool Imports::isPending(const graph::FlatGraph& graph, const World& world) {

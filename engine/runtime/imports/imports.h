@@ -23,7 +23,7 @@ namespace weft::runtime {
 using imports::BufferRef;
 using imports::FrameInput;
 using imports::headlessFrame;
-using imports::InstanceLayout;
+using imports::RowLayout;
 using imports::World;
 using imports::WorldFacts;
 
@@ -58,23 +58,23 @@ class Imports {
     of(import).adopt(std::move(shown), std::move(before));
   }
   void releaseBefore(const graph::ImportSpec& import) { of(import).releaseBefore(frame()); }
-  BufferRef buffer(const graph::ImportSpec& import, const InstanceLayout& layout,
-                   base::Diagnostics& diagnostics) {
+  BufferRef buffer(const graph::ImportSpec& import, const RowLayout& layout, base::Diagnostics& diagnostics) {
     return of(import).buffer(frame(), layout, diagnostics);
   }
-  // Null import: the scene's camera as it is.
-  const scene::ViewData& view(const graph::ImportSpec* import, std::uint32_t width, std::uint32_t height) {
-    return import ? of(*import).view(frame(), width, height) : camera_.view(frame(), width, height);
+  // What a pass whose attachments have this size is seen from: its view, else the scene's camera as it is. A camera's is of
+  // the graph's screen.
+  const scene::ViewData& view(const graph::FlatGraph& graph, const graph::PassSpec& spec, std::uint32_t width,
+                              std::uint32_t height);
+  // Moves when what a draw list draws may be another: its spheres or its meshes.
+  std::uint64_t generation(scene::DrawList list, bool meshes) {
+    return meshes ? tables_.meshGeneration(list) : tables_.generation(list);
   }
   std::uint64_t generation(const graph::ImportSpec& import) { return of(import).generation(frame()); }
   bool isStill(const graph::ImportSpec& import, const World& world) { return of(import).isStill(world); }
   bool remembers(const graph::ImportSpec& import, const World& world) { return of(import).remembers(world); }
 
-  // The rows of a draw list for draw passes, whether or not a graph imports them.
-  BufferRef instances(scene::DrawList list, const InstanceLayout& layout, base::Diagnostics& diagnostics) {
-    return tables_.table(list, layout, diagnostics);
-  }
-  std::uint32_t countOf(scene::DrawList list) { return tables_.countOf(list); }
+  // The draw lists, for draw passes, whether or not a graph imports them.
+  imports::SceneTables& tables() { return tables_; }
 
   // Something that `graph` imports is on its way.
   bool isPending(const graph::FlatGraph& graph, const World& world);

@@ -30,8 +30,7 @@ bool sameShape(const FlatResource& a, const FlatResource& b) {
 
 bool sameImport(const FlatGraph& a, std::uint32_t x, const FlatGraph& b, std::uint32_t y) {
   if (x == kNone || y == kNone) return x == y;
-  return a.imports[x].request == b.imports[y].request && a.imports[x].kind == b.imports[y].kind &&
-         a.imports[x].instances == b.imports[y].instances;
+  return a.imports[x].request == b.imports[y].request && a.imports[x].kind == b.imports[y].kind;
 }
 
 bool sameSampler(const graph::Sampler& a, const graph::Sampler& b) {

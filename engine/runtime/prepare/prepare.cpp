@@ -108,7 +108,8 @@ class Preparer {
     if (instances && !spec_.list.empty() && !hasSlot(imports::kInstancesBlock)) {
       BufferBinding binding{.index = instances->binding};
       binding.list = static_cast<int>(*scene::findDrawList(spec_.list));
-      takeLayout(*instances, binding);
+      binding.meshes = spec_.meshes;
+      takeLayout(*instances, instanceColumnsOf(spec_), binding);
       out_.buffers.push_back(binding);
     }
     return good;
@@ -121,9 +122,10 @@ class Preparer {
   }
 
   // checkProgram has seen that the block is a table.
-  static void takeLayout(const gl::Block& block, BufferBinding& binding) {
+  static void takeLayout(const gl::Block& block, std::span<const graph::TableColumn> columns,
+                         BufferBinding& binding) {
     std::string problem;
-    [[maybe_unused]] const bool good = imports::instanceLayoutOf(block, binding.layout, problem);
+    [[maybe_unused]] const bool good = imports::rowLayoutOf(block, columns, binding.layout, problem);
     assert(good);
   }
 
@@ -169,7 +171,8 @@ class Preparer {
             .resource = use.resource,
             .history = use.history,
             .import = resource.import};
-        if (isInstanceTable(graph_, use)) takeLayout(*block, binding);
+        if (const auto columns = columnsOf(graph_, use); !columns.empty())
+          takeLayout(*block, columns, binding);
         out_.buffers.push_back(binding);
         return true;
       }
@@ -215,6 +218,7 @@ class Preparer {
     binding.textures = viewsOf(whole, 0);
     out_.width = std::max(1u, resource.width >> use.mip);
     out_.height = std::max(1u, resource.height >> use.mip);
+    out_.encodesSrgb |= resource.format == graph::Format::srgb8_a8;
     out_.attachments.push_back(std::move(binding));
     return complete(out_.attachments.back().textures);
   }
@@ -257,6 +261,10 @@ class Preparer {
     if (type.shader != graph::ShaderShape::draw) return;
     if (!spec_.list.empty()) out_.list = static_cast<int>(*scene::findDrawList(spec_.list));
     out_.context.instances = spec_.instances;
+    if (spec_.meshes) {
+      out_.meshes = std::make_unique<imports::MeshPass>(out_.variant->program.reflection(), spec_.name);
+      return;
+    }
     out_.context.geometry = c_.geometries.get(spec_.geometry, spec_.geometryArguments,
                                               out_.variant->program.reflection(), c_.diagnostics);
   }

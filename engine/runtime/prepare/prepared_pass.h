@@ -13,7 +13,8 @@
 #include "engine/base/diagnostic.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/plan.h"
-#include "engine/imports/instance_layout.h"
+#include "engine/imports/mesh_draws.h"
+#include "engine/imports/row_layout.h"
 #include "engine/passes/draw/geometry.h"
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/prepare/sampler_cache.h"
@@ -43,8 +44,9 @@ struct BufferBinding {
   std::uint32_t resource = 0;
   std::uint8_t history = 0;
   std::uint32_t import = graph::kNone;  // into FlatGraph::imports
-  imports::InstanceLayout layout;       // of an imported instance table
+  imports::RowLayout layout;            // of a table
   int list = -1;                        // scene::DrawList of the implicit `instances` block, else -1
+  bool meshes = false;                  // of that list's meshes
 };
 
 struct AttachmentBinding {
@@ -93,9 +95,11 @@ struct PreparedPass {
   std::vector<std::uint32_t> written, read;  // resources (attached writes; reads)
   std::uint32_t width = 0, height = 0;       // of the attachments
   bool feedback = false;
+  bool encodesSrgb = false;                       // an attachment is sRGB: shaders write linear light
   std::uint32_t group = graph::kNone;             // as Plan::groups
   bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
+  std::unique_ptr<imports::MeshPass> meshes;  // of a draw of the list's meshes
   // uniform bytes live in one shared buffer; offsets are aligned, size 0: the program has no such block
   const gl::Block* parametersBlock = nullptr;
   const gl::Block* viewBlock = nullptr;

@@ -7,7 +7,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/gl/objects/objects.h"
-#include "engine/imports/instance_layout.h"
+#include "engine/imports/row_layout.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/sampler_types.h"
@@ -102,7 +102,7 @@ class Checker {
         return checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block");
       case Kind::storage:
         checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block");
-        if (isInstanceTable(graph_, use)) checkTable(reflection_.findStorageBlock(slot.name), slot.place);
+        checkTable(reflection_.findStorageBlock(slot.name), columnsOf(graph_, use), slot.place);
         return;
       case Kind::color:
         if (!reflection_.findOutput(slot.name) && (!mentioned(slot) || !otherUse(slot.name).empty()))
@@ -125,13 +125,20 @@ class Checker {
       missing(slot, what, otherUse(slot.name));
   }
 
-  void checkTable(const gl::Block* block, const base::Place& place) {
-    imports::InstanceLayout layout;
+  void checkTable(const gl::Block* block, std::span<const graph::TableColumn> columns,
+                  const base::Place& place) {
+    if (!block || columns.empty()) return;
+    imports::RowLayout layout;
     std::string problem;
-    if (!block || imports::instanceLayoutOf(*block, layout, problem)) return;
-    fail(Code::notAnInstanceTable, place,
-         fmt::format("the block '{}' of '{}' is no instance table: {}", block->name, shaders_, problem))
-        .hint = "include scene/instances.glsl, or declare its struct";
+    if (imports::rowLayoutOf(*block, columns, layout, problem)) return;
+    base::Diagnostic& d = fail(
+        Code::notAnInstanceTable, place,
+        fmt::format("the block '{}' of '{}' does not fit its table: {}", block->name, shaders_, problem));
+    d.expected = "an array of a struct with fields among";
+    for (const graph::TableColumn& column : columns)
+      d.expected += fmt::format(" {} {},", column.type, column.name);
+    d.expected.pop_back();
+    d.hint = "include the file of shaders/scene that declares it, or declare a struct of these fields";
   }
 
   // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
@@ -248,7 +255,7 @@ class Checker {
     for (const auto& block : reflection_.storageBlocks) {
       if (isSlot(block.name)) continue;
       if (block.name == imports::kInstancesBlock && !spec_.list.empty())
-        checkTable(&block, spec_.shaderPlace);
+        checkTable(&block, instanceColumnsOf(spec_), spec_.shaderPlace);
       else
         unfed("a storage block", block.name);
     }

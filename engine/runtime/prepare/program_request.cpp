@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "engine/imports/scene_tables.h"
+
 namespace weft::runtime {
 
 using graph::Access;
@@ -33,9 +35,14 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-bool isInstanceTable(const FlatGraph& graph, const FlatUse& use) {
+std::span<const graph::TableColumn> columnsOf(const FlatGraph& graph, const FlatUse& use) {
   const std::uint32_t import = graph.resources[use.resource].import;
-  return import != graph::kNone && graph.imports[import].instances;
+  if (import == graph::kNone) return {};
+  return graph.imports[import].columns;
+}
+
+std::span<const graph::TableColumn> instanceColumnsOf(const PassSpec& spec) {
+  return spec.meshes ? imports::meshColumns() : imports::sphereColumns();
 }
 
 std::uint32_t conditionsOf(const PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf) {

@@ -23,7 +23,9 @@ gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::
                                     std::uint32_t pass, const graph::PassType& type,
                                     std::uint32_t conditions);
 
-// Whether a buffer use reads the rows of a draw list, whose layout is the shader's.
-bool isInstanceTable(const graph::FlatGraph& graph, const graph::FlatUse& use);
+// The columns of the table that a use reads; none: it is no table whose layout is the shader's.
+std::span<const graph::TableColumn> columnsOf(const graph::FlatGraph& graph, const graph::FlatUse& use);
+// Of the rows of the list that a draw pass draws.
+std::span<const graph::TableColumn> instanceColumnsOf(const graph::PassSpec& spec);
 
 }  // namespace weft::runtime

@@ -304,7 +304,7 @@ TEST_CASE("samplers and vertex arrays keep what they are told") {
   REQUIRE(buffer);
   VertexArray array = VertexArray::create("array");
   const VertexAttribute attributes[] = {{.location = 0}, {.location = 3, .components = 2, .offset = 12}};
-  array.setVertices(buffer->id(), 0, 20, attributes);
+  array.setVertices(0, buffer->id(), 0, 20, attributes);
   array.setIndices(buffer->id());
   glGetVertexArrayIndexediv(array.id(), 3, GL_VERTEX_ATTRIB_ARRAY_ENABLED, &value);
   CHECK(value == 1);

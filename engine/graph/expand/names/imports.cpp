@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/names/apply_settings.h"
@@ -130,12 +131,20 @@ bool evaluateImport(Model& model, Entity& entity) {
   shape.layers = static_cast<std::uint16_t>(std::clamp(facts.layers, 1u, kMaxLayers));
   shape.mips = static_cast<std::uint16_t>(std::clamp(facts.mips, 1u, kMaxMips));
   shape.bytes = facts.bytes;
-  shape.target = shape.depth > 1    ? Target::texture_3d
-                 : shape.layers > 1 ? Target::texture_2d_array
-                                    : Target::texture_2d;
-  entity.import = internImport(model, std::move(request), type->kind, entity.name);
+  shape.target = shape.depth > 1                     ? Target::texture_3d
+                 : shape.layers > 1 || facts.layered ? Target::texture_2d_array
+                                                     : Target::texture_2d;
+  // The elements of an array stand side by side in FlatGraph::imports.
+  entity.arrayCount = type->array;
+  entity.elements.resize(std::max(1u, type->array));
+  for (std::uint32_t element = 0; element < entity.elements.size(); ++element) {
+    ImportRequest one = request;
+    if (type->array > 0) one.arguments.emplace_back("element", Value::number(element));
+    const std::uint32_t import = internImport(model, std::move(one), type->kind, entity.name);
+    if (element == 0) entity.import = import;
+    assert(import == entity.import + element);
+  }
   shape.import = entity.import;
-  entity.elements.resize(1);
   return true;
 }
 
@@ -151,7 +160,13 @@ std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind,
   const auto [known, fresh] = model.importIndex.try_emplace(key, static_cast<std::uint32_t>(imports.size()));
   if (!fresh) return known->second;
   const ImportType* type = findImportType(model.registry, request.type);
-  imports.push_back({std::move(request), key, kind, name, type && type->instances, type && type->before, {}});
+  imports.push_back({.request = std::move(request),
+                     .key = key,
+                     .kind = kind,
+                     .name = name,
+                     .columns = type ? type->columns : std::vector<TableColumn>{},
+                     .before = type && type->before,
+                     .standIns = {}});
   model.importResource.push_back(kNone);
   return static_cast<std::uint32_t>(imports.size() - 1);
 }

@@ -35,9 +35,13 @@ std::uint32_t addResource(Model& model, std::uint32_t index, std::uint32_t eleme
 std::uint32_t currentResource(Model& model, std::uint32_t index, std::uint32_t element) {
   Entity& entity = model.entities[index];
   if (entity.kind == ResourceDesc::Kind::import) {
-    std::uint32_t& shared = model.importResource[entity.import];
-    if (shared == kNone) shared = addResource(model, index, 0);
-    return shared;
+    const std::uint32_t import = entity.import + element;
+    if (model.importResource[import] == kNone) {
+      const std::uint32_t resource = addResource(model, index, element);
+      model.graph.resources[resource].import = import;
+      model.importResource[import] = resource;
+    }
+    return model.importResource[import];
   }
   const std::uint32_t current = entity.elements[element].resource;
   return current != kNone ? current : addResource(model, index, element);

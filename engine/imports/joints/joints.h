@@ -1,0 +1,16 @@
+// The import `joints`: matrices of the joints of skinned meshes, now and in the frame before.
+#pragma once
+
+#include "engine/imports/import.h"
+
+namespace weft::imports {
+
+class Joints : public Import {
+ public:
+  graph::ImportType reflect() const override;
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files& files) const override;
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override;
+};
+
+}  // namespace weft::imports

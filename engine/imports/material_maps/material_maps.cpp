@@ -1,0 +1,51 @@
+#include "engine/imports/material_maps/material_maps.h"
+
+#include "engine/imports/scene_tables.h"
+
+namespace weft::imports {
+
+namespace {
+
+class MaterialMapsProvider : public Provider {
+ public:
+  explicit MaterialMapsProvider(std::uint32_t element) : element_(element) {}
+  gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override {
+    return frame.tables.textures().array(frame.world.scene(), frame.world.sceneGeneration(), element_,
+                                         diagnostics);
+  }
+  std::uint64_t generation(const Frame& frame) override { return frame.world.sceneGeneration(); }
+  bool isStill(const World&) const override { return true; }
+
+ private:
+  std::uint32_t element_;
+};
+
+}  // namespace
+
+graph::ImportType MaterialMaps::reflect() const {
+  return {.name = "material_maps",
+          .kind = graph::ImportKind::texture,
+          .doc =
+              "The textures of the scene's materials, all levels, batched by size: an array of 8 "
+              "sampler2DArray, which shaders/scene/materials.glsl looks up. Not there when no material has "
+              "one.",
+          .array = kMaterialArrays};
+}
+
+graph::ImportFacts MaterialMaps::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
+  const WorldFacts::Maps& maps = world.maps;
+  return {.exists = maps.arrays > 0,
+          .format = graph::Format::rgba8,
+          .width = maps.width,
+          .height = maps.height,
+          .layers = maps.layers,
+          .mips = maps.mips,
+          .layered = true,
+          .count = static_cast<double>(maps.arrays)};
+}
+
+std::unique_ptr<Provider> MaterialMaps::provide(const graph::ImportRequest& request) const {
+  return std::make_unique<MaterialMapsProvider>(graph::elementOf(request));
+}
+
+}  // namespace weft::imports

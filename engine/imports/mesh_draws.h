@@ -1,0 +1,67 @@
+// Meshes on the device: the vertices and indices of all of a scene, once, and of each draw pass what its view sees of a list,
+// as commands for one glMultiDrawElementsIndirect. Does not: know materials, or when a list changed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects/objects.h"
+#include "engine/gl/programs/program.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/frame/cull.h"
+#include "engine/scene/frame/mesh_frame.h"
+#include "engine/scene/scene.h"
+
+namespace weft::imports {
+
+class MeshBuffers {
+ public:
+  // Sends the vertices when the scene's are others. False after an error.
+  bool renew(const scene::Scene& scene, std::uint64_t generation, base::Diagnostics& diagnostics);
+  GLuint vertices() const { return vertices_.id(); }
+  GLuint skin() const { return skin_.id(); }  // 0: no mesh has one
+  GLuint indices() const { return indices_.id(); }
+  std::uint64_t serial() const { return serial_; }  // another one when the buffers are others
+
+ private:
+  std::shared_ptr<const scene::MeshData> data_;
+  std::uint64_t generation_ = 0, serial_ = 0;
+  gl::Buffer vertices_, skin_, indices_;
+};
+
+// `commands`: DrawCommand[count] in a buffer of their own. Count 0: nothing is seen.
+struct MeshDraw {
+  GLuint vertexArray = 0, commands = 0;
+  GLsizei count = 0;
+};
+
+// Of one draw pass: where its program wants the attributes, and what it draws.
+class MeshPass {
+ public:
+  // The names of vertex attributes: position, normal, tangent, uv, joints, weights; and `instance`, the row.
+  MeshPass(const gl::Reflection& reflection, std::string label);
+  static bool isAttribute(std::string_view name);
+
+  MeshDraw draw(const scene::Scene& scene, const MeshBuffers& buffers, const scene::MeshFrame& frame,
+                scene::DrawList list, const scene::ViewData& view, base::Diagnostics& diagnostics);
+
+ private:
+  void attach(const MeshBuffers& buffers);
+  bool send(gl::Buffer& buffer, std::span<const std::byte> bytes, base::Diagnostics& diagnostics);
+
+  std::string label_;
+  std::vector<gl::VertexAttribute> vertex_, skin_, instance_;
+  gl::VertexArray vertexArray_;
+  gl::Buffer visibleRows_, commandBuffer_;
+  std::uint64_t serial_ = 0;  // of the buffers that are attached
+  GLuint attachedRows_ = 0;
+  // What `commands_` were made of.
+  std::uint64_t generation_ = 0;
+  glm::mat4 seen_{0};
+  std::vector<std::uint32_t> visible_;
+  std::vector<scene::DrawCommand> commands_;
+};
+
+}  // namespace weft::imports

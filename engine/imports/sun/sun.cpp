@@ -1,0 +1,97 @@
+#include "engine/imports/sun/sun.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/imports/row_table.h"
+#include "engine/imports/scene_tables.h"
+#include "engine/scene/light_views.h"
+
+namespace weft::imports {
+
+namespace {
+
+constexpr double kMostTexels = 16384;
+
+class SunProvider : public Provider {
+ public:
+  explicit SunProvider(std::uint32_t texels) : texels_(texels) {}
+
+  BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
+    follow(frame);
+    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
+      RowWriter writer(wanted, 1, bytes);
+      writer.put(0, 0, sun_.direction);
+      writer.put(0, 1, static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180)));
+      writer.put(0, 2, sun_.irradiance);
+      writer.put(0, 3, fitted_.texel);
+      writer.put(0, 4, fitted_.shadowMatrix);
+    };
+    return table_.get(layout, generation_, fill, diagnostics);
+  }
+  const scene::ViewData& view(const Frame& frame, const ViewPart&) override {
+    follow(frame);
+    return fitted_.view;
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    follow(frame);
+    return generation_;
+  }
+  bool isStill(const World& world) const override { return !scene::isMoving(world.scene()); }
+
+ private:
+  void follow(const Frame& frame) {
+    if (frame_ == frame.number) return;
+    frame_ = frame.number;
+    const scene::Scene& scene = frame.world.scene();
+    const std::uint64_t changed = frame.world.sceneGeneration();
+    const scene::Box bounds = frame.tables.bounds();
+    if (scene_ == changed && bounds.low == bounds_.low && bounds.high == bounds_.high) return;
+    scene_ = changed;
+    bounds_ = bounds;
+    sun_ = scene.sun.value_or(scene::Sun{});
+    const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
+    // Another generation only when something is other than it was: the fit follows the bounds in steps.
+    if (generation_ != 0 && sceneSeen_ == changed && fitted.shadowMatrix == fitted_.shadowMatrix) return;
+    sceneSeen_ = changed;
+    fitted_ = fitted;
+    generation_ = frame.newGeneration();
+  }
+
+  std::uint32_t texels_;
+  scene::Sun sun_;
+  scene::SunView fitted_;
+  scene::Box bounds_;
+  std::uint64_t frame_ = 0, scene_ = 0, sceneSeen_ = 0, generation_ = 0;
+  RowTable table_{"sun"};
+};
+
+}  // namespace
+
+graph::ImportType Sun::reflect() const {
+  return {.name = "sun",
+          .kind = graph::ImportKind::buffer,
+          .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
+          .arguments = {{.name = "texels",
+                         .initial = graph::Value::number(2048),
+                         .choices = {},
+                         .doc = "a side of the map that its shadow is drawn into"}},
+          .columns = {{"direction", "vec3", "unit, towards it, world"},
+                      {"cos_angle", "float", "of half its diameter in the sky"},
+                      {"irradiance", "vec3", "linear RGB on what faces it, scene-referred"},
+                      {"texel", "float", "world units across a texel of its map"},
+                      {"shadow_matrix", "mat4", "world to u, v and reversed-Z depth of its map, 0 to 1"}},
+          .views = true};
+}
+
+graph::ImportFacts Sun::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
+  return {.exists = world.sun, .count = world.sun ? 1.0 : 0.0};
+}
+
+std::unique_ptr<Provider> Sun::provide(const graph::ImportRequest& request) const {
+  const double texels = std::clamp(std::floor(request.arguments[0].second.v[0]), 1.0, kMostTexels);
+  return std::make_unique<SunProvider>(static_cast<std::uint32_t>(texels));
+}
+
+}  // namespace weft::imports

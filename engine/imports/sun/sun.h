@@ -1,0 +1,16 @@
+// The import `sun`: the scene's sun as a table of one row, and as a view that its shadow is drawn from.
+#pragma once
+
+#include "engine/imports/import.h"
+
+namespace weft::imports {
+
+class Sun : public Import {
+ public:
+  graph::ImportType reflect() const override;
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files& files) const override;
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override;
+};
+
+}  // namespace weft::imports

@@ -1,0 +1,77 @@
+#include "engine/scene/light_views.h"
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace weft::scene {
+
+namespace {
+
+ViewData viewOf(const glm::dmat4& view, const glm::dmat4& projection, glm::dvec3 eye, std::uint32_t texels) {
+  ViewData data;
+  data.view = glm::mat4(view);
+  data.projection = glm::mat4(projection);
+  data.view_projection = data.previous_view_projection = glm::mat4(projection * view);
+  data.inverse_view_projection = glm::mat4(glm::inverse(view) * glm::inverse(projection));
+  data.eye = data.previous_eye = glm::vec3(eye);
+  data.viewport = glm::vec2(static_cast<float>(texels));
+  return data;
+}
+
+}  // namespace
+
+SunView sunView(const Sun& sun, const Box& bounds, std::uint32_t texels) {
+  assert(texels > 0);
+  const glm::dvec3 low = bounds.empty() ? glm::dvec3(-0.5) : glm::dvec3(bounds.low);
+  const glm::dvec3 high = bounds.empty() ? glm::dvec3(0.5) : glm::dvec3(bounds.high);
+  // Of a ball around the box, so that it is the same from every side; in steps of a sixteenth of its power of two.
+  const double ball = std::max(glm::length(high - low) / 2, 1e-4);
+  const double step = std::exp2(std::floor(std::log2(ball))) / 16;
+  // A texel more on each side than what is inside, for filters and for the snapping.
+  const double inner = std::ceil(ball / step) * step, n = texels;
+  const double radius = texels > 4 ? inner * n / (n - 4) : inner;
+  const double texel = 2 * radius / n;
+
+  const CameraPose towards{.position = glm::dvec3(glm::normalize(sun.direction)), .target = {0, 0, 0}};
+  const glm::dmat4 turn(glm::dmat3(viewMatrix(towards)));  // without the translation
+  glm::dvec3 centre = glm::dvec3(turn * glm::dvec4((low + high) / 2.0, 1));
+  for (int axis = 0; axis < 2; ++axis) centre[axis] = std::floor(centre[axis] / texel + 0.5) * texel;
+  const glm::dmat4 view = glm::translate(glm::dmat4(1), -centre) * turn;
+  glm::dmat4 projection(1);
+  projection[0][0] = projection[1][1] = 1 / radius;
+  projection[2][2] = 0.5 / radius;  // nearest to the sun is 1
+  projection[3][2] = 0.5;
+
+  SunView result;
+  const glm::dvec3 eye = glm::transpose(glm::dmat3(turn)) * (centre + glm::dvec3(0, 0, radius));
+  result.view = viewOf(view, projection, eye, texels);
+  const glm::dmat4 toTexture = glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0.5, 0)) *
+                               glm::scale(glm::dmat4(1), glm::dvec3(0.5, 0.5, 1));
+  result.shadowMatrix = glm::mat4(toTexture * projection * view);
+  result.texel = static_cast<float>(texel);
+  return result;
+}
+
+float nearPlaneOf(const Lamp& lamp) {
+  return lamp.range > 0 ? lamp.range / 1000 : 0.01f;
+}
+
+ViewData lampView(const Lamp& lamp, std::uint32_t face, std::uint32_t texels) {
+  assert(face < 6);
+  // OpenGL 4.5 core, table 8.19: s and t of each face, as directions of a camera's right and up.
+  static constexpr std::array<std::array<glm::dvec3, 2>, 6> kFaces = {{{{{1, 0, 0}, {0, -1, 0}}},
+                                                                       {{{-1, 0, 0}, {0, -1, 0}}},
+                                                                       {{{0, 1, 0}, {0, 0, 1}}},
+                                                                       {{{0, -1, 0}, {0, 0, -1}}},
+                                                                       {{{0, 0, 1}, {0, -1, 0}}},
+                                                                       {{{0, 0, -1}, {0, -1, 0}}}}};
+  const glm::dvec3 eye(lamp.position);
+  const glm::dmat4 view = glm::lookAt(eye, eye + kFaces[face][0], kFaces[face][1]);
+  ViewData data = viewOf(view, projectionMatrix(90, 1, nearPlaneOf(lamp)), eye, texels);
+  data.near_plane = nearPlaneOf(lamp);
+  return data;
+}
+
+}  // namespace weft::scene

@@ -1,0 +1,74 @@
+// Ambient visibility by horizons: in slices through the view direction, the cosine-weighted integral between the highest
+// occluders on both sides (GTAO: Jimenez, Wu, Pesce and Jarabo, "Practical real-time strategies for accurate indirect
+// occlusion", SIGGRAPH 2016 courses). What is below the tangent plane occludes nothing, so a plane is exactly 1.
+// read    depth, normal   the G-buffer's
+// write   result          half size; x: visibility, y: distance along the view axis, 0 for the sky
+// params  radius    world units within which things occlude, with a soft end
+//         slices    directions per pixel; 16 pixels next to each other take different ones
+//         steps     samples on each side of a slice
+#include "surface.glsl"
+
+layout(std140) uniform Parameters {
+  float radius;
+  int slices;
+  int steps;
+};
+out vec2 result;
+
+const float kTangent = 0.02;  // sine of the elevation below which a sample counts as part of the surface
+const float kSoftEnd = 0.4;   // share of the radius over which occluders fade
+
+// How much of the hemisphere's cosine is seen between the normal's plane and a horizon: equation 7 of the paper.
+float arc(float horizon, float tilt, float cos_tilt) {
+  return 0.25 * (cos_tilt + 2.0 * horizon * sin(tilt) - cos(2.0 * horizon - tilt));
+}
+
+void main() {
+  ivec2 half_texel = ivec2(gl_FragCoord.xy), pixel = pixelOf(half_texel), last = textureSize(depth, 0) - 1;
+  float z = texelFetch(depth, pixel, 0).r;
+  result = vec2(1.0, 0.0);
+  if (z <= 0.0) return;
+  vec3 place = placeAt(pixel, z), n = facing(pixel), v = normalize(-place);
+  vec2 focal = focalPixels();
+
+  // Directions and first steps of 4 x 4 pixels, as the paper spreads them; ao/smooth takes their mean.
+  float turn = float((((half_texel.x + half_texel.y) & 3) << 2) + (half_texel.x & 3)) / 16.0;
+  float start = float((half_texel.y - half_texel.x) & 3) / 4.0;
+  float visibility = 0.0, whole = 1e-6;
+  for (int i = 0; i < slices; ++i) {
+    float phi = (float(i) + turn) / float(slices) * kPi;
+    vec3 along = vec3(cos(phi), sin(phi), 0.0);
+    vec3 across = normalize(cross(along - dot(along, v) * v, v));
+    vec3 projected = n - across * dot(n, across);
+    float share = length(projected);
+    if (share < 1e-4) continue;
+    float cos_tilt = clamp(dot(projected, v) / share, -1.0, 1.0);
+    float tilt = (dot(along - dot(along, v) * v, projected) < 0.0 ? -1.0 : 1.0) * acos(cos_tilt);
+    float lowest[2] = float[2](cos(tilt + 0.5 * kPi), cos(tilt - 0.5 * kPi));
+    float horizon[2] = lowest;
+    vec2 reach = along.xy * focal * (radius / -place.z);  // pixels
+    float pixels = length(reach);
+    for (int side = 0; side < 2; ++side) {
+      vec2 way = side == 0 ? reach : -reach;
+      for (int j = 0; j < steps; ++j) {
+        float t = (float(j) + start + 0.125) / float(steps);
+        float far = max(t * t, (float(j) + 1.0) / max(pixels, 1e-3));  // dense at first, never the pixel itself
+        vec2 to = vec2(pixel) + 0.5 + way * far;
+        ivec2 at = ivec2(floor(to));
+        if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) break;
+        float there = texelFetch(depth, at, 0).r;
+        if (there <= 0.0) continue;
+        vec3 delta = placeAt(at, there) - place;
+        float distance2 = dot(delta, delta), per_length = inversesqrt(max(distance2, 1e-20));
+        if (dot(delta, n) * per_length < kTangent) continue;
+        float weight = clamp((radius - distance2 * per_length) / (kSoftEnd * radius), 0.0, 1.0);
+        horizon[side] = max(horizon[side], mix(lowest[side], dot(delta, v) * per_length, weight));
+      }
+    }
+    // Angles from the view direction, positive along the slice; the paper's h1 is on the negative side.
+    float right = acos(clamp(horizon[0], -1.0, 1.0)), left = -acos(clamp(horizon[1], -1.0, 1.0));
+    visibility += share * (arc(right, tilt, cos_tilt) + arc(left, tilt, cos_tilt));
+    whole += share * (cos_tilt + tilt * sin(tilt));  // without anything in the way; its mean over all directions is 1
+  }
+  result = vec2(min(max(visibility, 0.0) / whole, 1.0), -place.z);
+}

@@ -1,0 +1,72 @@
+// The surface of a mesh at a pixel: its material with its maps, and the normal with its map.
+// Slots: materials (@materials), material_maps? (@material_maps as linear wrap). Behind meshes/surface.vert.glsl.
+// define SPECULAR_AA: roughness takes up how much the normal turns within the pixel (Tokuyoshi and Kaplanyan, "Improved geometric specular
+// antialiasing", I3D 2019, listing 1).
+#ifndef MESHES_SURFACE_GLSL
+#define MESHES_SURFACE_GLSL
+
+#include "scene/materials.glsl"
+
+#ifndef SPECULAR_AA
+#define SPECULAR_AA 1
+#endif
+
+in vec3 world_position;
+in vec3 world_normal;
+in vec4 world_tangent;
+in vec2 map_uv;
+in vec4 previous_clip;
+flat in uint row;
+
+struct MeshSurface {
+  vec3 normal;       // world, unit, towards the viewer's side of a double-sided material
+  vec3 albedo;       // linear; F0 of a metal
+  vec3 emissive;     // radiance, scene-referred
+  float metallic, roughness, occlusion, alpha;
+  float shininess;   // of Blinn–Phong; 0: none
+};
+
+// Ends the fragment in a hole of a mask, and on the back of what has one side: draw with "cull": "none".
+MeshSurface meshSurface() {
+  Material self = material[row];
+  vec2 dx = dFdx(map_uv), dy = dFdy(map_uv);
+  vec3 n = normalize(world_normal);
+  vec3 n_dx = dFdx(n), n_dy = dFdy(n);
+  vec4 color = sampleMap(self.albedo_map, map_uv, dx, dy) * vec4(self.albedo, self.alpha);
+  if (color.a < self.alpha_cutoff || (self.double_sided == 0u && !gl_FrontFacing)) discard;
+
+  if (!gl_FrontFacing) n = -n;
+  if (self.normal_map != 0xffffffffu) {
+    vec3 texel = sampleMap(self.normal_map, map_uv, dx, dy).xyz * 2.0 - 1.0;
+    texel.xy *= self.normal_scale;
+    vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
+    if (dot(t, t) > 0.0) {
+      t = normalize(t);
+      n = normalize(mat3(t, cross(n, t) * world_tangent.w, n) * texel);
+    }
+  }
+  vec3 channels = sampleMap(self.metallic_roughness_map, map_uv, dx, dy).rgb;
+  float occlusion = sampleMap(self.occlusion_map, map_uv, dx, dy).r;
+  MeshSurface surface;
+  surface.normal = n;
+  surface.albedo = color.rgb;
+  surface.alpha = color.a;
+  surface.emissive = self.emissive * sampleMap(self.emissive_map, map_uv, dx, dy).rgb;
+  surface.metallic = self.metallic * channels.b;
+  surface.roughness = self.roughness * channels.g;
+  surface.occlusion = mix(1.0, occlusion, self.occlusion_strength);
+  surface.shininess = self.blinn_phong != 0u ? self.shininess : 0.0;
+#if SPECULAR_AA
+  float variance = min(0.25 * 2.0 * (dot(n_dx, n_dx) + dot(n_dy, n_dy)), 0.18);
+  float alpha = surface.roughness * surface.roughness;
+  surface.roughness = sqrt(sqrt(clamp(alpha * alpha + variance, 0.0, 1.0)));
+#endif
+  return surface;
+}
+
+// Screen UV per frame, of a fragment.
+vec2 meshVelocity(vec2 viewport) {
+  return gl_FragCoord.xy / viewport - (previous_clip.xy / max(previous_clip.w, 1e-3) * 0.5 + 0.5);
+}
+
+#endif

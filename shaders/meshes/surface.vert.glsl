@@ -1,0 +1,26 @@
+// A vertex of a mesh, for the fragment shaders that include meshes/surface.glsl. Slots: skeleton?  @joints
+#include "common/view.glsl"
+#include "scene/mesh_vertex.glsl"
+
+in vec3 normal;
+in vec4 tangent;
+in vec2 uv;
+
+out vec3 world_position;
+out vec3 world_normal;
+out vec4 world_tangent;   // w: sign of the bitangent
+out vec2 map_uv;
+out vec4 previous_clip;
+flat out uint row;        // of @materials
+
+void main() {
+  mat4 transform = meshTransform();
+  vec4 world = transform * vec4(position, 1.0);
+  world_position = world.xyz;
+  world_normal = meshNormal(transform, normal);
+  world_tangent = vec4(mat3(transform) * tangent.xyz, tangent.w);
+  map_uv = uv;
+  row = mesh_row[instance].material;
+  previous_clip = previous_view_projection * (meshPreviousTransform() * vec4(position, 1.0));
+  gl_Position = view_projection * world;
+}

@@ -1,0 +1,41 @@
+// The scene's materials and their textures. Slots: materials (@materials), material_maps (@material_maps as linear wrap ?).
+#ifndef SCENE_MATERIALS_GLSL
+#define SCENE_MATERIALS_GLSL
+
+struct Material {
+  vec3 albedo;              // linear; factor of its map
+  float metallic;
+  vec3 emissive;            // radiance, scene-referred
+  float roughness;          // perceptual
+  vec3 specular;            // Blinn–Phong
+  float shininess;
+  float alpha, alpha_cutoff;
+  float normal_scale, occlusion_strength;
+  uint albedo_map, normal_map, metallic_roughness_map, occlusion_map, emissive_map;
+  uint blinn_phong, double_sided;
+};
+layout(std430) readonly buffer materials { Material material[]; };
+
+#ifdef HAS_MATERIAL_MAPS
+uniform sampler2DArray material_maps[8];
+
+// White where `map` is none. Derivatives are the caller's: the branches here need not be taken by whole quads.
+vec4 sampleMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
+  vec3 at = vec3(uv, float(map & 0xffffu));
+  switch (map >> 16) {
+    case 0u: return textureGrad(material_maps[0], at, dx, dy);
+    case 1u: return textureGrad(material_maps[1], at, dx, dy);
+    case 2u: return textureGrad(material_maps[2], at, dx, dy);
+    case 3u: return textureGrad(material_maps[3], at, dx, dy);
+    case 4u: return textureGrad(material_maps[4], at, dx, dy);
+    case 5u: return textureGrad(material_maps[5], at, dx, dy);
+    case 6u: return textureGrad(material_maps[6], at, dx, dy);
+    case 7u: return textureGrad(material_maps[7], at, dx, dy);
+  }
+  return vec4(1.0);
+}
+#else
+vec4 sampleMap(uint map, vec2 uv, vec2 dx, vec2 dy) { return vec4(1.0); }
+#endif
+
+#endif

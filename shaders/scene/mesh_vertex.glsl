@@ -1,0 +1,48 @@
+// A vertex of a mesh in the world, now and in the frame before: by its row, or by its joints. Slots: joints, an optional
+// buffer (@joints).
+#ifndef SCENE_MESH_VERTEX_GLSL
+#define SCENE_MESH_VERTEX_GLSL
+#include "scene/meshes.glsl"
+
+in vec3 position;
+in uint instance;
+#ifdef HAS_SKELETON
+in uvec4 joints;
+in vec4 weights;
+struct Joint {
+  mat4 now, previous;  // bind pose to world
+};
+layout(std430) readonly buffer skeleton { Joint joint[]; };
+#endif
+
+// Model to world of this vertex.
+mat4 meshTransform() {
+#ifdef HAS_SKELETON
+  if (weights.x > 0.0) {
+    mat4 sum = mat4(0.0);
+    for (int i = 0; i < 4; ++i) sum += weights[i] * joint[mesh_row[instance].first_joint + joints[i]].now;
+    return sum;
+  }
+#endif
+  return mesh_row[instance].transform;
+}
+
+mat4 meshPreviousTransform() {
+#ifdef HAS_SKELETON
+  if (weights.x > 0.0) {
+    mat4 sum = mat4(0.0);
+    for (int i = 0; i < 4; ++i) sum += weights[i] * joint[mesh_row[instance].first_joint + joints[i]].previous;
+    return sum;
+  }
+#endif
+  return mesh_row[instance].previous_transform;
+}
+
+// Of a direction that is perpendicular to a surface, in the model.
+vec3 meshNormal(mat4 transform, vec3 direction) {
+  mat3 m = mat3(transform);
+  // The cofactors: the inverse transposed, times the determinant; no division, and right for scales of zero.
+  return normalize(mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])) * direction * sign(determinant(m)));
+}
+
+#endif

@@ -1,0 +1,3 @@
+// Depth alone.
+// modify  depth  reversed-Z
+void main() {}

@@ -1,0 +1,83 @@
+#include "engine/imports/row_layout.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+using namespace weft;
+
+namespace {
+
+const std::vector<graph::TableColumn> kColumns = {{"center", "vec3", ""},
+                                                  {"radius", "float", ""},
+                                                  {"turned", "mat4", ""},
+                                                  {"albedo", "vec3", ""},
+                                                  {"metallic", "float", ""}};
+
+gl::BlockMember fieldOf(const char* name, GLenum type, std::uint32_t offset) {
+  return {.name = std::string("instance[0].") + name,
+          .type = type,
+          .offset = offset,
+          .topLevelArraySize = 0,
+          .topLevelArrayStride = 32};
+}
+
+gl::Block blockOf(std::vector<gl::BlockMember> members) {
+  return {.name = "instances", .storage = true, .members = std::move(members)};
+}
+
+float at(const std::vector<std::byte>& bytes, std::size_t offset) {
+  float value = 0;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("rows follow the layout that introspection reports, whatever the shader leaves out") {
+  imports::RowLayout layout;
+  std::string problem;
+  REQUIRE(
+      imports::rowLayoutOf(blockOf({fieldOf("center", GL_FLOAT_VEC3, 0), fieldOf("metallic", GL_FLOAT, 12),
+                                    fieldOf("albedo", GL_FLOAT_VEC3, 16)}),
+                           kColumns, layout, problem));
+  CHECK(layout.stride == 32);
+  CHECK(layout.offsets == std::vector<std::int32_t>{0, -1, -1, 16, 12});
+  std::vector<std::byte> bytes;
+  imports::RowWriter writer(layout, 2, bytes);
+  const float center[3] = {4, 5, 6}, albedo[3] = {0.1f, 0.2f, 0.3f};
+  writer.put(1, 0, center);
+  writer.put(1, 1, 7.0f);  // nobody wants it
+  writer.put(1, 3, albedo);
+  writer.put(1, 4, 0.75f);
+  REQUIRE(bytes.size() == 64);
+  CHECK(at(bytes, 32 + 8) == 6.0f);
+  CHECK(at(bytes, 32 + 12) == 0.75f);
+  CHECK(at(bytes, 32 + 24) == 0.3f);
+  CHECK(at(bytes, 32 + 28) == 0.0f);
+  CHECK(at(bytes, 0) == 0.0f);
+}
+
+TEST_CASE("a table without rows has room for one, of zeros") {
+  std::vector<std::byte> bytes(3, std::byte{1});
+  imports::RowWriter writer({.stride = 48, .offsets = {}}, 0, bytes);
+  CHECK(bytes == std::vector<std::byte>(48, std::byte{0}));
+}
+
+TEST_CASE("a field that the table lacks, another type, or no array of structs is a problem that names it") {
+  const auto problemOf = [](const gl::Block& block) {
+    imports::RowLayout layout;
+    std::string problem;
+    CHECK_FALSE(imports::rowLayoutOf(block, kColumns, layout, problem));
+    return problem;
+  };
+  CHECK(problemOf(blockOf({fieldOf("albdeo", GL_FLOAT_VEC3, 0)})) ==
+        "its rows have no field 'albdeo'; did you mean 'albedo'?");
+  CHECK(problemOf(blockOf({fieldOf("center", GL_FLOAT_VEC4, 0)})) == "'center' is vec4, not vec3");
+  gl::BlockMember turned = fieldOf("turned", GL_FLOAT_MAT4, 0);
+  turned.rowMajor = true;
+  CHECK(problemOf(blockOf({turned})) == "'turned' is row_major");
+  gl::BlockMember plain{.name = "center", .type = GL_FLOAT_VEC3, .offset = 0};
+  CHECK(problemOf(blockOf({plain})) == "'center' is no field of an array of structs");
+  CHECK(problemOf(blockOf({})) == "the block is no array of structs");
+}
