@@ -87,7 +87,10 @@ ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
       if (word == "\\") break;
       ++corners;
       std::int64_t index = 0;
-      std::from_chars(word.data(), word.data() + word.size(), index);
+      const auto read = std::from_chars(word.data(), word.data() + word.size(), index);
+      if (read.ec == std::errc::result_out_of_range)
+        return ModelProblem{"a face names a vertex that is not there", "an index that a file can have",
+                            std::string(word.substr(0, 40)), number};
       if (index < 0 && -index > static_cast<std::int64_t>(counts.vertices)) return outside(index, number);
       if (index > highest) {
         highest = index;

@@ -1,0 +1,248 @@
+// OBJ and FBX. FBX files are written by Assimp's exporter, from models that the glTF reader is tested with.
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstring>
+
+#include "engine/assets/image.h"
+#include "engine/assets/models/model_file.h"
+#include "engine/base/files/file.h"
+#include "tests/assets/models/fbx_records.h"
+#include "tests/assets/models/matrices.h"
+#include "tests/assets/temporary.h"
+
+using namespace weft;
+using namespace weft::assets;
+using base::Code;
+
+namespace {
+
+const std::string kModels = WEFT_SOURCE_DIR "/scenes/models/";
+
+Model loadGood(const std::string& path, std::size_t warnings = 0) {
+  base::Diagnostics diagnostics;
+  auto model = loadModel(path, diagnostics);
+  REQUIRE_MESSAGE(model, diagnostics.text());
+  CHECK_MESSAGE(diagnostics.size() == warnings, diagnostics.text());
+  return std::move(*model);
+}
+
+void writeColour(const std::string& path, std::array<std::uint8_t, 3> colour) {
+  base::Diagnostics diagnostics;
+  REQUIRE(savePng8(path, 1, 1, 3, colour, diagnostics));
+}
+
+// Fox.glb as FBX, in the binary or the text form.
+void writeFox(const std::string& path, const char* format) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(kModels + "Fox.glb", 0);
+  REQUIRE(scene);
+  Assimp::Exporter exporter;
+  REQUIRE(exporter.Export(scene, format, path) == aiReturn_SUCCESS);
+  if (std::string(format) != "fbx") return;
+  base::Diagnostics diagnostics;
+  const std::string bytes = test::repairFbx(base::readFile(path, diagnostics).value());
+  REQUIRE(base::writeFile(path, bytes, diagnostics));
+}
+
+Matrix4 worldOf(const Model& model, std::uint32_t node) {
+  Matrix4 world = test::matrixOf(model.nodes[node]);
+  for (std::uint32_t up = model.nodes[node].parent; up != kNoRow; up = model.nodes[up].parent)
+    world = test::multiply(test::matrixOf(model.nodes[up]), world);
+  return world;
+}
+
+std::string readBytes(const std::string& path) {
+  base::Diagnostics diagnostics;
+  return base::readFile(path, diagnostics).value();
+}
+
+base::Diagnostics failuresOf(const TemporaryFolder& folder, const std::string& name,
+                             const std::string& bytes) {
+  base::Diagnostics diagnostics;
+  const auto model = loadModel(folder.write(name, bytes), diagnostics);
+  CHECK(model.has_value() != diagnostics.hasErrors());
+  CHECK(diagnostics.errorCount() <= 1);
+  return diagnostics;
+}
+
+}  // namespace
+
+TEST_CASE("OBJ: Blinn-Phong as it is, and its conversion") {
+  const TemporaryFolder folder;
+  folder.write("m.mtl",
+               "newmtl plastic\nKd 0.2 0.4 0.6\nKs 0.5 0.5 0.5\nNs 30\nKe 1 0 0\n"
+               "newmtl glass\nKd 1 1 1\nd 0.25\n"
+               "newmtl chrome\nKd 0 0 0\nKs 0.9 0.8 0.7\nNs 200\n");
+  const Model model = loadGood(folder.write("m.obj",
+                                            "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl plastic\nf 1 2 "
+                                            "3\nusemtl glass\nf 1 2 3\nusemtl chrome\nf 1 2 3\n"));
+  REQUIRE(model.instances.size() == 3);
+  const auto materialOf = [&](const char* name) -> const ModelMaterial& {
+    return *std::ranges::find(model.materials, name, &ModelMaterial::name);
+  };
+  const ModelMaterial &plastic = materialOf("plastic"), &glass = materialOf("glass"),
+                      &chrome = materialOf("chrome");
+  CHECK(plastic.blinnPhong);
+  CHECK(plastic.baseColor == Float3{0.2f, 0.4f, 0.6f});
+  CHECK(plastic.specular == Float3{0.5f, 0.5f, 0.5f});
+  CHECK(plastic.shininess == 30);
+  CHECK(plastic.emissive == Float3{1, 0, 0});
+  CHECK(plastic.metallic == 0);
+  CHECK(plastic.roughness == doctest::Approx(0.5));  // (2 / 32) to the fourth root
+  CHECK(glass.blend);
+  CHECK(glass.alpha == 0.25f);
+  CHECK(chrome.metallic == 1);
+  CHECK(chrome.baseColor == Float3{0.9f, 0.8f, 0.7f});
+}
+
+TEST_CASE("OBJ: polygons, equal vertices, uv from the top, maps of other machines' paths") {
+  const TemporaryFolder folder;
+  writeColour(folder.at("red.png"), {200, 10, 20});
+  writeColour(folder.at("normal.png"), {128, 128, 255});
+  writeColour(folder.at("height.png"), {90, 90, 90});
+  folder.write("m.mtl",
+               "newmtl a\nmap_Kd C:\\art\\red.png\nmap_Bump /home/x/normal.png\nnewmtl b\nmap_Kd "
+               "gone.png\nmap_Bump height.png\n");
+  base::Diagnostics diagnostics;
+  const auto model = loadModel(
+      folder.write(
+          "m.obj",
+          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+          "usemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl b\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"),
+      diagnostics);
+  REQUIRE_MESSAGE(model, diagnostics.text());
+  REQUIRE_MESSAGE(diagnostics.size() == 2, diagnostics.text());
+  CHECK(diagnostics.contains(Code::missingModelTexture));  // gone.png
+  CHECK(diagnostics.contains(Code::modelPartLeftOut));     // heights
+  REQUIRE(model->meshes.size() == 2);
+  CHECK(model->meshes[0].vertexCount == 4);
+  CHECK(model->meshes[0].indexCount == 6);
+  for (std::uint32_t v = 0; v < 4; ++v) {
+    const ModelVertex& vertex = model->vertices[v];
+    CHECK(vertex.uv == Float2{vertex.position[0], 1 - vertex.position[1]});
+    CHECK(vertex.tangent == Float4{1, 0, 0, 1});
+  }
+  const auto named = [&](const char* name) -> const ModelMaterial& {
+    return *std::ranges::find(model->materials, name, &ModelMaterial::name);
+  };
+  CHECK(model->textures[named("a").baseColorMap].image->texels ==
+        std::vector<std::uint8_t>{200, 10, 20, 255});
+  CHECK(model->textures[named("a").baseColorMap].srgb);
+  REQUIRE(named("a").normalMap != kNoRow);
+  CHECK_FALSE(model->textures[named("a").normalMap].srgb);
+  CHECK(named("b").normalMap == kNoRow);
+}
+
+TEST_CASE("OBJ: a library that is missing is a warning") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  CHECK(loadModel(folder.write("m.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"),
+                  diagnostics));
+  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+  CHECK(diagnostics.items()[0].severity == base::Severity::warning);
+}
+
+TEST_CASE("FBX, binary and text: the fox, its nodes, weights and animations") {
+  const TemporaryFolder folder;
+  const Model wanted = loadGood(kModels + "Fox.glb");
+  for (const char* format : {"fbx", "fbxa"}) {
+    CAPTURE(format);
+    const std::string path = folder.at("fox.fbx");
+    writeFox(path, format);
+    base::Diagnostics diagnostics;
+    const auto model = loadModel(path, diagnostics);
+    REQUIRE_MESSAGE(model, diagnostics.text());
+    REQUIRE(model->instances.size() == 1);
+    CHECK(model->meshes[0].indexCount == wanted.meshes[0].indexCount);
+    CHECK(model->meshes[0].skinned);
+    REQUIRE(model->animations.size() == 3);
+    CHECK(model->animations[1]->name == "Walk");
+    CHECK(model->animations[1]->tracks.size() >= 21);
+    CHECK(model->skins[0].joints.size() == 24);
+    // Every corner, skinned in the pose of the file: the same places in the same order.
+    const auto place = [](const Model& m, std::size_t corner) {
+      const std::uint32_t v = m.meshes[0].firstVertex + m.indices[m.meshes[0].firstIndex + corner];
+      const ModelSkin& skin = m.skins[0];
+      std::array<double, 3> sum{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (!(m.skinVertices[v].weights[i] > 0)) continue;
+        const std::size_t joint = m.skinVertices[v].joints[i];
+        const Matrix4 to = test::multiply(worldOf(m, skin.joints[joint]), skin.inverseBind[joint]);
+        const Float3& p = m.vertices[v].position;
+        for (std::size_t r = 0; r < 3; ++r)
+          sum[r] += double(m.skinVertices[v].weights[i]) *
+                    (to[r] * p[0] + to[4 + r] * p[1] + to[8 + r] * p[2] + to[12 + r]);
+      }
+      return sum;
+    };
+    double worst = 0;
+    for (std::size_t corner = 0; corner < wanted.meshes[0].indexCount; ++corner) {
+      const auto a = place(wanted, corner), b = place(*model, corner);
+      for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(a[c] - b[c]));
+    }
+    CHECK(worst < 0.05);  // of 150: the file's text has few digits
+  }
+}
+
+TEST_CASE("FBX files that are damaged anywhere") {
+  const TemporaryFolder folder;
+  writeFox(folder.at("fox.fbx"), "fbx");
+  const std::string whole = readBytes(folder.at("fox.fbx"));
+  for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 60)
+    failuresOf(folder, "m.fbx", whole.substr(0, length));
+  // A fixed sequence of damages: Knuth's generator.
+  std::uint64_t state = 1;
+  for (int round = 0; round < 60; ++round) {
+    std::string bytes = whole;
+    for (int k = 0; k < 8; ++k) {
+      state = state * 6364136223846793005ull + 1442695040888963407ull;
+      bytes[(state >> 33) % bytes.size()] = static_cast<char>(state >> 24);
+    }
+    failuresOf(folder, "m.fbx", bytes);
+  }
+  CHECK(failuresOf(folder, "m.fbx", "").hasErrors());
+  CHECK(failuresOf(folder, "m.fbx", "; FBX 7.4.0 project file\n" + std::string(100, '{')).hasErrors());
+}
+
+TEST_CASE("FBX: nodes that are their own ancestors, arrays that unpack to more than memory") {
+  const TemporaryFolder folder;
+  writeFox(folder.at("fox.fbx"), "fbxa");
+  std::string text = readBytes(folder.at("fox.fbx"));
+  const std::size_t connection = text.find("C: \"OO\",");
+  REQUIRE(connection != std::string::npos);
+  const std::size_t end = text.find('\n', connection);
+  const std::string line = text.substr(connection + 8, end - connection - 8);
+  const std::string child = line.substr(0, line.find(',')), parent = line.substr(line.find(',') + 1);
+  const base::Diagnostics circle = failuresOf(
+      folder, "m.fbx",
+      text.substr(0, end + 1) + "\tC: \"OO\"," + parent + "," + child + "\n" + text.substr(end + 1));
+  // The root, 0, has no parent unless the file says so; then it is a circle too.
+  REQUIRE(circle.errorCount() == 1);
+  CHECK(circle.items()[0].code == Code::unreadableModel);
+  CHECK(circle.items()[0].message.find("its own ancestor") != std::string::npos);
+
+  // One record with an array that claims 1.5 thousand million floats in 2 MB.
+  std::string bytes("Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0", 27);
+  const auto word = [&](std::uint32_t value) { bytes.append(reinterpret_cast<const char*>(&value), 4); };
+  const std::uint32_t packed = 6u << 20, properties = 13 + packed;
+  word(27 + 13 + 1 + properties);
+  word(1);
+  word(properties);
+  bytes += "\x01V";
+  bytes += 'f';
+  word(1500000000);
+  word(1);
+  word(packed);
+  bytes.append(packed, 0);
+  const base::Diagnostics bomb = failuresOf(folder, "m.fbx", bytes);
+  REQUIRE(bomb.errorCount() == 1);
+  CHECK(bomb.items()[0].code == Code::limitExceeded);
+}
