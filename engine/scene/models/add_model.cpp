@@ -117,13 +117,19 @@ ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& mode
 
 void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy) {
   const NodeId root = scene.nodes.add(copy.root);
+  std::vector<bool> animated(model.nodes.size());
+  if (copy.animation)
+    for (const assets::ModelTrack& track : model.animations[*copy.animation]->tracks)
+      animated[track.node] = true;
   std::vector<NodeId> nodes;
   nodes.reserve(model.nodes.size());
   for (const assets::ModelNode& from : model.nodes) {
     Node node = toNode(from);
     assert(from.parent == kNoRow || from.parent < nodes.size());
     node.parent = from.parent == kNoRow ? root : nodes[from.parent];
-    nodes.push_back(scene.nodes.add(std::move(node)));
+    // A node that does nothing is its parent: a hundred thousand copies of an OBJ have a node each, not three.
+    const bool idle = node.local == Transform{} && !animated[nodes.size()];
+    nodes.push_back(idle ? node.parent : scene.nodes.add(std::move(node)));
   }
   std::vector<SkinId> skins;
   for (const assets::ModelSkin& from : model.skins) {

@@ -22,6 +22,7 @@ struct ModelRows {
 // content the scene has already are not added again.
 ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& model);
 
+// A node without a transform, which no animation moves, gets no row: what names it names its parent.
 struct ModelCopy {
   Node root;  // above the model's own; its parent must be in the scene
   std::optional<std::uint8_t>

@@ -58,6 +58,7 @@ TEST_CASE("the scenes with models that come with Weft") {
   const Scene crowd = loadGood(kTop + "scenes/crowd.json");
   CHECK(crowd.meshInstances.size() == 100000);
   CHECK(crowd.meshes.size() == 1);
+  CHECK(crowd.nodes.size() == 100000);  // one each
   CHECK(crowd.meshData->indices.size() == 60);
 }
 
