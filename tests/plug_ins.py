@@ -11,6 +11,11 @@ import sys
 
 # The same word for something else, as (file, word): what it is there.
 OTHER_MEANINGS = {
+    ("engine/assets/models/gltf/gltf.cpp", "mesh"): "a key of glTF",
+    ("engine/assets/models/gltf/gltf.cpp", "meshes"): "a key of glTF",
+    ("engine/assets/models/gltf/gltf.cpp", "materials"): "a key of glTF",
+    ("engine/assets/models/gltf/gltf_materials.cpp", "materials"): "a key of glTF",
+    ("engine/assets/models/gltf/gltf_nodes.cpp", "joints"): "a key of glTF",
     ("engine/scene/scene.cpp", "spheres"): "a draw list",
     ("engine/scene/files/scene_file.cpp", "spheres"): "a key of scene files",
     ("engine/scene/files/scene_file.cpp", "materials"): "a key of scene files",
