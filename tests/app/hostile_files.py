@@ -12,7 +12,7 @@ import subprocess
 import sys
 import threading
 
-from program import SLOWER, TOP, Report, count_run, run, temporary_folder
+from program import MEMORY_BYTES, SLOWER, TOP, Report, count_run, run, temporary_folder
 
 LIMIT = 120 * SLOWER  # seconds; far beyond what any of these takes
 SHADER = "out vec4 result;\nvoid main() { result = vec4(1); }\n"
@@ -94,6 +94,38 @@ def pipes(weft, folder, report):
     command = f"exec {weft} plan <(cat {folder}/good.json)"
     done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=LIMIT)
     report.check(done.returncode == 0 and "plan g" in done.stdout, f"plan <(generate): {done.returncode}\n{done.stderr}")
+
+
+def large(weft, folder, report):
+    """Three gigabytes, of which a file system keeps nothing, wherever a path may stand: refused before they fill the memory."""
+    for name in ("large.json", "large.cube", "shaders/large.frag.glsl", "shaders/large.glsl"):
+        write(folder / name, "{}")
+        os.truncate(folder / name, 3 << 30)
+    write(folder / "shaders/good.frag.glsl", SHADER)
+    write(folder / "shaders/includes.frag.glsl", '#include "large.glsl"\n' + SHADER)
+    write(folder / "shaders/table.frag.glsl", TABLE_SHADER)
+    write(folder / "good.json", graph())
+    write(folder / "include.json", graph(passes=[{"include": "large.json"}]))
+    write(folder / "extends.json", {"extends": "large.json"})
+    write(folder / "shader.json", graph("large.frag.glsl"))
+    write(folder / "shader_include.json", graph("includes.frag.glsl"))
+    write(folder / "library.json", {"library": "large.json"})
+    write(folder / "table.json", table("large.cube"))
+    cases = [("large.json", [], "W201"), ("include.json", [], "W201"), ("extends.json", [], "W201"), ("shader.json", [], "W203"),
+             ("shader_include.json", [], "W103"), ("table.json", [], "W201"), ("good.json", ["--preset", "large.json"], "W201"),
+             ("good.json", ["--scene", "large.json"], "W201"), ("good.json", ["--scene", "library.json"], "W201"),
+             ("good.json", ["--materials", "large.json"], "W201")]
+    for name, arguments, code in cases:
+        count_run()
+        with open(folder / "said.txt", "w+") as said:
+            process = subprocess.Popen([weft, *command_for(name), *arguments], cwd=folder, stdout=said, stderr=said)
+            _, status, used = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            said.seek(0)
+            text = said.read()
+        what = f"{name} {arguments}: {process.returncode}, {used.ru_maxrss >> 10} MiB\n{text}"
+        report.check(process.returncode == 1 and f"error[{code}]" in text and "large" in text, what)
+        report.check(used.ru_maxrss << 10 < MEMORY_BYTES, what)
 
 
 def program_cache(weft, folder, report):
@@ -288,7 +320,7 @@ def many(weft, folder, report):
 
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
-    for part in [program_cache] if "--cache" in sys.argv else (pipes, confinement, forgery, many):
+    for part in [program_cache] if "--cache" in sys.argv else (pipes, large, confinement, forgery, many):
         with temporary_folder() as name:
             part(weft, pathlib.Path(name), report)
     report.end()

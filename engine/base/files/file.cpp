@@ -99,6 +99,10 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
     ::close(opened.descriptor);
     return fail(std::strerror(ENOMEM), "");
   }
+  if (opened.bytes > kMaxBytes) {
+    if (goOn && !goOn(0, opened.bytes)) return std::nullopt;
+    return fail("it is larger than 4 GiB", "name a smaller file");
+  }
   std::string bytes;
   char chunk[65536];
   // Not fread: a slow pipe is told of as it comes.

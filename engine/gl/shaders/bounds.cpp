@@ -52,6 +52,17 @@ std::vector<Bound> boundsOf(const ShaderSize& size) {
   return bounds;
 }
 
+void reportBound(Limit limit, std::uint64_t count, const base::Place& place, const std::string& message,
+                 const char* fix, base::Diagnostics& diagnostics) {
+  const std::uint64_t most = base::limitOf(limit);
+  base::Diagnostic& error = diagnostics.error(base::Code::shaderTooLarge, place, message);
+  error.expected =
+      fmt::format("at most {} {}", most, base::allLimits()[static_cast<std::size_t>(limit)].counts);
+  const bool cut = limit == Limit::shader_tokens && count == most + 1;
+  error.found = cut ? fmt::format("more than {}", most) : fmt::format("{}", count);
+  error.hint = fmt::format("{}; or {}", fix, base::hintToRaise(limit));
+}
+
 }  // namespace
 
 ShaderSize measureShader(const ShaderSource& source, std::span<const Define> defines) {
@@ -75,27 +86,22 @@ ShaderSize measureShader(const ShaderSource& source, std::span<const Define> def
   return size;
 }
 
+void reportShaderBytes(std::uint64_t bytes, const base::Place& place, base::Diagnostics& diagnostics) {
+  reportBound(Limit::shader_bytes, bytes, place, "the shader is too large",
+              "include less, or move tables into buffers", diagnostics);
+}
+
 bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::Diagnostics& diagnostics) {
-  bool good = true;
-  const auto tell = [&](Limit limit, std::uint64_t count, const base::Place& place,
-                        const std::string& message, const char* fix) {
-    const std::uint64_t most = base::limitOf(limit);
-    if (count <= most) return;
+  bool good = size.bytes <= base::limitOf(Limit::shader_bytes);
+  if (!good) reportShaderBytes(size.bytes, {source.file, 0, 0}, diagnostics);
+  for (const Bound& bound : boundsOf(size)) {
+    if (bound.count->count <= base::limitOf(bound.limit)) continue;
     good = false;
-    base::Diagnostic& error = diagnostics.error(base::Code::shaderTooLarge, place, message);
-    error.expected =
-        fmt::format("at most {} {}", most, base::allLimits()[static_cast<std::size_t>(limit)].counts);
-    const bool cut = limit == Limit::shader_tokens && count == most + 1;
-    error.found = cut ? fmt::format("more than {}", most) : fmt::format("{}", count);
-    error.hint = fmt::format("{}; or {}", fix, base::hintToRaise(limit));
-  };
-  tell(Limit::shader_bytes, size.bytes, {source.file, 0, 0}, "the shader is too large",
-       "include less, or move tables into buffers");
-  for (const Bound& bound : boundsOf(size))
-    tell(bound.limit, bound.count->count,
-         bound.count->line > 0 ? source.placeOf(bound.count->line, bound.count->column)
-                               : base::Place{source.file, 0, 0},
-         bound.message, bound.fix);
+    reportBound(bound.limit, bound.count->count,
+                bound.count->line > 0 ? source.placeOf(bound.count->line, bound.count->column)
+                                      : base::Place{source.file, 0, 0},
+                bound.message, bound.fix, diagnostics);
+  }
   return good;
 }
 

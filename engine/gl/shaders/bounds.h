@@ -44,6 +44,9 @@ ShaderSize measureShader(const ShaderSource& source, std::span<const Define> def
 // Reports each count that is above its limit (W203). True when there is none.
 bool checkShaderSize(const ShaderSize& size, const ShaderSource& source, base::Diagnostics& diagnostics);
 
+// The same for a file so large that it is not read: `bytes` is above Limit::shader_bytes.
+void reportShaderBytes(std::uint64_t bytes, const base::Place& place, base::Diagnostics& diagnostics);
+
 // Whether some count comes near enough to its limit that the driver may not survive the shader, or must work
 // long.
 bool isUnusual(const ShaderSize& size);

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostSeen = 100'000, kMostKept = 200'000, kMostOfFolder = 10'000;
+constexpr std::size_t kMostKept = 200'000, kMostOfFolder = 10'000;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::vector<std::string> ShaderNames::list(const std::string& folder) {
   if (!base::mayRead(folder)) return names;
   std::error_code ec;
   for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, ec), end;
-       !ec && it != end && names.size() < kMostOfFolder && seen_ < kMostSeen; it.increment(ec)) {
+       !ec && it != end && names.size() < kMostOfFolder && seen_ < mostSeen_; it.increment(ec)) {
     ++seen_;
     if (it->path().extension() == ".glsl")
       names.push_back(it->path().lexically_relative(folder).generic_string());
@@ -32,7 +32,7 @@ const std::vector<std::string>& ShaderNames::below(std::span<const std::string> 
   static const std::vector<std::string> kNone;
   const std::vector<std::string> key(folders.begin(), folders.end());
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  if (seen_ >= kMostSeen || kept_ >= kMostKept) return kNone;
+  if (seen_ >= mostSeen_ || kept_ >= kMostKept) return kNone;
   std::vector<std::string> names;
   for (const std::string& folder : folders) {
     std::vector<std::string> more = list(folder);

@@ -12,6 +12,9 @@ namespace weft::gl {
 
 class ShaderNames {
  public:
+  // `mostSeen`: how many files and folders are looked at in all.
+  explicit ShaderNames(std::size_t mostSeen = 100'000) : mostSeen_(mostSeen) {}
+
   // Paths relative to their folder, sorted, each once. Folders that may not be read are left out.
   const std::vector<std::string>& below(std::span<const std::string> folders);
   // Files may have come and gone: list anew.
@@ -21,6 +24,7 @@ class ShaderNames {
   std::vector<std::string> list(const std::string& folder);
 
   std::map<std::vector<std::string>, std::vector<std::string>> known_;
+  std::size_t mostSeen_;
   std::size_t seen_ = 0, kept_ = 0;  // entries looked at, names in known_
 };
 

@@ -11,6 +11,7 @@
 #include "engine/base/files/file_access.h"
 #include "engine/base/hash.h"
 #include "engine/base/nearest.h"
+#include "engine/gl/shaders/bounds.h"
 #include "engine/gl/shaders/scan.h"
 
 namespace weft::gl {
@@ -40,6 +41,16 @@ std::uint64_t bytesOf(const std::string& path) {
 std::string folderOf(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
+}
+
+// As base::readFile(), but a file of more than `most` bytes is not read: `bytes` says then how many, and nothing
+// is reported.
+std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
+                                      Diagnostics& diagnostics, Code code, const Place& place) {
+  return base::readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
+    bytes = std::max(done, total);
+    return bytes <= most;
+  });
 }
 
 // A file that may be read, and is one of those that readFile() reads.
@@ -158,16 +169,19 @@ class IncludeExpander {
         return reportCycle(at, place);
       if (unconditional_[number]) return;
     }
+    const std::uint64_t room = kMostText - std::min(source_->text.size(), kMostText);
+    std::uint64_t bytes = 0;
     const std::optional<std::string> text =
-        base::readFile(*path, diagnostics_, Code::missingShaderInclude, place);
-    if (!text) return;
-    if (source_->text.size() + text->size() > kMostText) {
-      diagnostics_
-          .error(Code::malformedInclude, place,
-                 fmt::format("includes expand to more than {} MiB", kMostText >> 20))
-          .hint = "include the file once, outside #if";
+        readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
+    if (!text) missing_.push_back(*path);
+    if (bytes > room) {
+      base::Diagnostic& error = diagnostics_.error(
+          Code::malformedInclude, place, fmt::format("includes expand to more than {} MiB", kMostText >> 20));
+      error.found = fmt::format("'{}' of {} bytes", *path, bytes);
+      error.hint = "include the file once, outside #if";
       return;
     }
+    if (!text) return;
     if (!known) number = addFile(*path);
     unconditional_[number] = depth == 0;
     // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the
@@ -303,7 +317,13 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   if (auto source = answer(*where)) return source;
   // The stamps are taken before reading: a file that changes meanwhile is read again next time.
   const Stamp own{*where, timeOf(*where), bytesOf(*where)};
-  const std::optional<std::string> text = base::readFile(*where, diagnostics, Code::unreadableShader, place);
+  const std::uint64_t most = std::max<std::uint64_t>(kMostText, base::limitOf(base::Limit::shader_bytes));
+  std::uint64_t bytes = 0;
+  const std::optional<std::string> text =
+      readWithin(*where, most, bytes, diagnostics, Code::unreadableShader, place);
+  touched_.insert(*where);
+  if (bytes > most)
+    reportShaderBytes(bytes, {std::make_shared<const std::string>(*where), 0, 0}, diagnostics);
   if (!text) return nullptr;
   ++expansions_;
   Diagnostics found;

@@ -25,6 +25,26 @@ TEST_CASE("a device is not read: /dev/zero has no end") {
   CHECK(all.items()[0].message.find("device") != std::string::npos);
 }
 
+TEST_CASE("a file above 4 GiB is refused before it is read") {
+  namespace fs = std::filesystem;
+  const fs::path path = fs::temp_directory_path() / "weft_file_test_large.bin";
+  Diagnostics all;
+  REQUIRE(writeFile(path, std::string_view("x"), all));
+  fs::resize_file(path, (std::uintmax_t{4} << 30) + 1);  // takes no room: it has a hole
+  std::uint64_t read = 0, size = 0;
+  CHECK_FALSE(readFile(path, all, Code::unreadableImage, {}, [&](std::uint64_t done, std::uint64_t total) {
+    read = done;
+    size = total;
+    return true;
+  }));
+  CHECK(read == 0);
+  CHECK(size == (std::uintmax_t{4} << 30) + 1);
+  REQUIRE(all.size() == 1);
+  CHECK(all.items()[0].code == Code::unreadableImage);
+  CHECK(all.items()[0].message.ends_with("it is larger than 4 GiB"));
+  fs::remove(path);
+}
+
 TEST_CASE("writing keeps permissions, and a link leads to what was written") {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / "weft_file_test_link";

@@ -244,6 +244,58 @@ TEST_CASE("what was read, and what was looked for in vain, is what to watch") {
   CHECK(loader.touched() == Paths{root + "/y/none.glsl", other + "/y/none.glsl"});
 }
 
+TEST_CASE("a shader that is too large is not read, and is watched until it is smaller") {
+  TempFolder folder;
+  folder.write("x/a.glsl", "float a;\n");
+  folder.write("x/includes.glsl", "#include \"large.glsl\"\n");
+  for (const char* name : {"x/large.glsl", "x/large.frag.glsl"}) {
+    folder.write(name, "void main() {}\n");
+    std::filesystem::resize_file(folder.path(name), (std::uintmax_t{16} << 20) + 1);
+  }
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  CHECK_FALSE(loader.load("x/large.frag.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  const Diagnostic& large = diagnostics.items()[0];
+  CHECK(large.code == Code::shaderTooLarge);
+  CHECK(*large.place.file == folder.path("x/large.frag.glsl"));
+  CHECK(large.expected == "at most 1048576 bytes of one shader with what it includes");
+  CHECK(large.found == "16777217");
+  CHECK(large.hint.ends_with("raise it with --limit shader_bytes=2097152, if that is meant"));
+  CHECK(loader.touched() == std::set{folder.path("x/large.frag.glsl")});
+
+  diagnostics.clear();
+  loader.forgetTouched();
+  CHECK_FALSE(loader.load("x/includes.glsl", diagnostics));
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].message == "includes expand to more than 16 MiB");
+  CHECK(diagnostics.items()[0].found == "'" + folder.path("x/large.glsl") + "' of 16777217 bytes");
+  CHECK(*diagnostics.items()[0].place.file == folder.path("x/includes.glsl"));
+  CHECK(diagnostics.items()[0].place.line == 1);
+  CHECK(loader.touched() == std::set{folder.path("x/includes.glsl"), folder.path("x/large.glsl")});
+
+  diagnostics.clear();
+  folder.write("x/large.glsl", "float b;\n");
+  CHECK(loader.load("x/includes.glsl", diagnostics));
+  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+}
+
+TEST_CASE("no more files than a number are looked at for names near to missing ones") {
+  TempFolder folder;
+  for (int i = 0; i < 20; ++i) folder.write("f" + std::to_string(i) + "/a.glsl", "float a;\n");
+  const std::string root = folder.path();
+  const auto seen = [&](ShaderNames& names) { return names.below({&root, 1}).size(); };
+  ShaderNames all, some(10);
+  CHECK(seen(all) == 20);
+  const std::size_t few = seen(some);  // folders count as well
+  CHECK(few > 0);
+  CHECK(few <= 5);
+  const std::string other = folder.path("f0");
+  CHECK(some.below({&other, 1}).empty());
+  some.forget();
+  CHECK(some.below({&other, 1}).size() == 1);
+}
+
 TEST_CASE("text in memory includes from the roots only, and the prefix holds version and defines in order") {
   TempFolder folder;
   folder.write("a.glsl", "float a;\n");
