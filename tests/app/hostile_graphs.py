@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-from program import DIAGNOSTIC, MEMORY_BYTES, SANITIZED, SLOWER, Report, count_run, temporary_folder
+from program import DIAGNOSTIC, MEMORY_BYTES, SANITIZED, SLOWER, TOP, Report, count_run, temporary_folder
 
 GUARD_S = 60 * SLOWER  # of the processor: a hanging run ends; what it took is printed, not judged
 SMALL = {"texture": "rgba8", "size": 8}
@@ -293,7 +293,10 @@ CASES = {
     "16 indices of a repeat": (lambda: repeat_of(16), [], None, ""),
     "17 indices of a repeat": (lambda: repeat_of(17), [], "W201", "'i16' is one too many"),
     "256 indices of a repeat, the most": (lambda: repeat_of(256), L("repeat_indices", 256), None, ""),
-    "500,000 instances": (lambda: repeat_to(500_000), [], None, ""),
+    "800,000 instances": (lambda: repeat_to(800_000), [], None, ""),
+    "900,000 instances": (lambda: repeat_to(900_000), [], "W201", "(limit graph_bytes)"),
+    "graph bytes above the limit": (lambda: small_passes(10), L("graph_bytes", "8K"), "W201", "(limit graph_bytes)"),
+    "graph bytes below the limit": (lambda: small_passes(10), L("graph_bytes", "16K"), None, ""),
     "1,000,001 instances": (lambda: repeat_to(1_000_001), [], "W081", ""),
     "1,500 passes that read all before them": (lambda: passes_that_read_all_before(1500), [], None, ""),
     "100,000 passes": (lambda: small_passes(100_000), [], None, ""),
@@ -357,6 +360,7 @@ class Ended:
 
 
 def check_case(report, weft, name, case, full):
+    """What it printed."""
     make, arguments, code, says = case
     with temporary_folder() as folder_name:
         folder = pathlib.Path(folder_name)
@@ -378,14 +382,24 @@ def check_case(report, weft, name, case, full):
         report.check(fits, f"no {code} at a place: {shown}")
         if code in ("W201", "W202"):
             report.check([m["code"] for m in errors] == [code], f"more than one {code}: {shown}")
+    return ended.text
+
+
+def check_documented(report, printed):
+    """Each message that docs/limits.md says is held here was printed by a case, with the name of its limit."""
+    rows = re.findall(r"^\| `(\w+)` \|[^|\n]*\|[^|\n]*\| ([^|\n]*) \|[^|\n]*hostile_graphs\.py`", (TOP / "docs/limits.md").read_text(), re.M)
+    for limit, message in rows:
+        said = any(message in text and f"(limit {limit})" in text for text in printed)
+        report.check(said, f"docs/limits.md: no case prints {message!r} for {limit}")
+    report.check(len(rows) >= 14, f"docs/limits.md: {len(rows)} limits are held here")
 
 
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     wanted = [a for a in sys.argv[2:] if not a.startswith("--")]
-    for name, case in CASES.items():
-        if all(re.search(w, name) for w in wanted):
-            check_case(report, weft, name, case, "--full" in sys.argv)
+    printed = [check_case(report, weft, name, case, "--full" in sys.argv) for name, case in CASES.items() if all(re.search(w, name) for w in wanted)]
+    if not wanted:
+        check_documented(report, printed)
     report.end()
 
 

@@ -52,6 +52,12 @@ HOSTILE = [
     ("much memory", main_of("result = vec4(f1000(a));", CALLS), "W204", "", (*UNBOUND, "--limit", "shader_memory=200M")),
     ("long work", SINES, "W204", "", ("--limit", "shader_seconds=1")),
 ]
+# What a message says of the limit.
+SAYS = {"a sum": "--limit shader_depth=", "brackets": "--limit shader_depth=", "a macro that doubles": "--limit shader_tokens=",
+        "a macro that doubles nothing": "--limit shader_tokens=", "functions that double": "--limit shader_tokens=",
+        "a chain of calls": "--limit shader_tokens=", "a switch": "--limit shader_cases=", "a larger switch": "--limit shader_cases=",
+        "an array": "--limit shader_array=", "two megabytes": "--limit shader_bytes=2097152",
+        "much memory": "and 200 MiB (shader_memory)", "long work": "at most 1 s of processor time for all unusual shaders (shader_seconds)"}
 
 
 def graph(shader, **keys):
@@ -97,6 +103,7 @@ def commands(weft, folder, report):
         at = [d["code"] + (d["place"] or "") + "".join(":" + d[k] for k in ("line", "column") if d[k]) for d in errors]
         report.check(exit_code == 1, f"{name}: exit code {exit_code}\n{said}")
         report.check(at and re.fullmatch(code + r"shaders/bomb\.frag\.glsl" + place, at[0]), f"{name}: {at}\n{said}")
+        report.check(SAYS.get(name, "") in said, f"{name}: not {SAYS.get(name)!r}\n{said}")
     # An unusual shader that is good is tried, and compiles; the bundled ones are never tried.
     (folder / "shaders/many.frag.glsl").write_text(main_of("switch (int(a * 100.0)) {\n" + CASES[:CASES.index("case 80:")] + "}"))
     (folder / "g.json").write_text(graph("many.frag.glsl"))

@@ -87,6 +87,7 @@ TEST_CASE("distances within a limit, and nearest names, are those of the whole t
 }
 
 TEST_CASE("a name longer than any has no nearest one, and nothing is compared with it") {
+  CHECK(kLongestName == 256);  // as docs/limits.md says
   const std::vector<std::string> names{std::string(10'000'000, 'x') + "y"};
   CHECK(nearestName(std::string(10'000'000, 'x'), names).empty());
   CHECK(nearestName("scene", names).empty());

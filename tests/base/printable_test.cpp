@@ -38,6 +38,9 @@ TEST_CASE("a word of ten million bytes is cut, and what follows it is printed") 
   for (int i = 0; i < 200; ++i) words += "word ";
   CHECK(shortened(words).ends_with("… (1000 bytes in all)"));
   CHECK(shortened(words).size() < 400);
+  const std::string most = words.substr(0, 395) + "words";
+  CHECK(shortened(most) == most);
+  CHECK(shortened(most + "!").ends_with("… (401 bytes in all)"));
   std::string umlauts(300, '\xc3');
   for (std::size_t i = 1; i < umlauts.size(); i += 2) umlauts[i] = '\xa4';
   CHECK(printable(shortened("a" + umlauts)).find("\\x") == std::string::npos);  // cut between characters

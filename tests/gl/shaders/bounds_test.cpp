@@ -51,6 +51,15 @@ std::string inMain(const std::string& body) {
   return "out vec4 result;\nvoid main() {\n" + body + "\n}\n";
 }
 
+// Which limit a message is about.
+Limit limitOf(const std::string& message) {
+  const auto has = [&](const char* words) { return message.find(words) != std::string::npos; };
+  if (has("nested too deeply")) return Limit::shader_depth;
+  if (has("too many cases")) return Limit::shader_cases;
+  if (has("array")) return Limit::shader_array;
+  return has("the shader is too large") ? Limit::shader_bytes : Limit::shader_tokens;
+}
+
 void refuses(const std::string& text, const std::string& message, std::uint32_t line) {
   const Measured m = measure(text);
   CHECK_FALSE(m.good);
@@ -61,9 +70,10 @@ void refuses(const std::string& text, const std::string& message, std::uint32_t 
       found = true;
       CHECK_MESSAGE(d.place.line == line, weft::base::format(d));
       CHECK(*d.place.file == "bomb.frag.glsl");
-      CHECK(d.expected.starts_with("at most "));
+      const Limit limit = limitOf(message);
+      CHECK(d.expected.starts_with("at most " + std::to_string(weft::base::limitOf(limit)) + " "));
       CHECK_FALSE(d.found.empty());
-      CHECK(d.hint.find("--limit shader_") != std::string::npos);
+      CHECK(d.hint.find("--limit " + std::string(weft::base::nameOf(limit)) + "=") != std::string::npos);
     }
   CHECK_MESSAGE(found, message << "\n" << m.diagnostics.text());
 }
@@ -97,6 +107,7 @@ TEST_CASE("what kills or stalls a driver is reported with its place instead of b
   refuses("float f0(float x) { return x; }\n" + chain("float f$(float x) { return f%(x); }", 1000) +
               inMain("result = vec4(f1000(1.0));"),
           "the function 'main' is too long", 1003);
+  refuses(times("// nothing\n", 100000) + inMain("result = vec4(1.0);"), "the shader is too large", 0);
   std::string cases;
   for (int i = 0; i < 20000; ++i) cases += "case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
   refuses(inMain("switch (int(result.x)) {\n" + cases + "}"), "a switch has too many cases", 3);
