@@ -1,9 +1,9 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment.
-// read    brdf, irradiance?, specular?   see spheres/shading.glsl; without one its light is missing
+// read    brdf, irradiance?, specular?   see shading/ibl.glsl; without one its light is missing
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)
-// params  sky_turn?, compensation   see spheres/shading.glsl
+// params  sky_turn?, compensation   see shading/ibl.glsl
 //
 // Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
 // its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:

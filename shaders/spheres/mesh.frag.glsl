@@ -1,9 +1,9 @@
 // One triangle of a sphere, lit by the environment as the ray-traced ones of spheres/billboard are.
-// read    brdf, irradiance?, specular?   see spheres/shading.glsl; without one its light is missing
+// read    brdf, irradiance?, specular?   see shading/ibl.glsl; without one its light is missing
 // write or modify  radiance   scene-referred; alpha 1
 //                  velocity   screen UV per frame
 //                  depth      near / distance along the view axis (reversed-Z)
-// params  sky_turn?, compensation   see spheres/shading.glsl
+// params  sky_turn?, compensation   see shading/ibl.glsl
 #include "common/view.glsl"
 #include "shading.glsl"
 

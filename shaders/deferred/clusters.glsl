@@ -1,0 +1,30 @@
+// Which lamps reach where: a bit per lamp for each tile of 16 x 16 pixels, and for each slice of depth. The lamps of a
+// pixel are those that are in the masks of both its tile and its slice (after Drobot, "Improved culling for tiled and clustered
+// rendering", SIGGRAPH 2017 courses). Bits are in the lamps' order and there is one for each, so no list can be full.
+#ifndef DEFERRED_CLUSTERS_GLSL
+#define DEFERRED_CLUSTERS_GLSL
+
+#include "common/view.glsl"
+
+const int kTile = 16;
+const int kSlices = 40;              // 2.5 an octave of distance, from the near plane on; the last one is endless
+const float kSlicesPerOctave = 2.5;
+
+int wordsOf(int lamp_count) { return (lamp_count + 31) / 32; }
+ivec2 tilesOf(ivec2 size) { return (size + kTile - 1) / kTile; }
+
+int sliceOf(float view_distance) {
+  return clamp(int(floor(log2(max(view_distance / near_plane, 1e-6)) * kSlicesPerOctave)), 0, kSlices - 1);
+}
+// Distances along the view axis; the first begins at 0.
+vec2 boundsOfSlice(int slice) {
+  return vec2(slice == 0 ? -1e30 : near_plane * exp2(float(slice) / kSlicesPerOctave),
+              slice == kSlices - 1 ? 1e30 : near_plane * exp2(float(slice + 1) / kSlicesPerOctave));
+}
+
+// Distance along the view axis of a world position.
+float viewDistance(vec3 position) {
+  return -(view[0].z * position.x + view[1].z * position.y + view[2].z * position.z + view[3].z);
+}
+
+#endif

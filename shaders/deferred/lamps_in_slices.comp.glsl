@@ -1,0 +1,28 @@
+// For each slice of depth, the lamps that reach into it; see clusters.glsl. An invocation is a word of 32 lamps of one slice.
+// read    lamps     see scene/lamps.glsl
+// modify  clusters  the words behind those of the tiles
+// params  lamp_count
+//         picture   size in pixels
+#include "clusters.glsl"
+#include "scene/lamps.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430) buffer clusters { uint cluster[]; };
+layout(std140) uniform Parameters {
+  int lamp_count;
+  vec2 picture;
+};
+
+void main() {
+  int count = wordsOf(lamp_count), at = int(gl_GlobalInvocationID.x);
+  if (at >= count * kSlices) return;
+  vec2 bounds = boundsOfSlice(at / count);
+  uint word = 0u;
+  for (int bit = 0, i = at % count * 32; bit < 32 && i < lamp_count; ++bit, ++i) {
+    vec4 sphere = lampBounds(lamp[i]);
+    float distance_along = viewDistance(sphere.xyz), reach = sphere.w * 1.001;
+    if (distance_along + reach >= bounds.x * 0.9999 && distance_along - reach <= bounds.y * 1.0001) word |= 1u << bit;
+  }
+  ivec2 tiles = tilesOf(ivec2(picture));
+  cluster[tiles.x * tiles.y * count + at] = word;
+}

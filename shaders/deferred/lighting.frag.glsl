@@ -1,0 +1,61 @@
+// The light that leaves each surface of the G-buffer towards the eye.
+// read    normal, base, mro, depth   see gbuffer.glsl
+//         emissive?     radiance that is added
+//         position?     world, instead of the one that depth gives
+//         ao?           ambient visibility; the material's occlusion counts where it is darker
+//         and what light comes from: light.glsl
+// modify  radiance      scene-referred, alpha 1; nothing where depth is 0
+// params, defines       see light.glsl
+//         SHOW_LAMPS    instead of light, how many lamps each pixel goes through: blue 1, green 8, red 64 and more
+#include "light.glsl"
+
+#ifndef SHOW_LAMPS
+#define SHOW_LAMPS 0
+#endif
+
+uniform sampler2D normal, base, mro, depth;
+#ifdef HAS_EMISSIVE
+uniform sampler2D emissive;
+#endif
+#ifdef HAS_POSITION
+uniform sampler2D position;
+#endif
+#ifdef HAS_AO
+uniform sampler2D ao;
+#endif
+in vec2 uv;
+#ifdef HAS_RADIANCE
+out vec4 radiance;
+#endif
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float z = texelFetch(depth, pixel, 0).r;
+  if (z <= 0.0) discard;
+#ifdef HAS_POSITION
+  vec3 at = texelFetch(position, pixel, 0).xyz;
+#else
+  vec3 at = positionOfDepth(uv, z);
+#endif
+  vec4 stored = texelFetch(mro, pixel, 0);
+  Surface surface = Surface(texelFetch(base, pixel, 0).rgb, stored.r, stored.g);
+  Point point = pointOf(at, decodeNormal(texelFetch(normal, pixel, 0).rg), surface, stored.a);
+
+  float seen = stored.b;
+#ifdef HAS_AO
+  seen = min(seen, texelFetch(ao, pixel, 0).r);
+#endif
+  vec3 sum = ambient(point, seen);
+#ifdef HAS_EMISSIVE
+  sum += texelFetch(emissive, pixel, 0).rgb;
+#endif
+  int looked_at;
+  sum += direct(point, pixel, textureSize(depth, 0), looked_at);
+#if SHOW_LAMPS
+  float heat = log2(max(float(looked_at), 1.0)) / 3.0;
+  sum = looked_at == 0 ? vec3(0.02) : clamp(vec3(heat - 1.0, 1.0 - abs(heat - 1.0), 1.0 - heat), 0.0, 1.0);
+#endif
+#ifdef HAS_RADIANCE
+  radiance = vec4(sum, 1.0);
+#endif
+}

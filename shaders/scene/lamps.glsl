@@ -1,0 +1,40 @@
+// Point and spot lights, the import @lamps under the slot `lamps`. Outside `range` and outside its cone a lamp gives exactly nothing.
+#ifndef SCENE_LAMPS_GLSL
+#define SCENE_LAMPS_GLSL
+
+struct Lamp {
+  vec3 position;    // world
+  float range;      // world units
+  vec3 intensity;   // radiant intensity, scene-referred: irradiance at distance 1
+  float cos_inner;  // within this angle of `direction` undimmed
+  vec3 direction;   // of the spot's axis, away from the lamp
+  float cos_outer;  // -1: all round
+  float near_plane; // of its shadow map
+  int shadow;       // which cube of the shadow maps; -1: casts none
+};
+layout(std430) readonly buffer lamps { Lamp lamp[]; };
+
+// Irradiance on a surface at `position` that faces the lamp; `towards` is the unit direction to it. The inverse square with the window of
+// glTF's KHR_lights_punctual, and its cone.
+vec3 lampIrradiance(Lamp self, vec3 position, out vec3 towards) {
+  vec3 to = self.position - position;
+  float distance2 = max(dot(to, to), 1e-8), far2 = distance2 / (self.range * self.range);
+  towards = to * inversesqrt(distance2);
+  float window = clamp(1.0 - far2 * far2, 0.0, 1.0) / max(distance2, 1e-4);
+  if (self.cos_outer > -1.0) {
+    float cone = clamp((-dot(towards, self.direction) - self.cos_outer) / max(self.cos_inner - self.cos_outer, 1e-4), 0.0, 1.0);
+    window *= cone * cone;
+  }
+  return self.intensity * window;
+}
+
+// A sphere around all that the lamp lights: xyz and radius.
+vec4 lampBounds(Lamp self) {
+  if (self.cos_outer <= 0.0) return vec4(self.position, self.range);
+  // Of a cone with a round end: through apex and rim, or around the rim when it is wide (Wronski, "Cull that cone", 2017).
+  float outer = self.cos_outer;
+  if (outer > 0.70710678) return vec4(self.position + self.direction * (0.5 * self.range / outer), 0.5 * self.range / outer);
+  return vec4(self.position + self.direction * (self.range * outer), self.range * sqrt(1.0 - outer * outer));
+}
+
+#endif

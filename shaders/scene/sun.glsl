@@ -1,0 +1,14 @@
+// The sun, the import @sun under the slot `sun`: light from one direction, and where its shadow map lies in the world.
+#ifndef SCENE_SUN_GLSL
+#define SCENE_SUN_GLSL
+
+struct Sun {
+  vec3 direction;      // unit, towards the sun
+  float cos_angle;     // of half the angle it is seen under
+  vec3 irradiance;     // on a surface that faces it, scene-referred
+  float texel;         // world units that a texel of the shadow map is wide
+  mat4 shadow_matrix;  // world to texture coordinates and reversed-Z depth, all 0..1; a rotation and a scale
+};
+layout(std430) readonly buffer sun { Sun sun_light[]; };
+
+#endif

@@ -1,0 +1,31 @@
+// How much of a lamp a point sees, from a cube of reversed-Z depth per lamp: near_plane / distance along the face's axis.
+// Slot: lamp_maps `as compare`, a cube array, with the comparison less or less-or-equal (the default), that is 1 in the shadow.
+// Five linear lookups, one texel apart, each compared with where the receiver's plane is in its direction.
+#ifndef SHADING_LAMP_SHADOW_GLSL
+#define SHADING_LAMP_SHADOW_GLSL
+
+#include "scene/lamps.glsl"
+
+uniform samplerCubeArrayShadow lamp_maps;
+
+float axisOf(vec3 d) { return max(abs(d.x), max(abs(d.y), abs(d.z))); }
+
+float seenOfLamp(Lamp self, vec3 position, vec3 n) {
+  vec3 from = position - self.position;
+  float texel = 2.0 / float(textureSize(lamp_maps, 0).x), along = dot(from, n), away = length(from);
+  float slant = sqrt(max(1.0 - along * along / (away * away), 0.0));
+  from += n * (axisOf(from) * texel * (1.5 + 1.5 * slant));
+  along = dot(from, n);
+  vec3 side = normalize(abs(from.y) < 0.7 * away ? cross(from, vec3(0.0, 1.0, 0.0)) : cross(from, vec3(1.0, 0.0, 0.0)));
+  vec3 up = normalize(cross(side, from));
+  float hidden = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    float around = float(i) * 1.57079633;
+    vec3 to = from + (i == 4 ? vec3(0.0) : axisOf(from) * texel * (cos(around) * side + sin(around) * up));
+    float plane = dot(to, n), reach = plane * along > 0.0 ? clamp(along / plane, 0.5, 2.0) : 1.0;  // to the receiver's plane
+    hidden += texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / (reach * axisOf(to)) * (1.0 + 1e-4));
+  }
+  return 1.0 - 0.2 * hidden;
+}
+
+#endif
