@@ -39,7 +39,7 @@ namespace weft::base {
   X(shader_memory,       1ull << 30,    "bytes that a program takes to compile")                \
   X(program_cache_bytes, 256ull << 20,  "bytes of the folder of program binaries")              \
   X(model_bytes,         512ull << 20,  "bytes of all files of one model, and of what is packed in them") \
-  X(model_text_bytes,    32ull << 20,   "bytes of one OBJ or text FBX file")                    \
+  X(model_text_bytes,    24ull << 20,   "bytes of one OBJ or text FBX file")                    \
   X(model_vertices,      8ull << 20,    "vertices of one model, and a third of its corners")    \
   X(model_texels,        64ull << 20,   "texels of all textures of one model")                  \
   X(frames,              1000000,       "frames of one command")

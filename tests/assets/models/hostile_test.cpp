@@ -290,6 +290,22 @@ TEST_CASE("nothing outside the model's folder is read, in whatever spelling") {
   }
 }
 
+TEST_CASE("a model that is named without a folder has one") {
+  const TemporaryFolder folder;
+  GltfMaker maker;
+  maker.square();
+  json document = maker.document;
+  document["buffers"] = {{{"byteLength", maker.bytes.size()}, {"uri", "data.bin"}}};
+  folder.write("m.gltf", document.dump());
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.at(""));
+  CHECK(failureOf("m.gltf").code == Code::unreadableModel);  // missing, not outside
+  folder.write("data.bin", maker.bytes);
+  base::Diagnostics diagnostics;
+  CHECK_MESSAGE(loadModel("m.gltf", diagnostics), diagnostics.text());
+  std::filesystem::current_path(before);
+}
+
 TEST_CASE("pipes and folders beside a model are refused, and --confine holds") {
   const TemporaryFolder folder;
   REQUIRE(::mkfifo(folder.at("pipe.bin").c_str(), 0600) == 0);

@@ -5,6 +5,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <filesystem>
@@ -49,8 +50,10 @@ bool checkBefore(const std::string& bytes, bool obj, ModelFiles& files, Diagnost
     d.found = problem.found;
     return false;
   }
+  // Assimp makes a vertex of each corner.
   Model none;
-  return MeshBuilder(none).hasRoom(counts.vertices, counts.corners, files.place(), diagnostics) &&
+  return MeshBuilder(none).hasRoom(std::max(counts.vertices, counts.corners), counts.corners, files.place(),
+                                   diagnostics) &&
          files.count(counts.unpacked, files.place());
 }
 

@@ -74,9 +74,11 @@ std::string ModelFiles::resolve(const std::string& name) const {
   // A link in the folder may lead out as well. What reading is confined to is looked at by whoever opens the file, first.
   if (!base::mayRead(target)) return target;
   std::error_code ec;
-  const std::filesystem::path real = std::filesystem::weakly_canonical(target, ec);
-  const std::filesystem::path top =
-      std::filesystem::weakly_canonical(folder.empty() ? std::filesystem::path(".") : folder, ec);
+  const auto realOf = [&](const std::filesystem::path& path) {
+    const std::filesystem::path absolute = std::filesystem::absolute(path, ec);
+    return ec ? absolute : std::filesystem::weakly_canonical(absolute, ec);
+  };
+  const std::filesystem::path real = realOf(target), top = realOf(folder.empty() ? "." : folder);
   return ec || leadsOut(real.lexically_relative(top)) ? "" : target;
 }
 
