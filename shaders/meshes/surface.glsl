@@ -32,29 +32,29 @@ MeshSurface meshSurface() {
   vec2 dx = dFdx(map_uv), dy = dFdy(map_uv);
   vec3 n = normalize(world_normal);
   vec3 n_dx = dFdx(n), n_dy = dFdy(n);
-  vec4 color = sampleMap(self.albedo_map, map_uv, dx, dy) * vec4(self.albedo, self.alpha);
+  uint maps[5] = uint[](self.albedo_map, self.normal_map, self.metallic_roughness_map, self.occlusion_map, self.emissive_map);
+  vec4 texel[5];
+  for (int i = 0; i < 5; ++i) texel[i] = sampleMap(maps[i], map_uv, dx, dy);
+  vec4 color = texel[0] * vec4(self.albedo, self.alpha);
   if (color.a < self.alpha_cutoff || (self.double_sided == 0u && !gl_FrontFacing)) discard;
 
   if (!gl_FrontFacing) n = -n;
   if (self.normal_map != 0xffffffffu) {
-    vec3 texel = sampleMap(self.normal_map, map_uv, dx, dy).xyz * 2.0 - 1.0;
-    texel.xy *= self.normal_scale;
+    vec3 tilt = (texel[1].xyz * 2.0 - 1.0) * vec3(self.normal_scale, self.normal_scale, 1.0);
     vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
     if (dot(t, t) > 0.0) {
       t = normalize(t);
-      n = normalize(mat3(t, cross(n, t) * world_tangent.w, n) * texel);
+      n = normalize(mat3(t, cross(n, t) * world_tangent.w, n) * tilt);
     }
   }
-  vec3 channels = sampleMap(self.metallic_roughness_map, map_uv, dx, dy).rgb;
-  float occlusion = sampleMap(self.occlusion_map, map_uv, dx, dy).r;
   MeshSurface surface;
   surface.normal = n;
   surface.albedo = color.rgb;
   surface.alpha = color.a;
-  surface.emissive = self.emissive * sampleMap(self.emissive_map, map_uv, dx, dy).rgb;
-  surface.metallic = self.metallic * channels.b;
-  surface.roughness = self.roughness * channels.g;
-  surface.occlusion = mix(1.0, occlusion, self.occlusion_strength);
+  surface.emissive = self.emissive * texel[4].rgb;
+  surface.metallic = self.metallic * texel[2].b;
+  surface.roughness = self.roughness * texel[2].g;
+  surface.occlusion = mix(1.0, texel[3].r, self.occlusion_strength);
   surface.shininess = self.blinn_phong != 0u ? self.shininess : 0.0;
 #if SPECULAR_AA
   float variance = min(0.25 * 2.0 * (dot(n_dx, n_dx) + dot(n_dy, n_dy)), 0.18);

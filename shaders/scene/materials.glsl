@@ -22,17 +22,10 @@ uniform sampler2DArray material_maps[8];
 // White where `map` is none. Derivatives are the caller's: the branches here need not be taken by whole quads.
 vec4 sampleMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
   vec3 at = vec3(uv, float(map & 0xffffu));
-  switch (map >> 16) {
-    case 0u: return textureGrad(material_maps[0], at, dx, dy);
-    case 1u: return textureGrad(material_maps[1], at, dx, dy);
-    case 2u: return textureGrad(material_maps[2], at, dx, dy);
-    case 3u: return textureGrad(material_maps[3], at, dx, dy);
-    case 4u: return textureGrad(material_maps[4], at, dx, dy);
-    case 5u: return textureGrad(material_maps[5], at, dx, dy);
-    case 6u: return textureGrad(material_maps[6], at, dx, dy);
-    case 7u: return textureGrad(material_maps[7], at, dx, dy);
-  }
-  return vec4(1.0);
+  vec4 texel = vec4(1.0);
+  for (uint i = 0u; i < 8u; ++i)  // the index of a sampler is the same for all invocations that are here
+    if (map >> 16 == i) texel = textureGrad(material_maps[i], at, dx, dy);
+  return texel;
 }
 #else
 vec4 sampleMap(uint map, vec2 uv, vec2 dx, vec2 dy) { return vec4(1.0); }

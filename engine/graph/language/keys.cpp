@@ -83,7 +83,7 @@ constexpr KeySpec kPass[] = {
      "a pass above in this file whose keys this one takes over, with its own laid over them"},
     {"shader", R"({"anyOf":[{"type":"string"},{"$ref":"#/$defs/shaders"}]})",
      "path from shaders/; for draw passes a folder and stem, or two paths"},
-    {"enabled", "@value", "false removes the pass; true when absent"},
+    {"enabled", "@value", "false removes the pass; true when absent; with age() it decides in every frame"},
     {"repeat",
      R"({"anyOf":[{"$ref":"#/$defs/ranges"},{"type":"array","items":{"$ref":"#/$defs/ranges"},"minItems":1}]})",
      "one instance per index: {\"i\": [first, last, step]}"},
@@ -113,7 +113,8 @@ constexpr KeySpec kInclude[] = {
     {"as", "@name", "prefix of its names; the file's name when absent"},
     {"bind", "@slots", "its inputs; those absent take the resource of the same name"},
     {"group", R"({"type":"string"})", "group of its passes that are not always and name none"},
-    {"enabled", "@value", "false removes all its passes; true when absent"},
+    {"enabled", "@value",
+     "false removes all its passes; true when absent; with age() it decides in every frame"},
 };
 
 constexpr KeySpec kShader[] = {

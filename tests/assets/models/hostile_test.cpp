@@ -371,6 +371,7 @@ TEST_CASE("a picture of gigabytes is refused by its header") {
   CHECK_FALSE(loadModel(folder.write("m.gltf", maker.gltf()), diagnostics));
   CHECK_MESSAGE(diagnostics.errorCount() == 1, diagnostics.text());
   CHECK(diagnostics.contains(Code::limitExceeded));
+  CHECK(diagnostics.text().find("model_texels") != std::string::npos);
 }
 
 TEST_CASE("OBJ files that lie") {

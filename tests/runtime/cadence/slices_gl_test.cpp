@@ -136,8 +136,8 @@ TEST_CASE("slices: any number of them gives the bytes of the whole pass, and no 
     std::vector<float> last;
     for (int i = 0; i < 60; ++i) seen.insert(seedOf(last = sliced.frame()));
     CHECK(last == expected);
-    const bool sliced = sets[2].text != "1" || sets[3].text != "1" || std::stoi(sets[4].text) > 1;
-    CHECK(seen == (sliced ? std::set<float>{-1, 3} : std::set<float>{3}));
+    const bool isSliced = sets[2].text != "1" || sets[3].text != "1" || std::stoi(sets[4].text) > 1;
+    CHECK(seen == (isSliced ? std::set<float>{-1, 3} : std::set<float>{3}));
   }
 }
 

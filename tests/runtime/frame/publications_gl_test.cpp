@@ -118,7 +118,9 @@ TEST_CASE(
   const std::uint32_t sum = bench.resource("sum");
   GpuResource& resource = (*bench.pool)[sum];
   REQUIRE(resource.copies == 3);
-  bench.passes.push_back(bench.passes[bench.step("next")]);  // another writer of the same
+  PreparedPass another;  // writer of the same
+  another.written = bench.passes[bench.step("next")].written;
+  bench.passes.push_back(std::move(another));
   std::uint64_t generation = bench.publications.generations()[sum];
   for (std::uint32_t frame = 1; frame <= 7; ++frame) {
     const std::uint32_t before = resource.current;
