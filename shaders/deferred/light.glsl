@@ -7,6 +7,7 @@
 //         sky_turn?     see shading/ibl.glsl
 // defines MODEL         MODEL_MATERIAL: what each material says; MODEL_COOK_TORRANCE or MODEL_BLINN_PHONG: all alike, with lobes of the same width
 //         SOFT_SUN      see shading/sun_shadow.glsl
+//         LIT_IS_GREATER   see shading/compare.glsl
 #ifndef DEFERRED_LIGHT_GLSL
 #define DEFERRED_LIGHT_GLSL
 
@@ -30,8 +31,10 @@ layout(std140) uniform Parameters {
 };
 #endif
 
-// The G-buffer's writer knows curvature, and widens roughness by it.
+// Who draws surfaces knows curvature, and widens roughness by it.
+#ifndef SPECULAR_AA
 #define SPECULAR_AA 0
+#endif
 #include "shading/direct.glsl"
 #ifdef HAS_SUN
 #ifdef HAS_SUN_MAP

@@ -1,10 +1,11 @@
 // How much of a lamp a point sees, from a cube of reversed-Z depth per lamp: near_plane / distance along the face's axis.
-// Slot: lamp_maps `as compare`, a cube array, with the comparison less or less-or-equal (the default), that is 1 in the shadow.
+// Slot: lamp_maps `as compare`, a cube array, see shading/compare.glsl.
 // Five linear lookups, one texel apart, each compared with where the receiver's plane is in its direction.
 #ifndef SHADING_LAMP_SHADOW_GLSL
 #define SHADING_LAMP_SHADOW_GLSL
 
 #include "scene/lamps.glsl"
+#include "shading/compare.glsl"
 
 uniform samplerCubeArrayShadow lamp_maps;
 
@@ -23,7 +24,7 @@ float seenOfLamp(Lamp self, vec3 position, vec3 n) {
     float around = float(i) * 1.57079633;
     vec3 to = from + (i == 4 ? vec3(0.0) : axisOf(from) * texel * (cos(around) * side + sin(around) * up));
     float plane = dot(to, n), reach = plane * along > 0.0 ? clamp(along / plane, 0.5, 2.0) : 1.0;  // to the receiver's plane
-    hidden += texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / (reach * axisOf(to)) * (1.0 + 1e-4));
+    hidden += hiddenBy(texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / (reach * axisOf(to)) * (1.0 + 1e-4)));
   }
   return 1.0 - 0.2 * hidden;
 }

@@ -1,5 +1,5 @@
 // How much of the sun a point sees, from a shadow map of reversed-Z depth, larger nearer to the sun.
-// Slots: sun_map `as compare`, with the comparison less or less-or-equal (the default), that is 1 in the shadow
+// Slots: sun_map `as compare`, see shading/compare.glsl
 //        sun_depth?  the same texture as numbers; with it (SOFT_SUN) penumbrae grow with the distance from what casts them: percentage-closer
 //                    soft shadows, Fernando, SIGGRAPH 2005 sketches, with a sun of its angle
 // A sample beside the point is compared with where the receiver's plane is there, so planes do not shadow themselves.
@@ -7,6 +7,7 @@
 #define SHADING_SUN_SHADOW_GLSL
 
 #include "scene/sun.glsl"
+#include "shading/compare.glsl"
 
 #ifndef SOFT_SUN
 #define SOFT_SUN 0
@@ -60,7 +61,7 @@ float seenOfSun(Sun self, vec3 position, vec3 n) {
   float hidden = 0.0;
   for (int i = 0; i < kFilter; ++i) {
     vec2 offset = onDisc(i, kFilter, turn) * width;
-    hidden += texture(sun_map, vec3(at.xy + offset, at.z + dot(slope, offset) + bias));
+    hidden += hiddenBy(texture(sun_map, vec3(at.xy + offset, at.z + dot(slope, offset) + bias)));
   }
   return 1.0 - hidden / float(kFilter);
 #else
@@ -68,7 +69,7 @@ float seenOfSun(Sun self, vec3 position, vec3 n) {
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) {
       vec2 offset = vec2(x, y) * texel;
-      hidden += texture(sun_map, vec3(at.xy + offset, at.z + dot(slope, offset) + bias));
+      hidden += hiddenBy(texture(sun_map, vec3(at.xy + offset, at.z + dot(slope, offset) + bias)));
     }
   return 1.0 - hidden / 9.0;
 #endif
