@@ -13,11 +13,13 @@
 
 #include "gbuffer.glsl"
 
-#ifndef MODEL
-#define MODEL 0
+#ifndef MODEL_MATERIAL
 #define MODEL_MATERIAL 0
 #define MODEL_COOK_TORRANCE 1
 #define MODEL_BLINN_PHONG 2
+#endif
+#ifndef MODEL
+#define MODEL MODEL_MATERIAL
 #endif
 
 #if defined HAS_SKY_TURN || defined HAS_LAMPS

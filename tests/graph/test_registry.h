@@ -72,7 +72,20 @@ inline std::vector<ImportType> testImports() {
        .everyPass = true},
       {"cut", ImportKind::event, "", {}},
       {"spheres", ImportKind::buffer, "", {}},
-      {"sun", ImportKind::view, "", {}},
+      {.name = "sun",
+       .kind = ImportKind::buffer,
+       .doc = "",
+       .arguments = {argument("texels", Value::number(2048))},
+       .views = true},
+      {.name = "lamps",
+       .kind = ImportKind::buffer,
+       .doc = "",
+       .arguments = {argument("casting", Value::boolean(false))},
+       .views = true},
+      {.name = "meshes", .kind = ImportKind::buffer, .doc = "", .arguments = {drawListArgument()}},
+      {.name = "materials", .kind = ImportKind::buffer, .doc = ""},
+      {.name = "joints", .kind = ImportKind::buffer, .doc = ""},
+      {.name = "material_maps", .kind = ImportKind::texture, .doc = "", .array = 8},
       {"point_lights", ImportKind::list, "", {}},
       {"shadowed_lights", ImportKind::view, "", {}},
       {"draw_order",
@@ -99,6 +112,11 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
     facts.width = 2048;
     facts.height = 1024;
     facts.mips = 12;
+  } else if (request.type == "material_maps") {
+    facts.format = Format::rgba8;
+    facts.layered = true;
+  } else if (request.type == "meshes" || request.type == "lamps") {
+    facts.count = 2;
   } else if (request.type == "cube_lut") {
     facts.exists = !request.arguments[0].second.symbol.empty();
     facts.format = Format::rgba16f;

@@ -12,13 +12,13 @@ namespace {
 Registry registryOf() {
   Registry registry = testRegistry();
   registry.imports.push_back({.name = "maps", .kind = ImportKind::texture, .doc = "", .array = 3});
-  registry.imports.push_back({.name = "lamps", .kind = ImportKind::buffer, .doc = "", .views = true});
+  registry.imports.push_back({.name = "lights", .kind = ImportKind::buffer, .doc = "", .views = true});
   registry.imports.push_back({.name = "rows", .kind = ImportKind::buffer, .doc = ""});
   const auto others = registry.factsOf;
   registry.factsOf = [others](const ImportRequest& request) -> ImportFacts {
     if (request.type == "maps")
       return {.exists = true, .format = Format::rgba8, .width = 8, .height = 8, .mips = 4, .layered = true};
-    if (request.type == "lamps" || request.type == "rows") return {.exists = true, .count = 4};
+    if (request.type == "lights" || request.type == "rows") return {.exists = true, .count = 4};
     return others(request);
   };
   return registry;
@@ -65,16 +65,16 @@ TEST_CASE("an import that is an array fills one slot with all its textures, each
 
 TEST_CASE("a table whose elements are views is read and looked from; another is not") {
   const auto pass = [](const std::string& view) {
-    return fill(R"J("view": ")J" + view + R"J(", "read": { "lamps": "@lamps" })J");
+    return fill(R"J("view": ")J" + view + R"J(", "read": { "lights": "@lights" })J");
   };
-  const Expanded e = expandPass(pass("@lamps[2].face[5]"));
+  const Expanded e = expandPass(pass("@lights[2].face[5]"));
   REQUIRE_MESSAGE(e.text() == "", e.text());
-  CHECK(e.graph->imports[e.spec("p").view].request.type == "lamps");
+  CHECK(e.graph->imports[e.spec("p").view].request.type == "lights");
   CHECK(e.spec("p").viewLayer == 2);
   CHECK(e.spec("p").viewFace == 5);
-  CHECK(expandPass(pass("@lamps[4]")).diagnostics.hasErrors());  // there are four
+  CHECK(expandPass(pass("@lights[4]")).diagnostics.hasErrors());  // there are four
   const Expanded none = expandPass(pass("@rows"));
-  CHECK(none.of(base::Code::notAView).expected.find("@lamps") != std::string::npos);
+  CHECK(none.of(base::Code::notAView).expected.find("@lights") != std::string::npos);
 }
 
 TEST_CASE("meshes are drawn of a list") {
