@@ -79,7 +79,7 @@ OUTSIDE = {
     "GLFW/": {"gl", "app"},
     "stb_": {"assets"}, "stb/": {"assets"}, "tinyexr": {"assets"}, "assimp/": {"assets"},
     "glm/": {"scene", "passes", "imports", "runtime", "app"},
-    "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"assets", "runtime"},
+    "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"scene"},
 }
 
 

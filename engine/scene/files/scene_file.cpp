@@ -354,4 +354,12 @@ std::optional<Scene> loadScene(const std::string& path, Diagnostics& diagnostics
   return scene;
 }
 
+bool namesModels(const std::string& path) {
+  if (assets::isModelName(path)) return true;
+  Diagnostics unsaid;
+  const std::optional<std::string> text = base::readTextFile(path, unsaid);
+  const auto root = text ? base::parseJson(*text, nullptr, unsaid) : std::nullopt;
+  return root && root->find("models") != nullptr;
+}
+
 }  // namespace weft::scene

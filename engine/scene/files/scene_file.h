@@ -31,4 +31,7 @@ std::optional<Scene> loadScene(const std::string& path, base::Diagnostics& diagn
 std::optional<Scene> readScene(std::string_view text, const std::string& name, base::Diagnostics& diagnostics,
                                const SceneChoice& choice = {});
 
+// Whether a scene has models to load, as far as its file can be read: for whoever wants to show something meanwhile.
+bool namesModels(const std::string& path);
+
 }  // namespace weft::scene

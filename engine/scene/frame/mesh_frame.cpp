@@ -8,6 +8,8 @@ namespace weft::scene {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::size_t kLeastRows = 1024;   // that are worth a task
+constexpr std::size_t kLittleWork = 4096;  // nodes and rows: below, threads cost more than they bring
 
 template <class Row>
 std::uint32_t rowOf(const Table<Row>& table, typename Table<Row>::Id id) {
@@ -104,46 +106,77 @@ void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row)
   table.bounds[row] = box;
 }
 
-void MeshFrame::fillBounds(const Scene& scene, double time) {
-  bounds_ = sphereBounds_;
-  if (spheresMove_) {
-    bounds_ = {};
+void MeshFrame::fillRows(const Scene& scene, bool all) {
+  for (ListTable& table : tables_) {
+    if (!all && table.moving.empty()) continue;
+    forRanges(all ? table.rows.size() : table.moving.size(), kLeastRows,
+              [&](std::size_t from, std::size_t to) {
+                for (std::size_t i = from; i < to; ++i)
+                  fillRow(scene, table, all ? static_cast<std::uint32_t>(i) : table.moving[i]);
+              });
+    table.generation = count_;
+  }
+}
+
+void MeshFrame::fillBounds(const Scene& scene, double time, bool all) {
+  if (all)
+    spheresMove_ =
+        std::ranges::any_of(scene.spheres.rows(), [](const Sphere& s) { return s.velocity != glm::vec3(0); });
+  const bool moving = std::ranges::any_of(tables_, [](const ListTable& t) { return !t.moving.empty(); });
+  if (!all && !moving && !spheresMove_) return;
+  if (all || spheresMove_) {
+    sphereBounds_ = {};
     for (const Sphere& sphere : scene.spheres.rows()) {
       const glm::vec3 center = sphere.center + sphere.velocity * static_cast<float>(time);
-      bounds_.add(Box{center - sphere.radius, center + sphere.radius});
+      sphereBounds_.add(Box{center - sphere.radius, center + sphere.radius});
     }
-    sphereBounds_ = bounds_;
   }
+  bounds_ = sphereBounds_;
   for (const ListTable& table : tables_)
     for (const Box& box : table.bounds) bounds_.add(box);
+}
+
+MeshFrame::MeshFrame() : job_(std::make_unique<Job>()), tasks_(makeTasks()) {}
+
+std::vector<FrameTask> MeshFrame::makeTasks() {
+  using Moment = WorldTransforms::Moment;
+  Job* job = job_.get();
+  const auto animate = [job](Moment moment) {
+    return [job, moment] { job->frame->transforms_.animate(*job->scene, moment); };
+  };
+  const auto place = [job](Moment moment) {
+    return [job, moment] { job->frame->transforms_.place(*job->scene, moment); };
+  };
+  return {
+      {"animation", {"animations"}, {"locals"}, animate(Moment::now)},
+      {"animation before", {"animations"}, {"locals before"}, animate(Moment::previous)},
+      {"transforms", {"nodes", "locals"}, {"world"}, place(Moment::now)},
+      {"transforms before", {"nodes", "locals before"}, {"world before"}, place(Moment::previous)},
+      {"joints",
+       {"skins", "world", "world before"},
+       {"joints"},
+       [job] { job->frame->fillJoints(*job->scene, job->another); }},
+      {"rows",
+       {"instances", "world", "world before", "joints"},
+       {"rows", "boxes"},
+       [job] { job->frame->fillRows(*job->scene, job->another); }},
+      {"scene box",
+       {"spheres", "boxes"},
+       {"scene box"},
+       [job] { job->frame->fillBounds(*job->scene, job->time, job->another); }},
+  };
 }
 
 void MeshFrame::update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime) {
   const bool another = sceneGeneration != sceneGeneration_;
   if (!another && time == time_ && previousTime == previousTime_) return;
-  transforms_.update(scene, sceneGeneration, time, previousTime);
+  transforms_.prepare(scene, sceneGeneration, time, previousTime);
   ++count_;
   if (another) rebuild(scene);
-  fillJoints(scene, another);
-  bool changed = another;
-  for (ListTable& table : tables_) {
-    if (!another && table.moving.empty()) continue;
-    if (another)
-      for (std::uint32_t row = 0; row < table.rows.size(); ++row) fillRow(scene, table, row);
-    else
-      for (const std::uint32_t row : table.moving) fillRow(scene, table, row);
-    table.generation = count_;
-    changed = true;
-  }
-  if (another)
-    spheresMove_ =
-        std::ranges::any_of(scene.spheres.rows(), [](const Sphere& s) { return s.velocity != glm::vec3(0); });
-  if (another && !spheresMove_) {
-    sphereBounds_ = {};
-    for (const Sphere& s : scene.spheres.rows())
-      sphereBounds_.add(Box{s.center - s.radius, s.center + s.radius});
-  }
-  if (changed || spheresMove_) fillBounds(scene, time);
+  *job_ = {this, &scene, time, another};
+  std::size_t work = transforms_.movingCount();
+  for (const ListTable& table : tables_) work += another ? table.rows.size() : table.moving.size();
+  tasks_.run(work < kLittleWork ? 1 : threads_);
   sceneGeneration_ = sceneGeneration;
   time_ = time;
   previousTime_ = previousTime;

@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/scene/frame/tasks.h"
 #include "engine/scene/frame/transforms.h"
 #include "engine/scene/scene.h"
 
@@ -24,6 +26,10 @@ struct MeshRow {
 
 class MeshFrame {
  public:
+  MeshFrame();
+  // How many threads update() may use; 0, the default: as many as the machine has. The tables are the same, byte for byte.
+  // Little work is done on one in any case.
+  void setThreads(int threads) { threads_ = threads; }
   // Nothing happens for a generation and times that are those of the last call.
   void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
 
@@ -38,6 +44,10 @@ class MeshFrame {
   std::uint64_t jointsGeneration() const { return jointsGeneration_; }
   // Of everything that stands in any list, spheres too, at the time of the last update.
   Box sceneBounds() const { return bounds_; }
+  // Whether any row of the list can ever be another.
+  bool isMoving(DrawList list) const { return !tableOf(list).moving.empty(); }
+  // What update() consists of, with the tables that each part reads and writes, and how long each took the last time.
+  const FrameTasks& tasks() const { return tasks_; }
   // How many times a node was placed since this was made.
   std::uint64_t nodeUpdates() const { return transforms_.updates(); }
 
@@ -58,7 +68,20 @@ class MeshFrame {
   void rebuild(const Scene& scene);
   void fillJoints(const Scene& scene, bool all);
   void fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const;
-  void fillBounds(const Scene& scene, double time);
+  void fillRows(const Scene& scene, bool all);
+  void fillBounds(const Scene& scene, double time, bool all);
+  std::vector<FrameTask> makeTasks();
+
+  // What the tasks work on in the present update(). Stands still when a MeshFrame moves.
+  struct Job {
+    MeshFrame* frame = nullptr;
+    const Scene* scene = nullptr;
+    double time = 0;
+    bool another = false;  // scene than at the last update
+  };
+  std::unique_ptr<Job> job_;
+  FrameTasks tasks_;
+  int threads_ = 0;
 
   std::uint64_t sceneGeneration_ = 0;  // 0: none yet
   double time_ = 0, previousTime_ = 0;

@@ -1,16 +1,18 @@
 #include "engine/scene/frame/transforms.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 
 #include "engine/scene/frame/animation.h"
+#include "engine/scene/frame/tasks.h"
 
 namespace weft::scene {
 
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::size_t kLeastPart = 512;  // nodes that are worth a task
 
 std::uint32_t rowOf(const Table<Node>& nodes, NodeId id) {
   const Node* node = nodes.find(id);
@@ -34,7 +36,7 @@ void WorldTransforms::rebuild(const Scene& scene) {
   const std::span<const Node> nodes = scene.nodes.rows();
   parents_.resize(nodes.size());
   moves_.assign(nodes.size(), 0);
-  locals_.resize(nodes.size());
+  now_.locals.resize(nodes.size());
   animatedRows_.clear();
   for (const Animation& animation : scene.animations.rows()) {
     std::vector<std::uint32_t>& rows = animatedRows_.emplace_back();
@@ -49,49 +51,85 @@ void WorldTransforms::rebuild(const Scene& scene) {
     const Node& node = nodes[row];
     parents_[row] = rowOf(scene.nodes, node.parent);
     assert((parents_[row] == kNone || parents_[row] < row) && "parents stand before their children");
-    locals_[row] = node.local;
+    now_.locals[row] = node.local;
     if (node.spin != glm::vec3(0) || node.velocity != glm::vec3(0)) moves_[row] = 1;
     if (parents_[row] != kNone && moves_[parents_[row]] != 0) moves_[row] = 1;
     if (moves_[row] != 0) moving_.push_back(static_cast<std::uint32_t>(row));
   }
-  now_.resize(nodes.size());
+  previous_.locals = now_.locals;
+  now_.world.resize(nodes.size());
+
+  // A part may begin where no later row has a moving parent before it.
+  parts_ = {moving_.size()};
+  std::uint32_t leastParent = kNone;
+  for (std::size_t i = moving_.size(); i-- > 0;) {
+    const std::uint32_t parent = parents_[moving_[i]];
+    if (parent != kNone && moves_[parent] != 0) leastParent = std::min(leastParent, parent);
+    if (leastParent >= moving_[i] && parts_.back() - i >= kLeastPart) parts_.push_back(i);
+  }
+  if (parts_.back() != 0) parts_.push_back(0);
+  std::ranges::reverse(parts_);
 }
 
-void WorldTransforms::place(const Scene& scene, double time, std::span<const std::uint32_t> rows,
-                            std::vector<glm::mat4>& out) {
+void WorldTransforms::animateAt(const Scene& scene, At& at) const {
   const std::span<const Animation> animations = scene.animations.rows();
   for (std::size_t i = 0; i < animations.size(); ++i)
-    applyAnimation(animations[i], time, animatedRows_[i], locals_);
-  const std::span<const Node> nodes = scene.nodes.rows();
-  for (const std::uint32_t row : rows) {
-    const glm::mat4 local = matrixOf(moved(nodes[row], locals_[row], time));
-    out[row] = parents_[row] == kNone ? local : out[parents_[row]] * local;
+    applyAnimation(animations[i], at.time, animatedRows_[i], at.locals);
+}
+
+void WorldTransforms::placeRow(const Scene& scene, At& at, std::uint32_t row) const {
+  const glm::mat4 local = matrixOf(moved(scene.nodes.rows()[row], at.locals[row], at.time));
+  at.world[row] = parents_[row] == kNone ? local : at.world[parents_[row]] * local;
+}
+
+void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration, double time,
+                              double previousTime) {
+  now_.due = previous_.due = false;
+  if (sceneGeneration != generation_) {
+    rebuild(scene);
+    now_.time = time;
+    animateAt(scene, now_);
+    for (std::uint32_t row = 0; row < scene.nodes.size(); ++row) placeRow(scene, now_, row);
+    placed_ += scene.nodes.size();
+    previous_.world = now_.world;
+    previous_.locals = now_.locals;
+    previous_.due = previousTime != time;
+  } else if (time != now_.time || previousTime != previous_.time) {
+    // The frame before is most often the one that was placed last.
+    if (previousTime == now_.time && time != now_.time) {
+      now_.world.swap(previous_.world);
+      now_.locals.swap(previous_.locals);
+      now_.due = true;
+    } else {
+      now_.due = time != now_.time;
+      previous_.due = previousTime != previous_.time;
+    }
   }
-  updates_ += rows.size();
+  generation_ = sceneGeneration;
+  now_.time = time;
+  previous_.time = previousTime;
+}
+
+void WorldTransforms::animate(const Scene& scene, Moment moment) {
+  if (At& at = of(moment); at.due) animateAt(scene, at);
+}
+
+void WorldTransforms::place(const Scene& scene, Moment moment) {
+  At& at = of(moment);
+  if (!at.due) return;
+  forRanges(parts_.size() - 1, 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = parts_[from]; i < parts_[to]; ++i) placeRow(scene, at, moving_[i]);
+  });
+  at.updates += moving_.size();
 }
 
 void WorldTransforms::update(const Scene& scene, std::uint64_t sceneGeneration, double time,
                              double previousTime) {
-  if (sceneGeneration != generation_) {
-    rebuild(scene);
-    std::vector<std::uint32_t> all(scene.nodes.size());
-    std::iota(all.begin(), all.end(), 0u);
-    place(scene, time, all, now_);
-    previous_ = now_;
-    if (previousTime != time) place(scene, previousTime, moving_, previous_);
-  } else if (time != time_ || previousTime != previousTime_) {
-    // The frame before is most often the one that was placed last.
-    if (previousTime == time_ && time != time_) {
-      now_.swap(previous_);
-      place(scene, time, moving_, now_);
-    } else {
-      if (time != time_) place(scene, time, moving_, now_);
-      if (previousTime != previousTime_) place(scene, previousTime, moving_, previous_);
-    }
+  prepare(scene, sceneGeneration, time, previousTime);
+  for (const Moment moment : {Moment::now, Moment::previous}) {
+    animate(scene, moment);
+    place(scene, moment);
   }
-  generation_ = sceneGeneration;
-  time_ = time;
-  previousTime_ = previousTime;
 }
 
 }  // namespace weft::scene

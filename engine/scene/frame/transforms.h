@@ -16,28 +16,44 @@ class WorldTransforms {
   // Nothing happens for a generation and times that are those of the last call.
   void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
 
+  // The same in steps: prepare(), then animate() before place() of each moment, the two moments in any order or at once.
+  enum class Moment : std::uint8_t { now, previous };
+  void prepare(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
+  void animate(const Scene& scene, Moment moment);
+  void place(const Scene& scene, Moment moment);
+
   // By row of Scene::nodes.
-  std::span<const glm::mat4> now() const { return now_; }
-  std::span<const glm::mat4> previous() const { return previous_; }
+  std::span<const glm::mat4> now() const { return now_.world; }
+  std::span<const glm::mat4> previous() const { return previous_.world; }
   // Whether a row can ever stand elsewhere.
   bool isMoving(std::size_t row) const { return moves_[row] != 0; }
+  // How many rows can.
+  std::size_t movingCount() const { return moving_.size(); }
   // How many times a node was placed since this was made. For tests and measurements.
-  std::uint64_t updates() const { return updates_; }
+  std::uint64_t updates() const { return placed_ + now_.updates + previous_.updates; }
 
  private:
+  struct At {
+    std::vector<glm::mat4> world;
+    std::vector<Transform> locals;  // with what animations make of them
+    double time = 0;
+    bool due = false;  // to be placed by the steps
+    std::uint64_t updates = 0;
+  };
   void rebuild(const Scene& scene);
-  void place(const Scene& scene, double time, std::span<const std::uint32_t> rows,
-             std::vector<glm::mat4>& out);
+  void animateAt(const Scene& scene, At& at) const;
+  void placeRow(const Scene& scene, At& at, std::uint32_t row) const;
+  At& of(Moment moment) { return moment == Moment::now ? now_ : previous_; }
 
   std::uint64_t generation_ = 0;  // of the scene; 0: none yet
-  double time_ = 0, previousTime_ = 0;
-  std::vector<glm::mat4> now_, previous_;
+  At now_, previous_;
   std::vector<std::uint32_t> parents_;  // rows, or kNone
   std::vector<std::uint8_t> moves_;
-  std::vector<std::uint32_t> moving_;                     // rows that move, ascending
-  std::vector<Transform> locals_;                         // with what animations make of them
+  std::vector<std::uint32_t> moving_;  // rows that move, ascending
+  std::vector<std::size_t>
+      parts_;  // of moving_, which need nothing of each other: where each begins, and the end
   std::vector<std::vector<std::uint32_t>> animatedRows_;  // per animation, parallel to its tracks
-  std::uint64_t updates_ = 0;
+  std::uint64_t placed_ = 0;                              // when the scene was another
 };
 
 }  // namespace weft::scene
