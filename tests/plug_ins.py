@@ -11,6 +11,8 @@ import sys
 
 # The same word for something else, as (file, word): what it is there.
 OTHER_MEANINGS = {
+    ("engine/scene/frame/mesh_frame.cpp", "joints"): "a table of the tasks of a frame",
+    ("engine/scene/frame/mesh_frame.cpp", "spheres"): "a table of the tasks of a frame",
     ("engine/assets/models/gltf/gltf.cpp", "mesh"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "meshes"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "materials"): "a key of glTF",
