@@ -42,7 +42,7 @@ SUB_ROOMS = {
         "models/assimp": {".", "models/parts"},
         "models": {".", "models/parts", "models/gltf", "models/assimp"},
     },
-    "scene": {".": set(), "frame": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
+    "scene": {".": set(), "frame": {"."}, "probes": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
         "context": set(),
         "objects": {"context"},

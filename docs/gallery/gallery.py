@@ -9,7 +9,7 @@
                                             must be there, every property must be a test, and every effect, rendered small,
                                             must change the picture
 
-An entry: `name`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both; `says`, what
+An entry: `name`; `graph`, where it is not the one of `all`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both; `says`, what
 to see; `property`, [test file, beginning of the name of a test case]. Pictures made by equal arguments are made once.
 """
 import hashlib
@@ -30,8 +30,12 @@ GALLERY = json.loads((HERE / "gallery.json").read_text())
 ENVIRONMENT = GALLERY["environment"]
 
 
+def graph_of(entry):
+    return entry.get("graph", GALLERY["all"])
+
+
 def arguments(entry, side):
-    return shlex.split(" ".join(text for text in (GALLERY["all"], entry.get("both", ""), entry.get(side, "")) if text))
+    return shlex.split(" ".join(text for text in (graph_of(entry), entry.get("both", ""), entry.get(side, "")) if text))
 
 
 def picture_of(entry, side):
@@ -80,7 +84,8 @@ def page():
             chapter = entry["chapter"]
             out += [f"## {chapter}", ""]
         off, on = (entry.get(side) or "as it is" for side in ("off", "on"))
-        both = f" Both: `{entry['both']}`." if entry.get("both") else ""
+        both = f" Graph: `{entry['graph']}`." if "graph" in entry else ""
+        both += f" Both: `{entry['both']}`." if entry.get("both") else ""
         out += [f"### {entry['effect']}", "", f"{entry['says']}{both}", "",
                 f"| `{off}` | `{on}` |", "|---|---|",
                 f"| ![off](images/gallery/{picture_of(entry, 'off')}) | ![on](images/gallery/{picture_of(entry, 'on')}) |", ""]

@@ -118,6 +118,7 @@ struct ResourceDesc {
   // others
   ImportDesc import;
   std::string input;  // "texture" or "buffer"
+  bool optional = false;
   std::vector<RefDesc> alternatives;
 };
 

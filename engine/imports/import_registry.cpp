@@ -12,6 +12,7 @@
 #include "engine/imports/material_maps/material_maps.h"
 #include "engine/imports/materials/materials.h"
 #include "engine/imports/meshes/meshes.h"
+#include "engine/imports/probes/probes.h"
 #include "engine/imports/spheres/spheres.h"
 #include "engine/imports/sun/sun.h"
 
@@ -31,6 +32,7 @@ ImportRegistry ImportRegistry::builtin() {
   registry.add(std::make_unique<Camera>());
   registry.add(std::make_unique<CubeLut>());
   registry.add(std::make_unique<Cut>());
+  registry.add(std::make_unique<Probes>());
   return registry;
 }
 

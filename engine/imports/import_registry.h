@@ -12,7 +12,7 @@ namespace weft::imports {
 
 class ImportRegistry {
  public:
-  // environment, spheres, draw_order, camera, cube_lut, cut
+  // Those of the folders here.
   static ImportRegistry builtin();
 
   void add(std::unique_ptr<Import> import);

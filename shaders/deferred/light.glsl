@@ -1,5 +1,5 @@
 // Light that leaves a surface towards the eye, for whatever has a surface: lighting.frag for the G-buffer, transparent.frag for meshes.
-// read    brdf, irradiance?, specular?, environment?   see shading/ibl.glsl
+// read    brdf, irradiance?, specular?, environment?, probes?, sh?   see shading/ibl.glsl
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
 //         clusters?     which lamps reach where, see clusters.glsl; without it every pixel goes through all lamps
@@ -86,7 +86,7 @@ vec3 ambient(Point point, float seen) {
 #endif
   // Occlusion of the lobe: Lagarde and de Rousiers, "Moving Frostbite to physically based rendering", SIGGRAPH 2014 courses, 4.10.2.
   float seen_reflected = clamp(pow(point.nv + seen, exp2(-16.0 * roughness - 1.0)) - 1.0 + seen, 0.0, 1.0);
-  vec3 around = lightAround(point.n) * seen;
+  vec3 around = lightAround(point.at, point.n) * seen;
   if (point.is_phong) return point.phong.specular * reflected * seen_reflected + point.phong.diffuse * around;
   return point.response.single * reflected * seen_reflected + (point.response.multiple + point.response.diffuse) * around;
 }

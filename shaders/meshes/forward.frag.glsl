@@ -26,7 +26,7 @@ void main() {
   vec3 v = normalize(eye - world_position);
   float nv = clamp(dot(self.normal, v), 0.0, 1.0);
   Surface surface = Surface(self.albedo, self.metallic, self.roughness);
-  vec3 lit = shade(surface, self.normal, reflect(-v, self.normal), nv, lobeOf(self.roughness, 0.0));
+  vec3 lit = shade(surface, world_position, self.normal, reflect(-v, self.normal), nv, lobeOf(self.roughness, 0.0));
   float share = BLEND == 1 ? self.alpha : 1.0;
   radiance = vec4((lit * self.occlusion + self.emissive) * share, share);
 #endif

@@ -7,12 +7,16 @@
 // cones, Akenine-Moeller et al., JCGT 10(1), 2021). Mirrors read the environment at the level where a texel is that wide; rough
 // surfaces add its variance to that of their lobe (Tokuyoshi and Kaplanyan, "Improved geometric specular antialiasing", I3D
 // 2019, with the curvature known instead of derivatives). Nothing depends on the resolution but through that cone.
+// probes (with sh?): light that other things throw back is added to the diffuse light, see gi/bounce.glsl.
 // Parameter sky_turn?: by how much of a full turn the environment is rotated. The includer declares the block Parameters before.
 #ifndef SHADING_IBL_GLSL
 #define SHADING_IBL_GLSL
 
 #include "common/equirect.glsl"
 #include "ibl/roughness_level.glsl"
+#ifdef HAS_PROBES
+#include "gi/bounce.glsl"
+#endif
 
 #ifndef COMPENSATION
 #define COMPENSATION 1
@@ -104,18 +108,29 @@ Response responseOf(Surface surface, float nv) {
 #endif
 }
 
-// Mean radiance around `normal`, a world direction, weighted by the cosine.
-vec3 lightAround(vec3 normal) {
+#ifdef HAS_IRRADIANCE
+vec3 fromEnvironment(vec3 normal) {
+  return sampleEquirect(irradiance, equirectUv(normal) - vec2(sky_turn, 0.0), 0.0, float(textureSize(irradiance, 0).y)).rgb;
+}
+#endif
+
+// Mean radiance around `normal` at `position`, weighted by the cosine: of the environment, and of the probes. Both are of the world;
+// without probes the position is of no account.
+vec3 lightAround(vec3 position, vec3 normal) {
   vec3 around = vec3(0.0);
 #ifdef HAS_IRRADIANCE
-  around = sampleEquirect(irradiance, equirectUv(normal) - vec2(sky_turn, 0.0), 0.0, float(textureSize(irradiance, 0).y)).rgb;
+  around = fromEnvironment(normal);
+#ifdef HAS_PROBES
+  Bounce bounce = bounceAt(position, normal);
+  around += bounced(bounce, fromEnvironment(bounce.facing), fromEnvironment(-bounce.facing));
+#endif
 #endif
   return around;
 }
 
-// `normal` and `mirror` are world directions, `nv` the cosine of the normal to the eye, 0..1; `lobe` from lobeOf.
-vec3 shade(Surface surface, vec3 normal, vec3 mirror, float nv, vec3 lobe) {
-  vec3 around = lightAround(normal), reflected = vec3(0.0);
+// `position`, `normal` and `mirror` are of the world, `nv` the cosine of the normal to the eye, 0..1; `lobe` from lobeOf.
+vec3 shade(Surface surface, vec3 position, vec3 normal, vec3 mirror, float nv, vec3 lobe) {
+  vec3 around = lightAround(position, normal), reflected = vec3(0.0);
 #ifdef HAS_SPECULAR
   reflected = reflection(lobe, mirror);
 #endif

@@ -1,5 +1,5 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment.
-// read    brdf, irradiance?, specular?   see shading/ibl.glsl; without one its light is missing
+// read    brdf, irradiance?, specular?, probes?, sh?   see shading/ibl.glsl; without one its light is missing
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)
@@ -20,6 +20,9 @@ flat in vec3 lobe;
 flat in vec4 per_pixel;
 flat in float near_distance;
 flat in mat3 to_world;
+#ifdef HAS_PROBES
+flat in vec3 world_eye;
+#endif
 #ifdef HAS_VELOCITY
 flat in mat3 before_turn;
 flat in vec3 before_eye;
@@ -80,7 +83,12 @@ void main() {
 #ifdef HAS_RADIANCE
   vec3 mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
   Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
-  radiance = vec4(shade(surface, to_world * normal_view, mirror, nv, lobe) * coverage, coverage);
+#ifdef HAS_PROBES
+  vec3 position = to_world * (v * t) + world_eye;
+#else
+  const vec3 position = vec3(0.0);
+#endif
+  radiance = vec4(shade(surface, position, to_world * normal_view, mirror, nv, lobe) * coverage, coverage);
 #endif
 #ifdef HAS_VELOCITY
   vec3 before = before_turn * (v * t) + before_eye;

@@ -25,6 +25,9 @@ flat out vec3 lobe;             // see shading.glsl
 flat out vec4 per_pixel;        // slope, screen UV
 flat out float near_distance;
 flat out mat3 to_world;
+#ifdef HAS_PROBES
+flat out vec3 world_eye;
+#endif
 #ifdef HAS_VELOCITY
 flat out mat3 before_turn;      // x, y and w in last frame's clip space of a direction in view space,
 flat out vec3 before_eye;       // and of the eye as the moving sphere saw it
@@ -67,6 +70,9 @@ void main() {
   per_pixel = vec4(1.0 / focal, 1.0 / viewport);
   near_distance = near_plane;
   to_world = transpose(mat3(view));
+#ifdef HAS_PROBES
+  world_eye = eye;
+#endif
 #ifdef HAS_VELOCITY
   mat4 before = previous_view_projection;
   before_turn = mat3(before[0].xyw, before[1].xyw, before[2].xyw) * to_world;

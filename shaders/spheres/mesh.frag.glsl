@@ -1,5 +1,5 @@
 // One triangle of a sphere, lit by the environment as the ray-traced ones of spheres/billboard are.
-// read    brdf, irradiance?, specular?   see shading/ibl.glsl; without one its light is missing
+// read    brdf, irradiance?, specular?, probes?, sh?   see shading/ibl.glsl; without one its light is missing
 // write or modify  radiance   scene-referred; alpha 1
 //                  velocity   screen UV per frame
 //                  depth      near / distance along the view axis (reversed-Z)
@@ -25,7 +25,7 @@ void main() {
   vec3 n = normalize(outwards), v = normalize(from_eye);
   float nv = clamp(-dot(n, v), 0.0, 1.0);
   Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
-  radiance = vec4(shade(surface, n, v + 2.0 * nv * n, nv, lobe), 1.0);
+  radiance = vec4(shade(surface, eye + from_eye, n, v + 2.0 * nv * n, nv, lobe), 1.0);
 #endif
 #ifdef HAS_VELOCITY
   vec4 before = previous_view_projection * vec4(eye + from_eye - motion_metallic.xyz, 1.0);

@@ -98,7 +98,9 @@ inline std::vector<ImportType> testImports() {
        ImportKind::buffer,
        "",
        {drawListArgument(), argument("grid", grid), argument("near", Value::number(1)),
-        argument("far", Value::number(3)), argument("lobe", Value::text("cap"), {"cap", "point"})}},
+        argument("far", Value::number(3)), argument("lobe", Value::text("cap"), {"cap", "point"}),
+        argument("shape", Value::text("cap"), {"cap", "point"}),
+        argument("window", Value::text("smooth"), {"smooth", "hard"})}},
       {"screen_view", ImportKind::view, "", {}},
   };
 }
@@ -135,6 +137,14 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
   } else if (request.type == "shadowed_lights") {
     facts.exists = world.shadowedLights > 0;
     facts.count = world.shadowedLights;
+  } else if (request.type == "probes" && request.arguments[1].second.v[0] < 1) {
+    base::Diagnostic problem;  // as the import says it: without a place
+    problem.code = base::Code::badImportArgument;
+    problem.message = "import 'probes': argument 'grid' does not fit";
+    problem.expected = "three whole numbers from 1 to 256 whose product is at most 262144";
+    problem.found = toText(request.arguments[1].second);
+    problem.hint = "give \"grid\" such a value, or leave it out";
+    facts.problems.push_back(problem);
   }
   return facts;
 }

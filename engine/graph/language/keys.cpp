@@ -74,6 +74,8 @@ constexpr KeySpec kImport[] = {
 
 constexpr KeySpec kInput[] = {
     {"input", R"({"enum":["texture","buffer"]})", "bound by the file that includes this one", true},
+    {"optional", R"({"type":"boolean"})",
+     "may be left without a resource, and then has nothing: end references with ?"},
 };
 
 constexpr KeySpec kPass[] = {

@@ -115,6 +115,7 @@ class ResourceReader {
     const std::optional<std::string> word = context_.word(&input, kInputWords, "\"input\"");
     if (!word) return std::nullopt;
     out_.input = *word;
+    out_.optional = context_.flag(value_.find("optional"), "\"optional\"");
     return std::move(out_);
   }
 

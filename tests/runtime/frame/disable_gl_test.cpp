@@ -1,4 +1,4 @@
-// Every pass of graphs/studio.json disabled, alone and in pairs: a frame without GL messages, or a documented diagnostic.
+// Every pass of graphs/studio.json, and of what graphs/studio_gi.json adds, disabled, alone and in pairs: a frame without GL messages, or a documented diagnostic.
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -69,7 +69,8 @@ void tryWithout(Stage& stage, std::vector<std::string> disables, Outcome& outcom
   }
 }
 
-void tryAll(Stage& stage, bool pairs) {
+// `pairs`: those with a pass whose name begins so.
+void tryAll(Stage& stage, bool pairs, std::string_view of = {}) {
   stage.settings.disables = {};
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   const std::vector<std::string> names = declaredPasses(*stage.execution().plan().graph);
@@ -77,7 +78,9 @@ void tryAll(Stage& stage, bool pairs) {
   Outcome outcome;
   for (std::size_t b = 0; b < names.size(); ++b) {
     tryWithout(stage, {names[b]}, outcome);
-    for (std::size_t a = 0; pairs && a < b; ++a) tryWithout(stage, {names[a], names[b]}, outcome);
+    for (std::size_t a = 0; pairs && a < b; ++a)
+      if (names[a].starts_with(of) || names[b].starts_with(of))
+        tryWithout(stage, {names[a], names[b]}, outcome);
   }
   std::string codes;
   for (const auto& [code, count] : outcome.codes) codes += " " + code + " x " + std::to_string(count);
@@ -101,4 +104,14 @@ TEST_CASE("disable: every pass of studio alone, with a loaded environment") {
   image->texels.assign(64 * 32 * 4, 0.5f);
   stage.world.setEnvironment(image);
   tryAll(stage, false);
+}
+
+TEST_CASE("disable: every pass of studio_gi alone, and the probes' with every other, whoever computes them") {
+  const CleanScope clean;
+  for (const char* source : {"cpu", "gpu"}) {
+    CAPTURE(source);
+    Stage stage("graphs/studio_gi.json", 96, 54);
+    stage.settings.sets = {{"gi_source", source}, {"probes_debug", "true"}};
+    tryAll(stage, true, "gi.");
+  }
 }

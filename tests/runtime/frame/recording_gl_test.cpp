@@ -128,6 +128,21 @@ TEST_CASE("the same with every boolean parameter of the studio switched, one by 
   CHECK(switched >= 10);
 }
 
+TEST_CASE("the same with probes from the GPU and from the CPU, in textures and in a buffer, shown and not") {
+  const CleanScope clean;
+  Tally tally;
+  Stage stage("graphs/studio_gi.json", 96, 54, "tests/golden/moving.json");
+  for (const char* source : {"cpu", "gpu"})
+    for (const char* sampling : {"textures", "buffer"})
+      for (const char* shown : {"false", "true"}) {
+        stage.settings.sets = {{"gi_source", source}, {"gi_sampling", sampling}, {"probes_debug", shown}};
+        REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+        recordFrames(stage, std::string(source) + " " + sampling + " " + shown, tally);
+      }
+  MESSAGE(tally.frames << " frames, " << tally.barriers << " barriers");
+  CHECK(tally.barriers > 0);
+}
+
 TEST_CASE(
     "shader stores before clears of attachments and before mip levels: the bits are in the plan and are "
     "issued") {

@@ -115,6 +115,7 @@ bool evaluateImport(Model& model, Entity& entity) {
     d.resource = entity.name;
     // Of a file that may not be read, what matters is who names it.
     if (d.code == Code::outsideConfinement && d.place.line == 0 && entity.desc) d.place = entity.desc->place;
+    if (!d.place.file && entity.desc) d.place = entity.desc->place;  // of the arguments
     good = good && problem.severity != base::Severity::error;
   }
   if (!good) return false;

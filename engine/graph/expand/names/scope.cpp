@@ -99,6 +99,18 @@ void buildScope(Model& model, Scope& scope) {
   }
 }
 
+// An optional input that nobody binds, where the including file has nothing of its name.
+bool isLeftOut(Model& model, const Entity& entity) {
+  if (!entity.desc->optional) return false;
+  const Scope& scope = *entity.scope;
+  if (!scope.parent) return true;
+  const auto& binds = scope.stanza->include->binds;
+  const bool bound =
+      std::ranges::any_of(binds, [&](const auto& bind) { return bind.first == entity.desc->name; });
+  return !bound && !scope.parent->resources.contains(entity.desc->name) &&
+         findEntity(model, *scope.parent, entity.desc->name, false) == kNone;
+}
+
 // Follows inputs to what is bound. kNone after a report.
 std::uint32_t followInput(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
@@ -118,7 +130,11 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   Scope& scope = *entity.scope;
   const std::string& name = entity.desc->name;
   std::uint32_t target = kNone;
-  if (!scope.parent) {
+  if (isLeftOut(model, entity)) {
+    entity.kind = ResourceDesc::Kind::alternatives;  // a list of none
+    entity.listState = Progress::done;
+    target = index;
+  } else if (!scope.parent) {
     auto& d = model.diagnostics.error(
         Code::unboundInput, entity.desc->place,
         fmt::format("input '{}' has nothing behind it: this file is not included by another", name));
@@ -145,7 +161,7 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
       }
     }
   }
-  if (target != kNone) {
+  if (target != kNone && target != index) {
     const Entity& bound = model.entities[target];
     const bool wantsBuffer = entity.desc->input == "buffer";
     const bool fits = bound.kind == ResourceDesc::Kind::texture  ? !wantsBuffer

@@ -1,0 +1,152 @@
+#include "engine/scene/probes/probes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace weft::scene {
+
+namespace {
+
+constexpr int bandOf(std::size_t i) {
+  return i == 0 ? 0 : i < 4 ? 1 : 2;
+}
+
+// Probes along one axis that may lie within `reach` of `center`, with one to spare on each side against rounding.
+struct Range {
+  std::uint32_t first = 0, end = 0;
+};
+Range rangeOf(float low, float high, std::uint32_t count, float center, float reach) {
+  const float extent = high - low;
+  if (count < 2 || !(extent > 0)) return {0, count};
+  const float per = static_cast<float>(count - 1) / extent, last = static_cast<float>(count);
+  const float first = std::floor((center - reach - low) * per) - 1;
+  const float end = std::ceil((center + reach - low) * per) + 2;
+  return {static_cast<std::uint32_t>(std::clamp(first, 0.0f, last)),
+          static_cast<std::uint32_t>(std::clamp(end, 0.0f, last))};
+}
+
+void addSphere(const ProbeGrid& grid, const ProbeRules& rules, const Instance& sphere, std::span<Probe> out) {
+  const glm::vec3 color = sphere.albedo * (1.0f - sphere.metallic), c = sphere.center;
+  const float reach = rules.far * sphere.radius;
+  const Range x = rangeOf(grid.low.x, grid.high.x, grid.count.x, c.x, reach);
+  const Range y = rangeOf(grid.low.y, grid.high.y, grid.count.y, c.y, reach);
+  const Range z = rangeOf(grid.low.z, grid.high.z, grid.count.z, c.z, reach);
+  for (std::uint32_t k = z.first; k < z.end; ++k)
+    for (std::uint32_t j = y.first; j < y.end; ++j)
+      for (std::uint32_t i = x.first; i < x.end; ++i) {
+        const glm::vec3 offset = c - grid.position({i, j, k});
+        const glm::vec3 bands = bandsOfSphere(rules, offset, sphere.radius);
+        if (bands.x == 0.0f) continue;
+        const auto basis = shBasis(offset / std::sqrt(glm::dot(offset, offset)));
+        Probe& probe = out[grid.indexOf({i, j, k})];
+        for (std::size_t n = 0; n < kShCount; ++n)
+          probe.sh[n] += glm::vec4(bands[bandOf(n)] * basis[n] * color, 0.0f);
+      }
+}
+
+}  // namespace
+
+glm::vec3 ProbeGrid::position(glm::uvec3 probe) const {
+  glm::vec3 at;
+  for (int axis = 0; axis < 3; ++axis)
+    at[axis] = count[axis] > 1 ? low[axis] + (high[axis] - low[axis]) * (static_cast<float>(probe[axis]) /
+                                                                         static_cast<float>(count[axis] - 1))
+                               : 0.5f * (low[axis] + high[axis]);
+  return at;
+}
+
+ProbeGrid placeProbes(std::span<const Instance> spheres, glm::uvec3 count) {
+  ProbeGrid grid{.count = count};
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const glm::vec3 low = spheres[i].center - spheres[i].radius, high = spheres[i].center + spheres[i].radius;
+    grid.low = i == 0 ? low : glm::min(grid.low, low);
+    grid.high = i == 0 ? high : glm::max(grid.high, high);
+  }
+  return grid;
+}
+
+// Comparisons are such that what is not a number lights nothing.
+glm::vec3 bandsOfSphere(const ProbeRules& rules, glm::vec3 offset, float radius) {
+  const float d2 = glm::dot(offset, offset), r2 = radius * radius;
+  if (!(r2 > 0) || !(d2 >= rules.near * rules.near * r2) || !(d2 < rules.far * rules.far * r2))
+    return glm::vec3(0);
+  const float sine = std::sqrt(r2 / d2);
+  const glm::vec3 bands = rules.shape == ProbeShape::cap ? capBands(sine) : pointBands(sine);
+  float weight = 1;
+  if (rules.window == ProbeWindow::smooth) {
+    const float x2 = d2 / (rules.far * rules.far * r2), left = 1.0f - x2 * x2;
+    weight = left * left;
+  }
+  return weight * bands * kCosineLobe;
+}
+
+bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
+                   std::span<Probe> out, const std::atomic<bool>* cancelled) {
+  assert(out.size() == grid.size());
+  std::ranges::fill(out, Probe{});
+  for (const Instance& sphere : spheres) {
+    if (cancelled && cancelled->load(std::memory_order_relaxed)) return false;
+    addSphere(grid, rules, sphere, out);
+  }
+  return true;
+}
+
+glm::vec3 irradianceOf(const Probe& probe, glm::vec3 normal) {
+  const auto basis = shBasis(normal);
+  glm::vec3 sum(0);
+  for (std::size_t n = 0; n < kShCount; ++n) sum += basis[n] * glm::vec3(probe.sh[n]);
+  return glm::max(sum, glm::vec3(0));
+}
+
+// The integral of L(w) max(w.n, 0) w, whose direction and length (over the irradiance) are wanted. By bands the clamped cosine is
+// 1/4 + 1/2 w.n + 5/32 (3 (w.n)^2 - 1), so with D and T the integrals of L w and L w w' it is 3/16 D + 1/2 T n + 3/16 n (n.D);
+// of the third moment only its part in band 1 is known.
+Bounce bounceOf(const Probe& probe, glm::vec3 normal) {
+  Bounce bounce{.irradiance = irradianceOf(probe, normal), .facing = -normal};
+  const auto basis = shBasis(normal);
+  float l[kShCount], all = 0;
+  for (std::size_t n = 0; n < kShCount; ++n) {
+    l[n] = glm::dot(glm::vec3(probe.sh[n]), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    all += basis[n] * l[n];
+    l[n] /= kCosineLobe[bandOf(n)];
+  }
+  const float flux = l[0] * 3.544907702f, zz = flux / 3 + l[6] / 0.946174695f;
+  const float even = flux - zz, odd = l[8] / 0.546274215f;
+  const float xy = l[4] / 1.092548431f, yz = l[5] / 1.092548431f, xz = l[7] / 1.092548431f;
+  const glm::vec3 d = glm::vec3(l[3], l[1], l[2]) * 2.046653415f;
+  const glm::mat3 t(0.5f * (even + odd), xy, xz, xy, 0.5f * (even - odd), yz, xz, yz, zz);
+  const glm::vec3 from = 0.1875f * d + 0.5f * (t * normal) + 0.1875f * glm::dot(normal, d) * normal;
+  const float size = std::sqrt(glm::dot(from, from));
+  if (size > 1e-6f) bounce.facing = -from / size;
+  bounce.sure = 0.5f + 0.5f * std::clamp(size / std::max(all, 1e-6f), 0.0f, 1.0f);
+  return bounce;
+}
+
+Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 point) {
+  glm::uvec3 below(0), above(0);
+  glm::vec3 part(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const float extent = grid.high[axis] - grid.low[axis], last = static_cast<float>(grid.count[axis] - 1);
+    if (!(extent > 0)) continue;
+    const float at = std::clamp((point[axis] - grid.low[axis]) / extent * last, 0.0f, last);
+    below[axis] = static_cast<std::uint32_t>(at);
+    above[axis] = std::min(below[axis] + 1, grid.count[axis] - 1);
+    part[axis] = at - static_cast<float>(below[axis]);
+  }
+  Probe mixed{};
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    glm::uvec3 at = below;
+    float weight = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool up = (corner >> axis & 1u) != 0;
+      if (up) at[axis] = above[axis];
+      weight *= up ? part[axis] : 1.0f - part[axis];
+    }
+    const Probe& probe = probes[grid.indexOf(at)];
+    for (std::size_t n = 0; n < kShCount; ++n) mixed.sh[n] += weight * probe.sh[n];
+  }
+  return mixed;
+}
+
+}  // namespace weft::scene

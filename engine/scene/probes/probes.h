@@ -1,0 +1,75 @@
+// Light probes: a grid of points, each with the light that spheres throw back to it, as irradiance in spherical harmonics
+// up to band 2. In units of the environment: a sphere's diffuse colour, albedo * (1 - metallic), is its radiance, as it is
+// under an environment of radiance 1; whoever reads a probe multiplies by the environment (bounceOf), so that a black one gives nothing.
+// Spheres hide neither each other nor the sky. Pure functions; shaders/gi/bake.comp.glsl computes the same on a GPU. Does
+// not: run beside frames, or know the environment.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "engine/scene/probes/sh.h"
+#include "engine/scene/scene.h"
+
+namespace weft::scene {
+
+// The centres of the outermost probes are the corners of the box.
+struct ProbeGrid {
+  glm::vec3 low{0}, high{0};  // world
+  glm::uvec3 count{1};        // along each axis, over 0
+  std::size_t size() const { return std::size_t{count.x} * count.y * count.z; }
+  // One probe along an axis stands in the middle.
+  glm::vec3 position(glm::uvec3 probe) const;
+  std::size_t indexOf(glm::uvec3 probe) const {
+    return probe.x + count.x * (probe.y + std::size_t{count.y} * probe.z);
+  }
+};
+
+// Fitted to the spheres; the origin when there are none.
+ProbeGrid placeProbes(std::span<const Instance> spheres, glm::uvec3 count);
+
+// How a sphere is seen: as the cap of the sky that it covers, or as a point as strong.
+enum class ProbeShape : std::uint8_t { cap, point };
+// How its light ends at the far distance: by (1 - x^4)^2 with x the share of that distance (Karis 2013), or at once.
+enum class ProbeWindow : std::uint8_t { smooth, hard };
+
+struct ProbeRules {
+  float near = 1.05f,
+        far = 10;  // in radii of the sphere, from its centre: it lights probes in between; near is at least 1
+  ProbeShape shape = ProbeShape::cap;
+  ProbeWindow window = ProbeWindow::smooth;
+};
+
+// Bands of the irradiance at `offset` from the probe to the centre of a sphere of radiance 1: coefficient (l, m) is
+// component l times Y_lm(offset / |offset|). Zero where it does not light the probe.
+glm::vec3 bandsOfSphere(const ProbeRules& rules, glm::vec3 offset, float radius);
+
+// Coefficients of irradiance; xyz are red, green and blue.
+struct Probe {
+  glm::vec4 sh[kShCount];
+};
+
+// Replaces `out`, which has grid.size() elements. Adds the spheres up in their order, whatever the grid. Linear in pairs of a
+// sphere and a probe within its reach. False, with anything in `out`, once `cancelled` is set.
+bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
+                   std::span<Probe> out, const std::atomic<bool>* cancelled = nullptr);
+
+// Irradiance of a surface with this unit normal, not below zero.
+glm::vec3 irradianceOf(const Probe& probe, glm::vec3 normal);
+
+// What of its light a reader needs who multiplies by the environment: it was thrown back by what faces `facing` in the mean, a
+// unit direction; `sure` is nearly 1 (0.91) where all of it comes along the normal, less where it comes from many sides, 1/2 at least. The
+// environment's irradiance in `facing` times sure, plus that in -facing times 1 - sure, is right for a linear one.
+struct Bounce {
+  glm::vec3 irradiance{0}, facing{0, 1, 0};
+  float sure = 0.5f;
+};
+Bounce bounceOf(const Probe& probe, glm::vec3 normal);
+
+// The mix of the eight probes around a point, each as near as it is along the axes; outside the box that of its nearest point.
+Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 point);
+
+}  // namespace weft::scene

@@ -1,0 +1,44 @@
+// Light from other spheres, one bounce: what the probes have, in units of the environment, times the environment. Light from a
+// direction was thrown back by what faces the opposite direction, so that is where the environment's irradiance counts. Of that only
+// the mean direction is known, and how far the light is spread: a mix of the irradiance in two opposite directions stands for all.
+// It is right for an irradiance that is linear in the direction, so for a constant one, and there is none under a black environment.
+// Needs the slots of gi/probes.glsl.
+#ifndef GI_BOUNCE_GLSL
+#define GI_BOUNCE_GLSL
+
+#include "gi/probes.glsl"
+
+struct Bounce {
+  vec3 share;   // irradiance / pi of a surface, in units of the environment
+  vec3 facing;  // unit: what throws the light back faces there, in the mean
+  float sure;   // nearly 1 where light comes along the normal alone, less where it comes from many sides, 1/2 at least
+};
+
+// Cosine-weighted mean direction of the light by its moments up to band 2 (w n = cosine, F, D, T the integrals of the radiance times
+// 1, w, w w'): 3/16 D + 1/2 T n + 3/16 n (n.D). See bounceOf in engine/scene/probes.
+Bounce bounceAt(vec3 position, vec3 normal) {
+  vec3 c[9];
+  probeAt(position, c);
+  const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+  float y[9], l[9], all = 0.0;
+  shBasis(normal, y);
+  for (int i = 0; i < 9; ++i) {
+    l[i] = dot(c[i], luminance);
+    all += y[i] * l[i];
+    l[i] /= i == 0 ? kCosineLobe.x : i < 4 ? kCosineLobe.y : kCosineLobe.z;
+  }
+  float flux = l[0] * 3.544907702, zz = flux / 3.0 + l[6] / 0.946174695, even = flux - zz, odd = l[8] / 0.546274215;
+  vec3 d = vec3(l[3], l[1], l[2]) * 2.046653415;
+  float xy = l[4] / 1.092548431, yz = l[5] / 1.092548431, xz = l[7] / 1.092548431;
+  vec3 tn = vec3(0.5 * (even + odd) * normal.x + xy * normal.y + xz * normal.z,
+                 xy * normal.x + 0.5 * (even - odd) * normal.y + yz * normal.z, xz * normal.x + yz * normal.y + zz * normal.z);
+  vec3 from = 0.1875 * d + 0.5 * tn + 0.1875 * dot(normal, d) * normal;
+  float size = length(from);
+  vec3 facing = size > 1e-6 ? -from / size : -normal;
+  return Bounce(probeIrradiance(c, normal) / kShPi, facing, 0.5 + 0.5 * clamp(size / max(all, 1e-6), 0.0, 1.0));
+}
+
+// `there` and `behind`: the irradiance map in `facing` and opposite to it. What is to be added to that map's value in the normal.
+vec3 bounced(Bounce bounce, vec3 there, vec3 behind) { return bounce.share * mix(behind, there, bounce.sure); }
+
+#endif

@@ -1,0 +1,34 @@
+// A light probe as a white sphere that it lights: each direction has what a surface there would get.
+// read    probes      see gi/probes.glsl
+//         irradiance  of the environment, `as linear wrap`
+// modify  radiance    scene-referred; alpha 1
+//         velocity?   screen UV per frame
+//         depth?      near / distance along the view axis (reversed-Z)
+// params  gain        factor of what is shown
+//         sky_turn    by how much of a full turn the environment is rotated
+#include "common/equirect.glsl"
+#include "common/view.glsl"
+#include "gi/bounce.glsl"
+#include "gi/debug.glsl"
+
+in vec3 outwards;
+flat in vec3 center;
+in vec4 before;
+
+uniform sampler2D irradiance;
+out vec4 radiance;
+#ifdef HAS_VELOCITY
+out vec2 velocity;
+#endif
+
+vec3 ambient(vec3 direction) {
+  return sampleEquirect(irradiance, equirectUv(direction) - vec2(sky_turn, 0.0), 0.0, float(textureSize(irradiance, 0).y)).rgb;
+}
+
+void main() {
+  Bounce bounce = bounceAt(center, normalize(outwards));
+  radiance = vec4(gain * bounced(bounce, ambient(bounce.facing), ambient(-bounce.facing)), 1.0);
+#ifdef HAS_VELOCITY
+  velocity = gl_FragCoord.xy / viewport - (before.xy / max(before.w, 1e-3) * 0.5 + 0.5);
+#endif
+}
