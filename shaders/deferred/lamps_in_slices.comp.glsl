@@ -24,5 +24,5 @@ void main() {
     if (distance_along + reach >= bounds.x * 0.9999 && distance_along - reach <= bounds.y * 1.0001) word |= 1u << bit;
   }
   ivec2 tiles = tilesOf(ivec2(picture));
-  cluster[tiles.x * tiles.y * count + at] = word;
+  cluster[tiles.x * tiles.y * count + at] = ~word;
 }

@@ -1,7 +1,7 @@
 // For each tile of 16 x 16 pixels, the lamps that may reach a surface in it; see clusters.glsl. A work group is a tile.
 // read    depth     the G-buffer's
 //         lamps     see scene/lamps.glsl
-// write   clusters  uints: words of each tile, row by row, then of each slice; a word has 32 lamps
+// modify  clusters  uints: words of each tile, row by row, then of each slice; a word has 32 lamps
 // params  lamp_count
 #include "clusters.glsl"
 #include "gbuffer.glsl"
@@ -9,7 +9,7 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 uniform sampler2D depth;
-layout(std430) writeonly buffer clusters { uint cluster[]; };
+layout(std430) buffer clusters { uint cluster[]; };
 layout(std140) uniform Parameters { int lamp_count; };
 
 shared uint nearest, farthest;  // depths as bits: positive floats are ordered as they are
@@ -62,7 +62,7 @@ void main() {
     }
     barrier();
     if (lane < 8 && first + lane < count && all(lessThan(tile, tiles)))
-      cluster[(tile.y * tiles.x + tile.x) * count + first + lane] = words[lane];
+      cluster[(tile.y * tiles.x + tile.x) * count + first + lane] = ~words[lane];
     barrier();
   }
 }

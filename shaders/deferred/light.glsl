@@ -136,7 +136,7 @@ vec3 direct(Point point, ivec2 pixel, ivec2 picture, out int looked_at) {
   int words = wordsOf(lamp_count), of_tile = (tile.y * tiles.x + tile.x) * words;
   int of_slice = (tiles.x * tiles.y + sliceOf(viewDistance(point.at))) * words;
   for (int word = 0; word < words; ++word) {
-    uint left = cluster[of_tile + word] & cluster[of_slice + word];
+    uint left = ~(cluster[of_tile + word] | cluster[of_slice + word]);
     looked_at += bitCount(left);
     while (left != 0u) {
       sum += fromLamp(point, word * 32 + findLSB(left));

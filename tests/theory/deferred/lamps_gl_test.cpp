@@ -96,6 +96,15 @@ TEST_CASE("clustered lamps: none is dropped where 1000 reach every pixel") {
   CHECK(compare(clustered, render(setup, "clustered", "true")).different == 0);  // and again the same
 }
 
+TEST_CASE("clustered lamps: with tiles or slices disabled the picture is the same") {
+  Setup setup = manyLamps(300, 2, kAbove);
+  const Picture whole = render(setup, "clustered", "true");
+  for (const char* pass : {"lamps_in_tiles", "lamps_in_slices"}) {
+    setup.disables = {{pass}};
+    CHECK(compare(whole, render(setup, "clustered", "true")).different == 0);
+  }
+}
+
 TEST_CASE("clustered lamps: a pixel goes through few more than reach it") {
   const Setup setup = manyLamps(1000, 2, kAbove);
   const Picture heat = render(setup, "show_lamps", "true");
