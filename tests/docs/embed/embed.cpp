@@ -1,4 +1,4 @@
-// The graph core alone, without OpenGL: text in, every mistake with its place, or the plan of a frame.
+// The graph core alone, without OpenGL. Reads a graph from text and prints every mistake with its place, or the plan.
 #include <cstdio>
 
 #include "engine/graph/compile/compile.h"
