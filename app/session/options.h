@@ -15,7 +15,7 @@ struct Options {
   std::string command;  // "render", "view", "check", "dot", "plan", "params", "presets", "bench", …
   std::string graph;    // path of the graph file
   std::string scene, environment;            // empty: the bundled spheres, no environment
-  std::string camera, materials;             // of the scene; empty: its first camera, the materials it names
+  std::string camera, materials;             // empty: the scene's first camera, the materials it names
   std::string output;                        // -o
   std::uint32_t width = 1280, height = 720;  // --size
   std::uint32_t firstFrame = 0, lastFrame = 0;
@@ -47,7 +47,7 @@ struct Options {
   std::string record;   // view: pattern of a recording from the first frame on; empty: none
 };
 
-// Empty and `exitCode` set when the program should stop (help, a wrong argument; the text is already printed).
+// Empty, with `exitCode` set, when the program should end (help, a wrong argument); the text is printed by then.
 std::optional<Options> parseOptions(int argc, char** argv, int& exitCode);
 
 }  // namespace weft::app

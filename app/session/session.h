@@ -1,5 +1,5 @@
-// From command-line options to the things every command starts with: the world, the graph's description, its plan.
-// All of it without a GL context.
+// Makes of the command-line options what every command begins with: the world, the graph's description, its plan. Needs no
+// GL context.
 #pragma once
 
 #include <memory>
@@ -28,17 +28,18 @@ graph::Settings settingsOf(const Options& options, bool software);
 std::string scenePathOf(const Options& options);
 scene::SceneChoice sceneChoiceOf(const Options& options);
 
-// The scene and the environment that the options name, read before this returns: what waits for assets.
+// The scene and the environment that the options name. Returns when both are read.
 std::optional<runtime::World> loadWorld(const Options& options, base::Diagnostics& diagnostics);
 
-// Facts to go on with when the scene could not be read: every draw list, empty.
+// Facts for checks that go on although the scene could not be read: every draw list exists and is empty.
 runtime::WorldFacts factsWithoutWorld();
 
 // Reads, expands and compiles. Null after errors.
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
                                             bool software, base::Diagnostics& diagnostics);
 
-// Prints the diagnostics to standard error, or all but notes; of very many, as engine/base/message_choice.h says. Returns 1 when there is an error among them, else 0.
+// Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
+// (engine/base/message_choice.h). Returns 1 when there is an error among them, else 0.
 int report(base::Diagnostics& diagnostics, bool notes = true);
 
 }  // namespace weft::app

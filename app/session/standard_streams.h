@@ -1,6 +1,6 @@
-// What the program says on standard output and standard error, which may be full, closed, or gone (`| head`).
-// Nothing here throws: what could not be written is reported at the end, by finishStreams(), and makes the exit
-// code. Does not: format, or know diagnostics that commands collect.
+// Writes to standard output and standard error, which may be full or closed, or whose reader may have gone (`| head`).
+// Nothing here throws: finishStreams() reports at the end what could not be written, and gives the exit code. Does not:
+// format, or know the diagnostics that commands collect.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,20 +9,20 @@
 
 namespace weft::app {
 
-// First of all: a reader that goes away and a file that grows beyond its limit are errors of a write and no
-// end of the program, and a stream that is closed is not given to the next file that opens.
+// To be called first. A reader that goes away, or a file that grows beyond its limit, then makes a write fail instead of
+// ending the program; and the number of a closed stream is not given to the next file that opens.
 void prepareStreams();
 
 void print(std::string_view text);       // on standard output
-void flushPrinted();                     // what a session prints shows at once
+void flushPrinted();                     // writes what print() has kept back so far
 void printError(std::string_view text);  // on standard error
 
-// As text with indentation; bytes that are no UTF-8 are replaced.
+// Indented text. Bytes that are no UTF-8 are replaced.
 std::string dumpJson(const nlohmann::ordered_json& json);
 
-// At the end, with the exit code so far: writes what is left. After a failed write it says so (W180) and
-// returns 1 at least; a reader of standard output that went away is not an error, and gives 141 in place of
-// 0, as a shell counts it.
+// To be called at the end, with the exit code so far: writes what is left. After a failed write it reports W180 and
+// returns at least 1. When the reader of standard output has gone, that is no error: it returns 141 instead of 0, as a
+// shell would.
 int finishStreams(int exitCode);
 
 }  // namespace weft::app

@@ -39,7 +39,8 @@ struct Diagnostic {
   std::string hint{};      // the fix: "did you mean 'ldr'?"
 };
 
-// "file:line:column: error[W040]: message", without what is unknown of the place, followed by indented lines for pass, resource, expected, found and fix.
+// "file:line:column: error[W040]: message", followed by indented lines for pass, resource, expected, found and fix. Parts of
+// the place that are unknown are left out.
 std::string format(const Diagnostic& diagnostic);
 
 // "W040"

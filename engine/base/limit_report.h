@@ -1,5 +1,5 @@
-// The report of a limit that is exceeded, the same everywhere: Code::limitExceeded with the limit's name, its value
-// and how to raise it. Does not: count.
+// Reports that a limit is exceeded, in the same words everywhere: Code::limitExceeded with the limit's name, its
+// value and how to raise it. Does not: count.
 #pragma once
 
 #include <string>

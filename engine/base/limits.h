@@ -63,16 +63,15 @@ const std::vector<LimitInfo>& allLimits();
 std::uint64_t limitOf(Limit limit);
 std::string_view nameOf(Limit limit);
 
-// How far a limit can be raised: those that count steps of a walk on the stack stop where the stack would end.
+// The greatest value that a limit may have. Limits on depth end where the stack of the process would.
 std::uint64_t mostOf(Limit limit);
 
 // Sets one limit by name; from 1 to mostOf(). The value is a whole number, or one with the suffix K, M or G (of 1024).
 // Returns what is wrong, as a sentence for the person who wrote it, or nothing.
 std::optional<std::string> setLimit(std::string_view name, std::string_view value);
 
-// "raise it with --limit include_files=2000": the fix of a message about a limit; twice the present value, or what it
-// can be raised to.
-// Never less than `needed`, where that is known.
+// "raise it with --limit include_files=2000": the fix of a message about a limit. Names twice the present value, at most
+// mostOf(), and never less than `needed` where that is known.
 std::string hintToRaise(Limit limit, std::uint64_t needed = 0);
 
 }  // namespace weft::base

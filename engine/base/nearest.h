@@ -1,5 +1,5 @@
-// The nearest name to a misspelt one, for "did you mean" hints. What hostile or mistaken files can make of it
-// has bounds: names longer than kLongestName have no nearest, and a run has a budget for comparing (about a
+// The nearest name to a misspelt one, for "did you mean" hints. The work has bounds, because files may be hostile
+// or mistaken: names longer than kLongestName have no nearest name, and a run has a budget for comparing (about a
 // second's work).
 #pragma once
 
@@ -27,8 +27,8 @@ std::string nearestName(std::string_view name, std::span<const std::string> cand
 // near and the list is short, or "".
 std::string nearestHint(std::string_view name, std::span<const std::string> candidates);
 
-// How many names got no nearest one because the budget was spent, since this was asked last. Asking begins a
-// new budget.
+// For how many names no nearest one was looked for since the last call, because the budget was spent. A call
+// begins a new budget.
 std::size_t takeUncompared();
 
 }  // namespace weft::base

@@ -1,6 +1,6 @@
-// Text that came from files, drivers and command lines, made fit to be printed: nothing in it can move a
-// terminal's cursor, colour it, turn its direction, or begin a line that looks like one of Weft's own. Does
-// not: quote, wrap, or translate.
+// Makes text from files, drivers and command lines safe to print: nothing in it can move a terminal's cursor,
+// colour the terminal, turn the direction of text, or begin a line that looks like one of Weft's own. Does not:
+// quote, wrap, or translate.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace weft::base {
 // text, and bytes that are no UTF-8 become `\n`, `\x1b`, `\u{202e}`; everything else stays.
 std::string printable(std::string_view text);
 
-// At most about 400 bytes: a word without a space in it is cut after 200 bytes when it has more than 256, and
-// the whole after 360; how long it was stands behind "…". Cut between characters.
+// At most about 400 bytes of `text`. A word of more than 256 bytes is cut after 200, the whole text after 360; "…" and
+// the full length follow. Cuts between characters only.
 std::string shortened(std::string_view text);
 
-// A whole JSON document, whose C0 characters are escaped already: of what printable() escapes, the rest
-// becomes \uXXXX, which means the same in JSON.
+// The same for a whole JSON document, in which C0 characters are escaped already: all other characters that
+// printable() escapes become \uXXXX, which means the same in JSON.
 std::string printableJson(std::string_view json);
 
 }  // namespace weft::base

@@ -1,5 +1,6 @@
-// GraphDesc: what a graph file says, file by file, with the place of everything; nothing resolved, expanded or checked
-// against anything outside the file. Plain aggregates. Made by readGraph (read.h), consumed by expandGraph (expand.h).
+// GraphDesc: what a graph file says, file by file, with the place of everything. Nothing is resolved, expanded or
+// checked against anything outside the file. Plain aggregates. readGraph (read.h) makes it, expandGraph (expand.h)
+// reads it.
 #pragma once
 
 #include <map>
@@ -20,7 +21,7 @@ using base::Place;
 
 // How a pass touches a resource.
 enum class Access : std::uint8_t { read, write, modify };
-// What the hardware does with it (design: Kinds).
+// What the hardware does with it: docs/graph-format.md, "References".
 enum class Kind : std::uint8_t {
   sampled,
   image,
@@ -36,10 +37,9 @@ enum class Kind : std::uint8_t {
 enum class Cadence : std::uint8_t { always, on_change, once };
 
 struct Sampler {
-  bool linear = false;  // else nearest; with more than one level the levels are filtered the same way
-  bool wrap = false;    // repeat in s, t and r; else clamp to edge
-  bool compare =
-      false;  // depth comparison (GL_LEQUAL... the pass's depth_test decides at run time), implies linear
+  bool linear = false;   // else nearest; with more than one level the levels are filtered the same way
+  bool wrap = false;     // repeat in s, t and r; else clamp to edge
+  bool compare = false;  // depth comparison; implies linear
 };
 
 // `a..b` inside a selector; both ends inclusive; absent ends mean the first and the last.
@@ -48,7 +48,7 @@ struct SpanDesc {
   bool range = false;  // false: `first` alone
 };
 
-// source = name selectors @-n as words if condition ?
+// A reference: name, selectors, @-n, `as` words, `if` condition, ?
 struct RefDesc {
   std::string text;  // as written
   Place place;
@@ -148,7 +148,7 @@ struct PassParameterDesc {
 struct IncludeDesc {
   std::string file;   // as written, relative to the including file
   std::string as;     // prefix; never empty after reading
-  std::string group;  // which its passes that are not `always` and name none join; may be empty
+  std::string group;  // for its passes that are not `always` and name no group; may be empty
   std::vector<std::pair<std::string, RefDesc>> binds;
   std::shared_ptr<const struct GraphDesc> graph;  // null when it could not be read
 };
@@ -188,7 +188,6 @@ struct OutputDesc {
   RefDesc ref;
 };
 
-// A value that the file, or an overlay on it, gives to a parameter of its own or of a file it includes.
 // Where the value of a parameter was written.
 enum class Origin : std::uint8_t { declaration, file, overlay, preset, command_line, panel };
 // "preset", "command line".
@@ -197,6 +196,7 @@ constexpr const char* wordFor(Origin origin) {
   return kWords[static_cast<std::size_t>(origin)];
 }
 
+// A value that a file, or an overlay on it, gives to a parameter of its own or of a file that it includes.
 struct SetDesc {
   std::string name;  // any unique suffix
   Origin origin = Origin::file;

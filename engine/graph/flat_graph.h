@@ -1,8 +1,8 @@
-// FlatGraph: a graph after expansion. Includes, repeats, conditions, alternatives and disabled passes are gone, renames
-// are done, every size is a number and every name an index. Passes stand in declared order, which is always a legal
-// order: a use refers to the latest version before it. This is what compile() reads, in flat arrays.
-// The first members are all the compiler needs (the neutral workloads fill only those and the names);
-// `specs`, `slots` and the rest are carried along for the executor.
+// FlatGraph: a graph after expansion. Includes, repeats, conditions, alternatives and disabled passes are gone, each
+// version with storage of its own is a resource of its own, every size is a number and every name an index. Passes
+// stand in declared order, which is always a legal order: a use refers to the latest version before it. compile()
+// reads this, in flat arrays. It needs only the first members (the neutral workloads fill only those and the names);
+// `specs`, `slots` and the rest are for the executor.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ enum class Target : std::uint8_t {
 };
 enum class ResourceKind : std::uint8_t { texture, buffer, imported_texture, imported_buffer };
 
-// One storage's worth of a resource: a rename or a whole rewrite makes another FlatResource ("hdr#2").
+// One storage of a resource. A pass that reads a resource and writes all of it makes another FlatResource ("hdr#2").
 struct FlatResource {
   ResourceKind kind = ResourceKind::texture;
   Format format = Format::none;
@@ -39,8 +39,9 @@ struct FlatResource {
   std::uint32_t width = 1, height = 1, depth = 1;
   std::uint64_t bytes = 0;   // of one copy, all levels and layers; history multiplies by n + 1
   std::uint8_t history = 0;  // depth n: n + 1 copies, persistent
-  bool hasClear = false;     // has a version zero: whatever touches a sub-resource first in a frame finds it
-                             // cleared, a first `write` too (it need not cover everything)
+  bool hasClear =
+      false;  // has a version zero: the first use of a sub-resource in a frame finds it cleared, also
+              // when it is a `write` (which then need not cover everything)
   std::uint32_t import = kNone;  // index into FlatGraph::imports
 };
 
@@ -73,11 +74,11 @@ struct VersionRun {
   std::uint32_t last : 1 = 0;  // of its use
 };
 
-// Which use made what each use sees: for every sub-resource of a read or modify its latest writer of an earlier pass in
-// declared order; of a read of @-n, of `present` and of outputs the last writer of all. VersionWalk (versions/version_walk.h) makes
-// the links while passes are expanded or read; checks, liveness, dependencies and compile() only read them. A link
-// is one number: the index of the use that wrote all of it, kNone when nobody did (a write's link, too), or kRuns
-// and the index of the first of several runs.
+// Which use wrote what each use sees. For every sub-resource of a read or modify that is the latest writer in an earlier
+// pass, in declared order; for a read of @-n, for `present` and for outputs it is the last writer of all. VersionWalk
+// (versions/version_walk.h) makes the links while passes are expanded or read; checks, liveness, dependencies and
+// compile() only read them. A link is one number: the index of the use that wrote all of it; or kNone when no use did,
+// and for a write; or kRuns plus the index of the first of several runs.
 struct VersionLinks {
   static constexpr std::uint32_t kRuns = 0x80000000u;
 
@@ -90,7 +91,7 @@ struct VersionLinks {
 
   static bool hasRuns(std::uint32_t link) { return link >= kRuns && link != kNone; }
 
-  // Calls f(writer, count) for the runs of a link. The count is of no use (0) when one run is all.
+  // Calls f(writer, count) for the runs of a link. The count is 0 when there is only one run, which covers everything.
   template <class F>
   void forEachRun(std::uint32_t link, F&& f) const {
     if (!hasRuns(link)) {
@@ -101,7 +102,7 @@ struct VersionLinks {
     do f(runs[at].writer, std::uint32_t{runs[at].count});
     while (runs[at++].last == 0);
   }
-  // Calls f(writer) for each use that wrote some of it; one may come more than once.
+  // Calls f(writer) for each use that wrote some of it. A writer may come more than once.
   template <class F>
   void forEachWriter(std::uint32_t link, F&& f) const {
     forEachRun(link, [&](std::uint32_t writer, std::uint32_t) {
@@ -133,9 +134,10 @@ struct UniformSpec {
     enabled,  // whether a timed pass runs; without a name
   };
   std::string name;
-  Value value;       // with the parameters as they are; of one that contains age(): at age 0
-  Expr dynamic;      // folded; what changes it without another plan is still in it: age() by FlatResource
-                     // index, live parameters by index into FlatGraph::parameters. Absent: nothing does
+  Value value;  // with the present parameters; age() counts as 0
+  Expr
+      dynamic;  // absent: the value never changes while the plan runs. Else the folded expression, in which age()
+                // (by FlatResource index) and live parameters (by index into FlatGraph::parameters) are left
   std::string path;  // full name of the parameter behind it ("post.dof.aperture"), or empty
   Place place;
   Role role = Role::uniform;
@@ -208,7 +210,7 @@ struct ParameterSpec {
   std::string path;                     // full name: "post.exposure", "post.dof.aperture"
   Value value;                          // after --set
   Origin origin = Origin::declaration;  // of the value
-  Place valuePlace;                     // where it was written; no file of a panel
+  Place valuePlace;                     // where it was written; without a file when a panel set it
   bool structural =
       false;  // a size, condition, define, repeat, state or import depends on it: a change makes
               // another plan. Otherwise it is live: a change writes bytes of uniforms

@@ -1,4 +1,4 @@
-// Plan: what will happen in a frame. Immutable; equal inputs give equal plans, byte for byte.
+// Plan: what will happen in a frame. It is immutable; equal inputs give equal plans, byte for byte.
 // Does not: know GL enums (barrier bits are the graph's own), own GL objects, or read the clock.
 #pragma once
 
@@ -12,12 +12,12 @@
 
 namespace weft::graph {
 
-// In this order: `barriers`, the clears, `barriersAfterClears`, the pass. Both masks are issued also in frames in which
-// the pass is skipped by its cadence, so that any subset of cadences is free of hazards; the clears run with the pass
-// and are skipped with it. `barriersAfterClears` is not 0 only when the pass stores by image or buffer what it clears
-// (7.12.2: a store waits for earlier accesses only behind its own bit).
-// A history resource rotates (x becomes x@-1) at the start of every frame in which one of its writers runs; what a time-sliced group
-// writes rotates when the group publishes.
+// A step runs in this order: `barriers`, the clears, `barriersAfterClears`, the pass. Both masks are issued also in frames
+// in which the pass is skipped by its cadence, so that there is no hazard whichever passes run; the clears are skipped
+// with the pass. `barriersAfterClears` is 0 unless the pass stores by image or buffer into what it clears (OpenGL 4.5
+// core, 7.12.2: a store waits for earlier accesses only behind its own bit).
+// A resource with history rotates (x becomes x@-1) at the start of every frame in which one of its writers runs. What a
+// time-sliced group writes rotates when the group publishes.
 struct Step {
   std::uint32_t pass = 0;  // index into FlatGraph::passes
   std::uint16_t barriers = 0;
@@ -33,7 +33,7 @@ struct ClearOp {
   std::uint32_t attachment = kNone;
 };
 
-// A physical texture (history: `copies` of them in a row count as one Storage).
+// A physical texture. All copies that a history needs are one Storage.
 struct Storage {
   Target target = Target::texture_2d;
   std::uint8_t samples = 1;
@@ -47,15 +47,15 @@ struct Storage {
   std::uint64_t bytes = 0;  // of all copies
 };
 
-// Passes that run all or none and publish together (expand/groups.cpp says which). A time-sliced group runs
-// one slice of one pass per frame and writes a copy that nobody else sees; once all of it is there, its
-// resources publish at the start of the next frame. Its passes read what the group writes from that copy, all
-// others from the latest publication, and none of them writes it.
+// Groups: of the passes of a group all run or none, and they publish together (expand/groups.cpp forms groups). A
+// time-sliced group runs one slice of one pass per frame and writes a copy that only its own passes see. All other
+// passes read the latest publication; none of them writes it. When the last slice has run, the group publishes at the
+// start of the next frame.
 struct Groups {
   std::vector<std::uint32_t> ofPass;  // per pass; kNone: alone, always or culled. Empty: there are no groups
-  std::vector<std::uint8_t> sliced;   // per group
+  std::vector<std::uint8_t> sliced;   // per group: 1 when it is time-sliced
   std::vector<std::uint32_t>
-      ofResource;  // per resource: the time-sliced group that writes it, kNone. Empty: none is time-sliced
+      ofResource;  // per resource: the time-sliced group that writes it, or kNone. Empty: no group is time-sliced
   std::uint32_t groupOf(std::uint32_t pass) const { return ofPass.empty() ? kNone : ofPass[pass]; }
   std::uint32_t slicedWriterOf(std::uint32_t resource) const {
     return ofResource.empty() ? kNone : ofResource[resource];
@@ -75,14 +75,15 @@ struct Plan {
       storageOf;  // per resource: index into storages, kNone for buffers, imports, dead
   std::vector<std::uint64_t>
       bufferOffsetOf;  // per resource: offset in the transient arena; kNoOffset otherwise
-  // Per resource: the steps that touch it first (write, clear) and last; steps.size() means present or read-back after
-  // the last step; kNone when dead. A transient's storage holds nothing before firstStep: invalidate it there.
+  // Per resource: the first step that touches it (writes or clears it) and the last. steps.size() stands for present or
+  // read-back after the last step, kNone for a dead resource. The storage of a transient holds nothing before firstStep
+  // and is invalidated there.
   std::vector<std::uint32_t> firstStep, lastStep;
   std::vector<std::uint8_t> persistent;  // per resource: own storage kept across frames
   std::vector<Storage> storages;
   Groups groups;
   std::uint64_t arenaBytes = 0;     // transient buffers, packed by offset (alignment 256)
-  std::uint16_t finalBarriers = 0;  // before present blit and read-back of outputs
+  std::uint16_t finalBarriers = 0;  // before the picture is presented and outputs are read back
   std::uint64_t bytesDeclared =
       0;  // all transient and persistent resources of live passes, each with storage of its own
   std::uint64_t bytesAllocated = 0;

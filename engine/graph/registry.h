@@ -1,5 +1,5 @@
-// What the graph core must know of things that live in other rooms: pass types (engine/passes reflects them) and
-// imports (engine/imports does). Plain data, so that a graph is validated without a device.
+// What the graph core must know of pass types (engine/passes reflects them) and of imports (engine/imports does). It is
+// plain data, so that a graph can be checked without a device.
 #pragma once
 
 #include <functional>
@@ -30,11 +30,11 @@ struct PassType {
   Kind defaultWriteTexture = Kind::color;  // a depth format becomes Kind::depth when this is color
   std::vector<std::string> keys;  // pass keys it takes besides those every pass takes: "threads", "list", …
   std::vector<FixedSlot> fixedSlots;  // empty: slots are the author's
-  // Of types without a shader. `framebuffers`: its slots are bound as framebuffers, as a blit needs.
-  // `fromSource`: the view of what it writes begins at the level it reads.
+  // For types without a shader. `framebuffers`: the slots are bound as framebuffers, as a blit needs.
+  // `fromSource`: the view of the written texture begins at the level that is read.
   bool framebuffers = false, fromSource = false;
-  // Bits (BarrierBit) that its GL command waits behind besides those of its slots' kinds, on the ranges of textures that
-  // they name: what it does to them that no slot says.
+  // Barrier bits (BarrierBit) that the GL command needs besides those of its slots' kinds, on the ranges that the slots
+  // name, because it touches them in a way that no slot says.
   std::uint16_t touches = 0;
 };
 
@@ -75,15 +75,16 @@ struct ImportRequest {
       arguments;  // in the order of ImportType::arguments, defaults filled in
   friend bool operator==(const ImportRequest&, const ImportRequest&) = default;
 };
-// A hash: equal for equal requests, and another for others. By it an import is found again without comparing words.
+// A hash of the request, by which an import is found again without comparing words.
 std::uint64_t keyOf(const ImportRequest& request);
-// Of a type with `array`: which of its textures a request stands for. Its last argument, which expansion adds; 0 without.
+// Which texture a request stands for, where the type has `array`: the last argument, which expansion adds, else 0.
 std::uint32_t elementOf(const ImportRequest& request);
 
 // What is known of an import before anything runs.
 struct ImportFacts {
-  bool exists = false;    // false: has() is 0, `?` slots lose it, alternatives skip it
-  bool fallback = false;  // the runtime has a stand-in that plain reads accept, as they accept a version zero
+  bool exists = false;  // false: has() is 0, `?` slots lose it, alternatives skip it
+  bool fallback =
+      false;  // the runtime has a stand-in, which reads without `?` accept as they accept a version zero
   Format format = Format::none;  // textures
   std::uint32_t width = 1, height = 1, depth = 1, layers = 1, mips = 1;
   bool layered = false;                      // an array texture, also with one layer
@@ -103,7 +104,7 @@ struct GeometryType {
   std::string name;
   std::vector<GeometryArgument> arguments;
   bool meshes =
-      false;  // draws the meshes of a draw list, each with its own vertices, and not one shape per sphere of it
+      false;  // draws the meshes of a draw list, each with its own vertices, instead of one shape per sphere
 };
 
 struct Registry {

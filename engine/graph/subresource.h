@@ -1,8 +1,8 @@
-// The vocabulary of sub-resources, for everybody: how a resource is divided, the number of each part, rectangles of
-// parts (FlatUse) and how they lie to each other, bytes, and the words for kinds and parts in files and messages.
+// Sub-resources, for all of the graph core: how a resource is divided, the number of each part, rectangles of parts
+// (FlatUse) and whether they overlap, bytes, and the words for kinds and parts in files and messages.
 // A sub-resource is one plane of one level of one layer; its number is (plane * layers + layer) * mips + mip, as
-// D3D12CalcSubresource counts. A buffer is one; a 3D texture is not divided in depth. Does not: know versions
-// (versions/version_walk.h), plans or storage.
+// D3D12CalcSubresource counts. A buffer is one sub-resource; a 3D texture is not divided in depth. Does not: know
+// versions (versions/version_walk.h), plans or storage.
 #pragma once
 
 #include <array>
@@ -75,7 +75,7 @@ inline bool holds(const FlatUse& use, const Subresource& part) {
   return part.mip >= use.mip && part.mip < std::uint32_t{use.mip} + use.mips && part.layer >= use.layer &&
          part.layer < std::uint32_t{use.layer} + use.layers && (use.planes >> part.plane & 1) != 0;
 }
-// True when two rectangles of one resource, or of two of one shape, have a sub-resource in common.
+// True when two rectangles have a sub-resource in common. They are of one resource, or of two of the same shape.
 inline bool overlap(const FlatUse& a, const FlatUse& b) {
   return (a.planes & b.planes) != 0 && a.mip < b.mip + b.mips && b.mip < a.mip + a.mips &&
          a.layer < b.layer + b.layers && b.layer < a.layer + a.layers;
@@ -116,7 +116,7 @@ void forEachSubresource(const FlatUse& use, const FlatResource& r, F&& f) {
   }
 }
 
-// Calls f(number, writer) for each sub-resource that `use` covers and the use that made what it sees of it.
+// Calls f(number, writer) for each sub-resource that `use` covers; writer is the use that wrote what `use` sees of it.
 template <class F>
 void forEachVersion(const VersionLinks& links, std::uint32_t link, const FlatUse& use, const FlatResource& r,
                     F&& f) {
@@ -135,15 +135,15 @@ void forEachVersion(const VersionLinks& links, std::uint32_t link, const FlatUse
 // each.
 std::uint64_t bytesOf(const FlatUse& use, const FlatResource& r);
 
-// What an output brings to the CPU: a buffer's bytes; of textures as many 32-bit numbers per texel as their
-// format has channels (depth-stencil: one). And the most that one may bring.
+// An output brings to the CPU the bytes of a buffer, or, of a texture, as many 32-bit numbers per texel as its format has
+// channels (one for depth-stencil); at most kMaxOutputBytes.
 constexpr std::uint64_t kMaxOutputBytes = 64 * 1024;
 std::uint32_t outputChannelsOf(const FlatResource& r);
 std::uint64_t outputBytesOf(const FlatUse& use, const FlatResource& r);
 
 // ---- words ----
 
-// In the order of Kind and of Access: what a file says behind `as`, and what messages and dumps say.
+// The words for Kind and Access, in their order, as files have them behind `as`, and as messages and dumps do.
 constexpr std::array<const char*, 10> kKindNames = {"sampled", "image",    "uniform", "storage", "vertex",
                                                     "index",   "indirect", "color",   "depth",   "copy"};
 constexpr std::array<const char*, 3> kAccessNames = {"read", "write", "modify"};

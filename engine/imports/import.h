@@ -1,7 +1,8 @@
-// An import: something that graphs take from outside (`@environment`, `{ "import": "camera" }`). A plug-in says what a graph
-// may write of it (reflect), what is known before anything runs (facts), and makes the Provider that gives it to passes
-// frame after frame (provide). Plug-ins hold no state and are shared by devices; what a provider holds is of one device.
-// Nothing outside the folder of a plug-in knows its name. To add one: a folder here, a class, a line in import_registry.cpp.
+// An import: something that graphs take from outside (`@environment`, `{ "import": "camera" }`). A plug-in says what a
+// graph may write (reflect) and what is known before anything runs (facts), and makes the Provider that gives the import
+// to passes frame after frame (provide). Plug-ins hold no state and are shared by devices; a provider belongs to one
+// device. No code outside the folder of a plug-in knows its name. To add an import, make a folder here with a class, and
+// add a line to import_registry.cpp.
 #pragma once
 
 #include <cstdint>
@@ -26,49 +27,53 @@ struct ViewPart {
   std::uint16_t element = 0, face = 0;
 };
 
-// What one request (a type and its arguments) stands for, on one device. Most types give one of texture(), buffer() and
-// view(), as their ImportKind says; events give a generation alone. Called within a frame where a Frame is an argument.
+// Gives what one request (a type and its arguments) stands for, on one device. Most types override one of texture(),
+// buffer() and view(), as their ImportKind says; events have only a generation. Functions with a Frame are called within
+// that frame.
 class Provider {
  public:
   virtual ~Provider() = default;
 
-  // What is newest. Id 0: there is nothing.
+  // The newest texture. Id 0: there is none.
   virtual gl::TextureRef texture(const Frame&, base::Diagnostics&) { return {}; }
   // `layout` is for types that reflect `columns`: how the reading shader lays a row out.
   virtual BufferRef buffer(const Frame&, const RowLayout& layout, base::Diagnostics&);
   // Valid until the next call.
   virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part);
-  // Moves whenever what it stands for changed; passes that are `on_change` run then, and histories that it resets begin
-  // again. Unless overridden: in every frame.
+  // Another number whenever the import has changed: then `on_change` passes run, and histories that it resets begin again.
+  // Unless overridden, it changes in every frame.
   virtual std::uint64_t generation(const Frame& frame) { return frame.number; }
 
-  // Whether it is the same in every frame of a world that nobody changes.
+  // Whether the import is the same in every frame of a world that nobody changes.
   virtual bool isStill(const World&) const { return false; }
-  // Whether it depends on which frames ran before this one: it is no function of World and FrameInput.
+  // Whether the import depends on the frames that ran before this one, and not only on World and FrameInput.
   virtual bool remembers(const World&) const { return false; }
 
-  // What passes see of a texture that is shown later than it changes, together with what was made of it: the newest of the
-  // last publish(), and before that. Types that are shown at once leave these as they are.
+  // For a texture that appears together with what a graph makes of it, and so later than it changes. shown() is the texture
+  // that was the newest one at the last publish(), before() the one shown before that. Types that appear at once do not
+  // override these functions.
   virtual gl::TextureRef shown(const Frame& frame, base::Diagnostics& said) { return texture(frame, said); }
   virtual gl::TextureRef before(const Frame& frame, base::Diagnostics& said) { return texture(frame, said); }
   virtual void publish(const Frame&) {}
   virtual bool isPublished(const Frame&) const { return true; }
   virtual std::uint64_t publications(const Frame&) const { return 0; }
-  // Nobody reads before() any more.
+  // No pass reads before() any more.
   virtual void releaseBefore(const Frame&) {}
-  // Textures of a graph's own that were in its place are what it shows and showed before (may be empty), until publish().
+  // Takes textures that the graph itself made and used in place of this import. Until publish() they are shown() and
+  // before(). Either may be empty.
   virtual void adopt(gl::Texture, gl::Texture) {}
 
-  // On its way: pictures of graphs that read it stay black until it is there.
+  // Whether it is still being loaded: pictures of graphs that read it are black until it is there.
   virtual bool isPending(const World&) const { return false; }
-  // Whether the world lacks it, so that Import::standInGraph() is to stand in.
+  // Whether the world lacks it, so that the picture of Import::standInGraph() is needed.
   virtual bool needsStandIn(const World&) const { return false; }
-  // The picture of that graph. Not owned; stays.
+  // The picture of that graph. Not owned; it lives as long as the provider.
   virtual void setStandIn(gl::TextureRef) {}
 
-  // Before a graph is prepared: files may have changed. `used`: somebody asked for it since the last call. False: it goes.
+  // Called before a graph is prepared, because files may have changed. `used`: some graph asked for the import since the
+  // last call. False: the provider is not needed any more and is destroyed.
   virtual bool renew(bool used) { return used; }
-  // Frees what the world holds of it and the device has.
+  // Frees what the world holds of the import when the device has it, too.
   virtual void dropUploaded(World&) const {}
 };
 
@@ -76,13 +81,13 @@ class Import {
  public:
   virtual ~Import() = default;
   virtual graph::ImportType reflect() const = 0;
-  // Called while graphs are expanded, without a device. `files`: what it is read from goes through here, so that it is
-  // watched and read once. Unless overridden: it is there.
+  // Called while graphs are expanded, without a device. Files must be read through `files`, so that each is watched and
+  // read once. Unless overridden, the import exists, and nothing else is known of it.
   virtual graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
                                    Files& files) const;
-  // A graph whose picture stands in for a texture that the world lacks, from the folder that holds graphs/; empty: none.
+  // A graph whose picture stands in for a texture that the world lacks: a path from the folder that holds graphs/, or "".
   virtual std::string standInGraph() const { return {}; }
-  // Makes no GL call: a request may never be used.
+  // Must make no GL call, because the provider may never be used.
   virtual std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const = 0;
 };
 

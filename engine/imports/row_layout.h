@@ -1,5 +1,5 @@
-// Tables that shaders read as an array of structs in a storage block: which fields of a row a shader declares and where it
-// wants them, by introspection, so that no struct is written twice. A shader may leave fields out and order them as it likes.
+// Tables that shaders read as an array of structs in a storage block. Introspection tells which fields of a row a shader
+// declares, and where; so no struct is written twice. A shader may leave fields out and put them in any order.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace weft::imports {
 
-// The storage block that reads the rows of a draw pass's list without a slot.
+// The storage block that has the rows of a draw pass's list, although no slot names it.
 constexpr const char* kInstancesBlock = "instances";
 
 // Byte offsets of a table's columns within one element of a storage block, in the order of the columns; -1: the shader has no

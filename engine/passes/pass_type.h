@@ -1,6 +1,7 @@
-// A pass type: what a graph may say of it (reflect) and the GL calls that do it (execute). The executor has already
-// bound program, vertex array, textures, buffers, framebuffer, viewport and fixed-function state when execute() is called.
-// Knows nothing of windows, input, scheduling or files. To add one: a folder here, a class, a line in pass_registry.cpp.
+// A pass type: what a graph may write of it (reflect), and the GL calls of such a pass (execute). When execute() is called,
+// the executor has bound program, vertex array, textures, buffers, framebuffer, viewport and fixed-function state.
+// Knows nothing of windows, input, scheduling or files. To add a pass type, make a folder here with a class, and add a
+// line to pass_registry.cpp.
 #pragma once
 
 #include <glad/gl.h>

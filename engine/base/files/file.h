@@ -1,6 +1,6 @@
-// Whole files in and out, with diagnostics instead of exceptions. Directories, missing files, pipes, devices
-// and unreadable files are told apart. What may be read at all is said in engine/base/files/file_access.h. Does
-// not: watch, memory-map or decode anything.
+// Reads and writes whole files, with diagnostics instead of exceptions. Messages tell directories, missing files,
+// pipes, devices and unreadable files apart. engine/base/files/file_access.h says which files may be read at all.
+// Does not: watch, memory-map or decode anything.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace weft::base {
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics,
                                     Code code = Code::unreadableFile, const Place& place = {});
 
-// A path written in a file, from that file's folder; absolute ones and "" as they are.
+// A path that is written in a file, as seen from that file's folder. Absolute paths and "" stay as they are.
 std::string besideFile(const Place& place, const std::string& path);
 
 // Called between portions with the bytes read so far and the file's size (0 when it has none, as a pipe), and
@@ -28,9 +28,9 @@ using ReadProgress = std::function<bool(std::uint64_t done, std::uint64_t total)
 std::optional<std::string> readFile(const std::string& path, Diagnostics& diagnostics, Code code,
                                     const Place& place, const ReadProgress& goOn);
 
-// Writes through a temporary file beside `path` and renames it, so that a failure never leaves half a file. A
-// file that is there keeps its permissions, a link goes on leading to it, a device is written to as it is.
-// Reports Code::outputNotWritten and returns false when it cannot.
+// Writes a temporary file beside `path` and renames it, so that a failure never leaves half a file. A file that
+// exists keeps its permissions, a link still leads to it, and a device is written to directly. On failure reports
+// Code::outputNotWritten and returns false.
 bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics& diagnostics);
 
 }  // namespace weft::base

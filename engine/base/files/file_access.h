@@ -3,15 +3,15 @@
 //
 // Only regular files are read. A pipe, a socket or a device would block for ever or never end. The one exception
 // is a path that the person gave on the command line: it may be a pipe, the first time it is opened, so that
-// `weft render <(generate) …` works. Whoever opens it again (a reload of the viewer) gets the refusal. The
-// exception is a matter of the process, as the command line is; so it stands here, not in every function that reads.
+// `weft render <(generate) …` works. A second opening (a reload of the viewer) is refused. The exception belongs to
+// the process, as the command line does; so it is kept here, and not in every function that reads.
 //
-// Paths are free, as a compiler's are, until a folder is confined (--confine). Then only what really lies in
-// such a folder or in an allowed one is looked at. Every step of a path is judged, with links followed, before
-// it is looked at: whether something exists outside can not be told from an answer. What the person named on the
-// command line is free.
+// Paths are free, as a compiler's are, until reading is confined to a folder (--confine). From then on only files
+// that really lie in such a folder, or in an allowed one, are opened. Each step of a path is checked, with links
+// followed, before it is opened; so no answer tells whether something exists outside. What the person named on
+// the command line stays free.
 //
-// There is no moment between the judgement and the opening: what was judged is what is opened.
+// The file that was checked is the file that is opened: no other can take its place in between.
 // Safe from any thread. Does not: restrict writing, or stop the shader compiler and libraries from opening
 // their own files.
 #pragma once
@@ -24,26 +24,26 @@
 
 namespace weft::base {
 
-// The person named this path on the command line: it is never outside, and may be a pipe once. A folder that
-// is named is an allowed one. Called twice for one path, it may be a pipe twice.
+// The person named this path on the command line: it is never outside, and may be a pipe once. A folder that is
+// named so is an allowed one. A path that is named twice may be a pipe twice.
 void chooseFile(const std::string& path);
 
-// Confines reading to `folder` and those confined or allowed besides. Returns what is wrong with it, as a
-// sentence for the person who named it, or nothing.
+// Confines reading to `folder`, and to all other folders that were given to this function or to allowFolder().
+// Returns what is wrong with the folder, as a sentence for the person who named it, or nothing.
 std::optional<std::string> confineTo(const std::string& folder);
-// May be read even then: Weft's own data. It need not exist yet. Confines nothing.
+// Weft's own data, which may be read even when reading is confined. The folder need not exist yet. Does not confine.
 void allowFolder(const std::string& folder);
 
-// In an allowed folder, and not what the person named: limits of what is read are for the files of others.
+// Whether `path` lies in an allowed folder and was not named by the person. Limits of size are for the other files.
 bool isOwnData(const std::string& path);
 
-// False when `path` leads out of the folders, whether or not something is there. Looks at no step outside.
-// For whoever is to look whether a file exists, or to list a folder; readFile() asks by itself.
+// False when `path` leads out of the folders, whether or not a file is there. Opens nothing outside. To be called
+// before a caller checks whether a file exists, or lists a folder; readFile() calls it by itself.
 bool mayRead(const std::string& path);
 // W200: `path`, as written, leads out of the folders.
 void reportOutside(const std::string& path, Diagnostics& diagnostics, const Place& place);
 
-// Everything as before the first call of the above. For tests.
+// Takes back all calls of the functions above. For tests.
 void resetFileAccess();
 
 struct OpenedFile {

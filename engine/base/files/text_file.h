@@ -1,5 +1,5 @@
-// Files that are read whole as text, JSON and .cube tables, refused by their size before they fill the
-// memory. Does not: parse them.
+// Reads whole text files, JSON and .cube tables, and refuses those that are too large before they fill the memory.
+// Does not: parse them.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,14 @@
 
 namespace weft::base {
 
-// As readFile (file.h), and Code::limitExceeded for a file beyond the limit json_bytes, of which only the beginning is
-// read.
+// As readFile (file.h). Reports Code::limitExceeded for a file beyond the limit json_bytes, and reads only its beginning.
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics,
                                         Code code = Code::unreadableFile, const Place& place = {});
 
-// The limit as it binds `file`, which may be null: Weft's own data (file_access.h) has at least the default.
+// The limit for `file`, which may be null. For Weft's own data (file_access.h) it is never below the default.
 std::uint64_t limitFor(Limit limit, const std::string* file);
 
-// The same report for a text that is there already.
+// The same report for a text that is in memory already.
 void reportTooLarge(const Place& place, std::uint64_t bytes, Diagnostics& diagnostics);
 
 }  // namespace weft::base

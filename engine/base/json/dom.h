@@ -32,7 +32,7 @@ struct JsonValue {
   bool is(Type other) const { return type == other; }
   // The member's value, or null.
   const JsonValue* find(std::string_view key) const;
-  // Of the first character inside the quotes of a string.
+  // The place of the first character inside the quotes of a string.
   Place textPlace() const;
 };
 
@@ -42,12 +42,12 @@ struct JsonMember {
   JsonValue value;
 };
 
-// Objects and arrays inside each other, at most.
+// How deep objects and arrays may be nested.
 constexpr int kMaxJsonDepth = 64;
 
-// Empty after Code::notJson (not JSON), Code::nestedTooDeeply (too deep) or Code::limitExceeded: a text beyond the limit json_bytes, more values
-// than json_values, a key beyond name_bytes. A duplicate key is reported as Code::duplicateKey, its later value is dropped, and
-// reading goes on. `file` goes into every place and may be null.
+// Empty after Code::notJson, Code::nestedTooDeeply or Code::limitExceeded (a text beyond the limit json_bytes, more values
+// than json_values, a key beyond name_bytes). A duplicate key is reported as Code::duplicateKey, its later value is dropped,
+// and reading goes on. `file` becomes part of every place and may be null.
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
                                    Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
 // Turns what nlohmann's lexer and parser object to into a diagnostic with the exact place and a message a
-// person can act on. Private to json_dom.cpp.
+// person can act on. Private to dom.cpp.
 #pragma once
 
 #include <memory>

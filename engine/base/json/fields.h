@@ -1,7 +1,6 @@
-// Reading the members of a JSON object by key. A key that is asked for is known; finish() reports the others
-// as W4 with the nearest known name. An absent key yields nothing; a present but wrong one is reported (W3,
-// or the range code given to the constructor) and yields nothing too. Does not: hold defaults, or know what
-// the keys mean.
+// Reads the members of a JSON object by key. A key that was asked for is known; finish() reports all other keys as
+// W004, with the nearest known name. An absent key yields nothing. A wrong value is reported (W003, or the range
+// code given to the constructor) and yields nothing, too. Does not: hold defaults, or know what the keys mean.
 #pragma once
 
 #include <array>
@@ -31,19 +30,19 @@ std::optional<std::string> readText(const JsonValue& value, std::string_view nam
 std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name,
                                                 const NumberRange& range, Code rangeCode,
                                                 Diagnostics& diagnostics);
-// False after a W3 that says what was expected.
+// False after a W003 that says what was expected.
 bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type type,
                 Diagnostics& diagnostics);
 
 class JsonFields {
  public:
-  // `what` names the object in messages: "camera 'front'". Reports W3 when `object` is none; then it has no
-  // members.
+  // `what` names the object in messages: "camera 'front'". Reports W003 when `object` is not an object; then it has
+  // no members.
   JsonFields(const JsonValue& object, std::string what, Code rangeCode, Diagnostics& diagnostics);
 
   // The member, or null.
   const JsonValue* find(std::string_view key);
-  // Reports W5 for each key that is absent.
+  // Reports W005 for each key that is absent.
   void require(std::initializer_list<std::string_view> keys);
 
   std::optional<double> number(std::string_view key, const NumberRange& range = {});

@@ -1,7 +1,6 @@
-// Where a value stands in its JSON document, as RFC 6901 writes it: "/passes/3/read/source". Kept as a number
-// in its container, whose own pointer all of its values share, because a large document has a pointer for
-// each of its values; the text is put together when it is asked for. Does not: find the value again
-// (json_edit.h).
+// Where a value stands in its JSON document, as RFC 6901 writes it: "/passes/3/read/source". A large document has
+// a pointer for each of its values, so a pointer is a number and the pointer of the container, which all values in
+// that container share. The text is put together when it is asked for. Does not: find the value again (edit.h).
 #pragma once
 
 #include <cstdint>

@@ -33,15 +33,15 @@ class DebugLog {
   // Registers with the current context, which must not outlive this log; synchronous. Group markers are
   // filtered out, and so are the shader compiler's errors, which Program reports with true places.
   void install();
-  // What the callback does; open to tests.
+  // What the callback does; public for tests.
   void record(GLenum source, GLenum type, GLuint id, GLenum severity, std::string_view text);
 
   // Any message above GL_DEBUG_SEVERITY_NOTIFICATION since construction or clear()?
   bool hasAboveNotification() const;
   std::vector<DebugMessage> messages() const;
-  // Adds one W120 per message that is new since the last drain: high severity or type error: error; medium
-  // and low: warning; notifications: note when `notifications`. Repeats seen by then are said in the text
-  // ("seen 12 times").
+  // Adds a W120 for each message that is new since the last drain: an error for high severity or type error, a
+  // warning for medium and low severity, a note for notifications when `notifications` is set. The text says how
+  // often the message was seen ("seen 12 times").
   void drain(base::Diagnostics& diagnostics, bool notifications = false);
   void clear();
 

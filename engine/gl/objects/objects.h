@@ -1,8 +1,8 @@
 // Move-only owners of GL objects, labelled for debug tools and counted per kind (leak tests). Creation that
 // depends on the machine or on an author's numbers returns an optional and a diagnostic; everything else
-// asserts. All functions act on the current context, in which the objects must also die; an object moved from
-// or default-made owns nothing. Does not: cache, pool, bind for drawing, or know the engine's formats
-// (internal formats are GLenum).
+// asserts. All functions act on the current context; an object must be destroyed in the context that made it. An
+// object that is default-made or moved from owns nothing. Does not: cache, pool, bind for drawing, or know the
+// engine's formats (internal formats are GLenum).
 #pragma once
 
 #include <glad/gl.h>
@@ -41,7 +41,7 @@ struct LiveObjects {
   friend bool operator==(const LiveObjects&, const LiveObjects&) = default;
 };
 LiveObjects liveObjects();
-// What the driver knows of in the current context, whoever made it: names up to `upTo` are asked for one by one. Views
+// All objects of the current context that the driver knows, whoever made them. Asks for each name up to `upTo`. Views
 // count as textures, shaders as programs; fences have no names.
 LiveObjects namedObjects(GLuint upTo = 1 << 14);
 // "2 textures, 1 buffer" or "none".
@@ -80,7 +80,7 @@ struct TextureDesc {
   friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
 };
 
-// What a texture or a view of one looks like to those who bind, attach, upload and read.
+// A texture, or a view of one, for code that binds, attaches, uploads or reads it. Does not own it.
 struct TextureRef {
   GLuint id = 0;
   TextureDesc desc;
@@ -88,8 +88,8 @@ struct TextureRef {
 
 class Texture : public Owner<ObjectKind::texture> {
  public:
-  // W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp to
-  // edge, GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
+  // Reports W116 when the driver's limits or memory do not allow it. Filters are set to nearest, wrapping to clamp
+  // to edge, GL_TEXTURE_MAX_LEVEL to mips - 1. Contents are undefined.
   static std::optional<Texture> create(const TextureDesc& desc, std::string_view label,
                                        base::Diagnostics& diagnostics);
   const TextureDesc& desc() const { return desc_; }
@@ -108,10 +108,10 @@ struct ViewDesc {
   friend bool operator==(const ViewDesc&, const ViewDesc&) = default;
 };
 
-// A texture that shares another's storage. It keeps the storage alive by itself.
+// A texture that shares the storage of another texture and keeps that storage alive.
 class TextureView : public Owner<ObjectKind::view> {
  public:
-  // W118 when the driver rejects it (range, target, class).
+  // Reports W118 when the driver rejects it (range, target, class).
   static std::optional<TextureView> create(const TextureRef& of, const ViewDesc& view, std::string_view label,
                                            base::Diagnostics& diagnostics);
   const TextureDesc& desc() const { return desc_; }  // sizes of the view's level 0
@@ -124,8 +124,8 @@ class TextureView : public Owner<ObjectKind::view> {
 
 class Buffer : public Owner<ObjectKind::buffer> {
  public:
-  // Immutable storage of `bytes` (> 0); flags as for glNamedBufferStorage. `data` may be null: undefined
-  // contents. W117 when memory is out.
+  // Immutable storage of `bytes` (> 0); flags as for glNamedBufferStorage. Without `data` the contents are undefined.
+  // Reports W117 when there is no memory.
   static std::optional<Buffer> create(std::uint64_t bytes, GLbitfield flags, std::string_view label,
                                       base::Diagnostics& diagnostics, const void* data = nullptr);
   std::uint64_t bytes() const { return bytes_; }
@@ -146,9 +146,8 @@ struct Attachment {
 
 class Framebuffer : public Owner<ObjectKind::framebuffer> {
  public:
-  // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached and nothing otherwise. Without
-  // attachments, width and height say how much is rasterised. W115 with the reason spelled out when it is
-  // incomplete.
+  // Draw buffer i writes GL_COLOR_ATTACHMENTi when that is attached, else nothing. Without attachments, width and
+  // height give the area that is rasterised. When the framebuffer is incomplete, reports W115 with the reason.
   static std::optional<Framebuffer> create(std::span<const Attachment> attachments, std::string_view label,
                                            base::Diagnostics& diagnostics, std::uint32_t width = 0,
                                            std::uint32_t height = 0);
@@ -183,8 +182,8 @@ struct VertexAttribute {
 class VertexArray : public Owner<ObjectKind::vertex_array> {
  public:
   static VertexArray create(std::string_view label);
-  // Attributes from one interleaved buffer, at binding point `binding`; `divisor` 1: one element per instance. Indices may be
-  // 0. The buffers are not owned.
+  // Takes attributes from one interleaved buffer, at binding point `binding`. With `divisor` 1 each instance takes one
+  // element. `buffer` may be 0. Buffers are not owned.
   void setVertices(GLuint binding, GLuint buffer, std::uint64_t offset, std::uint32_t stride,
                    std::span<const VertexAttribute> attributes, GLuint divisor = 0);
   void disable(std::span<const VertexAttribute> attributes);
@@ -213,7 +212,7 @@ class Fence {
   Fence& operator=(Fence&& other) noexcept;
   ~Fence() { reset(); }
   explicit operator bool() const { return sync_ != nullptr; }
-  bool isSignalled() const;                    // never waits; flushes so that it gets done some day
+  bool isSignalled() const;                    // never waits; flushes, so that the GPU gets to the fence
   bool wait(std::uint64_t nanoseconds) const;  // true when signalled within that time
   void reset();
 
@@ -221,9 +220,9 @@ class Fence {
   GLsync sync_ = nullptr;
 };
 
-// ---- texels and bytes, synchronous
-// --------------------------------------------------------------------------------- `layer` is an array
-// layer, a cube's layer * 6 + face, or a 3D slice. Rows are bottom first and tightly packed.
+// ---- texels and bytes ----
+// All of these wait until they are done, but for readTextureInto(). `layer` is an array layer, a cube's layer * 6 + face,
+// or a 3D slice. Rows are bottom first and tightly packed.
 
 struct Extent {
   std::uint32_t width = 1, height = 1, layers = 1;  // layers: array layers, faces, or slices of this level

@@ -84,15 +84,14 @@ struct ProgramBinary {
 
 class Program : public Owner<ObjectKind::program> {
  public:
-  // Compiles and links. `outputs` are bound to locations 0, 1, … before linking, in that order, so that
-  // attachment i is outputs[i]; a name the program lacks is ignored, `layout(location)` in the source wins.
-  // Every stage's errors are reported (W104), else those of linking (W105), with true places; warnings of the
-  // driver become warnings.
+  // Compiles and links. `outputs` are bound to locations 0, 1, … before linking, in that order, so that attachment i
+  // is outputs[i]. A name that the program lacks is ignored; `layout(location)` in the source wins. Reports the errors
+  // of every stage (W104), or else those of linking (W105), with true places. Warnings of the driver become warnings.
   static std::optional<Program> compile(std::span<const StageSource> stages, std::span<const Define> defines,
                                         std::span<const std::string> outputs, std::string_view label,
                                         base::Diagnostics& diagnostics);
-  // Nullopt when the driver rejects the binary: never an error, nor a message of the driver. `compute`: what
-  // the binary was made from; OpenGL cannot be asked.
+  // Nullopt when the driver rejects the binary, without an error or a message of the driver. `compute` says whether
+  // the binary is a compute program, because OpenGL does not tell.
   static std::optional<Program> load(const ProgramBinary& binary, bool compute, std::string_view label);
   // The linked binary, or nullopt when the driver has no format for it.
   std::optional<ProgramBinary> binary() const;

@@ -1,10 +1,10 @@
-// Variants by (source text, defines, outputs, stages, driver, backend): in memory the most recently used
-// ones and, beyond them, those that somebody still holds (a graph of more programs than the cache has room
-// for loses none when it is loaded again), on disk all of them as program binaries. A broken, foreign or
-// rejected binary is a miss and is written anew. A variant that does not compile gives its diagnostics and
-// null, and the caller keeps the program it has; the failure is remembered until the sources change, so that
-// asking again compiles nothing. What is too large for the driver is refused, and what is unusually large tried in
-// a process of its own first (shader_bounds.h, shader_trial.h). The folder is kept below program_cache_bytes.
+// Variants by (source text, defines, outputs, stages, driver, backend). Memory has the most recently used ones, and
+// those that somebody still holds: so a graph with more programs than the cache has room for loses none when it is
+// loaded again. The disk has all of them, as program binaries. A broken, foreign or rejected binary is a miss and is
+// written anew. A variant that does not compile gives its diagnostics and null, and the caller keeps the program it
+// has; the failure is remembered until the sources change, so that asking again compiles nothing. A shader that is
+// too large for the driver is refused; an unusually large one is first tried in a process of its own
+// (shaders/bounds.h, shader_trial.h). The folder is kept below program_cache_bytes.
 // Does not: compile in the background, or watch files (SourceLoader looks at times).
 #pragma once
 

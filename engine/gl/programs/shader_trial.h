@@ -1,8 +1,8 @@
-// Compiling a program in a process of its own first, so that a driver that crashes over it, takes all memory
-// or does not come to an end takes nothing else along. The process is this executable again, started with
-// kTrialWord, or whatever an embedder names. It opens a context of the same driver, compiles, links and makes
-// the machine code of a draw or a dispatch that covers nothing, so that no loop of the shader runs. Nothing
-// of it comes back but how it ended. Does not: decide which programs to try (shader_bounds.h does).
+// Compiles a program in a process of its own first. A driver that crashes, takes all memory or never ends then harms
+// only that process. The process is this executable again, started with kTrialWord, or one that an embedder names. It
+// opens a context of the same driver, compiles, links, and makes the driver generate machine code by a draw or a
+// dispatch that covers nothing, so that no loop of the shader runs. The caller only learns how the process ended.
+// Does not: decide which programs to try (shaders/bounds.h does).
 #pragma once
 
 #include <span>

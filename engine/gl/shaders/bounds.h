@@ -1,8 +1,7 @@
-// How large a shader is where size kills or stalls a driver, counted before the driver sees it: tokens after
-// macros and after every call is replaced by its function, nesting, cases, elements of arrays. docs/limits.md
-// has what drivers were measured to survive. A loop counts once, however often it runs. Pure text work: needs
-// no context. Does not: parse GLSL. Wrong texts give some count or other, and the compiler says what is
-// wrong.
+// Counts how large a shader is, before the driver sees it, in what crashes or stalls drivers: tokens (after macros, and
+// with every call replaced by its function), nesting, cases, elements of arrays. docs/limits.md says what drivers were
+// measured to survive. A loop counts once, however often it runs. Pure text work: needs no context. Does not: parse
+// GLSL. The count of a wrong text means nothing, and the compiler says what is wrong.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Conditionals and macros of shader_tokens.h.
+// Conditionals and macros of tokens.h.
 #include <algorithm>
 #include <memory>
 #include <unordered_map>

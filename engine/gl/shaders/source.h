@@ -1,10 +1,10 @@
-// GLSL files to text a driver takes: #include expansion, a table of lines, and the way back from a driver's
-// log to the true file, line and column (docs/shaders.md). Pure text work: needs no context and makes no GL
-// call. Lines are numbered through the expanded text, and the table knows their files; the file numbers of
-// #line are not relied on, because drivers lose them (workarounds.h: source-numbers-lost). A file enters a
-// stage once: a later #include of it is dropped, or guarded when the first stands inside an #if. Names are
-// checked by a conservative token scan, not by a preprocessor: an identifier counts as present when it stands
-// outside comments anywhere in the expanded text, also in a directive or inside an #if that is not taken.
+// Makes the text that a driver takes of GLSL files: expands #include, keeps a table of lines, and finds the true file,
+// line and column for a message in a driver's log (docs/shaders.md). Pure text work: needs no context and makes no GL
+// call. Lines are numbered through the expanded text, and the table knows their files; the file numbers of #line are
+// not used, because drivers lose them (workarounds.h: source-numbers-lost). A file enters a stage once: a later
+// #include of it is dropped, or guarded when the first stands inside an #if. Names are checked by a conservative token
+// scan, not by a preprocessor: an identifier counts as present when it stands outside comments anywhere in the expanded
+// text, also in a directive or inside an #if that is not taken.
 // Does not: evaluate conditionals or macros, compile, or watch files.
 #pragma once
 
@@ -53,11 +53,11 @@ class SourceLoader {
   // `roots` are searched in order for includes that are not found beside the including file.
   explicit SourceLoader(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
-  // The stage file `path`: below the first root that has it, else as it is; "../" and absolute paths lead where they lead
-  // (W200 where reading is confined and they lead out: engine/base/files/file_access.h). `place` is who asked (the graph
-  // file), used when the file itself cannot be read (W100). Problems inside (W101 include not found, W102
-  // include cycle, W103 malformed include, W106 #version) are reported all at once and give null. An
-  // unchanged file (size and modification time of every file that took part) is expanded once.
+  // The stage file `path`, below the first root that has it, else as the path says. "../" and absolute paths may lead
+  // out of the roots (W200 where reading is confined: engine/base/files/file_access.h). `place` is that of the path in
+  // the graph file, for the message when the file cannot be read (W100). Problems inside (W101 include not found,
+  // W102 include cycle, W103 malformed include, W106 #version) are reported all at once and give null. A file is
+  // expanded again only when the size or the time of a file that took part has changed.
   std::shared_ptr<const ShaderSource> load(const std::string& path, base::Diagnostics& diagnostics,
                                            const base::Place& place = {});
   // The same for text in memory, named `name` in messages; its includes are searched in the roots only.
@@ -72,7 +72,7 @@ class SourceLoader {
     names_.forget();
   }
   const std::vector<std::string>& roots() const { return roots_; }
-  // Every path that an answer since forgetTouched() came from or would come from, existing or not: what to watch.
+  // The files to watch: every path that was read or looked for since forgetTouched(), whether or not it exists.
   const std::set<std::string>& touched() const { return touched_; }
   void forgetTouched() {
     touched_.clear();
@@ -107,11 +107,11 @@ class SourceLoader {
 constexpr std::uint32_t kTextLine = 10001;
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines);
 
-// The log of an assembleSource() text to one diagnostic per message with its true place. Understands Mesa's
-// "0:12(5): error: text" and NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text"; other
-// lines become part of the message before them, or a message at the file itself. What is known is said in plain words
-// (shader_words.h), what only follows from another message is left out. `code` is W104 (compile) or W105 (link).
-// Returns how many were added.
+// Turns the log of an assembleSource() text into one diagnostic per message, with its true place. Understands Mesa's
+// "0:12(5): error: text", NVIDIA's "0(12) : error C1234: text" and the common "ERROR: 0:12: text". Other lines become
+// part of the message before them, or a message at the file itself. Known messages are said in plain words (words.h); a
+// message that only follows from another is left out. `code` is W104 (compile) or W105 (link). Returns how many
+// diagnostics were added.
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
                    base::Diagnostics& diagnostics);
 

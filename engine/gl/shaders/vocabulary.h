@@ -1,5 +1,5 @@
-// Tables for the messages of shader compilers (shader_words.h): what the tokens of their grammars stand for,
-// and words of GLSL that a misspelt one may have meant. Not all of GLSL: what is rare is left out.
+// Tables for the messages of shader compilers (words.h): what the tokens of their grammars stand for, and words of
+// GLSL that a misspelt one may have meant. Rare words of GLSL are left out.
 #pragma once
 
 #include <string_view>

@@ -1,7 +1,6 @@
-// What shader compilers say, in plain words: tokens of Mesa's grammar become what they stand for, undeclared
-// names are reported alike for every driver and get the nearest declared one, a syntax error says what is
-// probably missing. A message that is not known stays as the driver wrote it. Does not: find places (mapLog
-// in shader_log.cpp does).
+// Says in plain words what shader compilers report: tokens of Mesa's grammar become what they stand for, an undeclared
+// name is reported in the same words for every driver and with the nearest declared one, and a syntax error says what
+// is probably missing. An unknown message stays as the driver wrote it. Does not: find places (mapLog in log.cpp does).
 #pragma once
 
 #include <cstdint>

@@ -2,19 +2,16 @@
 // oracle in the tests has a table of its own, written from the specification.
 //
 // Two rules make every barrier of a plan:
-//  (a) an incoherent store (image or buffer store of a shader) before a later use of the same physical
-//  sub-resource
-//      needs that use's bit in between. A later overwrite excuses nothing: it may be skipped by its cadence,
-//      and need not cover every texel.
-//  (b) any access before a later image or buffer store to the same physical storage needs SHADER_IMAGE_ACCESS
-//  or
-//      SHADER_STORAGE in between, also when the two resources only share storage.
+//  (a) Between an image or buffer store of a shader and a later use of the same physical sub-resource there must be the
+//      bit of that use. A write in between changes nothing: its cadence may skip it, and it need not cover every texel.
+//  (b) Between any access and a later image or buffer store to the same physical storage there must be
+//      SHADER_IMAGE_ACCESS or SHADER_STORAGE, also when two resources only share that storage.
 //
-// Safe under every cadence, and without redundant bits while every pass runs. The two meet in one corner only: a
-// history none of whose writers is `always`, read after a first writer that does not store and before a later
-// one that does. There a frame without writers needs a bit that frames with all of them do not, and safety
-// wins. And what a time-sliced group writes: its copies change places at times the plan does not know, so they count
-// as one.
+// The barriers are safe whichever passes run, and have no redundant bits when all passes run, with two exceptions in
+// which safety wins. One is a history none of whose writers is `always`, read after a first writer that does not store
+// and before a later one that does: a frame without writers then needs a bit that a frame with all of them does not.
+// The other is what a time-sliced group writes: its copies change places at times that the plan does not know, so they
+// count as one.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// FlatGraph to Plan. Linear in passes + uses; touches only the flat arrays of FlatGraph; nothing can fail any more.
-// Does not: read names or texts, or say why (print/explain.h does).
+// Compiles a FlatGraph to a Plan. The time is linear in passes and uses; only the flat arrays of FlatGraph are read, and
+// nothing can fail any more. Does not: read names or texts, or say why (print/explain.h does).
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,10 @@ struct CompileOptions {
   std::uint64_t orderSeed = 0;  // not 0: a random legal order instead of the declared one (fuzz)
 };
 
-// The graph must be valid and linked (by expandGraph, or by linkFlat for neutral graphs): every read has a version, a pass writes what
-// it presents (version zero alone is not enough), imports are not written. The order is the declared order of the live passes: it is always legal, because a use refers to the latest
-// version before it, and the person reads it in the file. The second form reuses the working memory of earlier calls.
+// The graph must be valid and linked (by expandGraph, or by linkFlat for neutral graphs): every read has a version, some
+// pass writes what is presented (version zero is not enough), and imports are not written. The order of the plan is the
+// declared order of the live passes. It is always legal, because a use refers to the latest version before it, and it is
+// the order that a person reads in the file. The second form reuses the working memory of earlier calls.
 struct CompileScratch;  // scratch.h
 Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});
 Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options, CompileScratch& scratch);

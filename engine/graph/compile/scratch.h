@@ -1,6 +1,6 @@
-// Working memory of compile(), kept between calls so that a recompile allocates only the Plan. Not
-// thread-safe. Flat vectors indexed by pass, use, resource or cell; nothing in here outlives a call in
-// meaning. A cell is a sub-resource of a resource that some use touches in part, or else the whole resource.
+// Working memory of compile(), kept between calls so that a recompile allocates only the Plan. Not thread-safe. Flat
+// vectors indexed by pass, use, resource or cell; their contents mean nothing after a call. A cell is one sub-resource
+// where some use touches a part of a resource, else the whole resource.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace weft::graph {
 
 struct CompileScratch {
-  // What the steps ask of a resource, in one byte.
+  // What is known of a resource, in one byte.
   enum Flag : std::uint8_t {
     kBuffer = 1,
     kImported = 2,
@@ -21,7 +21,7 @@ struct CompileScratch {
     kGranular = 16,        // more than one cell
     kPersistent = 32,      // history, or a live writer that is not always
     kStored = 64,          // a live pass stores to it by image or buffer
-    kWrittenAlways = 128,  // a live writer is always: a history rotates in every frame
+    kWrittenAlways = 128,  // a live writer is `always`, so that a history rotates in every frame
   };
   std::vector<std::uint8_t> flags;      // per resource
   std::vector<std::uint32_t> cellBase;  // per resource: its first cell

@@ -1,20 +1,19 @@
-// Checks of uses against what they use: kind, access, format and pass type for one slot; sizes, layers,
-// samples, overlaps and cadences for the slots of one pass; names of one pass. They report and never change
-// anything.
+// Checks whether uses fit what they use: for one slot kind, access, format and pass type; for the slots of one pass sizes,
+// layers, samples, overlaps, cadences and names. Reports mistakes and never changes anything.
 #pragma once
 
 #include "engine/graph/expand/slots.h"
 
 namespace weft::graph::expansion {
 
-// The kind of a use when nothing else is said (design: Kinds).
+// The kind of a use whose reference names none.
 Kind defaultKind(const PassType* type, Access access, const FlatResource& shape);
 
-// One use: the kind fits the resource, the access, the pass type and the format; sampler words fit.
+// Checks one use: its kind must fit the resource, the access, the pass type and the format; sampler words must fit.
 bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work);
 
-// All uses of one pass: attachments of one size, layer count and sample count, nothing written twice, nothing
-// read and written at once unless by feedback.
+// Checks all uses of one pass: attachments must have one size, layer count and sample count; nothing may be written
+// twice; nothing may be both read and written, except by feedback.
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots);
 
 const PassType* findPassType(const Registry& registry, std::string_view name);

@@ -1,6 +1,5 @@
-// GraphDesc to FlatGraph: scopes of includes, parameters, repeats, conditions, alternatives, disabled passes,
-// renames, versions, sizes and every check of the design's "Diagnostics". Pure: no clock, no device, no
-// files.
+// Expands a GraphDesc to a FlatGraph: resolves includes, parameters, repeats, conditions, alternatives, disabled passes,
+// versions and sizes, and makes every check of meaning. Uses no clock, no device and no files.
 #pragma once
 
 #include <memory>
@@ -13,8 +12,8 @@
 
 namespace weft::graph {
 
-// The expanded graph, or null after errors. Warnings leave a graph. `diagnostics` may hold errors of the
-// reader already: then everything is checked as far as it goes, and null is returned.
+// The expanded graph, or null after errors; warnings do not prevent it. `diagnostics` may already have errors of the
+// reader: then as much as possible is checked, and null is returned.
 std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Registry& registry,
                                              const Settings& settings, base::Diagnostics& diagnostics);
 

@@ -1,7 +1,6 @@
-// Which passes of a graph run all or none and publish together (struct Groups in plan.h): those that name one "group", and
-// the writers of a resource that is built jointly: one with history, one that somebody modifies, one of a group or in
-// slices. A group with a pass in more than one slice is time-sliced; what it writes has one copy more and turns as a
-// whole, so everybody who writes that is of the group too.
+// Forms the groups of a graph (struct Groups in plan.h). Passes that name the same "group" are in one group, and so are all
+// writers of a resource that has a history, that some pass modifies, or that a time-sliced group writes. A group with a
+// pass in more than one slice is time-sliced: what it writes has one more copy, and all of it is published at once.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,7 @@
 
 namespace weft::graph {
 
-// Of all passes that `isLive` accepts, through the writes that `isAttached` does. Linear but for a factor of
-// next to nothing.
+// Counts only passes that `isLive` accepts and writes that `isAttached` accepts. The time is practically linear.
 Groups formGroups(const FlatGraph& graph, const std::function<bool(std::uint32_t pass)>& isLive,
                   const std::function<bool(std::uint32_t use)>& isAttached);
 

@@ -1,5 +1,5 @@
 // The walk over all passes in declared order: includes, repeats, enabled or not, slots, versions, and what
-// goes into the FlatGraph. Missing versions are only recorded; expand_live judges them.
+// goes into the FlatGraph. Missing versions are only recorded; live.h decides which are errors.
 #pragma once
 
 #include "engine/graph/expand/slots.h"

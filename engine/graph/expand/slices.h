@@ -1,5 +1,6 @@
-// What cannot be spread over frames: a writer or an input of every frame, and a way out of a group and back into it (W77).
-// Does not: judge a single stanza (expand_stanza.cpp), or know what is live.
+// Reports what cannot be spread over frames (W077): a group with a writer or an input that changes in every frame, or with
+// a dependency that leads out of the group and back into it. Does not: check a single stanza (stanza.h), or know what is
+// live.
 #pragma once
 
 #include "engine/graph/expand/names/model.h"

@@ -1,7 +1,7 @@
 // Slots: from a reference as written to the texture, buffer or import it means and the sub-resources it
 // selects, with alternatives chosen by condition and version, and every check of a single use (selectors,
-// ranges, kinds, formats). Does not: make versions (expand_passes does, in slot order) or compare slots with
-// each other (expand_checks).
+// ranges, kinds, formats). Does not: make versions (passes.cpp does, in slot order) or compare slots with
+// each other (checks.h).
 #pragma once
 
 #include "engine/graph/expand/names/names.h"

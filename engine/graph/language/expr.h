@@ -1,5 +1,5 @@
 // Expressions of graph files: parsed once into a shared immutable tree, evaluated against a scope.
-// Grammar in docs/graph-format.md. Errors are diagnostics at the expression's place (column of the offending
+// The grammar is in docs/graph-format.md. Errors are diagnostics at the expression's place (column of the offending
 // token inside the string where known). Does not know resources or files: the scope answers for every name.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the operators of expressions do to numbers. Private to engine/graph/expr*.cpp. Does not: know lists,
+// What the operators of expressions do to numbers. Private to engine/graph/language. Does not: know lists,
 // names or diagnostics.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The tree behind Expr, shared by the parser, the evaluator and the printer. Private to
-// engine/graph/expr*.cpp. Nodes are immutable once built; `height` bounds every recursion over them.
+// The tree behind Expr, shared by the parser, the evaluator and the printer. Private to engine/graph/language. Nodes are
+// immutable once built; `height` bounds every recursion over them.
 #pragma once
 
 #include <cstdint>
@@ -58,9 +58,10 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
   bool live = false;        // contains a live parameter, folded
   bool folded = false;      // nothing in it is left to fold
   std::uint32_t key = 0;
-  std::uint32_t terms = 1;  // this one and all below it; one that stands in several places counts in each
-  base::Place place;        // of the token to blame: the operator, the name, the function
-  base::Place start;        // of the whole expression; set on roots only
+  std::uint32_t terms =
+      1;              // number of nodes from here down; a node that stands in several places counts in each
+  base::Place place;  // of the token to blame: the operator, the name, the function
+  base::Place start;  // of the whole expression; set on roots only
   Value value{};
   std::string name{};
   std::vector<std::shared_ptr<const ExprNode>> children{};
@@ -69,8 +70,8 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
 using ExprPtr = std::shared_ptr<const ExprNode>;
 
 constexpr int kMaxExprHeight = 200;
-// Of an expression with the `let` it uses in its place: it is evaluated as a tree, in every frame or with every
-// move of a slider.
+// The most terms of an expression that is evaluated in every frame or with every move of a slider. A `let` counts with
+// all its terms wherever it is used, because the expression is evaluated as a tree.
 constexpr std::uint32_t kMaxFoldedTerms = 10'000;
 
 struct OpInfo {
@@ -81,8 +82,8 @@ struct OpInfo {
 // "+" and 5 for add; the function's name for calls.
 OpInfo infoOf(ExprOp op);
 
-// What a word was probably meant for where a number or a condition belongs: a parameter that lost its $, a
-// misspelt `screen`. "" when it is no word, or nothing is near.
+// A hint for a word that stands where a number or a condition belongs: it was probably a parameter without its $, or a
+// misspelt `screen`. "" when the value is no word, or nothing is near.
 std::string hintForWord(EvalScope& scope, const Value& value);
 
 // "size", "mips", "count", "has", "age".
@@ -106,7 +107,8 @@ ExprPtr parseExprTree(std::string_view text, const base::Place& place, base::Dia
 // Seconds since the publication behind a key.
 using AgeFunction = std::function<double(std::uint32_t key)>;
 
-// The value of a tree, or type none; with a scope before the frame runs, with an age function after folding.
+// The value of a tree, or type none after an error. The first form is for expansion; the second is for folded trees, while
+// frames run.
 Value evaluateNode(const ExprNode& node, EvalScope& scope, base::Diagnostics& diagnostics);
 Value evaluateNode(const ExprNode& node, const AgeFunction& age, std::span<const Value> parameters,
                    base::Diagnostics* diagnostics);

@@ -1,4 +1,4 @@
-// The words of an expression: numbers, identifiers, operators. Private to engine/graph/expr*.cpp. Does not:
+// The words of an expression: numbers, identifiers, operators. Private to engine/graph/language. Does not:
 // know keywords, or report; what is no token of the language comes as one of kind `bad` or as punctuation
 // that no grammar accepts.
 #pragma once

@@ -13,7 +13,7 @@ namespace weft::graph {
 // True when the dotted `name` is `suffix` or ends in ".suffix".
 bool hasSuffix(std::string_view name, std::string_view suffix);
 
-// Indices of `names` that `wanted` means: the equal one, else all that end in it.
+// The indices of the names that `wanted` may mean: that of the equal name, else those of all names that end in it.
 std::vector<std::size_t> suffixMatches(std::span<const std::string> names, std::string_view wanted);
 
 // The longest suffix of both.

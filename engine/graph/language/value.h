@@ -1,5 +1,5 @@
 // What an expression yields: a number, a boolean, a list of one to four numbers, or a symbol (a choice such as
-// `billboard`, or a path). One number type, double; converted where it is used.
+// `billboard`, or a path). All numbers are double, and are converted where they are used.
 #pragma once
 
 #include <array>
@@ -29,12 +29,12 @@ struct Value {
 // "1.5", "true", "[1, 2]", "billboard": canonical, shortest round-trip numbers.
 std::string toText(const Value& value);
 
-// Values as a person types them, behind --set NAME=: a JSON scalar or list of one to four numbers, else a word; quotes
+// A value as a person types it behind --set NAME=: a JSON scalar or a list of one to four numbers, else a word; quotes
 // around a word may be left out.
 Value parseValue(std::string_view text);
-// A finite number, blanks around it.
+// A finite number, perhaps with blanks around it; else nothing.
 std::optional<double> parseNumber(std::string_view text);
-// What is wrong with a word that is spelled as a number and is none ("nan", "inf", "1e999"); null for any other.
+// What is wrong with a word that looks like a number and is none ("nan", "inf", "1e999"); null for any other word.
 const char* whyNoNumber(std::string_view text);
 
 }  // namespace weft::graph

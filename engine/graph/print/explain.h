@@ -24,8 +24,8 @@ struct BarrierReason {
   std::uint32_t step = 0;  // steps.size(): at the end of the frame
   bool afterClears = false;
   BarrierBit bit{};
-  bool found = false;   // false: only a frame in which some pass is skipped needs it (barrier_rules.h)
-  Touch before, after;  // `before` may not pass the barrier until it is done; `after` comes behind it
+  bool found = false;   // false: only frames in which some pass is skipped need the bit (barrier_rules.h)
+  Touch before, after;  // the accesses that the barrier separates
 };
 
 class Explainer {

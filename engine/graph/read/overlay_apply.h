@@ -1,4 +1,4 @@
-// Laying an overlay over a source. Private to engine/graph/read/overlay*.cpp and read_like.cpp.
+// Lays an overlay over a source. Private to engine/graph/read.
 #pragma once
 
 #include <span>

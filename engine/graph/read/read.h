@@ -1,5 +1,5 @@
-// Graph text to GraphDesc. Reports everything wrong in the file, in what it extends and in every file it
-// includes, at once.
+// Reads graph files into a GraphDesc. Reports all mistakes at once: those of the file, of the files that it extends and
+// of all files that it includes.
 #pragma once
 
 #include <memory>
@@ -18,11 +18,11 @@ namespace weft::graph {
 // `diagnostics`.
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, base::Diagnostics& diagnostics);
 
-// The same with presets on top, in this order (overlay.h). One that cannot be read is an error and left out.
+// The same with presets on top, in this order (overlay.h). A preset that cannot be read is an error and is left out.
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            base::Diagnostics& diagnostics);
 
-// The same with these texts in place of the files of these paths.
+// The same, but takes the text of a file from `given` where that has its path.
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            const FileTexts& given, base::Diagnostics& diagnostics);
 

@@ -1,6 +1,6 @@
 // What the parts of the reader share: checked access to JSON values, with diagnostics that know the pass and
 // the resource being read. Every accessor takes null for an absent key and then yields the absent value
-// silently. Private to engine/graph/read*.cpp.
+// silently. Private to engine/graph/read.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// What is alive: the passes that somebody needs and the uses that they need them for, found along FlatGraph::links. The
-// one walk of liveness: checks of expansion warn, and compile() culls, by it. Does not: say why (print/explain.h) or
-// know versions.
+// Finds the live passes, and the uses for which they are needed, along FlatGraph::links. There is no other such walk: the
+// checks of expansion warn by its result, and compile() culls by it. Does not: say why (print/explain.h), or know
+// versions.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
-// The one walk of versions: who wrote each sub-resource last, while passes go by in declared order, and the links that
-// come of it (FlatGraph::links). Expansion steps it use by use, because which version a write makes depends on what was
-// read; linkFlat steps it over neutral workloads; linkVersions runs it over a whole graph. Linear in the uses, and in the
-// sub-resources of those that touch a resource in part or after such a write. Does not: judge what is missing, or say what
-// is alive (versions/live.h).
+// The one walk of versions. It visits passes in declared order, keeps which use wrote each sub-resource last, and makes
+// FlatGraph::links of that. Expansion moves it on use by use, because which version a write makes depends on what was
+// read; linkFlat does so for neutral workloads; linkVersions runs it over a whole graph. The time is linear in the uses,
+// and in the sub-resources of uses that touch a resource in part or after such a write. Does not: decide whether a missing
+// version is an error, or what is live (versions/live.h).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// The door for a FlatGraph that did not come from expandGraph (neutral workloads, graphs made by a program): its versions
-// are linked by the walk that expansion uses (versions/version_walk.h), and what compile() takes for granted is checked along
-// the way. Linear in passes, uses and the sub-resources they touch. Reports everything at once; places are empty,
-// because a FlatGraph of this kind has none: the messages name pass and resource.
+// Links and checks a FlatGraph that did not come from expandGraph (neutral workloads, graphs made by a program). Versions
+// are linked by the walk that expansion uses (versions/version_walk.h); what compile() relies on is checked along the way.
+// The time is linear in passes, uses and the sub-resources they touch. Reports all mistakes at once. Such a graph has no
+// places, so the messages name pass and resource.
 #pragma once
 
 #include "engine/base/diagnostic.h"

@@ -1,7 +1,6 @@
 // The neutral workload form, for measuring the core: {"textures": [{name, width, height, format}], "passes":
-// [{name, reads, writes, side_effect}]}. Read straight into a FlatGraph, without a document in between. Reads
-// are sampled and writes are colour (depth for depth formats) and kept: a live pass makes all it writes. Not
-// the language of graph files.
+// [{name, reads, writes, side_effect}]}. It is read straight into a FlatGraph. Reads are sampled; writes are colour (depth
+// for depth formats) and kept: a live pass makes all that it writes. This is not the language of graph files.
 #pragma once
 
 #include <cstdint>

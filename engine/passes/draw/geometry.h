@@ -1,5 +1,5 @@
-// The built-in shapes of draw passes: strips of 4 and 8 vertices without attributes (quad, octagon), one triangle, and icospheres by subdivision.
-// Vertex arrays bind `position` and `normal` to the locations of the program that draws.
+// The built-in shapes of draw passes: strips of 4 and 8 vertices without attributes (quad, octagon), one triangle, and
+// icospheres by subdivision. Vertex arrays bind `position` and `normal` to the locations of the program that draws.
 #pragma once
 
 #include <cstdint>

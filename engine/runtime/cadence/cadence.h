@@ -1,11 +1,10 @@
-// Which passes of a plan run in a frame, and which part of each: all `always` ones; `once` ones that have not
-// run on what they write now; `on_change` ones whose inputs, parameters, program or storage changed since
-// they last ran. Passes of one group (plan.h) run all or none. A time-sliced group does one slice of one pass per
-// frame, starts again when something it saw changes, and is published by the owner at the start of the frame
-// after its last slice. A pass that is not `always` waits while something it reads was never published, or
-// while the owner holds it, so that it publishes nothing. Works on hashes and generation counters only. Does
-// not: know GL, or keep anything across plans by itself; the owner carries PassMemory over by pass name.
-// decide() allocates nothing.
+// Decides which passes of a plan run in a frame, and which slices of each. `always` passes run in every frame. `once`
+// passes run until they have run on the storage that they write. `on_change` passes run when their inputs, parameters,
+// program or storage have changed since they last ran. Of the passes of one group (plan.h) all run or none. A time-sliced
+// group runs one slice of one pass per frame and starts again when something it has read changes; its owner publishes it
+// at the start of the frame after its last slice. A pass that is not `always` waits while something it reads was never
+// published, and while the owner holds it. Works on hashes and generations only. Does not: know GL, or keep anything
+// across plans; the owner carries PassMemory over by pass name. decide() allocates nothing.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +14,14 @@
 
 namespace weft::runtime {
 
-// What a pass was when it last ran.
+// The state of a pass and its inputs when it last ran.
 struct PassMemory {
   bool ran = false;
   std::uint64_t own = 0;              // hash of program, parameters, storage written, imports
   std::vector<std::uint64_t> inputs;  // generation of each read use, in use order, after that frame
 };
 
-// Slices [first, first + count) of `of`; all of a pass that is not sliced.
+// Slices [first, first + count) of `of`. A pass without slices has one.
 struct SliceRange {
   std::uint32_t first = 0, count = 1, of = 1;
   bool begins() const { return first == 0; }
@@ -33,32 +32,32 @@ class FrameCadence {
  public:
   explicit FrameCadence(const graph::Plan& plan);
 
-  // `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and
-  // slices(step) answer.
+  // Takes `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and slices(step)
+  // give the result.
   void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
-  // The same for a round ahead of the frame, in which time-sliced groups run whole: of the other passes only those
-  // that groups may wait for run, none that is `always`. Nothing runs when no time-sliced group does; then false.
+  // The same for a round ahead of the frame, in which time-sliced groups run whole. Of the other passes only those run
+  // that are not `always` and that a group may wait for. False, and nothing runs, when no time-sliced group has to.
   bool decideAhead(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
   bool runs(std::size_t step) const { return run_[step] != 0; }
   SliceRange slices(std::size_t step) const { return slices_[step]; }
   std::size_t countRunning() const;
 
-  // After the frame, with the generations as decide() got them and as the frame left them: a pass may read a
-  // resource of which it, or a later pass, writes another part; history is what it was before.
+  // To be called after the frame, with the generations that decide() got and those after the frame. Both are needed,
+  // because a pass may read a resource of which it, or a later pass, writes another part, and because a pass that reads
+  // history has read what was there before the frame.
   void endFrame(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& before,
                 const std::vector<std::uint64_t>& after);
 
-  // Time-sliced groups whose last slice has run wait here until the owner publishes them: turns their resources,
-  // moves their generations, and says so.
-  // Between the two it counts as under way.
+  // A time-sliced group is finished when its last slice has run. The owner then rotates its resources, raises their
+  // generations and calls markPublished(). Until then the group counts as running.
   bool isFinished(std::uint32_t group) const { return groups_[group].finished; }
   void markPublished(std::uint32_t group);
-  // For a plan that takes over storage: what the group writes holds a publication.
+  // For a plan that takes over storage which already holds a publication of the group.
   void restorePublished(std::uint32_t group) { groups_[group].published = true; }
   bool isPublished(std::uint32_t group) const { return groups_[group].published; }
 
-  // Per step, the owner's to change: one that is not `always` and held does not run; nor does its group, unless
-  // that is time-sliced: then the owner is to leave it finished.
+  // Per step; the owner sets it. A held step that is not `always` does not run, nor does its group. A time-sliced group
+  // runs all the same, but the owner must not publish it.
   std::vector<std::uint8_t>& held() { return held_; }
   bool isHeld(std::uint32_t group) const;
 
@@ -86,7 +85,7 @@ class FrameCadence {
 
   const graph::Plan& plan_;
   std::vector<PassMemory> memories_,
-      latches_;  // per step; latches: what a time-sliced group that is under way has seen
+      latches_;                         // per step; latches: the inputs with which a time-sliced group began
   std::vector<std::uint32_t> groupOf_;  // per step, kNone
   std::vector<Group> groups_;
   std::vector<SliceRange> slices_;

@@ -1,6 +1,6 @@
-// Which steps of a plan leave something behind their frame: what persists (histories, results that are kept,
-// slices) and all that is made on the way to it. The others serve the picture alone: leaving them out of one
-// frame that nobody will look at changes no later one. Does not: count what is read back for display.
+// Finds the steps of a plan that later frames depend on: those that write what persists (histories, results that are kept,
+// slices), and those whose results they need. The other steps serve only the picture of their frame. They may be left out
+// of a frame that nobody will see, and no later frame changes. Does not: count what is read back for display.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-// Execution: a Plan happening on the GPU, frame after frame. Each part has one job: ResourcePool the storage, PreparedPass what
-// a step binds, VariantChoice which variant of it, UniformValues and UniformArena its uniforms, FrameCadence what runs,
-// Publications what others see of it, StepRunner the GL calls. This strings them together.
-// A new plan is prepared beside the running one and takes over its persistent storage only once it is known to be good.
-// Does not: read files, decide what runs in which order (the plan did), or own the context. An unchanged plan's frame
-// allocates nothing on the heap.
+// Execution: runs a Plan on the GPU, frame after frame. Each part has one job: ResourcePool has the storage, PreparedPass
+// knows what a step binds, VariantChoice chooses its variant, UniformValues and UniformArena have its uniforms,
+// FrameCadence decides what runs, Publications decides what other passes see, StepRunner makes the GL calls.
+// A new plan is prepared beside the running one, and takes over persistent storage only when it has no error.
+// Does not: read files, decide the order (the plan has it), or own the context. A frame of an unchanged plan allocates
+// nothing on the heap.
 #pragma once
 
 #include <cstdint>
@@ -31,63 +31,64 @@ namespace weft::runtime {
 
 struct FrameReport {
   std::uint32_t passesRun = 0, passesSkipped = 0, barriers = 0;
-  bool whole = true;          // false: FrameInput::obsolete said so, and what is presented is nothing to show
-  std::uint32_t slowRun = 0;  // of passesRun: those that are not `always`
+  bool whole = true;  // false: FrameInput::obsolete left passes out, and the picture must not be shown
+  std::uint32_t slowRun = 0;  // how many of passesRun are not `always`
 };
 
-// Whether shader files are looked at again for passes that stay as they are.
+// Whether shader files are read again for passes that do not change.
 enum class ShaderFiles : std::uint8_t { read, keep };
 
 class Execution {
  public:
-  // Prepares `plan`: of passes that differ from those of `before` (may be null) everything, of the others what lies in
-  // other storage now. Null after errors, and `before` is untouched then; otherwise `before` has given up its storage
-  // and must not run again.
+  // Prepares `plan`. A pass that differs from those of `before` (which may be null) is prepared whole; of an equal pass
+  // only what has other storage now. Null after errors; then `before` is as it was. Otherwise `before` has given up its
+  // storage and must not run again.
   static std::unique_ptr<Execution> create(Device& device, std::shared_ptr<const graph::Plan> plan,
                                            Execution* before, ShaderFiles files,
                                            base::Diagnostics& diagnostics);
 
-  // The values of the plan's parameters, parallel to FlatGraph::parameters: as the plan was made, and since then as
-  // setParameter() set them.
+  // The values of the plan's parameters, parallel to FlatGraph::parameters: those of the plan, or those that
+  // setParameter() has set since.
   std::span<const graph::Value> parameters() const { return values_.parameters(); }
-  // Sets a live parameter, for the next frame. False, and nothing has changed, when that takes another plan, which may
-  // also say why not. As UniformValues::set().
+  // Sets a live parameter for the next frame. False when that takes another plan; then nothing has changed, and making
+  // that plan says what is wrong with the value, if anything. See UniformValues::set().
   bool setParameter(std::string_view path, const graph::Value& value) {
     return values_.set(path, value, arena_);
   }
-  // Of all uniform blocks, as the last frame had them and setParameter() changed them; for tests.
+  // The bytes of all uniform blocks, with the changes that setParameter() made since the last frame. For tests.
   std::span<const std::byte> uniformBytes() const { return arena_.bytes(); }
 
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
-  // Whether a frame may differ by which frames ran before it: a live history, or something kept that was made of what moves.
-  // If not, headless frame n may be the first to run.
+  // Whether a frame may depend on the frames before it: by a live history, or by results that are kept and were made of
+  // something that moves. If not, headless frame n may be the first to run.
   bool remembers(const World& world) const;
 
   const graph::Plan& plan() const { return *plan_; }
-  // Passes that were prepared when this was made; the others came prepared.
+  // How many passes were prepared for this plan; the others were taken over.
   std::uint32_t passesPrepared() const { return passesPrepared_; }
-  // What is presented: level and layer of a texture; id 0 when the graph presents nothing.
+  // The presented level and layer of a texture; id 0 when the graph presents nothing.
   gl::TextureRef presented();
-  // The whole texture behind it, with all its levels.
+  // The whole presented texture, with all its levels.
   gl::TextureRef presentedWhole();
   // The current texture or buffer of a resource by its name in the graph ("hdr", "ibl.brdf"), for tests and inspectors:
-  // the last version of that name, or nothing when it is not alive.
+  // the last version of that name, or nothing when it is not live.
   gl::TextureRef texture(std::string_view resource);
   gl::TextureRef texture(std::uint32_t resource,
                          std::uint32_t history = 0);  // by its index in the graph; alive
   BufferRef buffer(std::string_view resource, std::uint64_t& offset);
   BufferRef buffer(std::uint32_t resource, std::uint64_t& offset, std::uint32_t history = 0);
-  // The graph's live "outputs" with the latest that has arrived, of a frame or a few ago; null: there is none of that name.
-  // They are renewed by frame(), or between frames by collectOutputs(), which never waits, and finishReadBack(), which does:
-  // then they are of the last frame.
+  // The graph's live "outputs", with the latest values that have arrived, of a frame or a few ago. frame() renews them, and
+  // between frames collectOutputs(), which never waits. finishReadBack() waits for those of the last frame. output() is
+  // null when there is none of that name.
   std::span<const Output> outputs() const { return readBack_.outputs(); }
   const Output* output(std::string_view name) const;
   void collectOutputs() { readBack_.collect(); }
   void finishReadBack() { readBack_.finish(); }
-  // A tap into the frame: `look` is called right after `step` in every frame, run or kept, while what the step wrote is
-  // still in its storage (later steps may put other resources there). It may read, copy and draw into textures of its own;
-  // the plan and what runs stay the same. An empty function ends it; one tap at a time, none in a new execution.
+  // Sets the tap: `look` is called right after `step` in every frame, also when the step was skipped, while the results of
+  // the step are still in their storage (later steps may put other resources there). `look` may read, copy and draw into
+  // textures of its own; it does not change the plan or what runs. There is one tap at a time, and none in a new
+  // execution. An empty function removes it.
   void tap(std::uint32_t step, std::function<void()> look);
   bool tapped() const { return tapStep_ != graph::kNone; }
   bool ran(std::string_view pass) const;                                        // in the last frame
@@ -137,8 +138,9 @@ class Execution {
   std::optional<StepRunner> runner_;
   ReadBack readBack_;
   FrameInput input_;
-  std::vector<std::uint64_t> hashes_;  // per step: what it is made of, for the cadence
-  std::vector<std::uint8_t> ran_;      // per step, this frame
+  std::vector<std::uint64_t>
+      hashes_;                     // per step: hash of its program, parameters and storage, for the cadence
+  std::vector<std::uint8_t> ran_;  // per step, this frame
   std::vector<std::uint8_t> lasting_;  // per step: runs in an obsolete frame too
   std::size_t tapStep_ = graph::kNone;
   std::function<void()> tap_;

@@ -1,7 +1,7 @@
-// Publications: when what a resource holds becomes what everybody sees. Each resource has a generation, which moves with
-// every change, and an age, the time since it was published. A pass that runs publishes what it writes and turns its
-// history by one; a time-sliced group publishes all it wrote at once, in the frame after its last slice; an import is
-// shown with what a group makes of it. Histories are reset when what they depend on changes.
+// Publications: decides when all passes see the new contents of a resource. Each resource has a generation, which rises
+// with every change, and an age, the time since it was published. A pass that runs publishes what it writes and rotates
+// its history by one. A time-sliced group publishes all it wrote at once, in the frame after its last slice. An import
+// appears together with what a group makes of it. Histories are reset when what they depend on changes.
 // Does not: decide which passes run (FrameCadence), or own storage (ResourcePool). A frame allocates nothing.
 #pragma once
 
@@ -28,36 +28,36 @@ class Publications {
   Publications(const Publications&) = delete;
   Publications& operator=(const Publications&) = delete;
 
-  // What the running plan published, by storage; an import takes over the texture that stood in for it. Once the passes
-  // are prepared.
+  // Takes over what the running plan has published, by storage; an import takes over the texture that stood in for it. To
+  // be called when the passes are prepared.
   void takeOver(Publications& before);
-  // To be called when the passes are prepared: which resources somebody writes.
+  // Finds the resources that some pass writes. To be called when the passes are prepared.
   void listWritten();
 
   void beginFrame(const FrameInput& input);
   void endFrame() { ++framesRun_; }
 
-  // Passes wait that would publish what a variant chosen for a time still reads as it was before.
+  // Holds the passes that would publish a resource again while a variant that age() chose still reads its history.
   void holdFading();
   // Publishes what time-sliced groups finished in the frame before. True when there was something.
   bool publishFinished();
-  // The newest of each import, and its generation.
+  // Asks each import for its newest texture or buffer and its generation.
   void refreshImports(base::Diagnostics& diagnostics);
-  // Which texture of each import passes see.
+  // Finds which texture of each import passes see.
   void viewImports(base::Diagnostics& diagnostics);
-  // Histories go back to their first value when what resets them has changed. True when one did.
+  // Sets histories back to their first value when what resets them has changed. True when there was one.
   bool resetHistories(base::Diagnostics& diagnostics);
-  // What passes that run in this frame will publish is of age 0 from now on. True when there is something. Once the cadence
-  // has decided.
+  // Sets the age of what the passes of this frame will publish to 0. True when there is something. To be called when the
+  // cadence has decided.
   bool announce();
-  // Before the steps of a round run: generations as the cadence saw them.
+  // Before the steps of a round run: keeps the generations that the cadence saw.
   void beginRound();
-  // `pass` runs in this round: turns the history of what it writes, and publishes it, once in a round.
+  // `pass` runs in this round: rotates the history of what it writes and publishes it, once in a round.
   void publishWritten(const PreparedPass& pass);
-  // The generations as they were before the round, and as it leaves them.
+  // The generations before the round, and the present ones.
   const std::vector<std::uint64_t>& generationsBefore() const { return generationsBefore_; }
   const std::vector<std::uint64_t>& generations() const { return generations_; }
-  // What imports showed before is let go where no pass reads it.
+  // Releases what imports showed before, where no pass reads it.
   void releaseImports();
 
   // Seconds since a resource was published; infinite when no pass ever writes it.
@@ -93,7 +93,7 @@ class Publications {
   std::vector<std::uint64_t> generations_, generationsBefore_;  // per resource
   std::vector<std::uint8_t>
       publishing_;                    // per resource: a pass that is not `always` publishes it in this frame
-  std::vector<std::uint8_t> turned_;  // per resource, this round
+  std::vector<std::uint8_t> turned_;  // per resource: rotated in this round
   std::vector<std::uint8_t> made_;    // per resource: the world's, or some pass writes it
   std::vector<std::uint64_t> resetState_;  // per history: hash of what resets it
 };

@@ -1,5 +1,5 @@
-// A graph file running on a device: read, expand, compile, prepare, then frame after frame. Loading replaces what runs
-// only when everything about the new graph is good; after an error the last good execution goes on.
+// Runs a graph file on a device: reads, expands, compiles and prepares it, then runs frame after frame. Loading replaces
+// the running graph only when the new one has no error; after an error the last good execution goes on.
 // Does not: own the window, decode assets, or decide the time.
 #pragma once
 
@@ -35,25 +35,26 @@ class Renderer {
 
   // Reads the graph file again and switches to it. False after errors.
   bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
-  // The same without reading files: the last description that ran, under other settings or in another world. Passes that
-  // stay what they are keep their programs, whatever is on disk.
+  // The same without reading files: runs the last description under other settings or in another world. Passes that do not
+  // change keep their programs, whatever is on disk.
   bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
-  // As Execution::setParameter(): a live parameter, at once.
+  // Sets a live parameter at once, as Execution::setParameter() does.
   bool setParameter(std::string_view path, const graph::Value& value) {
     return execution_ && execution_->setParameter(path, value);
   }
-  // Settings that the graph of the last load() does not take; empty when that was good.
+  // The settings that the graph of the last load() does not take; empty when there was no error.
   std::span<const graph::Refusal> refused() const { return refused_; }
-  // To watch: the files of what runs and those the last load() or apply() read or missed (graphs, shaders, includes, tables).
+  // The files to watch (graphs, shaders, includes, tables): those of the running graph, and those that the last load() or
+  // apply() read or did not find.
   std::vector<std::string> files() const;
-  // Runs nothing and presents black while something that the graph imports is still on its way (World::expectEnvironment).
+  // Runs nothing and presents black while an import of the graph is still being loaded (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
-  // After frame(): frees what the world holds and the GPU has. Only when nobody else renders that world.
+  // After frame(): frees what the world holds when the GPU has it, too. Not to be called when others render that world.
   void dropUploaded(World& world) const;
 
   Execution* execution() { return execution_.get(); }
-  // What runs, as it was read; null before the first load().
+  // The running graph, as it was read; null before the first load().
   const graph::GraphDesc* desc() const { return desc_.get(); }
   std::span<const std::string> presets() const { return options_.presets; }
   Device& device() { return device_; }
@@ -63,11 +64,11 @@ class Renderer {
 
   // The presented picture with its top row first. Empty when the graph presents nothing.
   std::optional<assets::Image8> readPresented8();
-  // It is stored in 8 bits, which hold neither NaN nor infinity.
+  // Whether the picture is stored in 8 bits, which have neither NaN nor infinity.
   bool presentsBytes();
   std::optional<assets::ImageF> readPresentedFloat();
-  // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree; leaves it bound and
-  // releaseBindings() of gl_state.h done.
+  // Copies the presented texture to framebuffer 0 (a window's), bit for bit when the sizes agree. Leaves framebuffer 0
+  // bound, after releaseBindings() (gl_state.h).
   void present(std::uint32_t width, std::uint32_t height);
 
  private:

@@ -1,6 +1,6 @@
-// Issues one step of a plan: clears, the barrier after them, program, bindings, framebuffer, fixed-function state, and the
-// pass type's execute(). Owns framebuffers and what is known of the GL state. Does not: decide whether the step runs, or
-// issue the barrier before it. Allocates nothing once a framebuffer was met.
+// Runs one step of a plan: clears, the barrier after them, program, bindings, framebuffer, fixed-function state, and the
+// pass type's execute(). Owns framebuffers and the known GL state. Does not: decide whether the step runs, or issue the
+// barrier before it. Allocates only when a framebuffer is used for the first time.
 #pragma once
 
 #include <vector>
@@ -22,9 +22,9 @@ class StepRunner {
   StepRunner(const graph::Plan& plan, Device& device, ResourcePool& pool, const UniformArena& arena)
       : plan_(plan), device_(device), pool_(pool), arena_(arena) {}
 
-  // `clears`: what the step clears is cleared; a pass in slices does so with its first.
+  // `clears`: whether the clears of the step run too; of a pass in slices they run with the first slice.
   void run(std::size_t step, PreparedPass& pass, bool clears, base::Diagnostics& diagnostics);
-  // Somebody else may have changed the GL state.
+  // To be called when other code may have changed the GL state.
   void forgetState() { states_.forget(); }
   FramebufferCache& framebuffers() { return framebuffers_; }
 

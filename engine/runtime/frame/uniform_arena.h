@@ -1,5 +1,5 @@
-// The uniform blocks of all passes, one after the other in one buffer: their bytes on the CPU, and on the GPU once they were
-// uploaded. An upload happens only when a byte has changed. Does not: know which value a uniform has (uniform_values.h).
+// The uniform blocks of all passes, one after the other in one buffer. Their bytes are kept on the CPU, and are uploaded
+// to the GPU only when a byte has changed. Does not: know which value a uniform has (uniform_values.h).
 #pragma once
 
 #include <cstddef>
@@ -19,17 +19,17 @@ class UniformArena {
   // `alignment` of offsets in bytes, as the device wants it.
   explicit UniformArena(std::uint32_t alignment) : alignment_(alignment) {}
 
-  // Gives each block of `passes` its offset, and makes the buffer at least that large. All bytes are 0 then.
+  // Gives each block of `passes` its offset, makes the buffer large enough, and sets all bytes to 0.
   void layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
-  // The buffer of an execution that ends.
+  // Takes over the buffer of the execution before.
   void takeBuffer(UniformArena& before) { buffer_ = std::move(before.buffer_); }
 
-  // `value` must fit the member (memberTakes). `block`: the block's offset.
+  // Writes the bytes of one member. `value` must fit it (memberTakes). `block` is the offset of the block.
   void write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value);
   void writeView(std::uint32_t block, const gl::Block& layout, const scene::ViewData& view,
                  glm::vec2 viewport, bool timeless);
 
-  // `seed` with the bytes of a block; `seed` itself for null.
+  // The hash of `seed` and the bytes of a block; `seed` itself when `layout` is null.
   std::uint64_t hash(std::uint32_t block, const gl::Block* layout, std::uint64_t seed) const;
   std::span<const std::byte> bytes() const { return bytes_; }
   GLuint buffer() const { return buffer_.id(); }

@@ -1,5 +1,5 @@
-// Which value each uniform has while a plan runs: those that stay, those that change with time (age), and those that read
-// live parameters, which can be set between two frames. Does not: know where the bytes lie (uniform_arena.h).
+// The value of each uniform while a plan runs. Some never change, some change with time (age), and some read live
+// parameters, which can be set between two frames. Does not: know where the bytes lie (uniform_arena.h).
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,15 @@ class UniformValues {
   // Parallel to FlatGraph::parameters.
   std::span<const graph::Value> parameters() const { return parameters_; }
 
-  // Writes everything that does not change with time, and lists in each pass what does; `passes` are laid out in `arena`.
+  // Writes all values that do not change with time, and lists in each pass those that do. `passes` must have been laid out
+  // in `arena`.
   void fill(std::span<PreparedPass* const> passes, UniformArena& arena);
   // Writes what changes with time. `ageOf(resource)` in seconds.
   void refresh(const PreparedPass& pass, const std::function<double(std::uint32_t)>& ageOf,
                UniformArena& arena) const;
-  // Sets a live parameter: evaluates what reads it and writes the bytes. False, and nothing has changed, when that
-  // takes another plan: the parameter is structural or unknown, it does not take the value, or an expression has no
-  // result with it. Allocates nothing for numbers, booleans and lists.
+  // Sets a live parameter: evaluates the expressions that read it and writes their bytes. False, and nothing has changed,
+  // when that takes another plan: the parameter is structural or unknown, it does not take the value, or an expression
+  // has no result with that value. Allocates nothing for numbers, booleans and lists.
   bool set(std::string_view path, const graph::Value& value, UniformArena& arena);
 
  private:

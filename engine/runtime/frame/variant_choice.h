@@ -1,5 +1,5 @@
-// Which variant of each conditional pass a frame runs: dynamic defines depend on ages, so a pass may have been prepared in
-// several variants; those that a frame does not take are parked. Does not: know what the conditions are about.
+// Chooses the variant of each conditional pass in a frame. Dynamic defines depend on ages, so a pass may be prepared in
+// several variants; those that the frame does not use are parked. Does not: know what the conditions mean.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ namespace weft::runtime {
 
 class VariantChoice {
  public:
-  // All must outlive this. `passes` per step, of the variants that run.
+  // All must outlive this. `passes` has the running variant of each step.
   VariantChoice(const graph::Plan& plan, Device& device, ResourcePool& pool,
                 std::vector<PreparedPass>& passes)
       : plan_(plan), device_(device), pool_(pool), passes_(passes) {}
 
-  // Puts those variants in place that the ages ask for, of all passes or of `always` ones. True when one was prepared that
-  // never ran: its uniforms have no place yet. A variant that does not compile is reported once, and the pass stays as it
-  // is.
+  // Puts the variants in place that the ages ask for, of all passes or only of `always` ones. True when a variant was
+  // prepared for the first time, whose uniforms have no place yet. A variant that does not compile is reported once, and
+  // the pass keeps the one it has.
   bool choose(const std::function<double(std::uint32_t)>& ageOf, bool alwaysOnly,
               base::Diagnostics& diagnostics);
-  // Running and parked ones, until the next choose(). Allocates only after a new one was prepared.
+  // All prepared passes, running and parked, until the next choose(). Allocates only after a new one was prepared.
   std::span<PreparedPass* const> all();
 
  private:

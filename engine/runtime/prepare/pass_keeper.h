@@ -1,7 +1,7 @@
-// Which passes of a new plan are what passes of the running one are, so that what was prepared for those
-// serves again: program, bindings, views, attachments. Passes meet by their instance names, resources by the
-// slots that use them. Reads descriptions and storage identities only. Does not: compare shader files, or
-// values of uniforms, which are written anew.
+// Finds the passes of a new plan that are equal to passes of the running plan, so that what was prepared for those
+// (program, bindings, views, attachments) can be kept. Passes are matched by their instance names, resources by the
+// slots that use them. Compares descriptions and the identity of storage only. Does not: compare shader files, or values
+// of uniforms, which are written anew.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ class PassKeeper {
 
   // The step of the running plan with the name of `step`, or kNone.
   std::uint32_t stepBefore(std::size_t step) const;
-  // Whether everything that a program is made of and held against is the same.
+  // Whether everything that the program is made of, and is checked against, is the same.
   bool isSame(std::size_t step, std::uint32_t old) const;
-  // Whether what the steps touch lies in the same storage as well. isSame() must hold.
+  // Whether the two steps also use the same storage. isSame() must hold.
   bool isInPlace(std::size_t step, std::uint32_t old, ResourcePool& pool, ResourcePool& poolBefore) const;
   // `prepared` of `old` as that of `step`. isSame() and isInPlace() must hold.
   PreparedPass take(std::size_t step, std::uint32_t old, PreparedPass prepared) const;

@@ -1,5 +1,5 @@
-// A step of a plan turned into what the frame loop issues: program, bindings by unit, attachments, state, uniform bytes.
-// Prepared once per plan; running one looks nothing up by name and allocates nothing.
+// A step of a plan as the frame loop needs it: program, bindings by unit, attachments, state, uniform bytes. It is
+// prepared once per plan; running it looks nothing up by name and allocates nothing.
 #pragma once
 
 #include <glad/gl.h>
@@ -74,7 +74,7 @@ struct ClearCommand {
   int attachment = -1;  // index into PreparedPass::attachments: cleared through the framebuffer
 };
 
-// One that changes with time.
+// A uniform that changes with time.
 struct DynamicUniform {
   gl::BlockMember member;
   graph::Expr expr;
@@ -107,14 +107,14 @@ struct PreparedPass {
   std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
-  bool conditional = false;                             // has dynamic defines, or is timed
-  std::uint32_t conditions = 0;                         // of its variant, see conditionsOf
-  bool passing = false;                                 // that variant is not the one that time settles on
-  bool idle = false;                                    // that variant does not run: nothing of it is bound
+  bool conditional = false;      // has dynamic defines, or is timed
+  std::uint32_t conditions = 0;  // of its variant, see conditionsOf
+  bool passing = false;          // another variant will run in the end, when all ages are large
+  bool idle = false;             // that variant does not run, and binds nothing
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
 
-// What preparing needs of the executor.
+// What preparePass() needs of the executor.
 struct PrepareContext {
   const graph::Plan& plan;
   const passes::PassRegistry& types;

@@ -1,5 +1,5 @@
-// What a pass asks of the program cache: the stages, defines and outputs of its variant, which conditions (dynamic defines)
-// choose. Does not: compile anything, or know how a pass is bound.
+// What a pass asks of the program cache: the stages, defines and outputs of a variant. Conditions (dynamic defines) choose
+// the variant. Does not: compile anything, or know how a pass is bound.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace weft::runtime {
 
-// Which of the pass's dynamic defines hold, one bit each, when resources were published `ageOf(resource)` seconds ago.
+// Which of the pass's dynamic defines hold, one bit each. `ageOf(resource)` is how many seconds ago it was published.
 std::uint32_t conditionsOf(const graph::PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf);
-// The same long after everything was published; and how many bits there are.
+// The same when everything was published long ago.
 std::uint32_t settledConditionsOf(const graph::PassSpec& spec);
+// The number of bits.
 std::uint32_t conditionCount(const graph::PassSpec& spec);
-// Whether the pass runs under them: a timed one has its `enabled` among them.
+// Whether the pass runs under these conditions; the `enabled` of a timed pass is one of them.
 bool runsUnder(const graph::PassSpec& spec, std::uint32_t conditions);
 
 // The stages, defines and outputs of a pass's variant under `conditions`: what `check` compiles without running anything.
@@ -23,9 +24,9 @@ gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::
                                     std::uint32_t pass, const graph::PassType& type,
                                     std::uint32_t conditions);
 
-// The columns of the table that a use reads; none: it is no table whose layout is the shader's.
+// The columns of the table that a use reads; empty when the use reads no table.
 std::span<const graph::TableColumn> columnsOf(const graph::FlatGraph& graph, const graph::FlatUse& use);
-// Of the rows of the list that a draw pass draws.
+// The columns of the rows of the list that a draw pass draws.
 std::span<const graph::TableColumn> instanceColumnsOf(const graph::PassSpec& spec);
 
 }  // namespace weft::runtime

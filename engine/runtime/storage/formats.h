@@ -1,4 +1,4 @@
-// The graph's formats, targets and barrier bits as GL enums. The one place where the two vocabularies meet.
+// Turns the graph's formats, targets and barrier bits into GL enums. No other file knows both.
 #pragma once
 
 #include <glad/gl.h>
@@ -29,7 +29,7 @@ struct ClearTexel {
   std::array<std::uint8_t, 16> bytes{};
 };
 ClearTexel clearTexelOf(graph::Format format, const graph::Value& value);
-// The four channels the same value means, as floats.
+// The same value as four channels of floats.
 std::array<float, 4> clearChannelsOf(const graph::Value& value);
 
 }  // namespace weft::runtime

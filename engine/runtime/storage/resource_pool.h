@@ -1,6 +1,6 @@
-// The GPU storage of a plan: physical textures with their views, the transient buffer arena, persistent buffers, and per
-// resource where it lives now (history rotates among copies). A pool is built from a plan and, when the graph changed,
-// from the pool before it: storage of the same shape and owner moves over with its contents.
+// The GPU storage of a plan: physical textures with their views, the arena of transient buffers, persistent buffers, and
+// for each resource the place where it is now (history rotates among copies). A pool is built from a plan; when the graph
+// has changed, storage of the same shape and owner is taken over from the pool before, with its contents.
 // Does not: decide what shares (the plan did), write contents other than first values, or know passes.
 #pragma once
 
@@ -30,7 +30,7 @@ class PhysicalTexture {
   // Equal for textures that fit each other's storage and have one owner.
   std::uint64_t key() const;
   static std::uint64_t keyOf(const graph::Storage& storage, const std::string& owner);
-  // Gives a copy away; it must not be used through here any more.
+  // Gives a copy away, which must not be used through this object any more.
   gl::Texture take(std::uint32_t copy) { return std::move(textures_[copy]); }
   void collectNames(std::unordered_set<GLuint>& names) const;
   std::uint64_t serial() const { return serial_; }
@@ -57,15 +57,15 @@ struct PersistentBuffer {
   std::uint64_t serial = 0;
 };
 
-// Where a resource of the graph lives and how fresh it is.
+// Where a resource of the graph is stored, and when it was published.
 struct GpuResource {
   PhysicalTexture* texture = nullptr;  // own textures
   gl::TextureRef imported, shown,
-      before;  // imported textures: the newest; as others than `publisher` see it; @-1
+      before;  // imported textures: the newest; the one that passes outside `publisher` see; @-1
   std::uint32_t publisher =
-      graph::kNone;                     // of an import: the group that makes something of it and publishes it
-  std::vector<GLuint> buffers;          // per copy
-  std::uint64_t offset = 0, bytes = 0;  // range within the buffer
+      graph::kNone;             // of an import: the group whose publication shows it to all other passes
+  std::vector<GLuint> buffers;  // per copy
+  std::uint64_t offset = 0, bytes = 0;    // range within the buffer
   std::uint32_t copies = 1, current = 0;  // current: the latest publication
   std::uint32_t group =
       graph::kNone;          // the time-sliced group that writes it: its passes see the copy after `current`
@@ -78,7 +78,7 @@ struct GpuResource {
     if (history > 0) return before.id;
     return publisher != graph::kNone && publisher == reader ? imported.id : shown.id;
   }
-  // As passes of `reader`, a group or kNone, see it.
+  // The copy that passes of `reader` (a group, or kNone) see.
   std::uint32_t copyOf(std::uint32_t history, std::uint32_t reader = graph::kNone) const {
     const std::uint32_t newest = current + (group != graph::kNone && group == reader ? 1 : 0);
     return (newest + copies - history % copies) % copies;
@@ -87,20 +87,20 @@ struct GpuResource {
 
 class ResourcePool {
  public:
-  // Moves what fits out of `before` (which may be null).
+  // Takes storage that fits out of `before` (which may be null).
   static std::unique_ptr<ResourcePool> create(const graph::Plan& plan, ResourcePool* before,
                                               base::Diagnostics& diagnostics);
 
   std::vector<GpuResource>& resources() { return resources_; }
   GpuResource& operator[](std::size_t resource) { return resources_[resource]; }
 
-  // Of the pool's own textures and their views.
+  // The GL names of the pool's own textures and their views.
   std::unordered_set<GLuint> textureNames() const;
 
-  // A view of levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
+  // A view of the levels and layers of `use` in the resource's own format. `target` 0: the resource's own target.
   gl::TextureRef view(const graph::Plan& plan, const graph::FlatUse& use, std::uint32_t copy, GLenum target,
                       base::Diagnostics& diagnostics);
-  // Every copy of an own resource, all of it.
+  // Fills every copy of a resource of the graph's own with `value`.
   void fill(const graph::Plan& plan, std::uint32_t resource, const graph::Value& value,
             base::Diagnostics& diagnostics);
 
@@ -116,7 +116,7 @@ class ResourcePool {
   std::vector<std::string> names_;  // parallel to resources_
 };
 
-// Fills levels and layers of a texture, or a buffer range, with one value (floats for buffers).
+// Fill layers of one level of a texture, or a range of a buffer (as floats), with one value.
 void clearTexture(const gl::TextureRef& texture, graph::Format format, std::uint32_t mip, std::uint32_t layer,
                   std::uint32_t layers, const graph::Value& value);
 void clearBuffer(GLuint buffer, std::uint64_t offset, std::uint64_t bytes, const graph::Value& value);

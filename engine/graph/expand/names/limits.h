@@ -1,5 +1,5 @@
-// The limits of an expansion: what is counted in Model::effort, and the report (Code::limitExceeded) when it is too
-// much. A limit that is exceeded ends the expansion, whatever else may be wrong.
+// The limits of an expansion: counts in Model::effort, and reports Code::limitExceeded when a count is too large. That
+// ends the expansion, whatever else may be wrong.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ using base::Limit;
 
 // True when `count` is beyond the limit; reported the first time only.
 bool exceeds(Model& model, Limit limit, std::uint64_t count, const Place& place, const std::string& message);
-// `count` more alternatives are looked at. False when it is too many.
+// Counts `count` more alternatives as looked at. False when that is too many.
 bool lookAt(Model& model, std::uint64_t count, const Place& place);
-// What looking at one counts: a long condition counts more than once.
+// What one alternative counts: more than 1 when its condition is long.
 inline std::uint64_t costOf(const RefDesc& alternative) {
   return 1 + alternative.condition.terms() / 8;
 }
-// `count` things are compared with each other. False when it is too many.
+// Counts a comparison of `count` things with each other. False when that is too many.
 bool compare(Model& model, std::uint64_t count, const Place& place);
 
 // What each instance of a stanza costs.
@@ -29,10 +29,10 @@ struct StanzaCost {
   std::uint64_t uses = 0, bytes = 0, terms = 0;
 };
 StanzaCost costOf(const PassDesc& desc, const std::string& declared);
-// One more instance. False when it is too many.
+// Counts one more instance of a stanza. False when that is too many.
 bool mayExpand(Model& model, const StanzaCost& cost, const Place& place, const std::string& declared);
-// One more slot, of `elements` textures. False when the graph has too many uses, or they see too many
-// versions: those of each sub-resource count.
+// Counts one more slot, of `elements` textures. False when the graph has too many uses, or when these see too many
+// versions; each sub-resource counts.
 bool mayUse(Model& model, std::uint32_t entity, const FlatUse& rect, std::uint32_t elements,
             const Place& place);
 
@@ -41,12 +41,12 @@ inline bool isOver(const Model& model) {
   return model.effort.stopped || enoughErrors(model.diagnostics);
 }
 
-// While one definition (a let, a size, what an input stands for) is evaluated for another. The walk goes down
-// the stack, so it is limited by the number of definitions and by the operators around them.
+// Lives while one definition (a let, a size, what an input stands for) is evaluated for another. This recurses, so the
+// number of definitions and of the operators around them is limited.
 class Descent {
  public:
-  // `label` names the definition in the report.
-  // A list of alternatives is none; it takes its part of the stack.
+  // `label` names the definition in the report. `definition` is false for a list of alternatives: it does not count as
+  // a definition, but takes its part of the stack.
   Descent(Model& model, int height, const Place& place, std::string_view label, bool definition = true);
   ~Descent();
   Descent(const Descent&) = delete;

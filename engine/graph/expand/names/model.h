@@ -1,7 +1,6 @@
-// The working tables of one expansion: scopes of included files, their parameters and lets, and entities
-// (declared resources and imports). They live while expandGraph runs and point into the GraphDesc. Plain
-// data; the files expand_*.cpp each do one job on it. Does not: outlive expandGraph, or hold anything of the
-// finished FlatGraph.
+// The working tables of one expansion: scopes of included files, their parameters and lets, and entities (declared
+// resources and imports). They are plain data, live while expandGraph runs and point into the GraphDesc; each file of
+// engine/graph/expand does one job on them. Does not: outlive expandGraph.
 #pragma once
 
 #include <deque>
@@ -33,7 +32,7 @@ struct NameHash {
 template <class T>
 using NameMap = std::unordered_map<std::string, T, NameHash, std::equal_to<>>;
 
-// Lazy evaluation with cycle detection: `active` met again is a cycle.
+// For lazy evaluation: a definition that is needed while it is `active` depends on itself.
 enum class Progress : std::uint8_t { fresh, active, done, failed };
 
 struct Scope;
@@ -56,7 +55,7 @@ struct Let {
   bool dynamic = false;        // contains age(), perhaps through another let
   std::optional<Expr> folded;  // of a dynamic one, after all passes are known
   bool live = false;           // reads a live parameter, perhaps through another let; after findLiveLets()
-  std::optional<Expr> liveFolded;  // of a live one, and of a dynamic one beside live ones
+  std::optional<Expr> liveFolded;  // of a live let, and of a dynamic one when there are live ones
   bool structural = false;
 };
 
@@ -87,7 +86,7 @@ struct Entity {
   Progress bindState = Progress::fresh;
   std::uint32_t bound = kNone;
   Progress listState = Progress::fresh;  // alternatives: cycle check
-  // Made by timed passes: under this condition only (into Model::timings, from 1). 0: not, or not made yet.
+  // The condition of the timed passes that make it (into Model::timings, from 1). 0: no timed pass does, so far.
   std::uint32_t timing = 0;
   bool made = false;  // some pass writes or modifies it
   std::vector<std::uint32_t>
@@ -113,7 +112,7 @@ struct Scope {
   bool broken = false;     // an include below it could not be read: names it does not know may be from there
 };
 
-// References `name.…` in a file that includes nothing under that name: one mistake, however many they are.
+// References `name.…` in a file that includes nothing under that name. All of them are one mistake.
 struct Unincluded {
   struct Use {
     Place place;
@@ -138,7 +137,7 @@ struct Timing {
   Scope* scope = nullptr;
 };
 
-// Who writes what, enabled or not, in declared order: for "who would have written it".
+// A write of a pass, enabled or not, in declared order: for messages that say which pass would have written something.
 struct WriteRecord {
   std::uint32_t entity = kNone, firstElement = 0, elementCount = 1;
   FlatUse rect;
@@ -148,7 +147,7 @@ struct WriteRecord {
   bool whole = false;
 };
 
-// A slot that found no version. Whether that is an error or a warning is known when liveness is.
+// A slot that found no version. Only when it is known which passes live, it is known whether that is an error or a warning.
 struct MissingRead {
   enum class Cause : std::uint8_t { version, condition, import };
   struct Wanted {
@@ -164,7 +163,7 @@ struct MissingRead {
   std::vector<Wanted> wanted;
 };
 
-// What the expansion has done so far, held against the limits (expand_limits.h).
+// What the expansion has done so far, to be compared with the limits (limits.h).
 struct Effort {
   bool stopped = false;         // a limit was exceeded and reported: nothing more is expanded
   bool tooDeep = false;         // definitions depend on each other in too long a row, which was reported
@@ -204,9 +203,9 @@ struct Model {
   std::vector<HistoryUse> historyUses{};    // their resource is the last one, known at the end
   std::vector<std::uint32_t> positionOf{};  // per pass of the FlatGraph
   std::vector<Unincluded> unincluded{};     // reported at the end
-  bool incomplete = false;                  // mistakes kept some writes out: what nobody writes is no news
-  std::uint32_t position = 0;               // of the instance being expanded
-  std::vector<std::string> evaluating{};    // what is being evaluated now, for the path of a cycle
+  bool incomplete = false;  // some writes are missing because of mistakes: missing versions are not reported
+  std::uint32_t position = 0;             // of the instance being expanded
+  std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle
   Effort effort{};
 };
 

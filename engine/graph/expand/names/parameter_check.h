@@ -1,5 +1,5 @@
-// Whether a parameter takes a value: its type, its choices, its range. Silent and without allocation, so that
-// a value can be set between two frames; expand_settings.cpp says what is wrong.
+// Whether a parameter takes a value: by type, choices and range. Reports and allocates nothing, so that a value can be
+// set between two frames; apply_settings.h says what is wrong.
 #pragma once
 
 #include "engine/graph/desc.h"
