@@ -38,7 +38,7 @@ float equirectLevel(float base_width, float angle) {
   return max(log2(angle * base_width * (0.5 / kPi)), 0.0);
 }
 
-// What a lookup at `level` of a map needs whose level 0 is `height` texels high: the level, and how close v may come to the poles.
+// For a lookup at `level` of a map whose level 0 is `height` texels high: the level, and how close v may come to the poles.
 vec2 equirectLookup(float level, float height) {
   float texels = uintBitsToFloat(uint(127 + int(ceil(level))) << 23);  // exp2 of a whole number: a texel of the coarser level
   return vec2(level, 0.5 * texels / height);

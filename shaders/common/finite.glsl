@@ -1,4 +1,4 @@
-// Radiance that filters can take: what is not a number becomes black, what is infinite the largest half, what is negative 0.
+// Makes radiance fit for filters: a value that is not a number becomes 0, an infinite one the largest half, a negative one 0.
 #ifndef COMMON_FINITE_GLSL
 #define COMMON_FINITE_GLSL
 

@@ -1,6 +1,6 @@
-// Where a slice of a compute pass begins ("slices": n). A dispatch covers some rows of work groups; these functions give what
-// gl_WorkGroupID and gl_GlobalInvocationID are when the pass runs whole, where they give the same. gl_NumWorkGroups is that
-// of the slice: use the sizes of images or parameters instead.
+// Slices of a compute pass ("slices": n). A dispatch covers some rows of work groups; these functions give the values that
+// gl_WorkGroupID and gl_GlobalInvocationID would have if the pass ran whole. gl_NumWorkGroups is that of the slice: use the
+// sizes of images or parameters instead.
 #ifndef COMMON_SLICE_GLSL
 #define COMMON_SLICE_GLSL
 

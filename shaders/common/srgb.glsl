@@ -1,5 +1,5 @@
-// sRGB transfer function, IEC 61966-2-1; input 0..1. Above the linear part a fit of 1.055 x^(1/2.4) - 0.055 in square roots, which
-// cost a third of a power and are off by at most 1e-4, a fortieth of a step of 255.
+// sRGB transfer function, IEC 61966-2-1; input 0..1. Above the linear part, 1.055 x^(1/2.4) - 0.055 is fitted by square roots.
+// They cost a third of a power, and the error is at most 1e-4, a fortieth of a step of 255.
 #ifndef COMMON_SRGB_GLSL
 #define COMMON_SRGB_GLSL
 

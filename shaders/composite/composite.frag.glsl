@@ -1,6 +1,6 @@
-// Scene-referred to display-referred. The last pass that sees radiance; what follows works on encoded values. In this order:
-// aberration, bloom, fog, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift, gamma, gain),
-// sRGB encoding, table, grain, dither. Each is a variant of its own: what is off is not compiled. docs/effects.md has the details.
+// Turns scene-referred into display-referred values. This is the last pass that sees radiance; later ones work on encoded values.
+// The order: aberration, bloom, fog, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift,
+// gamma, gain), sRGB encoding, table, grain, dither. Steps that are off are not compiled. docs/effects.md has the details.
 // read    color   scene-referred radiance, the target's size, not `as linear`: one texel per pixel
 //         shifted?  the same `as linear`, for ABERRATION
 //         bloom?  scene-referred, any size; `as linear` unless its size is the target's: the blurred bright part
@@ -8,7 +8,7 @@
 //         exposure?  buffer of exposure/adapt.comp.glsl, `as uniform`: a factor beside `ev`; without it, or below 0, there is none
 //         lut?    3D table on encoded values, `as linear`; see lut.glsl. With it the parameter lut_strength, 0..1
 // write   result  display-referred, sRGB encoded
-// params  all three, or none for the values in brackets:
+// params  the first three all together, or none of them for the values in brackets:
 //         ev              exposure in stops; +1 doubles [0]
 //         bloom_strength  share of the bright part that its blur replaces, 0..1 [0.05]
 //         white           radiance, after exposure, that becomes white [8]
@@ -79,7 +79,7 @@ uniform sampler2D bloom;
 uniform sampler2D depth;
 #endif
 #ifdef HAS_EXPOSURE
-layout(std140) uniform exposure { vec4 adapted; };  // in software a storage block costs three tenths of a copy
+layout(std140) uniform exposure { vec4 adapted; };  // a storage block would cost three tenths of a copy in software
 #endif
 #ifdef HAS_LUT
 uniform sampler3D lut;
@@ -139,7 +139,7 @@ out vec4 result;
 
 void main() {
   vec3 c = textureLod(color, uv, 0.0).rgb;
-  vec2 size = vec2(textureSize(color, 0)), pixel = floor(uv * size) + 0.5;  // gl_FragCoord costs more than that in software
+  vec2 size = vec2(textureSize(color, 0)), pixel = floor(uv * size) + 0.5;  // gl_FragCoord would cost more in software
 #if ABERRATION || VIGNETTE
   vec2 from_centre = (pixel - 0.5 * size) / (0.5 * length(size));  // length 1 at the corners
 #endif

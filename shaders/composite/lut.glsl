@@ -1,5 +1,5 @@
-// A table of colours, as the import cube_lut gives it: display-referred, encoded, in and out. Bound `as linear`.
-// A cube is as deep as wide; three curves (a 1D .cube) are not, and have their entries along rows.
+// A table of colours, as the import cube_lut gives it. Takes and gives display-referred, encoded values. Bound `as linear`.
+// A 3D table is as deep as it is wide. A 1D table (three curves) is not, and has its entries along rows.
 #ifndef COMPOSITE_LUT_GLSL
 #define COMPOSITE_LUT_GLSL
 
@@ -9,7 +9,7 @@ vec4 lutEntry(sampler3D table, int i) {
 }
 
 vec3 applyCurves(sampler3D table, vec3 encoded) {
-  // Domain and number of entries stand in the alpha of the first eight.
+  // The alpha of the first eight entries has the domain and the number of entries.
   vec3 low = vec3(lutEntry(table, 0).a, lutEntry(table, 2).a, lutEntry(table, 4).a);
   vec3 high = vec3(lutEntry(table, 1).a, lutEntry(table, 3).a, lutEntry(table, 5).a);
   int n = int(lutEntry(table, 6).a) * 1024 + int(lutEntry(table, 7).a);
@@ -23,7 +23,7 @@ vec3 applyCurves(sampler3D table, vec3 encoded) {
 vec3 applyLut(sampler3D table, vec3 encoded) {
   ivec3 size = textureSize(table, 0);
   if (size.x != size.z) return applyCurves(table, encoded);
-  // The domain stands in the alpha of the corners.
+  // The alpha of the corners has the domain.
   vec3 low = vec3(texelFetch(table, ivec3(0), 0).a, texelFetch(table, ivec3(0, 1, 0), 0).a,
                   texelFetch(table, ivec3(0, 0, 1), 0).a);
   vec3 high = vec3(texelFetch(table, ivec3(1, 0, 0), 0).a, texelFetch(table, ivec3(1, 1, 0), 0).a,

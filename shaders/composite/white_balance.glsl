@@ -1,6 +1,7 @@
-// White balance: scene-referred; adapts the picture from the light it was lit by to D65, the white of sRGB.
-// temperature  of that light in K, 2000..15000: setting it higher says that the light was bluer, so the picture turns warmer
-// tint         -100..100: above 0 says that the light was greener, so the picture turns to magenta; 1 is 0.0003 Duv, across the locus
+// White balance, scene-referred: adapts the picture from the light on the scene to D65, the white of sRGB.
+// temperature  of that light in K, 2000..15000. A higher value says that the light was bluer, so the picture becomes warmer
+// tint         -100..100. A value above 0 says that the light was greener, so the picture becomes more magenta; 1 is 0.0003 Duv
+//              across the locus
 // Lights lie on the black-body locus (Krystek, "An algorithm to calculate correlated colour temperature", 1985; CIE 1960 uv),
 // moved by the constant that brings it through D65 at 6504 K: there, with tint 0, nothing changes. Adaptation: Bradford.
 #ifndef COMPOSITE_WHITE_BALANCE_GLSL

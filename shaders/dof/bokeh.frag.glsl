@@ -1,13 +1,13 @@
-// One layer of the half-size picture, blurred by its discs but for what fill will add. Scene-referred; result premultiplied.
+// Blurs one layer of the half-size picture by its discs; fill adds the rest of the blur. Scene-referred; result premultiplied.
 // read    source   from split, with levels, `as linear`
-//         flat_source   instead of it: without levels, while no disc needs more, see the graph
+//         flat_source   instead of `source`, without levels, when no disc needs them: see the graph
 //         discs    from split, with levels, `as linear`
 //         tiles?   from reach: how far the near field reaches here (NEAR only); without
 //                  it every pixel is searched as far as a tile
-// write   result   NEAR 1: the near field and how much of the pixel it covers, as each disc reaches and is spread thin
-//                  NEAR 0: the mean of the far field within the pixel's own disc, of those whose discs reach;
-//                  behind something nearer the mean of what can be seen beside it. Alpha: how far it can be trusted;
-//                  0 where split says `idle`, by a depth test
+// write   result   NEAR 1: the near field, and as alpha how much of the pixel its discs cover
+//                  NEAR 0: the mean of the far-field texels within the pixel's own disc whose discs reach the pixel; behind
+//                  something nearer the mean of what is visible beside it. Alpha: how reliable that is. A depth test leaves 0
+//                  where split says `idle`
 // params  see parameters.glsl
 // defines NEAR, default 0; POLYGON; FILL_SLOPE and FILL_START, see disc.glsl
 //         TEXELS_PER_GAP   width of the texels to read for a gap of 1 between samples
@@ -27,7 +27,7 @@ out vec4 result;
 
 // Directions of 18 degrees, and of a step around the n-th ring.
 const vec2 kStart = vec2(0.951056516, 0.309016994);
-// From the fourth ring on each begins elsewhere, by the golden angle: else the beginnings would make spokes.
+// From the fourth ring on each ring begins at another angle (the golden angle on), because equal beginnings would make spokes.
 const vec2 kGolden = vec2(-0.737368878, 0.675490294);
 const vec2 kStep[9] = vec2[9](vec2(1.0, 0.0), vec2(0.309016994, 0.951056516), vec2(0.809016994, 0.587785252), vec2(0.913545458, 0.406736643),
                               vec2(0.951056516, 0.309016994), vec2(0.968583161, 0.248689887), vec2(0.978147601, 0.207911691),

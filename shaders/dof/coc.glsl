@@ -10,7 +10,8 @@ float cocRadius(float depth, float infinity, float focus, float largest) {
   return clamp(infinity * (1.0 - focus * depth / near_plane), -largest, largest);
 }
 
-// The reversed-Z depth whose radius is `radius`, at least that of the sky: depth tests against it leave out what is less blurred.
+// The reversed-Z depth at which the radius is `radius`, but at least that of the sky. A depth test against it leaves out pixels that
+// are blurred less.
 float cocDepth(float radius, float infinity, float focus) {
   return max(near_plane / focus * (1.0 - radius / max(infinity, 1e-6)), 0.0);
 }
@@ -18,11 +19,11 @@ float cocDepth(float radius, float infinity, float focus) {
 // Radius in pixels of the half size up to which nothing is blurred.
 const float kLeastRadius = 0.25;
 
-// How much a radius in pixels of the full picture counts as blur: what is below half a pixel is left sharp.
+// How much a radius in pixels of the full picture counts as blur: below half a pixel the picture stays sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
 
-// The far field holds radiance times this, and this as alpha: by which it is filtered, so that what is in focus
-// is no part of any mean with something blurred. From a radius in pixels of the half size, and back.
+// The far field has this as alpha, and radiance multiplied by it. It is the weight in every filter, so that surfaces in focus are no
+// part of a mean with blurred ones. From a radius in pixels of the half size, and back.
 float farAlpha(float radius, int largest) { return max(radius, 0.005) * 2.0 / float(largest); }
 float farRadius(float alpha, int largest) { return alpha * 0.5 * float(largest); }
 

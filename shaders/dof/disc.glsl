@@ -1,6 +1,6 @@
-// How far a pixel's layer is searched and how its blur is shared between the samples over a disc (bokeh) and the nine places
-// around each pixel that close the gaps (fill; Jimenez, "Next generation post processing in Call of Duty", SIGGRAPH 2014). The disc's
-// variance is radius^2 / 4 per axis, of which the fill and linear sampling take their part.
+// How far a pixel's layer is searched, and how its blur is divided between two passes: the samples over a disc (bokeh), and the mean
+// of nine places around each pixel that closes the gaps (fill; Jimenez, "Next generation post processing in Call of Duty", SIGGRAPH
+// 2014). The variance of a disc is radius^2 / 4 per axis; fill and linear sampling add their part of it.
 #ifndef DOF_DISC_GLSL
 #define DOF_DISC_GLSL
 
@@ -19,7 +19,7 @@ float searchRadius(ivec2 pixel) {
 float searchRadius(ivec2 pixel) { return float(tile); }
 #endif
 #else
-// In the far field it is the pixel's own disc; where something nearer hides the layer, that one's.
+// In the far field it is the radius of the pixel's own disc, or, where something nearer hides the layer, of that thing's disc.
 float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
   return own_alpha > 0.0 ? farRadius(own_alpha, largest) : texelFetch(discs, pixel, 0).r;
 }

@@ -1,5 +1,5 @@
-// What far_field.frag.glsl and its vertex shaders share: what the fragments need comes from the vertices, as each number of a
-// uniform block costs every pixel.
+// Shared by far_field.frag.glsl and its vertex shaders. The vertex shaders pass on what fragments need, because each number that
+// fragments read from a uniform block costs time in every pixel.
 #ifndef DOF_FAR_FIELD_GLSL
 #define DOF_FAR_FIELD_GLSL
 

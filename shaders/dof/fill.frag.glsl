@@ -1,4 +1,4 @@
-// Closes the gaps between the samples of bokeh: a mean of nine places around, as far as the discs are large enough.
+// Closes the gaps between the samples of bokeh by a mean of nine places around each pixel, where discs are large enough.
 // Scene-referred, premultiplied.
 // read    blurred  from bokeh; for NEAR `as linear`
 //         source   from split

@@ -1,13 +1,14 @@
 // Exposure from the histogram, followed in time. One group of 256 threads.
 // read    histogram   of histogram.comp.glsl
 //         previous    the last frame's `exposure`; x below 0: there is none, so the target is taken at once
-// write   exposure    vec4: the factor for radiance, its target, the mean luminance, seconds until it is whole (after black)
-// After black the target is taken at once and the factor rises to it within kOpening: what fades in is seen to fade in, instead of
-// being exposed for its dimmest frame.
+// write   exposure    vec4: the factor for radiance, its target, the mean luminance, and, after black, the seconds until the factor
+//                     reaches its target
+// After black the target is known at once, and the factor rises to it within kOpening. So a picture that fades in is seen to fade
+// in, instead of being exposed for its dimmest frame.
 // params  key         the luminance that the mean is brought to
 //         low, high   share of the texels below which, and above which, they do not count, 0..1
-//         speed_up, speed_down  1 / s, when the scene has become brighter or darker than what is adapted to: stops left to
-//                     go fall by the factor e in 1 / speed, so the target is never passed, whatever the frame rate
+//         speed_up, speed_down  1 / s, for a scene that has become brighter or darker: in 1 / speed seconds the distance to the
+//                     target, in stops, falls to 1/e of itself; so the target is never passed, whatever the frame rate
 //         min_ev, max_ev  bounds of the exposure in stops
 #include "common/view.glsl"
 #include "histogram.glsl"
@@ -40,7 +41,7 @@ void main() {
     sums[i] += left;
     barrier();
   }
-  // What of this bin lies between the two percentiles.
+  // The part of this bin that lies between the two percentiles.
   float total = float(sums[kBins - 1u]);
   float from = float(sums[i] - count), to = float(sums[i]);
   float weight = max(min(to, high * total) - max(from, low * total), 0.0);
@@ -53,7 +54,7 @@ void main() {
   if (i != 0u) return;
 
   float old = before.x;
-  if (parts[0].x <= 0.0) {  // a black picture says nothing
+  if (parts[0].x <= 0.0) {  // black: nothing to adapt to
     adapted = old > 0.0 ? before : vec4(-1.0, -1.0, 0.0, kOpening);
     return;
   }

@@ -14,10 +14,10 @@ void main() {
   ivec2 size = textureSize(source, 0);
   if (all(lessThan(gl_GlobalInvocationID.xy, uvec2(max(size / 4, 1))))) {
     vec3 color = textureLod(source, (4.0 * vec2(gl_GlobalInvocationID.xy) + 2.0) / vec2(size), 0.0).rgb;
-    // Comparisons that a NaN fails.
+    // A NaN fails the comparison, and so counts as black.
     float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
     float bin = luminance > exp2(kDarkest) ? binOf(min(luminance, 65504.0)) : 0.0;
-    // Shared between the two nearest bins, so that the mean moves steadily with the picture.
+    // A sample counts in the two nearest bins, so that the mean moves steadily with the picture.
     uint upper = uint(fract(bin) * float(kUnit) + 0.5);
     atomicAdd(group_counts[uint(bin)], kUnit - upper);
     if (upper > 0u) atomicAdd(group_counts[min(uint(bin) + 1u, kBins - 1u)], upper);

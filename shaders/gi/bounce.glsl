@@ -1,7 +1,7 @@
-// Light from other spheres, one bounce: what the probes have, in units of the environment, times the environment. Light from a
-// direction was thrown back by what faces the opposite direction, so that is where the environment's irradiance counts. Of that only
-// the mean direction is known, and how far the light is spread: a mix of the irradiance in two opposite directions stands for all.
-// It is right for an irradiance that is linear in the direction, so for a constant one, and there is none under a black environment.
+// One bounce of light from other spheres: the light of the probes, in units of the environment, times the environment. Light from
+// a direction was thrown back by surfaces that face the opposite direction, so the environment's irradiance there counts. Only the
+// mean of these directions is known, and how far the light is spread; so a mix of the irradiance in two opposite directions stands
+// for all. It is exact where irradiance is linear in the direction, as under a constant environment; a black one gives no bounce.
 // Needs the slots of gi/probes.glsl.
 #ifndef GI_BOUNCE_GLSL
 #define GI_BOUNCE_GLSL
@@ -10,7 +10,7 @@
 
 struct Bounce {
   vec3 share;   // irradiance / pi of a surface, in units of the environment
-  vec3 facing;  // unit: what throws the light back faces there, in the mean
+  vec3 facing;  // unit: mean direction that the surfaces face which throw the light back
   float sure;   // nearly 1 where light comes along the normal alone, less where it comes from many sides, 1/2 at least
 };
 
@@ -38,7 +38,7 @@ Bounce bounceAt(vec3 position, vec3 normal) {
   return Bounce(probeIrradiance(c, normal) / kShPi, facing, 0.5 + 0.5 * clamp(size / max(all, 1e-6), 0.0, 1.0));
 }
 
-// `there` and `behind`: the irradiance map in `facing` and opposite to it. What is to be added to that map's value in the normal.
+// The light to add to the irradiance map's value in the normal. `there` and `behind` are that map in `facing` and opposite to it.
 vec3 bounced(Bounce bounce, vec3 there, vec3 behind) { return bounce.share * mix(behind, there, bounce.sure); }
 
 #endif

@@ -1,4 +1,4 @@
-// A grid of light probes as it lies in a buffer: what the import `probes` gives, and gi/bake.comp.glsl writes.
+// A grid of light probes in a buffer. The import `probes` gives it, and gi/bake.comp.glsl writes it.
 // probes   buffer; the define PROBES_ACCESS is its qualifier, readonly by default
 #ifndef GI_GRID_GLSL
 #define GI_GRID_GLSL
@@ -14,7 +14,7 @@ layout(std430) PROBES_ACCESS buffer probes {
   vec4 probe_sh[];     // nine a probe, rgb in xyz; probe (i, j, k) is number i + count.x * (j + count.y * k)
 };
 
-// Where probe (i, j, k) stands; one along an axis stands in the middle.
+// Where probe (i, j, k) stands. Along an axis with one probe it stands in the middle.
 vec3 probePosition(vec3 low, vec3 high, uvec3 count, uvec3 probe) {
   vec3 share = vec3(probe) / vec3(max(count, uvec3(2u)) - 1u);
   return mix(low + (high - low) * share, 0.5 * (low + high), equal(count, uvec3(1u)));

@@ -1,7 +1,7 @@
 // Reads a grid of light probes (gi/grid.glsl) at a point: irradiance in units of an environment of radiance 1.
 // probes   buffer: of the import `probes`, or of gi/bake.comp.glsl
-// sh?      seven 3D textures made of it by gi/textures.comp.glsl, `as linear`: texel c of texture i has the 27 numbers
-//          4 i + c (coefficient * 3 + channel), the last one is zero
+// sh?      seven 3D textures that gi/textures.comp.glsl makes of it, `as linear`: channel c of texture i has number 4 i + c of the
+//          27 (coefficient * 3 + channel); the last channel is zero
 #ifndef GI_PROBES_GLSL
 #define GI_PROBES_GLSL
 
@@ -12,8 +12,8 @@
 uniform sampler3D sh[7];
 #endif
 
-// The nine coefficients at a place, rgb; outside the box those of its nearest point. Textures and buffer give the same but for the
-// rounding to halves.
+// The nine coefficients at a place, rgb; outside the box those of its nearest point. Textures and buffer differ only by the rounding
+// to half floats.
 void probeAt(vec3 position, out vec3 c[9]) {
   vec3 count = vec3(probes_count.xyz), extent = probes_high.xyz - probes_low.xyz;
   vec3 at = clamp((position - probes_low.xyz) / max(extent, vec3(1e-20)), 0.0, 1.0) * (count - 1.0);

@@ -1,4 +1,4 @@
-// Real spherical harmonics up to band 2, in the order of engine/scene/probes/sh.h; and what of them a cap has.
+// Real spherical harmonics up to band 2, in the order of engine/scene/probes/sh.h; and the coefficients of a cap.
 #ifndef GI_SH_GLSL
 #define GI_SH_GLSL
 
@@ -23,10 +23,10 @@ vec3 capBands(float sine) {
   return vec3(2.0 * kShPi * square / (1.0 + cosine), kShPi * square, kShPi * square * cosine);
 }
 
-// Of a point that lights a surface facing it as much.
+// The same of a point that lights a surface facing it as much.
 vec3 pointBands(float sine) { return vec3(kShPi * min(sine * sine, 1.0)); }
 
-// By what each band of a radiance is multiplied in its irradiance (Ramamoorthi and Hanrahan, SIGGRAPH 2001).
+// The factors by which irradiance has each band of the radiance (Ramamoorthi and Hanrahan, SIGGRAPH 2001).
 const vec3 kCosineLobe = vec3(kShPi, kShPi * 2.0 / 3.0, kShPi / 4.0);
 
 #endif

@@ -9,9 +9,9 @@
 //         tile       pixels along a tile's side; also limits the blur
 //
 // Tiles after McGuire et al. (I3D 2012); weights after Jimenez ("Next generation post processing in Call of Duty", SIGGRAPH
-// 2014): a nearer texel counts where its own streak reaches, as much as it is spread thin, divided by all samples and not by
-// those found, so that light is neither made nor lost. Underneath lies the pixel's own layer, blurred along its own
-// velocity over what is not nearer: what a moving thing hides is made up from beside it.
+// 2014). A nearer texel counts where its own streak reaches, and the less, the longer the streak is. The sum is divided by the
+// number of all samples, not of those found, so that light is neither made nor lost. The pixel's own layer lies underneath,
+// blurred along its own velocity over texels that are not nearer: what a moving thing hides is filled in from beside it.
 #include "common/finite.glsl"
 #include "blur.glsl"
 
@@ -23,8 +23,8 @@ layout(std140) uniform Parameters {
 };
 out vec4 result;
 
-const float kThickness = 0.05;  // relative difference of distance from which on a texel counts as wholly nearer
-const float kOwn = 1e-3;        // weight of the pixel itself, for where no sample belongs to its layer
+const float kThickness = 0.05;  // a texel nearer by this share of the distance counts wholly as nearer
+const float kOwn = 1e-3;        // weight of the pixel itself, for pixels whose layer no sample belongs to
 
 // 1 where the texel is nearer than the pixel, 0 where not.
 float nearer(float there, float here) { return clamp((there - here) / max(kThickness * there, 1e-20), 0.0, 1.0); }

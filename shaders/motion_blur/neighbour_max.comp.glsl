@@ -1,5 +1,5 @@
-// The longest motion in a tile and the eight around it. All eight count, wherever they move to: a tile too many costs time,
-// a missed one shows as a cut-off streak.
+// The longest motion in a tile and the eight around it. All eight count, whatever their direction: a tile too many costs time,
+// a missed one cuts a streak off.
 // read    tiles    screen UV per frame, from tile_max; any sampler
 // write   result   the same size
 // params  picture  pixels of the picture: tiles need not be square in UV

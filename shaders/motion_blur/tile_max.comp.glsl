@@ -14,7 +14,7 @@ void main() {
   ivec2 size = textureSize(velocity, 0), first = at * tile, end = min(first + tile, size);
   vec2 longest = vec2(0.0);
   float length2 = 0.0;
-  // Four texels at a time; what is taken twice or from the next tile beyond an odd end does no harm.
+  // Four texels at a time. At an odd end some are taken twice or from the next tile, which does no harm.
   for (int y = first.y; y < end.y; y += 2)
     for (int x = first.x; x < end.x; x += 2) {
       vec2 middle = vec2(x + 1, y + 1) / vec2(size);

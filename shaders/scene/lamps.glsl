@@ -28,10 +28,11 @@ vec3 lampIrradiance(Lamp self, vec3 position, out vec3 towards) {
   return self.intensity * window;
 }
 
-// A sphere around all that the lamp lights: xyz and radius.
+// A sphere around everything that the lamp lights: xyz and radius.
 vec4 lampBounds(Lamp self) {
   if (self.cos_outer <= 0.0) return vec4(self.position, self.range);
-  // Of a cone with a round end: through apex and rim, or around the rim when it is wide (Wronski, "Cull that cone", 2017).
+  // A spot lights a cone with a round end. Its sphere goes through apex and rim, or around the rim when the cone is wide (Wronski,
+  // "Cull that cone", 2017).
   float outer = self.cos_outer;
   if (outer > 0.70710678) return vec4(self.position + self.direction * (0.5 * self.range / outer), 0.5 * self.range / outer);
   return vec4(self.position + self.direction * (self.range * outer), self.range * sqrt(1.0 - outer * outer));

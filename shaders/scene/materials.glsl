@@ -19,7 +19,7 @@ layout(std430) readonly buffer materials { Material material[]; };
 #ifdef HAS_MATERIAL_MAPS
 uniform sampler2DArray material_maps[8];
 
-// White where `map` is none. Derivatives are the caller's: the branches here need not be taken by whole quads.
+// White when `map` is none. The caller gives the derivatives, because not all pixels of a quad may take the same branch here.
 vec4 sampleMap(uint map, vec2 uv, vec2 dx, vec2 dy) {
   vec3 at = vec3(uv, float(map & 0xffffu));
   vec4 texel = vec4(1.0);

@@ -1,4 +1,4 @@
-// The environment behind everything: directions are linear over the picture, and levels constant, so both are found here once.
+// The environment behind everything. Directions are linear over the picture, and levels constant, so both are computed here.
 #include "common/view.glsl"
 #include "maps.glsl"
 
