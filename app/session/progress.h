@@ -1,4 +1,4 @@
-// What `weft render` says while it runs, as text. Does not: print, or know a clock.
+// The text of the progress bar of `weft render`. Does not: print, or know a clock.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace weft::app {
 // "4.2 s", "52 s", "12 min", "2 h 13 min", "3 days 4 h": as exact as an estimate is worth.
 std::string durationText(double seconds);
 
-// Of frames of one run: `lead` of the `total` run only because a later one looks back at them, `done` are
-// done after `seconds`.
+// The frames of one run: of `total`, `lead` run only because a later frame looks back at them, and `done` are finished after
+// `seconds`.
 struct Progress {
   std::uint64_t done = 0, total = 1, lead = 0;
   double seconds = 0;

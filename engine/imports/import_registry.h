@@ -12,7 +12,7 @@ namespace weft::imports {
 
 class ImportRegistry {
  public:
-  // Those of the folders here.
+  // The imports that have a folder here.
   static ImportRegistry builtin();
 
   void add(std::unique_ptr<Import> import);

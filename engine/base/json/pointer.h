@@ -18,14 +18,13 @@ class JsonPointer {
   class Container;
 
   JsonPointer() = default;
-  // Of the document.
+  // The pointer of the document.
   static JsonPointer root() { return {}; }
-  // Of an item of an array or a member of an object.
+  // The pointer of an item of an array, or of a member of an object.
   JsonPointer(std::shared_ptr<const Container> container, std::uint32_t index)
       : container_(std::move(container)), index_(index) {}
 
-  // "" for the document. Longer ones than a few thousand bytes are cut and end in "…": nothing is found by
-  // them.
+  // "" for the document. A text of more than a few thousand bytes is cut and ends in "…"; no value is found by it.
   std::string text() const;
   operator std::string() const { return text(); }
   bool empty() const { return !container_; }

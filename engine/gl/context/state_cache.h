@@ -46,7 +46,7 @@ class StateCache {
     GLenum sourceAlpha = GL_ONE, destinationAlpha = GL_ZERO;
     friend bool operator==(const Blend&, const Blend&) = default;
   };
-  // Of one draw buffer; nothing: no blending.
+  // Sets the blending of one draw buffer; without `mode` it does not blend.
   void blend(GLuint index, const std::optional<Blend>& mode);
 
  private:

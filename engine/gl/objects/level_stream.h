@@ -17,7 +17,7 @@ class LevelStream {
   // Makes the next portion. False after W115.
   bool advance(base::Diagnostics& diagnostics);
   bool madeAll() const { return level_ >= texture_.desc.mips; }
-  // Of the texels below level 0, 0 to 1.
+  // The share of the texels below level 0 that are made, 0 to 1.
   float done() const;
 
  private:

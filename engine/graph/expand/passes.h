@@ -9,7 +9,7 @@ namespace weft::graph::expansion {
 
 constexpr std::uint32_t kMaxInstances = 1'000'000;
 
-// Of a pass that is there: its uniform or define, and where the expression stands.
+// A uniform or define of a pass, and the scope and indices with which its expression is evaluated.
 struct DeferredUniform {
   std::uint32_t pass = 0;
   DeferredValue value;

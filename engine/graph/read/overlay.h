@@ -1,7 +1,7 @@
-// Graph files made whole before they are read as graphs: a file that `extends` another is laid over it,
-// presets over that, on the level of JSON. Every value keeps the file, line and column it was written at. An
-// overlay may reach into included files by a suffix of a name; the copy of such a file it has changed is kept
-// beside the include. Does not: know what values mean, or read what nothing refers to.
+// Lays overlays over graph files, as JSON, before they are read as graphs: a file over the one that it `extends`, and
+// presets over the result. Every value keeps the file, line and column at which it was written. An overlay may change an
+// included file, which it names by a suffix; the changed copy is kept beside the include. Does not: know what values mean,
+// or read files that nothing refers to.
 #pragma once
 
 #include <map>
@@ -49,7 +49,7 @@ class SourceLoader {
   std::shared_ptr<const Source> withPreset(const Source& source, const std::string& path);
   // True while the overlay of this identity is being laid over its base: it includes or extends itself.
   bool isOpen(const std::string& identity) const;
-  // Of everything opened so far.
+  // The texts of all files that were opened so far.
   const FileTexts& texts() const { return texts_; }
   // False after Code::limitExceeded: overlays make copies of what they are laid over, so values are counted again for each.
   bool mayCopy(const Source& source, const base::Place& place);

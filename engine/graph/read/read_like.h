@@ -1,5 +1,5 @@
-// `"like": "other"` in a pass: all keys of a pass above it in the same file, with its own laid over them as
-// an overlay would. What the other declares as a parameter, this one takes from it. Does not: read passes.
+// `"like": "other"` in a pass: gives it all keys of a pass above it in the same file, with its own laid over them as
+// an overlay would. A parameter that the other pass declares is shared by both. Does not: read passes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace weft::graph {
 
-// Of one file.
+// The passes of one file.
 class LikePasses {
  public:
   // `stanzas` and the context outlive it.

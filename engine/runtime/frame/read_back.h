@@ -1,9 +1,8 @@
-// What a graph's "outputs" held at the end of a frame, brought to the CPU some frames later. After the last
-// step each live output is copied into the next of a ring of persistently mapped buffers, with a fence
-// behind; later frames take what has arrived. Nothing here waits, but finish(), and an unchanged plan's frame
-// allocates nothing. A copy that would have to wait for its buffer is left out. A buffer arrives as it is, a
-// texture as 32-bit numbers. Does not: keep anything alive (outputs that nothing makes are not there), place
-// barriers (the plan did), know what the numbers mean.
+// Brings to the CPU what a graph's "outputs" held at the end of a frame. After the last step each live output is copied
+// into the next of a ring of persistently mapped buffers, followed by a fence; later frames take the copies that have
+// arrived. Only finish() waits, and a frame of an unchanged plan allocates nothing. A copy that would have to wait for its
+// buffer is left out. A buffer arrives as it is, a texture as 32-bit numbers. Does not: keep anything alive (an output that
+// no pass makes is left out), place barriers (the plan did), or know what the numbers mean.
 #pragma once
 
 #include <array>
@@ -41,11 +40,11 @@ struct Output {
 
 class ReadBack {
  public:
-  // Frames that can be under way; the latency is below that unless the GPU is further behind.
+  // How many frames can be on their way. Outputs arrive sooner than that many frames later, unless the GPU is further behind.
   static constexpr std::size_t kRing = 4;
 
-  // Moves over what is under way when the outputs of `before` (null: none) are the same, else what had
-  // arrived of those of the same name and shape. False after W117.
+  // Takes over the copies that are on their way when the outputs of `before` (which may be null) are the same, else the
+  // values that had arrived of outputs of the same name and shape. False after W117.
   bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
                base::Diagnostics& diagnostics);
   // At the end of a frame, after the plan's last barriers.
@@ -53,7 +52,7 @@ class ReadBack {
             base::Diagnostics& diagnostics);
   // Takes what has arrived.
   void collect();
-  // The same after waiting for all that is under way.
+  // The same, after waiting for all copies that are on their way.
   void finish();
 
   // In the order of the graph; live ones only.

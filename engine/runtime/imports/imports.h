@@ -1,5 +1,5 @@
-// What graphs import, on one device: finds the provider of an import, made when a graph first asks for it, and hands it the
-// frame. Lives across plans. Does not: know what any import is (engine/imports has a folder for each) or know passes.
+// The imports of graphs on one device: finds the provider of an import, which is made when a graph first asks for it, and
+// hands it the frame. Outlives plans. Does not: know what an import is (engine/imports has a folder for each), or know passes.
 #pragma once
 
 #include <glad/gl.h>
@@ -33,15 +33,15 @@ class Imports {
   Imports(const Imports&) = delete;
   Imports& operator=(const Imports&) = delete;
 
-  // Before a plan is made: files are looked at again on next use, what nobody asked for since the last call goes, and what
-  // `graph` asks for is made.
+  // To be called before a plan is made. Files are checked for changes on their next use, providers that no graph has asked
+  // for since the last call are destroyed, and those that `graph` asks for are made.
   void prepare(const graph::FlatGraph& graph);
   imports::Files& files() { return files_; }
 
   // Takes the frame's inputs; uploads happen in texture() and buffer(). Call once per frame before anything else.
   void beginFrame(const World& world, const FrameInput& input);
 
-  // Of imports::Provider, which says what they mean.
+  // The functions of imports::Provider, which says what they mean.
   gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
     return of(import).texture(frame(), diagnostics);
   }

@@ -1,5 +1,5 @@
-// How bright the presented picture is: shares of its texels by luminance and by channel, from a small copy that is read back
-// behind a fence some frames later. Never waits. Does not: know scene-referred values (a graph's output `histogram` does).
+// Histograms of the presented picture: shares of its texels by luminance and by channel. They come from a small copy, which
+// is read back some frames later, without waiting. Does not: know scene-referred values (a graph's output `histogram` does).
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ class PictureHistogram {
   static constexpr std::uint32_t kWidth = 256, kHeight = 144;
   using Bins = std::array<float, 256>;  // share of the texels per 8-bit value, as displayed
 
-  // Once per frame, with what is presented (one level, one layer). Starts a copy when none is on its way, takes what has come.
+  // To be called once per frame with the presented level and layer. Starts a copy when none is on its way, and takes the
+  // result of one that has arrived.
   void update(const gl::TextureRef& presented);
 
   // Red, green, blue, luminance; all zero before the first result. Count of results so far.

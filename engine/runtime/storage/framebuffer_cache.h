@@ -1,4 +1,5 @@
-// Framebuffers by their attachments. They are derived from slots, never named by an author. Cleared when textures go.
+// Framebuffers by their attachments. They are derived from slots; no author names them. One is dropped when a texture of it
+// is destroyed.
 #pragma once
 
 #include <memory>
@@ -14,10 +15,10 @@ namespace weft::runtime {
 
 class FramebufferCache {
  public:
-  // 0 after an error. With no attachments, width and height say how much is rasterised.
+  // 0 after an error. Without attachments, width and height give the area that is rasterised.
   GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
              base::Diagnostics& diagnostics, std::uint32_t width = 0, std::uint32_t height = 0);
-  // Those of `other` whose attachments are all among `alive`: names of textures and views that did not go.
+  // Takes the framebuffers of `other` whose attachments all still exist; `alive` has the names of textures and views that do.
   void takeOver(FramebufferCache& other, const std::unordered_set<GLuint>& alive);
   std::size_t size() const { return entries_.size(); }
 

@@ -9,7 +9,7 @@ namespace weft::graph {
 // 2 to 4 of a list, else 0.
 int componentsOf(ParameterDesc::Type type);
 bool fitsType(const ParameterDesc& desc, const Value& value);
-// Of a value that fits the type. Of a list every component.
+// Whether a value that fits the type is in the range; of a list every component must be.
 bool fitsRange(const ParameterDesc& desc, const Value& value);
 inline bool takesValue(const ParameterDesc& desc, const Value& value) {
   return fitsType(desc, value) && fitsRange(desc, value);
