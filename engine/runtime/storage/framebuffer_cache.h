@@ -1,5 +1,4 @@
-// Framebuffers by their attachments. They are derived from slots; no author names them. One is dropped when a texture of it
-// is destroyed.
+// Framebuffers by their attachments. They are derived from slots; no author names them.
 #pragma once
 
 #include <memory>
