@@ -1,5 +1,5 @@
 """Running the weft binary from tests: arguments in, exit code, output and diagnostics out. With --sanitized on the command line the
-binary was built with AddressSanitizer and UBSan, and every report of theirs is a failure (tests/app/sanitize.sh)."""
+binary was built with AddressSanitizer and UBSan, and every report of theirs is a failure (tests/app/hostile/sanitize.sh)."""
 import os
 import pathlib
 import re
@@ -32,7 +32,7 @@ class Sanitizers:
 
     def __init__(self):
         found = re.search(r"(?:^|:)log_path=([^:]+)", os.environ.get("ASAN_OPTIONS", ""))
-        assert found or not SANITIZED, "--sanitized needs ASAN_OPTIONS=log_path=…: see tests/app/sanitize.sh"
+        assert found or not SANITIZED, "--sanitized needs ASAN_OPTIONS=log_path=…: see tests/app/hostile/sanitize.sh"
         self.path = pathlib.Path(found[1]) if found else None
         self.seen, self.runs = set(), 0
         self.new()

@@ -6,7 +6,7 @@ import pathlib
 import re
 import sys
 
-from program import Report, temporary_folder
+from program import TOP, Report, temporary_folder
 from window import Session, inside_display
 
 FRAMES = 5000
@@ -27,7 +27,7 @@ def main():
     with temporary_folder() as name:
         folder = pathlib.Path(name)
         live = Session(weft, folder, "--no-vsync", "--stats", "--max-frames", FRAMES, size="96x64", data=False,
-                       graph=str(pathlib.Path(__file__).resolve().parents[2] / "graphs/studio.json"))
+                       graph=str(TOP / "graphs/studio.json"))
         samples, resizes = [], 0
         try:
             live.open()

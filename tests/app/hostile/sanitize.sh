@@ -3,7 +3,7 @@
 # $WEFT_ASAN_BUILD), then runs them: the cpu tests, the GL tests below, broken and hostile inputs, and sessions with the viewer in a
 # virtual display. Leaks of the software GL drivers are excepted (tests/gl/lsan.supp).
 set -euo pipefail
-top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 . "$top/cmake/plain_path.sh"
 build="${WEFT_ASAN_BUILD:-$top/build/asan}"
 mkdir -p "$build"
@@ -25,25 +25,25 @@ start=$SECONDS
 
 # The scripts: a report goes to a file and fails the script that caused it (tests/app/program.py), whatever became of the exit code and
 # the output. The viewer's driver stays loaded until leaks are looked for.
-cc -shared -fPIC -o "$build/keep_drivers.so" "$top/tests/app/keep_drivers.c"
+cc -shared -fPIC -o "$build/keep_drivers.so" "$top/tests/app/hostile/keep_drivers.c"
 cat >"$build/weft_kept" <<END
 #!/bin/sh
 LD_PRELOAD="$build/keep_drivers.so" exec "$build/app/weft" "\$@"
 END
 chmod +x "$build/weft_kept"
-cc -fsanitize=address,undefined -static-libasan -static-libubsan -O1 -g1 -o "$build/sanitizer_reports" "$top/tests/app/sanitizer_reports.c"
+cc -fsanitize=address,undefined -static-libasan -static-libubsan -O1 -g1 -o "$build/sanitizer_reports" "$top/tests/app/hostile/sanitizer_reports.c"
 weft="$build/app/weft"
 kept="$build/weft_kept"
 compare="$build/tests/app/weft_compare"
 logs="$build/sanitized"
 rm -rf "$logs"
 mkdir "$logs"
-# run_script LOG SCRIPT ARGUMENTS...: reports and output stand in files of this script alone; the output is shown when it is done.
+# run_script LOG SCRIPT ARGUMENTS... (a script below tests/app): reports and output stand in files of this script alone; the output is shown when it is done.
 run_script() {
   local log="$logs/$1" began=$SECONDS code=0
   local reports="log_path=$log.report"
   ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0:$reports" UBSAN_OPTIONS="$UBSAN_OPTIONS:$reports" LSAN_OPTIONS="$LSAN_OPTIONS:$reports" \
-    python3 "$top/tests/app/$2.py" "${@:3}" --sanitized >"$log" 2>&1 || code=$?
+    PYTHONPATH="$top/tests/app" python3 "$top/tests/app/$2.py" "${@:3}" --sanitized >"$log" 2>&1 || code=$?
   printf -- '-- %s: %s s\n%s\n' "$1" $((SECONDS - began)) "$(cat "$log")"
   if compgen -G "$log.report.*" >/dev/null; then
     cat "$log".report.*
@@ -55,20 +55,20 @@ run_script() {
 runs() {
   (cd "$logs" && sed -n 's/^\([0-9]*\) runs under sanitizers, 0 reports$/\1/p' "$@") | awk '{ sum += $1 } END { print sum + 0 }'
 }
-run_script sanitizer_reports sanitizer_reports "$build/sanitizer_reports"
+run_script sanitizer_reports hostile/sanitizer_reports "$build/sanitizer_reports"
 # Beside each other: the graphs take as long as all other files.
-run_script hostile_graphs hostile_graphs "$weft" &
+run_script hostile_graphs hostile/graphs "$weft" &
 graphs=$!
 code=0
-{ run_script broken_inputs broken_inputs "$weft" && run_script hostile_files hostile_files "$weft" && run_script hostile_files_cache hostile_files "$weft" --cache &&
-  run_script hostile_outputs hostile_outputs "$kept" && run_script hostile_shaders hostile_shaders "$kept" "$compare" && run_script view_files view_files "$kept" "$compare"; } || code=1
+{ run_script broken_inputs hostile/broken_inputs "$weft" && run_script hostile_files hostile/files "$weft" && run_script hostile_files_cache hostile/files "$weft" --cache &&
+  run_script hostile_outputs hostile/outputs "$kept" && run_script hostile_shaders hostile/shaders "$kept" "$compare" && run_script view_files view/files "$kept" "$compare"; } || code=1
 wait "$graphs" || code=1
 [ "$code" = 0 ] || exit 1
 echo "broken and hostile inputs: $(runs broken_inputs hostile_graphs hostile_files hostile_files_cache hostile_outputs hostile_shaders view_files) runs of the program, 0 reports"
-{ run_script view view "$kept" "$compare" && run_script view_window view "$kept" "$compare" --window; } &
+{ run_script view view/basics "$kept" "$compare" && run_script view_window view/basics "$kept" "$compare" --window; } &
 views=$!
-{ run_script view_session view_session "$kept" "$compare" && run_script environments environments "$kept" "$compare" && run_script environments_window environments "$kept" "$compare" --window &&
-  run_script view_panels view_panels "$kept"; } || code=1
+{ run_script view_session view/session "$kept" "$compare" && run_script environments view/environments "$kept" "$compare" && run_script environments_window view/environments "$kept" "$compare" --window &&
+  run_script view_panels view/panels "$kept"; } || code=1
 wait "$views" || code=1
 [ "$code" = 0 ] || exit 1
 echo "run in $((SECONDS - start)) s; scripts ran the program $(runs $(ls "$logs" | grep -v sanitizer_reports)) times, 0 reports"

@@ -2,7 +2,7 @@
 """`weft view` without a display: it says so. With --window, in a virtual display: five frames, a screenshot that is a picture,
 exit code 0, and a recording that equals what `weft render` makes.
 
-    view.py WEFT COMPARE [--window]
+    basics.py WEFT COMPARE [--window]
 """
 import json
 import os

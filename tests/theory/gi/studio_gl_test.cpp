@@ -33,7 +33,7 @@ std::vector<Ball> someBalls(int count, bool moving = false) {
 }
 
 Setup probeLab(std::vector<weft::graph::Setting> sets, bool moving = false) {
-  return {.graph = "tests/theory/gi.json",
+  return {.graph = "tests/theory/gi/gi.json",
           .width = kSide,
           .height = kSide,
           .sets = std::move(sets),

@@ -4,7 +4,7 @@ W180 and exit code 1, by every command that prints and every file that is writte
 away is no error. Frames are counted before they run, numbers that are none are refused, no output is a file that the run reads,
 folders of patterns are made, pictures of NaN are told, and a table that is missing is reported where somebody named it.
 
-    hostile_outputs.py WEFT [--sanitized]
+    outputs.py WEFT [--sanitized]
 """
 import json
 import math

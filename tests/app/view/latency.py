@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long a save takes to be on the screen, and what it makes anew. view_latency.py WEFT COMPARE [--size WxH] [--saves N]
+"""How long a save takes to be on the screen, and what it makes anew. latency.py WEFT COMPARE [--size WxH] [--saves N]
 [--continuous]: graphs/studio.json in a window of a virtual display, in idle mode with its panels or (--continuous) drawing frame after
 frame without; the largest shader, a parameter's default in the JSON, and a material are saved in turn. Times are printed and not
 judged: they depend on what else the machine does, which is why the processor time of the program stands beside. Judged is that a

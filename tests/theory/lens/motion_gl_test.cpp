@@ -24,7 +24,7 @@ struct Panels {
 };
 
 Setup scene(std::vector<Ball> balls) {
-  return {.graph = "tests/theory/lens.json",
+  return {.graph = "tests/theory/lens/lens.json",
           .width = kWidth,
           .height = kHeight,
           .sets = {{"motion_blur", "true"}},

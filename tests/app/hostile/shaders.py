@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Shaders that kill a driver, take all memory or keep it busy for minutes: each is reported with its place, by `weft check` and
 within a guard of processor time and memory; the viewer over whose shader one is saved keeps its last good picture and goes on,
-and leaves no process behind. hostile_shaders.py WEFT COMPARE [--sanitized]. Nothing is timed but by the guard."""
+and leaves no process behind. shaders.py WEFT COMPARE [--sanitized]. Nothing is timed but by the guard."""
 import json
 import os
 import pathlib
@@ -11,7 +11,7 @@ import subprocess
 import sys
 import time
 
-from program import DIAGNOSTIC, MEMORY_BYTES, SANITIZED, SLOWER, Report, count_run, run, temporary_folder
+from program import DIAGNOSTIC, MEMORY_BYTES, SANITIZED, SLOWER, TOP, Report, count_run, run, temporary_folder
 from window import Session, copy_of_tree, inside_display, save
 
 SECONDS = 60 * SLOWER  # of processor time, of a command and what it starts
@@ -107,7 +107,7 @@ def commands(weft, folder, report):
     # An unusual shader that is good is tried, and compiles; the bundled ones are never tried.
     (folder / "shaders/many.frag.glsl").write_text(main_of("switch (int(a * 100.0)) {\n" + CASES[:CASES.index("case 80:")] + "}"))
     (folder / "g.json").write_text(graph("many.frag.glsl"))
-    for graph_file, trials in (("g.json", 1), (str(pathlib.Path(__file__).parents[2] / "graphs/studio.json"), 0)):
+    for graph_file, trials in (("g.json", 1), (str(TOP / "graphs/studio.json"), 0)):
         good = run(weft, "render", graph_file, "--size", "64x36", "-o", "out.png", "--stats", "--program-cache", "none", folder=folder)
         report.check(good.code == 0 and f'"trials": {trials},' in good.err, f"{graph_file}: {good.code}\n{good.err}")
     # More work groups than the device takes: in both commands, where the threads stand.

@@ -3,7 +3,7 @@
 folder that reading is confined to, with the same answer whether or not there is a file; text that tries to forge messages; many
 wrong names; many messages. A run that hangs is ended by its limit, and is a failure; nothing else is timed.
 
-    hostile_files.py WEFT [--cache] [--sanitized]
+    files.py WEFT [--cache] [--sanitized]
 """
 import json
 import os
