@@ -17,7 +17,7 @@ ninja -j2 -C "$build" app/weft tests/app/weft_compare weft_cpu_tests $gl_tests
 echo "built in $((SECONDS - start)) s"
 # Exit code 86 is theirs alone. A run that takes more than 4 GB ends with a report.
 export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:exitcode=86:hard_rss_limit_mb=4096"
-export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:exitcode=86"
+export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:exitcode=86:suppressions=$top/tests/app/hostile/ubsan.supp"
 export LSAN_OPTIONS="suppressions=$top/tests/gl/lsan.supp:print_suppressions=0:exitcode=86"
 start=$SECONDS
 "$top/tests/ctest.sh" "$build" -L cpu -E '^app_hostile_'
