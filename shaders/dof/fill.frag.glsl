@@ -18,7 +18,9 @@ out vec4 result;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if NEAR
-  float radius = searchRadius(pixel), stride = fillStride(radius * inversesqrt(samplesFor(radius, rings)));
+  float radius = searchRadius(pixel), own = texelFetch(discs, pixel, 0).r;
+  if (own > 0.0) radius = min(radius, 1.4 * own);
+  float stride = fillStride(radius * inversesqrt(samplesFor(radius, rings)));
 #else
   float radius = searchRadius(texelFetch(source, pixel, 0).a, pixel, discs, largest), stride = 1.0;
 #endif

@@ -25,7 +25,7 @@ scene::Scene sceneOf(const Setup& setup) {
   scene.cameras.add({.name = "camera",
                      .pose = setup.camera,
                      .orbitDegreesPerSecond = setup.orbitDegreesPerSecond,
-                     .path = {}});
+                     .path = setup.path});
   for (const Ball& ball : setup.balls) {
     const auto material = scene.materials.add(
         {.name = "", .albedo = ball.albedo, .metallic = ball.metallic, .roughness = ball.roughness});

@@ -30,6 +30,7 @@ struct Setup {
   std::vector<Ball> balls;
   scene::CameraPose camera{.position = {0, 0, 20}, .target = {0, 0, 0}, .fovDegrees = 60, .nearPlane = 0.1};
   double orbitDegreesPerSecond = 0;                   // of the camera about its target
+  std::vector<scene::CameraKey> path{};               // of the camera, instead of an orbit
   std::shared_ptr<const assets::ImageF> environment;  // null: a white one
 };
 

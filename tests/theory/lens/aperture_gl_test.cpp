@@ -1,0 +1,166 @@
+// Depth of field against the definition of a lens: the mean of sharp pictures taken from places all over the aperture, each shifted so
+// that what is in focus stays. The sharp pictures are Weft's; how they are added up is all that the lens is.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/assets/image.h"
+#include "tests/theory/lab.h"
+
+using namespace weft;
+using namespace weft::theory;
+
+namespace {
+
+constexpr std::uint32_t kWidth = 640, kHeight = 360;
+constexpr int kFiner = 2;    // the sharp pictures have this many pixels along a pixel
+constexpr int kPlaces = 64;  // on the aperture
+
+struct Lens {
+  double focalLength = 135, aperture = 1.4, focus = 40, sensor = 24;  // mm, f-number, world units, mm
+};
+
+Setup sceneOf(std::vector<Ball> balls, std::uint32_t finer) {
+  base::Diagnostics diagnostics;
+  auto sky = assets::loadEnvironment(
+      std::string(WEFT_SOURCE_DIR) + "/scenes/environments/spiaggia_di_mondello_1k.hdr", diagnostics);
+  REQUIRE_MESSAGE(sky, diagnostics.text());
+  Setup setup{.graph = "tests/theory/lens/lens.json",
+              .width = kWidth * finer,
+              .height = kHeight * finer,
+              .balls = std::move(balls),
+              .camera = {.position = {0, 0.6, 7}, .target = {0, 0, 0}, .fovDegrees = 40, .nearPlane = 0.1}};
+  // Coarse, and with a sun of no more than 20: a pixel that misses or meets a detail of a reflection is no matter of the lens.
+  constexpr int kCoarser = 8;
+  assets::ImageF coarse{.width = sky->width / kCoarser, .height = sky->height / kCoarser, .channels = 4};
+  coarse.texels.resize(std::size_t(coarse.width * coarse.height) * 4);
+  for (int y = 0; y < coarse.height * kCoarser; ++y)
+    for (int x = 0; x < coarse.width * kCoarser; ++x)
+      for (int c = 0; c < 4; ++c)
+        coarse.texels[std::size_t((y / kCoarser) * coarse.width + x / kCoarser) * 4 + std::size_t(c)] +=
+            std::min(sky->texels[std::size_t(y * sky->width + x) * 4 + std::size_t(c)], 20.0f) /
+            (kCoarser * kCoarser);
+  setup.environment = std::make_shared<const assets::ImageF>(std::move(coarse));
+  return setup;
+}
+
+// Row y, column x: three numbers.
+using Radiance = std::vector<double>;
+
+Radiance throughLens(const std::vector<Ball>& balls, const Lens& lens) {
+  Setup setup = sceneOf(balls, kFiner);
+  setup.disables = {"post"};
+  const glm::dvec3 axis = glm::normalize(setup.camera.target - setup.camera.position);
+  const glm::dvec3 right = glm::normalize(glm::cross(axis, glm::dvec3(0, 1, 0))),
+                   up = glm::cross(right, axis);
+  // The camera's angle of view need not be the lens's. The disc of a point at infinity has the radius f^2 / (2 N (s - f)) on a sensor
+  // of the given height; a place that far from the axis sees it moved by as much.
+  const double f = lens.focalLength / 1000;
+  const double disc = f * f / (2 * lens.aperture * (lens.focus - f)) / (lens.sensor / 1000) * setup.height;
+  const double pixelsAtFocus =
+      setup.height / 2.0 / std::tan(glm::radians(setup.camera.fovDegrees) / 2) / lens.focus;
+  const double radius = disc / pixelsAtFocus;
+  std::vector<glm::dvec2> places;
+  for (int i = 0; i < kPlaces; ++i) {  // a spiral by the golden angle: even over the disc
+    const double r = radius * std::sqrt((i + 0.5) / kPlaces), phi = i * M_PI * (3 - std::sqrt(5.0));
+    places.emplace_back(r * std::cos(phi), r * std::sin(phi));
+    const glm::dvec3 at = right * places.back().x + up * places.back().y;
+    setup.path.push_back(
+        {i / 60.0, setup.camera.position + at, setup.camera.target + at, setup.camera.fovDegrees});
+  }
+  Lab lab(setup);
+  Radiance sum(std::size_t{kWidth} * kHeight * 3);
+  for (int i = 0; i < kPlaces; ++i) {
+    lab.frame(static_cast<std::uint32_t>(i));
+    const Picture sharp = lab.read("panels");
+    // What is in focus moved by this many of the finer pixels against the lens's place.
+    const int dx = static_cast<int>(std::lround(places[i].x * pixelsAtFocus)),
+              dy = static_cast<int>(std::lround(places[i].y * pixelsAtFocus));
+    const int width = static_cast<int>(setup.width), height = static_cast<int>(setup.height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const float* from = sharp.at(static_cast<std::uint32_t>(std::clamp(x - dx, 0, width - 1)),
+                                     static_cast<std::uint32_t>(std::clamp(y - dy, 0, height - 1)));
+        double* to = &sum[(std::size_t(y / kFiner) * kWidth + std::size_t(x / kFiner)) * 3];
+        for (int c = 0; c < 3; ++c) to[c] += double(from[c]) / (kPlaces * kFiner * kFiner);
+      }
+  }
+  CHECK(lab.complaints() == "");
+  return sum;
+}
+
+Radiance byWeft(const std::vector<Ball>& balls, const Lens& lens) {
+  Setup setup = sceneOf(balls, 1);
+  setup.sets = {{"dof", "true"},
+                {"bloom", "false"},
+                {"focal_length", std::to_string(lens.focalLength)},
+                {"aperture", std::to_string(lens.aperture)},
+                {"focus_distance", std::to_string(lens.focus)},
+                {"sensor_height", std::to_string(lens.sensor)}};
+  Lab lab(setup);
+  lab.frame(0);
+  const Picture panels = lab.read("panels");
+  CHECK(lab.complaints() == "");
+  Radiance result;
+  for (std::uint32_t y = 0; y < kHeight; ++y)
+    for (std::uint32_t x = 0; x < kWidth; ++x)
+      for (int c = 0; c < 3; ++c) result.push_back(double(panels.at(kWidth + x, y)[c]));
+  return result;
+}
+
+double shown(double radiance) {
+  return 255 * std::pow(radiance / (1 + radiance), 1 / 2.2);
+}
+
+struct Difference {
+  double mean = 0, percentile99 = 0, above32 = 0;
+};
+
+Difference differenceOf(const Radiance& a, const Radiance& b) {
+  std::vector<double> pixels;
+  Difference result;
+  for (std::size_t i = 0; i < a.size(); i += 3) {
+    double worst = 0;
+    for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(shown(a[i + c]) - shown(b[i + c])));
+    pixels.push_back(worst);
+    result.mean += worst;
+    result.above32 += worst > 32;
+  }
+  std::sort(pixels.begin(), pixels.end());
+  result.mean /= double(pixels.size());
+  result.above32 /= double(pixels.size());
+  result.percentile99 = pixels[pixels.size() * 99 / 100];
+  return result;
+}
+
+std::vector<Ball> closeScene() {
+  std::vector<Ball> balls = {
+      {.center = {-2.2f, 0, 0}, .albedo = {1, 0.76f, 0.33f}, .roughness = 0.2f},
+      {.center = {0, 0, 0}, .albedo = {0.9f, 0.9f, 0.9f}, .roughness = 0.05f},
+      {.center = {2.2f, 0, 0}, .albedo = {0.6f, 0.05f, 0.04f}, .metallic = 0, .roughness = 0.35f},
+      {.center = {1.1f, -0.9f, 3.2f},
+       .radius = 0.4f,
+       .albedo = {0.1f, 0.3f, 0.8f},
+       .metallic = 0,
+       .roughness = 0.2f}};
+  for (int i = 0; i < 27; ++i)
+    balls.push_back({.center = {float(i % 9 - 4) * 3, 2 + float(i / 9 - 1) * 3, -14},
+                     .albedo = {i % 2 ? 0.9f : 0.2f, 0.5f, i % 3 ? 0.2f : 0.9f},
+                     .metallic = i % 2 ? 1.0f : 0.0f});
+  return balls;
+}
+
+}  // namespace
+
+TEST_CASE("aperture: a near field before things nearer to the focus is what 64 places on the lens see") {
+  // A lens of 135 mm at f/1.4, focused at 40: discs of 23 pixels over discs of 11 over discs of 2, before a sky of 2.4.
+  const Radiance truth = throughLens(closeScene(), {}), weft = byWeft(closeScene(), {});
+  const Difference difference = differenceOf(truth, weft);
+  MESSAGE("mean ", difference.mean, ", 99th percentile ", difference.percentile99,
+          ", above 32: ", 100 * difference.above32, " %");
+  // Measured: 1.55, 14.6 and 0.014 %. With one layer for all of the near field: 1.89, 21.0 and 0.249 %.
+  CHECK(difference.mean < 1.7);
+  CHECK(difference.percentile99 < 16);
+  CHECK(difference.above32 < 0.0005);
+}
