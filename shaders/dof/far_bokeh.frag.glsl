@@ -1,9 +1,9 @@
 // The far field at half size, spread over its discs but for what fill will add. Scene-referred; result premultiplied.
 // read    source   from split, layer 1, with levels, `as linear`
-//         flat_source   instead of it: without levels, while no disc needs more, see the graph
+//         flat_source   instead of `source`, without levels, when no disc needs them: see the graph
 //         discs    from split
-// write   result   the mean of the far field within the pixel's own disc, of those whose discs reach; behind something nearer the mean
-//                  of what can be seen beside it. Alpha: how far it can be trusted; 0 where split says `idle`, by a depth test
+// write   result   the mean of the far-field texels within the pixel's own disc whose discs reach the pixel; behind something nearer
+//                  the mean of what is visible beside it. Alpha: how reliable that is. A depth test leaves 0 where split says `idle`
 // params  see parameters.glsl
 // defines POLYGON; FILL_SLOPE and FILL_START, see disc.glsl
 //         TEXELS_PER_GAP   width of the texels to read for a gap of 1 between samples

@@ -4,7 +4,7 @@
 
 // Directions of 18 degrees, and of a step around the n-th ring.
 const vec2 kStart = vec2(0.951056516, 0.309016994);
-// From the fourth ring on each begins elsewhere, by the golden angle: else the beginnings would make spokes.
+// From the fourth ring on each ring begins at another angle (the golden angle on), because equal beginnings would make spokes.
 const vec2 kGolden = vec2(-0.737368878, 0.675490294);
 const vec2 kStep[9] = vec2[9](vec2(1.0, 0.0), vec2(0.309016994, 0.951056516), vec2(0.809016994, 0.587785252), vec2(0.913545458, 0.406736643),
                               vec2(0.951056516, 0.309016994), vec2(0.968583161, 0.248689887), vec2(0.978147601, 0.207911691),
