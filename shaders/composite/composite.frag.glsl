@@ -15,7 +15,7 @@
 //         threshold, knee what the bright part is, as in bloom/prefilter; both or none [0, 0: everything]
 //         fog             define: fog_color (radiance), fog_density, fog_falloff, fog_base, fog_layer, fog_sky; see fog.glsl
 //         curve           CURVE, see tone_curve.glsl
-//         aberration      define: aberration_px, how far red and blue part from green at the corners, in pixels
+//         aberration      define: aberration_px, how far the middles of red and blue part from green at the corners, in pixels
 //         white_balance   define: temperature, tint; see white_balance.glsl
 //         vignette        define: vignette_stops lost in the corners, growing with the square of the distance
 //         grading         define: saturation, contrast, lift, gamma, gain; see grading.glsl
@@ -144,9 +144,16 @@ void main() {
   vec2 from_centre = (pixel - 0.5 * size) / (0.5 * length(size));  // length 1 at the corners
 #endif
 #if ABERRATION && defined(HAS_SHIFTED)
+  // A spectrum: each wavelength draws the picture larger or smaller. Red stands for those around `aberration_px`, green around 0, blue around
+  // its negative, each with weights that fall to nothing at the middle of the next; read at places a pixel apart or less.
   vec2 apart = from_centre * aberration_px / size;
-  c.r = textureLod(shifted, uv - apart, 0.0).r;
-  c.b = textureLod(shifted, uv + apart, 0.0).b;
+  int places = clamp(int(ceil(length(from_centre) * abs(aberration_px))), 1, 8);  // from one middle to the next
+  vec3 spectrum = vec3(0.0);
+  for (int i = 1 - 2 * places; i < 2 * places; ++i) {
+    float shift = float(i) / float(places);
+    spectrum += max(1.0 - abs(shift - vec3(1.0, 0.0, -1.0)), 0.0) * textureLod(shifted, uv - shift * apart, 0.0).rgb;
+  }
+  c = spectrum / float(places);
 #endif
   c = finite(c);
 #ifdef HAS_BLOOM

@@ -19,6 +19,10 @@ using Color = std::array<double, 3>;
 
 constexpr std::uint32_t kWidth = 128, kHeight = 64;
 
+double decode(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 double encode(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
@@ -32,7 +36,9 @@ Sets ramp(Color left, Color right, Sets more = {}) {
 
 // A linear curve that ends at 1.
 Sets plain(Color left, Color right, Sets more = {}) {
-  Sets sets = ramp(left, right, {{"curve", "linear"}, {"composite.white", "1"}});
+  Sets sets =
+      ramp(left, right,
+           {{"curve", "linear"}, {"composite.white", "1"}, {"fxaa", "false"}, {"composite.white", "1"}});
   sets.insert(sets.end(), more.begin(), more.end());
   return sets;
 }
@@ -262,6 +268,67 @@ TEST_CASE("aberration: green stays, red and blue part by the pixels asked for, a
     CHECK(std::abs(step(picture, x, kHeight / 2, 1) - x * slope) < 0.6);
     CHECK(std::abs(step(picture, x, kHeight / 2, 0) - (x * slope - shift)) < 1.2);
     CHECK(std::abs(step(picture, x, kHeight / 2, 2) - (x * slope + shift)) < 1.2);
+  }
+}
+
+TEST_CASE("aberration: white lines spread into a spectrum without gaps, as many wavelengths add up") {
+  // A brute-force sum over 400 wavelengths, each of which draws the line as much larger or smaller as its place between -2 and 2 says. Red
+  // weighs them by a triangle around 1, green around 0, blue around -1.
+  constexpr std::uint32_t kWide = 256;
+  constexpr int kLine = 236, kBroad = 3;
+  Setup setup{.graph = "tests/theory/impulse_exact.json", .width = kWide, .height = kWide};
+  setup.sets = {{"bloom", "false"},
+                {"dof", "false"},
+                {"aberration", "true"},
+                {"aberration_px", "8"},
+                {"composite.dither", "false"},
+                {"curve", "linear"},
+                {"exposure", "0"},
+                {"plane.value", "0.5"},
+                {"plane.background", "0"},
+                {"plane.side", std::to_string(kBroad)},
+                {"plane.at", "[" + std::to_string(kLine) + ", 127]"}};
+  Lab lab(setup);
+  lab.frame(0);
+  const Picture panels = lab.read("panels");
+  CHECK(lab.complaints() == "");
+  const double corner = 0.5 * std::hypot(kWide, kWide);
+  // impulse_exact.json has a linear curve that ends at 32. The picture between the texels of a square of light, linear as a sampler makes it.
+  const auto light = [&](double x, double y) {
+    const auto texel = [&](int ix, int iy) {
+      return ix >= kLine && ix < kLine + kBroad && iy >= 127 && iy < 127 + kBroad ? 0.5 : 0.0;
+    };
+    const double fx = x - 0.5, fy = y - 0.5;
+    const int ix = static_cast<int>(std::floor(fx)), iy = static_cast<int>(std::floor(fy));
+    const double ax = fx - ix, ay = fy - iy;
+    return (1 - ay) * ((1 - ax) * texel(ix, iy) + ax * texel(ix + 1, iy)) +
+           ay * ((1 - ax) * texel(ix, iy + 1) + ax * texel(ix + 1, iy + 1));
+  };
+  double worst = 0, found[3] = {}, expected[3] = {};
+  for (int y = 120; y < 138; ++y)
+    for (std::uint32_t x = 200; x < kWide; ++x) {
+      const double px = (x + 0.5 - kWide / 2.0) / corner * 8, py = (y + 0.5 - kWide / 2.0) / corner * 8;
+      for (int c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (int k = -400; k <= 400; ++k) {
+          const double shift = k / 200.0, weight = std::max(1 - std::abs(shift - (1 - c)), 0.0) / 200;
+          if (weight > 0) sum += weight * light(x + 0.5 - shift * px, y + 0.5 - shift * py);
+        }
+        const double value =
+            32 * decode(static_cast<double>(panels.at(2 * kWide + x, static_cast<std::uint32_t>(y))[c]));
+        worst = std::max(worst, std::abs(value - sum));
+        found[c] += value;
+        expected[c] += sum;
+      }
+    }
+  MESSAGE("worst ", worst, "; light kept ", found[0] / expected[0], ", ", found[1] / expected[1], ", ",
+          found[2] / expected[2]);
+  CHECK(worst < 0.01);
+  for (int c = 0; c < 3; ++c) {
+    CHECK(found[c] == doctest::Approx(expected[c]).epsilon(0.02));
+    CHECK(
+        found[c] ==
+        doctest::Approx(0.5 * kBroad * kBroad).epsilon(0.15));  // a larger picture of the light is as bright
   }
 }
 
