@@ -36,11 +36,14 @@ SUB_ROOMS = {
         "workload": {".", "language", "versions"},
     },
     "assets": {
-        ".": set(),
-        "models/parts": {"."},
+        "images": set(),
+        "loading": set(),
+        "environments": {"images", "loading"},
+        ".": {"images"},
+        "models/parts": {".", "images", "loading"},
         "models/gltf": {".", "models/parts"},
         "models/assimp": {".", "models/parts"},
-        "models": {".", "models/parts", "models/gltf", "models/assimp"},
+        "models": {".", "loading", "models/parts", "models/gltf", "models/assimp"},
     },
     "scene": {".": set(), "frame": {"."}, "probes": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {

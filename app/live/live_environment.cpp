@@ -25,19 +25,6 @@ std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   return files;
 }
 
-const char* nameOf(assets::LoadStage stage) {
-  switch (stage) {
-    case assets::LoadStage::reading:
-      return "reading";
-    case assets::LoadStage::decoding:
-      return "decoding";
-    case assets::LoadStage::converting:
-      return "converting";
-    default:
-      return "waiting";
-  }
-}
-
 }  // namespace
 
 std::optional<std::string> firstEnvironment(const std::string& fileOrFolder, base::Diagnostics& diagnostics) {
@@ -109,7 +96,7 @@ std::optional<LiveEnvironment::Status> LiveEnvironment::status() const {
   if (incoming_) return Status{name, "sending", kLoadingShare + (1 - kLoadingShare) * sent_};
   if (ticket_ == 0) return std::nullopt;
   const assets::LoadProgress progress = loader_.progress(ticket_);
-  return Status{name, nameOf(progress.stage), kLoadingShare * progress.done};
+  return Status{name, assets::nameOf(progress.stage), kLoadingShare * progress.done};
 }
 
 }  // namespace weft::app

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/loader.h"
+#include "engine/assets/environments/loader.h"
 #include "engine/imports/environment/environment_texture.h"
 
 namespace weft::app {

@@ -7,7 +7,7 @@
 
 #include "app/session/standard_streams.h"
 #include "data_places.h"
-#include "engine/assets/loader.h"
+#include "engine/assets/environments/loader.h"
 #include "engine/base/message_choice.h"
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/compile/plan_memory.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 
 namespace weft::assets {
 

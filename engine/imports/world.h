@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/environment_map.h"
-#include "engine/assets/image.h"
+#include "engine/assets/environments/environment_map.h"
+#include "engine/assets/images/image.h"
 #include "engine/base/diagnostic.h"
 #include "engine/scene/scene.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 #include "engine/scene/table.h"
 
 namespace weft::scene {

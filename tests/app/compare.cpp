@@ -2,7 +2,7 @@
 //   weft_compare ACTUAL EXPECTED STEP FRACTION [DIFFERENCE.png]   exit 0 when at most FRACTION of the pixels have a channel
 //                                                                 that differs, and none by more than STEP (of 255)
 //   weft_compare --describe FILE                                  width, height, mean and standard deviation of the colours
-#include "engine/assets/compare.h"
+#include "engine/assets/images/compare.h"
 
 #include <cmath>
 #include <cstdio>

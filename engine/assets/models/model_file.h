@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/environment_map.h"
+#include "engine/assets/loading/load_observer.h"
 #include "engine/assets/model.h"
 #include "engine/base/diagnostic.h"
 

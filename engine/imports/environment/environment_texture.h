@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "engine/assets/environment_map.h"
+#include "engine/assets/environments/environment_map.h"
 #include "engine/base/diagnostic.h"
 #include "engine/gl/objects/level_stream.h"
 #include "engine/gl/objects/objects.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/environment_map.h"
+#include "engine/assets/environments/environment_map.h"
 #include "engine/base/diagnostic.h"
 #include "engine/scene/scene.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/environment_map.h"
+#include "engine/assets/environments/environment_map.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/json/fields.h"
 #include "engine/scene/models/add_model.h"

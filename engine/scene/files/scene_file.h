@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/environment_map.h"
+#include "engine/assets/environments/environment_map.h"
 #include "engine/base/diagnostic.h"
 #include "engine/scene/scene.h"
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 #include "engine/assets/models/model_file.h"
 #include "engine/base/files/file.h"
 #include "tests/assets/models/fbx_records.h"

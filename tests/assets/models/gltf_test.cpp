@@ -258,7 +258,7 @@ TEST_CASE("uv are moved as KHR_texture_transform says; maps that want another se
   maker.document["extensionsRequired"] = {"KHR_texture_transform"};
   const Model model = make(maker, 1);
   CHECK(model.materials[0].emissiveMap == kNoRow);
-  // The extension's matrices: translation * rotation * scale, with rotation ((cos, sin), (-sin, cos)).
+  // Scaled, turned counter-clockwise as uv are drawn (v downwards), then moved: (1, 1) to (2, 4) to (4, -2).
   const Float2 uv = model.vertices[1].uv;  // of (1, 1)
   CHECK(uv[0] == doctest::Approx(0.5 + 4));
   CHECK(uv[1] == doctest::Approx(0.25 - 2));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 #include "tests/theory/lab.h"
 
 using namespace weft;

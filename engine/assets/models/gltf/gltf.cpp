@@ -196,6 +196,7 @@ class GltfReader {
     if (!coordinates) return true;
     if (!readVectors(*attributes.find(name), *coordinates, name.c_str(), 1e6f, mesh.uvs)) return false;
     if (uv == GltfUv{.set = uv.set}) return true;
+    // Counter-clockwise as uv are drawn, with v downwards: github.com/KhronosGroup/glTF/issues/1563.
     const float c = std::cos(uv.rotation), s = std::sin(uv.rotation);
     for (Float2& each : mesh.uvs) {
       const float u = each[0] * uv.scale[0], v = each[1] * uv.scale[1];

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/environment_map.h"
+#include "engine/assets/loading/load_observer.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/limits.h"
 

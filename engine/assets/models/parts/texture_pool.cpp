@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/assets/image_codecs.h"
+#include "engine/assets/images/image_codecs.h"
 #include "engine/base/hash.h"
 #include "engine/base/limit_report.h"
 #include "engine/base/limits.h"

@@ -1,4 +1,4 @@
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "engine/assets/half.h"
-#include "engine/assets/image_codecs.h"
+#include "engine/assets/images/half.h"
+#include "engine/assets/images/image_codecs.h"
 #include "engine/base/files/file.h"
 
 namespace weft::assets {

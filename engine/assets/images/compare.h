@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 
 namespace weft::assets {
 

@@ -1,4 +1,4 @@
-#include "engine/assets/half.h"
+#include "engine/assets/images/half.h"
 
 #include <bit>
 #include <cassert>

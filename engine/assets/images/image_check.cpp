@@ -1,4 +1,4 @@
-#include "engine/assets/image_check.h"
+#include "engine/assets/images/image_check.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <random>
 
-#include "engine/assets/half.h"
-#include "engine/assets/image.h"
+#include "engine/assets/images/half.h"
+#include "engine/assets/images/image.h"
 
 using namespace weft;
 using namespace weft::assets;

@@ -1,7 +1,7 @@
 // Pictures scaled to another size, by stb_image_resize.
 #pragma once
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 
 namespace weft::assets {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <random>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 #include "engine/base/files/file.h"
 #include "tests/assets/temporary.h"
 

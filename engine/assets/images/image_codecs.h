@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 
 namespace weft::assets {
 

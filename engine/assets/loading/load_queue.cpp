@@ -1,4 +1,4 @@
-#include "engine/assets/loader.h"
+#include "engine/assets/loading/load_queue.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,26 @@ std::pair<double, double> spanOf(LoadStage stage) {
 
 }  // namespace
 
-Loader::Loader(StageHook hook) : hook_(std::move(hook)) {}
+const char* nameOf(LoadStage stage) {
+  switch (stage) {
+    case LoadStage::reading:
+      return "reading";
+    case LoadStage::decoding:
+      return "decoding";
+    case LoadStage::converting:
+      return "converting";
+    default:
+      return "waiting";
+  }
+}
 
-Loader::~Loader() {
+LoadQueue::LoadQueue(LoadJob job, StageHook hook) : job_(std::move(job)), hook_(std::move(hook)) {}
+
+LoadQueue::~LoadQueue() {
   thread_.request_stop();
 }
 
-std::uint64_t Loader::request(std::string path, std::uint32_t channel) {
+std::uint64_t LoadQueue::request(std::string path, std::uint32_t channel) {
   const std::lock_guard lock(mutex_);
   if (channel != 0)
     std::erase_if(requests_, [&](const Request& each) {
@@ -50,7 +63,7 @@ std::uint64_t Loader::request(std::string path, std::uint32_t channel) {
   return ticket;
 }
 
-void Loader::cancel(std::uint64_t ticket) {
+void LoadQueue::cancel(std::uint64_t ticket) {
   const std::lock_guard lock(mutex_);
   std::erase_if(requests_, [&](const Request& each) {
     if (each.ticket != ticket) return false;
@@ -61,25 +74,25 @@ void Loader::cancel(std::uint64_t ticket) {
   finished_.notify_all();
 }
 
-std::optional<LoadResult> Loader::poll() {
+std::optional<LoadQueue::Result> LoadQueue::poll() {
   if (ready_ == 0) return {};
   const std::lock_guard lock(mutex_);
   const auto found =
       std::ranges::find_if(requests_, [](const Request& each) { return each.result.has_value(); });
   if (found == requests_.end()) return {};
-  std::optional<LoadResult> result = std::move(found->result);
+  std::optional<Result> result = std::move(found->result);
   requests_.erase(found);
   --ready_;
   return result;
 }
 
-std::optional<LoadResult> Loader::wait(std::uint64_t ticket) {
+std::optional<LoadQueue::Result> LoadQueue::wait(std::uint64_t ticket) {
   std::unique_lock lock(mutex_);
   for (;;) {
     const auto found = std::ranges::find(requests_, ticket, &Request::ticket);
     if (found == requests_.end()) return {};
     if (found->result) {
-      std::optional<LoadResult> result = std::move(found->result);
+      std::optional<Result> result = std::move(found->result);
       requests_.erase(found);
       --ready_;
       return result;
@@ -88,20 +101,22 @@ std::optional<LoadResult> Loader::wait(std::uint64_t ticket) {
   }
 }
 
-LoadProgress Loader::progress(std::uint64_t ticket) const {
+LoadProgress LoadQueue::progress(std::uint64_t ticket) const {
   const std::uint64_t shown = shown_;
   if (shown >> 24 == ticket)
     return {static_cast<LoadStage>(shown >> 16 & 0xff), static_cast<float>(shown & 0xffff) / 65535.0f};
   return {shown >> 24 < ticket && ticket <= newest_ ? LoadStage::waiting : LoadStage::idle, 0};
 }
 
-void Loader::show(std::uint64_t ticket, LoadStage stage, double done) {
+void LoadQueue::show(std::uint64_t ticket, LoadStage stage, double done) {
   const auto [from, to] = spanOf(stage);
-  const auto steps = static_cast<std::uint64_t>(std::lround((from + (to - from) * done) * 65535));
+  auto steps = static_cast<std::uint64_t>(std::lround((from + (to - from) * done) * 65535));
+  // A scene of several models reads again after it decoded.
+  if (stage != LoadStage::idle && shown_ >> 24 == ticket) steps = std::max(steps, shown_ & 0xffff);
   shown_ = ticket << 24 | static_cast<std::uint64_t>(stage) << 16 | steps;
 }
 
-void Loader::run(std::stop_token stop) {
+void LoadQueue::run(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   for (;;) {
     auto next = requests_.end();
@@ -110,17 +125,16 @@ void Loader::run(std::stop_token stop) {
       return next != requests_.end();
     });
     if (!more || stop.stop_requested()) return;
-    LoadResult result{next->ticket, next->path, nullptr, {}};
+    Result result{next->ticket, next->path, nullptr, {}};
     const std::shared_ptr<std::atomic<bool>> cancelled = next->cancelled;
     lock.unlock();
 
     LoadStage last = LoadStage::idle;
-    auto map = loadEnvironmentMap(result.path, result.diagnostics, [&](LoadStage stage, double done) {
+    result.product = job_(result.path, result.diagnostics, [&](LoadStage stage, double done) {
       show(result.ticket, stage, done);
       if (std::exchange(last, stage) != stage && hook_) hook_(result.ticket, stage);
       return !*cancelled && !stop.stop_requested();
     });
-    if (map) result.map = std::make_shared<const EnvironmentMap>(std::move(*map));
     show(result.ticket, LoadStage::idle, 0);
 
     lock.lock();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "engine/assets/image_check.h"
+#include "engine/assets/images/image_check.h"
 
 namespace weft::assets {
 

@@ -5,12 +5,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
+#include "engine/assets/loading/load_observer.h"
 
 namespace weft::assets {
 
@@ -24,12 +24,6 @@ struct EnvironmentMap {
       texels{};  // width * height * 4 binary16; empty in what stands for a map that a GPU has
   std::uint64_t id = newEnvironmentId();  // of the picture: a copy, with or without texels, has the same
 };
-
-enum class LoadStage : std::uint8_t { idle, waiting, reading, decoding, converting };
-
-// Told how far a load is: the stage, and how much of it is done (0 to 1; a stage that cannot tell says 0 and
-// then the next stage begins). False gives up. Called on the thread that loads, often.
-using LoadObserver = std::function<bool(LoadStage stage, double done)>;
 
 // Empty after errors, and without any when `observer` gave up.
 std::optional<EnvironmentMap> loadEnvironmentMap(const std::string& path, base::Diagnostics& diagnostics,

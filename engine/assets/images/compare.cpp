@@ -1,4 +1,4 @@
-#include "engine/assets/compare.h"
+#include "engine/assets/images/compare.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "engine/assets/image_resize.h"
+#include "engine/assets/images/image_resize.h"
 
 #include <stb/stb_image_resize.h>
 

@@ -10,8 +10,8 @@
 #include <exception>
 #include <memory>
 
-#include "engine/assets/image_check.h"
-#include "engine/assets/image_codecs.h"
+#include "engine/assets/images/image_check.h"
+#include "engine/assets/images/image_codecs.h"
 #include "engine/base/files/file.h"
 
 namespace weft::assets {

@@ -1,11 +1,11 @@
-#include "engine/assets/image.h"
+#include "engine/assets/images/image.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "engine/assets/half.h"
+#include "engine/assets/images/half.h"
 #include "tests/assets/temporary.h"
 
 using namespace weft;

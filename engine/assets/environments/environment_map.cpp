@@ -1,4 +1,4 @@
-#include "engine/assets/environment_map.h"
+#include "engine/assets/environments/environment_map.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <exception>
 #include <span>
 
-#include "engine/assets/half.h"
-#include "engine/assets/image_codecs.h"
+#include "engine/assets/images/half.h"
+#include "engine/assets/images/image_codecs.h"
 #include "engine/base/files/file.h"
 
 namespace weft::assets {

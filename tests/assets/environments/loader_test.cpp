@@ -1,4 +1,4 @@
-#include "engine/assets/loader.h"
+#include "engine/assets/environments/loader.h"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/assets/half.h"
+#include "engine/assets/images/half.h"
 #include "engine/base/files/file_access.h"
 #include "tests/assets/temporary.h"
 

@@ -7,8 +7,8 @@
 #include <cassert>
 #include <memory>
 
-#include "engine/assets/image_check.h"
-#include "engine/assets/image_codecs.h"
+#include "engine/assets/images/image_check.h"
+#include "engine/assets/images/image_codecs.h"
 #include "engine/base/files/file.h"
 
 namespace weft::assets {

@@ -1,9 +1,9 @@
-// The loader thread: reads, decodes and converts environments (.hdr, .exr) one after another, off the thread
-// that draws. Requests wait in a bounded queue and finish in the order they were made; a request of a channel
-// replaces what that channel asked for before and has not fetched yet, so that only the last choice of a
-// person costs anything. Failure is a value: a result without a map, with Diagnostics. Progress is read
-// without locks. Destroying the loader stops at the next look between portions of reading and converting; a
-// decoder in the middle of a file is waited for. Does not: know GL, watch files, or cache what it loaded.
+// A thread that loads: runs requests one after another, off the thread that draws. Requests wait in a bounded queue and finish
+// in the order they were made; a request of a channel replaces what that channel asked for before and has not fetched yet, so
+// that only the last choice of a person costs anything. What a request makes is the job's business, given to the constructor:
+// environments (engine/assets/environments/loader.h), scenes with their models (app/live/live_scene.h). Failure is a value: a result
+// without a product, with Diagnostics. Progress is read without locks. Destroying the queue stops at the next look of the job
+// at its observer. Does not: know what is loaded, watch files, or cache.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@
 #include <string>
 #include <thread>
 
-#include "engine/assets/environment_map.h"
+#include "engine/assets/loading/load_observer.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::assets {
@@ -27,23 +27,29 @@ struct LoadProgress {
   float done = 0;  // of the whole load, 0 to 1; grows within one request
 };
 
-struct LoadResult {
-  std::uint64_t ticket = 0;
-  std::string path;                           // as it was asked for
-  std::shared_ptr<const EnvironmentMap> map;  // null after errors
-  base::Diagnostics diagnostics;
-};
+const char* nameOf(LoadStage stage);  // "reading", for a person
 
-class Loader {
+// Makes what is asked for by `path`, or null. Asks `observer` often, and gives up when it says so.
+using LoadJob = std::function<std::shared_ptr<const void>(
+    const std::string& path, base::Diagnostics& diagnostics, const LoadObserver& observer)>;
+
+class LoadQueue {
  public:
   static constexpr std::size_t kMostRequests = 16;  // waiting, running, or finished and not fetched
   // For tests: called on the loader thread when a stage of a request begins.
   using StageHook = std::function<void(std::uint64_t ticket, LoadStage stage)>;
 
-  explicit Loader(StageHook hook = {});
-  ~Loader();
-  Loader(const Loader&) = delete;
-  Loader& operator=(const Loader&) = delete;
+  struct Result {
+    std::uint64_t ticket = 0;
+    std::string path;  // as it was asked for
+    std::shared_ptr<const void> product;
+    base::Diagnostics diagnostics;
+  };
+
+  explicit LoadQueue(LoadJob job, StageHook hook = {});
+  ~LoadQueue();
+  LoadQueue(const LoadQueue&) = delete;
+  LoadQueue& operator=(const LoadQueue&) = delete;
 
   // Returns a ticket above all earlier ones, or 0 when too many requests are under way. Channel 0 replaces
   // nothing.
@@ -52,9 +58,9 @@ class Loader {
   void cancel(std::uint64_t ticket);
 
   // The oldest finished result, if there is one. Never waits for a load.
-  std::optional<LoadResult> poll();
+  std::optional<Result> poll();
   // Waits for one request. Empty when it was fetched, replaced or cancelled.
-  std::optional<LoadResult> wait(std::uint64_t ticket);
+  std::optional<Result> wait(std::uint64_t ticket);
 
   // Of the request that runs now; `waiting` when it has not begun, `idle` for every other.
   LoadProgress progress(std::uint64_t ticket) const;
@@ -65,11 +71,12 @@ class Loader {
     std::uint32_t channel = 0;
     std::string path;
     std::shared_ptr<std::atomic<bool>> cancelled;
-    std::optional<LoadResult> result;  // once it is finished
+    std::optional<Result> result;  // once it is finished
   };
   void run(std::stop_token stop);
   void show(std::uint64_t ticket, LoadStage stage, double done);
 
+  LoadJob job_;
   StageHook hook_;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_, finished_;
