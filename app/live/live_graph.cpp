@@ -31,18 +31,23 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
     : renderer_(renderer),
       world_(std::move(world)),
       settings_(std::move(settings)),
-      scenePath_(scenePathOf(options)),
-      sceneChoice_(sceneChoiceOf(options)),
-      sceneFiles_(world_.scene().files),
-      sceneStale_(world_.scene().cameras.rows().empty()) {
+      scene_(scenePathOf(options), sceneChoiceOf(options), world_.scene().files) {
+  if (world_.scene().cameras.rows().empty()) scene_.outdate();
   if (world_.environmentPending())
     environment_.request(options.environment);
   else if (!options.environment.empty())
     environment_.assume(options.environment);
 }
 
+void LiveGraph::expectScene() {
+  expectsScene_ = true;
+  scene_.outdate();
+  scene_.arrived();  // not yet; but it is on its way
+}
+
 bool LiveGraph::load(base::Diagnostics& diagnostics) {
-  graphStale_ = false;
+  graphStale_ = expectsScene_ && !scene_.ready();
+  untried_ = untried_ || graphStale_;
   good_ = tryLoad(Attempt::final, diagnostics);
   return good_;
 }
@@ -54,7 +59,10 @@ bool LiveGraph::tryLoad(Attempt attempt, base::Diagnostics& diagnostics) {
   if (good || attempt == Attempt::final) diagnostics.append(said);
   if (good) {
     world_ = std::move(world);
-    sceneStale_ = false;
+    if (!expectsScene_ || scene_.ready()) {
+      scene_.settle();
+      expectsScene_ = false;
+    }
     ++switches_;
   }
   watch(&diagnostics);
@@ -108,17 +116,17 @@ bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Dia
 }
 
 bool LiveGraph::tryScene(runtime::World& world, base::Diagnostics& diagnostics) {
-  if (sceneStale_) {
-    auto scene = scene::loadScene(scenePath_, diagnostics, &sceneFiles_, sceneChoice_);
-    if (!scene) return false;
-    world.setScene(std::move(*scene));
-  }
+  if (!scene_.outdated() || (expectsScene_ && !scene_.ready())) return true;
+  if (!scene_.ready()) scene_.readNow();
+  const scene::Scene* scene = scene_.scene(diagnostics);
+  if (!scene) return false;
+  world.setScene(*scene);
   return true;
 }
 
 std::vector<std::string> LiveGraph::files() const {
   std::vector<std::string> files = renderer_.files();
-  files.insert(files.end(), sceneFiles_.begin(), sceneFiles_.end());
+  files.insert(files.end(), scene_.files().begin(), scene_.files().end());
   files.insert(files.end(), world_.scene().files.begin(), world_.scene().files.end());
   for (const std::string& file : {environment_.shown(), environment_.wanted()})
     if (!file.empty()) files.push_back(file);
@@ -145,7 +153,8 @@ bool LiveGraph::wantsLoad(double now) {
     quiet_ = untried_ ? kQuietSeconds : kGoneSeconds;
   }
   for (const std::string& file : changed) {
-    sceneStale_ |= std::ranges::find(sceneFiles_, file) != sceneFiles_.end() || file == scenePath_;
+    if (std::ranges::find(scene_.files(), file) != scene_.files().end() || file == scene_.path())
+      scene_.outdate();
     const bool environment = file == environment_.shown() || file == environment_.wanted();
     if (environment)
       changedEnvironment_ = file;
@@ -160,6 +169,7 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
   const bool quiet = now - changedAt_ >= quiet_;
   if (quiet && !changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
   if (!wants) return false;
+  if (running() && scene_.outdated() && scene_.slow() && !scene_.arrived()) return false;
   untried_ = false;
   if (quiet) {
     load(diagnostics);

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "app/live/live_environment.h"
+#include "app/live/live_scene.h"
 #include "app/session/options.h"
 #include "engine/base/files/file_watcher.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/runtime/frame/renderer.h"
-#include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
 
@@ -25,15 +25,18 @@ class LiveGraph {
   LiveGraph(const Options& options, runtime::Renderer& renderer, runtime::World world,
             graph::Settings settings);
 
+  // The scene of `world` stands in for that of the files, which is read beside the frames. Before the first load().
+  void expectScene();
   // Reads everything but the environment again and switches to it. False after errors, and what ran goes on.
   // A set or disable that the graph does not take any more is left out with a warning, and comes back when it
   // does; only the first time, when there is nothing to keep running, is it an error.
   bool load(base::Diagnostics& diagnostics);
   // Loads when watched files changed: at once when they are good as they are, else when they have been quiet
-  // for a moment, as more may come. `now` in seconds. True when something came of it that is to be reported.
+  // for a moment, as more may come. A scene with models is read beside the frames, and loaded when it has
+  // arrived. `now` in seconds. True when something came of it that is to be reported.
   bool poll(double now, base::Diagnostics& diagnostics);
-  // Files changed, and poll() has not loaded them yet.
-  bool pending() const { return graphStale_ || !changedEnvironment_.empty(); }
+  // Files changed, and poll() has not loaded them yet. While a scene is on its way there is nothing to wait for.
+  bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
   // They did, and poll() would load them now. Looks, and costs one system call when there is nothing new.
   bool wantsLoad(double now);
   // For whoever wants to sleep until a watched file changes: readable then. -1: nothing is ever reported.
@@ -67,6 +70,7 @@ class LiveGraph {
   const runtime::World& world() const { return world_; }
   const graph::Settings& settings() const { return settings_; }
   const LiveEnvironment& environment() const { return environment_; }
+  const LiveScene& scene() const { return scene_; }
   // Whether there is something to draw: some load was good.
   bool running() const { return renderer_.execution() != nullptr; }
   // Whether the files as they are on disk are what is shown.
@@ -93,12 +97,11 @@ class LiveGraph {
   // What the graph as it is has no use for.
   std::vector<graph::Setting> lostSets_;
   std::vector<graph::Disable> lostDisables_;
-  std::string scenePath_;
-  scene::SceneChoice sceneChoice_;
+  LiveScene scene_;
   LiveEnvironment environment_;
-  std::vector<std::string> sceneFiles_;
   base::FileWatcher watcher_;
-  bool sceneStale_ = false, graphStale_ = false, good_ = false, environmentGood_ = true;
+  bool expectsScene_ = false;  // the world's stands in for it
+  bool graphStale_ = false, good_ = false, environmentGood_ = true;
   bool untried_ = false;              // as the files are since the last change
   std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds

@@ -7,9 +7,19 @@
 
 namespace weft::app::ui {
 
-void drawLoading(const LiveEnvironment& environment) {
-  const auto status = environment.status();
-  if (!status) return;
+namespace {
+
+void drawBar(const std::string& name, const char* stage, float done) {
+  ImGui::TextUnformatted(fmt::format("{}: {}", name, stage).c_str());
+  ImGui::ProgressBar(done, {-1, 0}, fmt::format("{:.0f} %", done * 100.0f).c_str());
+}
+
+}  // namespace
+
+void drawLoading(const LiveGraph& live) {
+  const auto environment = live.environment().status();
+  const auto scene = live.scene().status();
+  if (!environment && !scene) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const float width = std::min(420.0f * ImGui::GetIO().FontGlobalScale, screen.x - 16);
   // Between the panels, which end at three quarters, and the log.
@@ -18,8 +28,8 @@ void drawLoading(const LiveEnvironment& environment) {
   ImGui::Begin("Loading", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::TextUnformatted(fmt::format("{}: {}", status->name, status->stage).c_str());
-  ImGui::ProgressBar(status->done, {-1, 0}, fmt::format("{:.0f} %", status->done * 100.0f).c_str());
+  if (environment) drawBar(environment->name, environment->stage, environment->done);
+  if (scene) drawBar(scene->name, scene->stage, scene->done);
   ImGui::End();
 }
 

@@ -1,11 +1,11 @@
-// A line with a bar while an environment is on its way; visible whether or not the panels are. Does not:
-// load.
+// A line with a bar for each of environment and scene while it is on its way; visible whether or not the panels are. Does
+// not: load.
 #pragma once
 
-#include "app/live/live_environment.h"
+#include "app/live/live_graph.h"
 
 namespace weft::app::ui {
 
-void drawLoading(const LiveEnvironment& environment);
+void drawLoading(const LiveGraph& live);
 
 }  // namespace weft::app::ui

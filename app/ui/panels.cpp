@@ -83,7 +83,7 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
     arrange_ = false;
   }
   drawLog();
-  drawLoading(live_.environment());
+  drawLoading(live_);
 }
 
 void Panels::drawMenu(base::Diagnostics& diagnostics) {

@@ -14,6 +14,7 @@
 #include "app/session/standard_streams.h"
 #include "app/view/viewer.h"
 #include "engine/base/limits.h"
+#include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
 
@@ -96,7 +97,19 @@ int runView(const Options& options) {
   const bool wait = options.waitForAssets || !options.record.empty();
   Options first = files;
   if (!wait) first.environment.clear();
-  auto world = loadWorld(first, diagnostics);
+  // Models come while the window is open, too. A pipe can be read once: it is read by loadWorld.
+  const std::string scenePath = scenePathOf(files);
+  std::error_code none;
+  const bool later =
+      !wait && std::filesystem::is_regular_file(scenePath, none) && scene::namesModels(scenePath);
+  std::optional<runtime::World> world;
+  if (later) {
+    scene::Scene empty;
+    empty.cameras.add({.name = "default", .pose = {.position = {0, 0, 20}}});
+    world.emplace(std::move(empty));
+  } else {
+    world = loadWorld(first, diagnostics);
+  }
   if (!world) {
     if (wait && !files.environment.empty()) return report(diagnostics);
     std::error_code ignored;
@@ -109,6 +122,7 @@ int runView(const Options& options) {
   nlohmann::ordered_json stats;
   {
     LiveGraph live(files, session->renderer, std::move(*world), std::move(settings));
+    if (later) live.expectScene();
     // With a number of frames to draw there is nobody who could save a file.
     if (!live.load(diagnostics) && (options.maxFrames || !canBeFixed(options, diagnostics)))
       return report(diagnostics);

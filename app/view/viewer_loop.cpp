@@ -145,7 +145,7 @@ std::string Viewer::modes() const {
 
 bool Viewer::busy() {
   if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
-      input_.movesCamera() || live_.environment().status())
+      input_.movesCamera() || live_.environment().status() || live_.scene().loading())
     return true;
   const scene::Camera* camera = sceneCamera();
   return rig_.mode() == CameraRig::Mode::scene && camera && scene::isMoving(*camera);
