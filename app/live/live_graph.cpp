@@ -161,7 +161,9 @@ bool LiveGraph::wantsLoad(double now) {
     else
       graphStale_ = true;
   }
-  return graphStale_ && (untried_ || now - changedAt_ >= quiet_);
+  if (!graphStale_ || (!untried_ && now - changedAt_ < quiet_)) return false;
+  // A scene with models is read beside the frames: there is nothing to load until it is there.
+  return !running() || !scene_.outdated() || !scene_.slow() || scene_.arrived();
 }
 
 bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
@@ -169,7 +171,6 @@ bool LiveGraph::poll(double now, base::Diagnostics& diagnostics) {
   const bool quiet = now - changedAt_ >= quiet_;
   if (quiet && !changedEnvironment_.empty()) environment_.request(std::exchange(changedEnvironment_, {}));
   if (!wants) return false;
-  if (running() && scene_.outdated() && scene_.slow() && !scene_.arrived()) return false;
   untried_ = false;
   if (quiet) {
     load(diagnostics);

@@ -22,6 +22,10 @@ LiveScene::LiveScene(std::string path, scene::SceneChoice choice, std::vector<st
         return loaded;
       }) {}
 
+std::string LiveScene::name() const {
+  return std::filesystem::path(path_).filename().string();
+}
+
 void LiveScene::outdate() {
   outdated_ = true;
   slow_.reset();
@@ -55,7 +59,10 @@ void LiveScene::readNow() {
 
 bool LiveScene::arrived() {
   if (arrived_) return true;
-  if (ticket_ == 0) ticket_ = loader_.request(path_, kChannel);
+  if (ticket_ == 0) {
+    ticket_ = loader_.request(path_, kChannel);
+    ++reads_;
+  }
   while (auto result = loader_.poll()) {
     if (result->ticket != ticket_) continue;
     ticket_ = 0;
@@ -74,8 +81,7 @@ const scene::Scene* LiveScene::scene(base::Diagnostics& diagnostics) const {
 std::optional<LiveScene::Status> LiveScene::status() const {
   if (ticket_ == 0) return std::nullopt;
   const assets::LoadProgress progress = loader_.progress(ticket_);
-  return Status{std::filesystem::path(path_).filename().string(), assets::nameOf(progress.stage),
-                progress.done};
+  return Status{name(), assets::nameOf(progress.stage), progress.done};
 }
 
 }  // namespace weft::app

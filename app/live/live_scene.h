@@ -20,6 +20,7 @@ class LiveScene {
   LiveScene(std::string path, scene::SceneChoice choice, std::vector<std::string> files);
 
   const std::string& path() const { return path_; }
+  std::string name() const;  // without folders
   // Everything that was read or should have been, also after errors: what to watch.
   const std::vector<std::string>& files() const { return files_; }
 
@@ -37,11 +38,13 @@ class LiveScene {
   bool arrived();
   bool ready() const { return arrived_ != nullptr; }
   bool loading() const { return ticket_ != 0; }
+  // How many times that was begun beside the frames.
+  std::uint64_t reads() const { return reads_; }
   // What arrived, with what is to be said of it; null after errors.
   const scene::Scene* scene(base::Diagnostics& diagnostics) const;
 
   struct Status {
-    std::string name;   // of the file, without folders
+    std::string name;
     const char* stage;  // "reading"
     float done = 0;     // 0 to 1
   };
@@ -60,8 +63,9 @@ class LiveScene {
   scene::SceneChoice choice_;
   std::vector<std::string> files_;
   bool outdated_ = false;
-  std::optional<bool> slow_;               // as the files are; empty: nobody asked
-  std::uint64_t ticket_ = 0;               // of the request that is loading, or 0
+  std::optional<bool> slow_;  // as the files are; empty: nobody asked
+  std::uint64_t ticket_ = 0;  // of the request that is loading, or 0
+  std::uint64_t reads_ = 0;
   std::shared_ptr<const Loaded> arrived_;  // null: not yet
   base::Diagnostics said_;                 // while it was read
   assets::LoadQueue loader_;

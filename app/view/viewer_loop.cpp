@@ -96,6 +96,8 @@ void Viewer::update(gl::Size size) {
     std::this_thread::sleep_for(kWaitForWrites);
     looked = live_.poll(glfwGetTime(), diagnostics_);
   }
+  if (std::exchange(sceneReads_, live_.scene().reads()) != live_.scene().reads())
+    say("loading " + live_.scene().name());
   if (looked) {
     tell(diagnostics_, log_, ui::Log::kFiles);
     restless_ = kRestlessAfterEvent;
@@ -124,6 +126,8 @@ void Viewer::showState() {
   std::string title = "weft: " + options_.graph;
   if (!live_.running())
     title += " (waiting: the files have errors)";
+  else if (const auto scene = live_.scene().status())
+    title += " (loading " + scene->name + ")";
   else if (!live_.good())
     title += " (the files have errors)";
   if (recorder_.active()) title += " (recording)";

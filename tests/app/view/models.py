@@ -14,6 +14,7 @@ def comes_and_stays(weft, folder, report):
     try:
         if not report.check(live.open(), f"no window\n{live.said()}"):
             return
+        report.check(live.event("loading helmet.json"), f"nobody says that the scene is on its way\n{live.said()}")
         arrived = live.event("files good")
         report.check(arrived, f"the scene does not arrive\n{live.said()}")
         model = folder / "scenes/models/FlightHelmet/FlightHelmet.gltf"
