@@ -13,6 +13,8 @@ import sys
 OTHER_MEANINGS = {
     ("engine/scene/frame/mesh_frame.cpp", "joints"): "a table of the tasks of a frame",
     ("engine/scene/frame/mesh_frame.cpp", "spheres"): "a table of the tasks of a frame",
+    ("engine/scene/frame/mesh_views.cpp", "meshes"): "a table of the tasks of a frame",
+    ("engine/scene/probes/probe_work.cpp", "probes"): "a task, and the table that it writes",
     ("engine/assets/models/gltf/gltf.cpp", "mesh"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "meshes"): "a key of glTF",
     ("engine/assets/models/gltf/gltf.cpp", "materials"): "a key of glTF",

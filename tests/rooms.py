@@ -45,7 +45,7 @@ SUB_ROOMS = {
         "models/assimp": {".", "models/parts"},
         "models": {".", "loading", "models/parts", "models/gltf", "models/assimp"},
     },
-    "scene": {".": set(), "frame": {"."}, "probes": {"."}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
+    "scene": {".": set(), "frame": {"."}, "probes": {".", "frame"}, "models": {".", "frame"}, "files": {".", "frame", "models"}},
     "gl": {
         "context": set(),
         "objects": {"context"},

@@ -105,23 +105,17 @@ bool MeshPass::send(gl::Buffer& buffer, std::span<const std::byte> bytes, base::
   return true;
 }
 
-MeshDraw MeshPass::draw(const scene::Scene& scene, const MeshBuffers& buffers, const scene::MeshFrame& frame,
-                        scene::DrawList list, const scene::ViewData& view, base::Diagnostics& diagnostics) {
-  const std::uint64_t generation = frame.generation(list);
-  if (generation_ != generation || seen_ != view.view_projection) {
-    generation_ = generation;
-    seen_ = view.view_projection;
-    scene::cull(scene::frustumOf(view.view_projection), frame.bounds(list), visible_);
-    scene::makeCommands(scene, frame.rows(list), visible_, commands_);
-    if (!commands_.empty() && (!send(visibleRows_, std::as_bytes(std::span(visible_)), diagnostics) ||
-                               !send(commandBuffer_, std::as_bytes(std::span(commands_)), diagnostics))) {
-      commands_.clear();
-      generation_ = 0;
-    }
+MeshDraw MeshPass::draw(const MeshBuffers& buffers, base::Diagnostics& diagnostics) {
+  const std::span<const scene::DrawCommand> commands = view_.commands();
+  if (commands.empty()) return {};
+  if (sent_ != view_.generation()) {
+    if (!send(visibleRows_, std::as_bytes(view_.visible()), diagnostics) ||
+        !send(commandBuffer_, std::as_bytes(commands), diagnostics))
+      return {};
+    sent_ = view_.generation();
   }
-  if (commands_.empty()) return {};
   attach(buffers);
-  return {vertexArray_.id(), commandBuffer_.id(), static_cast<GLsizei>(commands_.size())};
+  return {vertexArray_.id(), commandBuffer_.id(), static_cast<GLsizei>(commands.size())};
 }
 
 }  // namespace weft::imports

@@ -3,15 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/gl/programs/program.h"
-#include "engine/scene/camera.h"
-#include "engine/scene/frame/cull.h"
-#include "engine/scene/frame/mesh_frame.h"
+#include "engine/scene/frame/mesh_views.h"
 #include "engine/scene/scene.h"
 
 namespace weft::imports {
@@ -37,15 +38,17 @@ struct MeshDraw {
   GLsizei count = 0;
 };
 
-// Of one draw pass: where its program wants the attributes, and what it draws.
+// Of one draw pass: where its program wants the attributes, and what it draws. What its view sees is brought up to date from
+// outside, with that of other passes.
 class MeshPass {
  public:
   // The names of vertex attributes: position, normal, tangent, uv, joints, weights; and `instance`, the row.
   MeshPass(const gl::Reflection& reflection, std::string label);
   static bool isAttribute(std::string_view name);
 
-  MeshDraw draw(const scene::Scene& scene, const MeshBuffers& buffers, const scene::MeshFrame& frame,
-                scene::DrawList list, const scene::ViewData& view, base::Diagnostics& diagnostics);
+  scene::MeshView& view() { return view_; }
+  // As its view is now.
+  MeshDraw draw(const MeshBuffers& buffers, base::Diagnostics& diagnostics);
 
  private:
   void attach(const MeshBuffers& buffers);
@@ -57,11 +60,8 @@ class MeshPass {
   gl::Buffer visibleRows_, commandBuffer_;
   std::uint64_t serial_ = 0;  // of the buffers that are attached
   GLuint attachedRows_ = 0;
-  // What `commands_` were made of.
-  std::uint64_t generation_ = 0;
-  glm::mat4 seen_{0};
-  std::vector<std::uint32_t> visible_;
-  std::vector<scene::DrawCommand> commands_;
+  scene::MeshView view_;
+  std::uint64_t sent_ = 0;  // generation of the view that the buffers hold
 };
 
 }  // namespace weft::imports

@@ -108,11 +108,18 @@ BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, bas
   return meshTables_[static_cast<std::size_t>(list)].get(layout, meshGeneration(list), fill, diagnostics);
 }
 
-MeshDraw SceneTables::draw(MeshPass& pass, scene::DrawList list, const scene::ViewData& view,
-                           base::Diagnostics& diagnostics) {
-  const scene::MeshFrame& frame = meshFrame();
+void SceneTables::see(std::span<scene::MeshView* const> views) {
+  meshViews_.update(world_->scene(), meshFrame(), views);
+}
+
+MeshDraw SceneTables::draw(MeshPass& pass, base::Diagnostics& diagnostics) {
   if (!meshBuffers_.renew(world_->scene(), world_->sceneGeneration(), diagnostics)) return {};
-  return pass.draw(world_->scene(), meshBuffers_, frame, list, view, diagnostics);
+  return pass.draw(meshBuffers_, diagnostics);
+}
+
+void SceneTables::setThreads(int threads) {
+  meshFrame_.setThreads(threads);
+  meshViews_.setThreads(threads);
 }
 
 }  // namespace weft::imports

@@ -15,6 +15,7 @@
 #include "engine/imports/row_table.h"
 #include "engine/imports/world.h"
 #include "engine/scene/frame/mesh_frame.h"
+#include "engine/scene/frame/mesh_views.h"
 #include "engine/scene/scene.h"
 
 namespace weft::imports {
@@ -35,13 +36,18 @@ class SceneTables {
   std::uint32_t countOf(scene::DrawList list);
   // Moves when a row may be another.
   std::uint64_t generation(scene::DrawList list);
+  // False before the first frame.
+  bool isMoving(scene::DrawList list) { return world_ && factsOf(list).moving; }
 
   // Its meshes.
   BufferRef meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics);
   std::uint64_t meshGeneration(scene::DrawList list);
-  // What of them `view` sees, for a draw with the vertices of `draw`.
-  MeshDraw draw(MeshPass& pass, scene::DrawList list, const scene::ViewData& view,
-                base::Diagnostics& diagnostics);
+  // Finds out what the views of these passes see of meshes, of all at once. Before draw() of any of them.
+  void see(std::span<scene::MeshView* const> views);
+  // What the view of `pass` saw in the last see().
+  MeshDraw draw(MeshPass& pass, base::Diagnostics& diagnostics);
+  // How many threads may place and see meshes; 0, the default: as many as the machine has.
+  void setThreads(int threads);
   const scene::MeshFrame& meshFrame();
   std::uint64_t jointGeneration() { return meshFrame().jointsGeneration(); }
   scene::Box bounds() { return meshFrame().sceneBounds(); }  // of everything, world
@@ -69,6 +75,7 @@ class SceneTables {
   std::vector<RowTable> sphereTables_, meshTables_;  // per draw list
   scene::MeshFrame meshFrame_;
   std::uint64_t meshFrameNumber_ = 0;
+  scene::MeshViews meshViews_;
   MeshBuffers meshBuffers_;
   MaterialTextures textures_;
 };

@@ -51,9 +51,7 @@ void ProbeWorker::work() {
     told_.wait(lock, [&] { return state_ == State::given || stop_; });
     if (stop_) return;
     lock.unlock();
-    result_.grid = scene::placeProbes(job_.spheres, job_.count);
-    result_.probes.resize(result_.grid.size());
-    const bool done = scene::computeProbes(result_.grid, job_.rules, job_.spheres, result_.probes, &stop_);
+    const bool done = work_.run(job_, result_, &stop_);
     lock.lock();
     if (!done) return;
     state_ = State::finished;

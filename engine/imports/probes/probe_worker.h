@@ -6,23 +6,15 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
-#include <vector>
 
-#include "engine/scene/probes/probes.h"
+#include "engine/scene/probes/probe_work.h"
 
 namespace weft::imports {
 
 class ProbeWorker {
  public:
-  struct Job {
-    scene::ProbeRules rules;
-    glm::uvec3 count{1};
-    std::vector<scene::Instance> spheres;
-  };
-  struct Result {
-    scene::ProbeGrid grid;
-    std::vector<scene::Probe> probes;
-  };
+  using Job = scene::ProbeWork::Job;
+  using Result = scene::ProbeWork::Result;
   ProbeWorker() = default;
   ProbeWorker(const ProbeWorker&) = delete;
   ProbeWorker& operator=(const ProbeWorker&) = delete;
@@ -45,6 +37,7 @@ class ProbeWorker {
   std::condition_variable told_;
   std::atomic<bool> stop_ = false;
   enum class State { idle, given, finished } state_ = State::idle;  // with the mutex
+  scene::ProbeWork work_;                                           // the worker's
   Job job_;                                                         // the worker's while given
   Result result_;                                                   // as job_
   bool busy_ = false;                                               // of the thread that owns

@@ -106,6 +106,7 @@ class ProbesProvider : public Provider {
     job_.rules = rules_;
     job_.count = count_;
     job_.spheres = given_;
+    job_.threads = waits ? 0 : 1;  // beside frames, one is enough
     worker_.start(job_);
     if (waits) takeResult(frame, true);
   }

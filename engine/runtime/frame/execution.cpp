@@ -75,6 +75,7 @@ void Execution::decide(base::Diagnostics& diagnostics) {
 void Execution::runSteps(FrameReport& report, base::Diagnostics& diagnostics) {
   publications_->beginRound();
   refreshSlices();
+  lookAtMeshes();
   arena_.upload();
   // Before any step: a pass that reads x@-1 may stand before the one that writes x.
   for (std::size_t step = 0; step < passes_.size(); ++step)
@@ -168,6 +169,31 @@ void Execution::refreshHashes() {
           hash, device_.imports.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
     hashes_[step] = hash;
   }
+}
+
+// What the views of all passes that will draw meshes see of them.
+void Execution::lookAtMeshes() {
+  views_.clear();
+  for (std::size_t step = 0; step < passes_.size(); ++step) {
+    PreparedPass& pass = passes_[step];
+    if (!pass.meshes || !runs(step)) continue;
+    const scene::ViewData& view =
+        device_.imports.view(*plan_->graph, *pass.context.spec, pass.width, pass.height);
+    const bool sorted = std::ranges::any_of(pass.blends, [](const auto& blend) {
+      return blend.second == graph::Blend::premultiplied || blend.second == graph::Blend::alpha;
+    });
+    views_.push_back(&pass.meshes->view());
+    views_.back()->look(static_cast<scene::DrawList>(pass.list), view.view, view.view_projection,
+                        sorted ? scene::MeshOrder::back_to_front : scene::MeshOrder::by_mesh);
+  }
+  if (!views_.empty()) device_.imports.tables().see(views_);
+}
+
+bool Execution::drawsMotion() {
+  return std::ranges::any_of(passes_, [&](const PreparedPass& pass) {
+    return pass.usable && !pass.idle && pass.list >= 0 &&
+           device_.imports.isMoving(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr);
+  });
 }
 
 // Which part of its work each pass does in this frame, for the pass type and for the shader.

@@ -64,6 +64,9 @@ class Execution {
   // something that moves. If not, headless frame n may be the first to run.
   bool remembers(const World& world) const;
 
+  // Whether a draw list that it draws can stand elsewhere in another frame of the world of the last one, in view or not.
+  bool drawsMotion();
+
   const graph::Plan& plan() const { return *plan_; }
   // How many passes were prepared for this plan; the others were taken over.
   std::uint32_t passesPrepared() const { return passesPrepared_; }
@@ -120,6 +123,7 @@ class Execution {
   void refreshUniforms(bool alwaysOnly);
   void refreshHashes();
   void refreshSlices();
+  void lookAtMeshes();
   void lookThroughTap(std::size_t step, const FrameReport& report);
   graph::Cadence cadenceOf(std::size_t step) const {
     return plan_->graph->passes[plan_->steps[step].pass].cadence;
@@ -141,7 +145,8 @@ class Execution {
   std::vector<std::uint64_t>
       hashes_;                     // per step: hash of its program, parameters and storage, for the cadence
   std::vector<std::uint8_t> ran_;  // per step, this frame
-  std::vector<std::uint8_t> lasting_;  // per step: runs in an obsolete frame too
+  std::vector<std::uint8_t> lasting_;    // per step: runs in an obsolete frame too
+  std::vector<scene::MeshView*> views_;  // of passes that draw meshes in this round
   std::size_t tapStep_ = graph::kNone;
   std::function<void()> tap_;
 };

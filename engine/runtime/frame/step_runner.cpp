@@ -136,9 +136,7 @@ void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
 
 // What its view sees of the meshes of its list.
 void StepRunner::gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics) {
-  const imports::MeshDraw draw = device_.imports.tables().draw(
-      *pass.meshes, static_cast<scene::DrawList>(pass.list),
-      device_.imports.view(*plan_.graph, *pass.context.spec, pass.width, pass.height), diagnostics);
+  const imports::MeshDraw draw = device_.imports.tables().draw(*pass.meshes, diagnostics);
   pass.context.geometry = {.vertexArray = draw.vertexArray,
                            .mode = GL_TRIANGLES,
                            .count = draw.count,

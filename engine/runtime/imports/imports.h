@@ -69,6 +69,10 @@ class Imports {
   std::uint64_t generation(scene::DrawList list, bool meshes) {
     return meshes ? tables_.meshGeneration(list) : tables_.generation(list);
   }
+  // Whether its spheres, or its meshes, can be elsewhere in another frame of this world.
+  bool isMoving(scene::DrawList list, bool meshes) {
+    return meshes ? tables_.meshFrame().isMoving(list) : tables_.isMoving(list);
+  }
   std::uint64_t generation(const graph::ImportSpec& import) { return of(import).generation(frame()); }
   bool isStill(const graph::ImportSpec& import, const World& world) { return of(import).isStill(world); }
   bool remembers(const graph::ImportSpec& import, const World& world) { return of(import).remembers(world); }

@@ -19,8 +19,14 @@ Frustum frustumOf(const glm::mat4& m) {
 }
 
 void cull(const Frustum& frustum, std::span<const Box> boxes, std::vector<std::uint32_t>& visible) {
-  visible.clear();
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  visible.resize(boxes.size());
+  visible.resize(cullRows(frustum, boxes, 0, boxes.size(), visible.data()));
+}
+
+std::size_t cullRows(const Frustum& frustum, std::span<const Box> boxes, std::size_t from, std::size_t to,
+                     std::uint32_t* visible) {
+  std::size_t count = 0;
+  for (std::size_t i = from; i < to; ++i) {
     const Box& box = boxes[i];
     if (box.empty()) continue;
     bool outside = false;
@@ -33,8 +39,9 @@ void cull(const Frustum& frustum, std::span<const Box> boxes, std::vector<std::u
           4e-6f * (std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z) + std::abs(plane.w));
       outside = terms.x + terms.y + terms.z + plane.w < -rounding;
     }
-    if (!outside) visible.push_back(static_cast<std::uint32_t>(i));
+    if (!outside) visible[count++] = static_cast<std::uint32_t>(i);
   }
+  return count;
 }
 
 void makeCommands(const Scene& scene, std::span<const MeshRow> rows, std::span<const std::uint32_t> visible,

@@ -23,6 +23,9 @@ Frustum frustumOf(const glm::mat4& viewProjection);
 // Replaces `visible` by the ascending rows whose box may reach into the frustum. Never leaves out a box that does: boxes
 // on a plane within rounding stay. Empty boxes are left out.
 void cull(const Frustum& frustum, std::span<const Box> boxes, std::vector<std::uint32_t>& visible);
+// The same for the rows `from` to `to`: writes what may be seen to `visible`, which has room for all, and returns how many.
+std::size_t cullRows(const Frustum& frustum, std::span<const Box> boxes, std::size_t from, std::size_t to,
+                     std::uint32_t* visible);
 
 // As glMultiDrawElementsIndirect reads it.
 struct DrawCommand {

@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::size_t kLeastRows = 1024;   // that are worth a task
+constexpr std::size_t kLeastSkins = 4;     // the same
+constexpr std::size_t kBoxes = 4096;       // that are added up together, on however many threads
 constexpr std::size_t kLittleWork = 4096;  // nodes and rows: below, threads cost more than they bring
 
 template <class Row>
@@ -74,16 +76,21 @@ void MeshFrame::rebuild(const Scene& scene) {
 }
 
 void MeshFrame::fillJoints(const Scene& scene, bool all) {
-  for (std::size_t s = 0; s < skinMoves_.size(); ++s) {
-    if (!all && skinMoves_[s] == 0) continue;
-    const Skin& skin = scene.skins.rows()[s];
-    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-      const std::size_t joint = firstJoint_[s] + j;
-      const std::uint32_t node = jointNodes_[joint];
-      joints_[2 * joint] = transforms_.now()[node] * skin.inverseBind[j];
-      joints_[2 * joint + 1] = transforms_.previous()[node] * skin.inverseBind[j];
-    }
-    jointsGeneration_ = count_;
+  if (!all && std::ranges::find(skinMoves_, 1) == skinMoves_.end()) return;
+  jointsGeneration_ = count_;
+  forRanges(skinMoves_.size(), kLeastSkins, [&](std::size_t from, std::size_t to) {
+    for (std::size_t s = from; s < to; ++s)
+      if (all || skinMoves_[s] != 0) fillSkin(scene, s);
+  });
+}
+
+void MeshFrame::fillSkin(const Scene& scene, std::size_t row) {
+  const Skin& skin = scene.skins.rows()[row];
+  for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+    const std::size_t joint = firstJoint_[row] + j;
+    const std::uint32_t node = jointNodes_[joint];
+    joints_[2 * joint] = transforms_.now()[node] * skin.inverseBind[j];
+    joints_[2 * joint + 1] = transforms_.previous()[node] * skin.inverseBind[j];
   }
 }
 
@@ -132,8 +139,15 @@ void MeshFrame::fillBounds(const Scene& scene, double time, bool all) {
     }
   }
   bounds_ = sphereBounds_;
-  for (const ListTable& table : tables_)
-    for (const Box& box : table.bounds) bounds_.add(box);
+  for (const ListTable& table : tables_) {
+    // In the same parts whatever the number of threads: which of two zeros is least depends on the order.
+    partBoxes_.assign((table.bounds.size() + kBoxes - 1) / kBoxes, Box{});
+    forRanges(partBoxes_.size(), 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from * kBoxes; i < std::min(to * kBoxes, table.bounds.size()); ++i)
+        partBoxes_[i / kBoxes].add(table.bounds[i]);
+    });
+    for (const Box& box : partBoxes_) bounds_.add(box);
+  }
 }
 
 MeshFrame::MeshFrame() : job_(std::make_unique<Job>()), tasks_(makeTasks()) {}

@@ -48,6 +48,9 @@ class MeshFrame {
   bool isMoving(DrawList list) const { return !tableOf(list).moving.empty(); }
   // What update() consists of, with the tables that each part reads and writes, and how long each took the last time.
   const FrameTasks& tasks() const { return tasks_; }
+  FrameTasks& tasks() { return tasks_; }
+  // How many nodes can ever stand elsewhere.
+  std::size_t movingNodes() const { return transforms_.movingCount(); }
   // How many times a node was placed since this was made.
   std::uint64_t nodeUpdates() const { return transforms_.updates(); }
 
@@ -67,6 +70,7 @@ class MeshFrame {
   const ListTable& tableOf(DrawList list) const { return tables_[tableOf_[static_cast<std::size_t>(list)]]; }
   void rebuild(const Scene& scene);
   void fillJoints(const Scene& scene, bool all);
+  void fillSkin(const Scene& scene, std::size_t row);
   void fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const;
   void fillRows(const Scene& scene, bool all);
   void fillBounds(const Scene& scene, double time, bool all);
@@ -96,6 +100,7 @@ class MeshFrame {
   std::uint64_t jointsGeneration_ = 0, count_ = 0;
   bool spheresMove_ = false;
   Box sphereBounds_, bounds_;
+  std::vector<Box> partBoxes_;  // of parts of a table, while bounds_ is made
 };
 
 }  // namespace weft::scene

@@ -1,28 +1,85 @@
 #include "engine/scene/frame/tasks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/flow_graph.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <ctime>
 
 namespace weft::scene {
 
 namespace {
 
-// Whether forRanges() may split: only inside of a run on several threads.
-thread_local bool splits = false;
+double processorTime() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+// The task that this thread is at: null outside of a run, and while other threads do a range of it.
+struct Running {
+  bool splits = false;               // on several threads
+  bool measures = false;             // time of processors
+  std::atomic<double> elsewhere{0};  // seconds that other threads worked for it
+};
+thread_local Running* running = nullptr;
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
 
 bool share(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  return std::ranges::any_of(a,
-                             [&](const std::string& name) { return std::ranges::find(b, name) != b.end(); });
+  return std::ranges::any_of(a, [&](const std::string& name) { return contains(b, name); });
 }
 
 bool mustWait(const FrameTask& later, const FrameTask& earlier) {
   return share(later.reads, earlier.writes) || share(later.writes, earlier.writes) ||
          share(later.writes, earlier.reads);
+}
+
+TaskEdges edgesOf(std::span<const FrameTask* const> tasks) {
+  const std::size_t count = tasks.size();
+  TaskEdges edges;
+  // reaches[later][earlier]: by edges, over any number of them.
+  std::vector<std::vector<bool>> reaches(count, std::vector<bool>(count));
+  for (std::size_t later = 0; later < count; ++later)
+    for (std::size_t earlier = later; earlier-- > 0;) {
+      if (reaches[later][earlier] || !mustWait(*tasks[later], *tasks[earlier])) continue;
+      edges.emplace_back(earlier, later);
+      reaches[later][earlier] = true;
+      for (std::size_t before = 0; before < earlier; ++before)
+        if (reaches[earlier][before]) reaches[later][before] = true;
+    }
+  std::ranges::sort(edges);
+  return edges;
+}
+
+// What `later` waits for.
+std::vector<std::string> tablesBetween(const FrameTask& earlier, const FrameTask& later) {
+  std::vector<std::string> tables;
+  const auto add = [&](const std::string& table) {
+    if (!contains(tables, table)) tables.push_back(table);
+  };
+  for (const std::vector<std::string>* list : {&later.reads, &later.writes})
+    for (const std::string& table : *list)
+      if (contains(earlier.writes, table)) add(table);
+  for (const std::string& table : later.writes)
+    if (contains(earlier.reads, table)) add(table);
+  return tables;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
 }
 
 }  // namespace
@@ -44,9 +101,7 @@ struct FrameTasks::Flow {
     for (std::size_t task = 0; task < from.tasks_.size(); ++task)
       nodes.push_back(std::make_unique<tbb::flow::continue_node<tbb::flow::continue_msg>>(
           graph, [this, task](const tbb::flow::continue_msg& message) {
-            const bool before = std::exchange(splits, true);
             owner->runTask(task);
-            splits = before;
             return message;
           }));
     for (const auto& [earlier, later] : from.edges_) {
@@ -58,19 +113,11 @@ struct FrameTasks::Flow {
   }
 };
 
-FrameTasks::FrameTasks(std::vector<FrameTask> tasks) : tasks_(std::move(tasks)), seconds_(tasks_.size()) {
-  const std::size_t count = tasks_.size();
-  // reaches[later][earlier]: by edges, over any number of them.
-  std::vector<std::vector<bool>> reaches(count, std::vector<bool>(count));
-  for (std::size_t later = 0; later < count; ++later)
-    for (std::size_t earlier = later; earlier-- > 0;) {
-      if (reaches[later][earlier] || !mustWait(tasks_[later], tasks_[earlier])) continue;
-      edges_.emplace_back(earlier, later);
-      reaches[later][earlier] = true;
-      for (std::size_t before = 0; before < earlier; ++before)
-        if (reaches[earlier][before]) reaches[later][before] = true;
-    }
-  std::ranges::sort(edges_);
+FrameTasks::FrameTasks(std::vector<FrameTask> tasks)
+    : tasks_(std::move(tasks)), seconds_(tasks_.size()), processorSeconds_(tasks_.size()) {
+  std::vector<const FrameTask*> all;
+  for (const FrameTask& task : tasks_) all.push_back(&task);
+  edges_ = edgesOf(all);
 }
 
 FrameTasks::~FrameTasks() = default;
@@ -78,13 +125,19 @@ FrameTasks::FrameTasks(FrameTasks&&) noexcept = default;
 FrameTasks& FrameTasks::operator=(FrameTasks&&) noexcept = default;
 
 void FrameTasks::runTask(std::size_t task) {
-  const auto before = std::chrono::steady_clock::now();
+  Running mine{.splits = flow_ && flow_->owner == this, .measures = measures_};
+  Running* const before = std::exchange(running, &mine);
+  const double worked = measures_ ? processorTime() : 0;
+  const auto began = std::chrono::steady_clock::now();
   tasks_[task].run();
-  seconds_[task] = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  seconds_[task] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  processorSeconds_[task] = measures_ ? processorTime() - worked + mine.elsewhere : 0;
+  running = before;
 }
 
 void FrameTasks::run(int threads) {
   if (threads == 1) {
+    if (flow_) flow_->owner = nullptr;
     for (std::size_t task = 0; task < tasks_.size(); ++task) runTask(task);
     return;
   }
@@ -96,36 +149,47 @@ void FrameTasks::run(int threads) {
   });
 }
 
-std::string FrameTasks::dot(const std::string& name) const {
-  std::string out =
-      fmt::format("digraph \"{}\" {{\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n", name);
-  for (std::size_t task = 0; task < tasks_.size(); ++task)
-    out += fmt::format("  t{} [label=\"{}\"];\n", task, tasks_[task].name);
-  for (const auto& [earlier, later] : edges_) {
-    std::vector<std::string> tables;
-    const FrameTask &a = tasks_[earlier], &b = tasks_[later];
-    for (const std::vector<std::string>* list : {&b.reads, &b.writes})
-      for (const std::string& table : *list)
-        if (std::ranges::find(a.writes, table) != a.writes.end() &&
-            std::ranges::find(tables, table) == tables.end())
-          tables.push_back(table);
-    for (const std::string& table : b.writes)
-      if (std::ranges::find(a.reads, table) != a.reads.end() &&
-          std::ranges::find(tables, table) == tables.end())
-        tables.push_back(table);
-    out += fmt::format("  t{} -> t{} [label=\"{}\"];\n", earlier, later, fmt::join(tables, "\\n"));
+std::string taskDot(const std::string& title, std::span<const std::string> lines,
+                    std::span<const TaskGroup> groups) {
+  std::string label = escaped(title);
+  for (const std::string& line : lines) label += "\\n" + escaped(line);
+  std::string out = fmt::format(
+      "digraph \"{}\" {{\n  rankdir=LR;\n  label=\"{}\";\n  labelloc=t;\n  fontname=\"sans-serif\";\n"
+      "  node [shape=box, fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", fontsize=10];\n",
+      escaped(title), label);
+  std::vector<const FrameTask*> all;
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    out += fmt::format("  subgraph cluster_{} {{\n    label=\"{}\";\n", group, escaped(groups[group].name));
+    for (const FrameTask& task : groups[group].tasks) {
+      out += fmt::format("    t{} [label=\"{}\\nreads {}\\nwrites {}\"];\n", all.size(), task.name,
+                         fmt::join(task.reads, ", "), fmt::join(task.writes, ", "));
+      all.push_back(&task);
+    }
+    out += "  }\n";
   }
+  for (const auto& [earlier, later] : edgesOf(all))
+    out += fmt::format("  t{} -> t{} [label=\"{}\"];\n", earlier, later,
+                       fmt::join(tablesBetween(*all[earlier], *all[later]), "\\n"));
   return out + "}\n";
 }
 
-void forRanges(std::size_t count, std::size_t least,
-               const std::function<void(std::size_t from, std::size_t to)>& run) {
-  if (!splits || count <= least) {
-    if (count > 0) run(0, count);
-    return;
-  }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, least),
-                    [&](const tbb::blocked_range<std::size_t>& range) { run(range.begin(), range.end()); });
+void splitRanges(std::size_t count, std::size_t least, const void* run,
+                 void (*call)(const void* run, std::size_t from, std::size_t to)) {
+  if (count == 0) return;
+  Running* const mine = running;
+  if (!mine || !mine->splits || count <= least) return call(run, 0, count);
+  const auto part = [&](const tbb::blocked_range<std::size_t>& range) {
+    Running* const before = std::exchange(running, nullptr);
+    const bool measures = mine->measures && before != mine;
+    const double worked = measures ? processorTime() : 0;
+    call(run, range.begin(), range.end());
+    if (measures) mine->elsewhere += processorTime() - worked;
+    running = before;
+  };
+  // Without the isolation this thread might take up another task while it waits for the last range, and that one's time
+  // would count as this one's.
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, least), part); });
 }
 
 }  // namespace weft::scene

@@ -19,6 +19,10 @@ struct FrameTask {
   std::function<void()> run;
 };
 
+// (earlier, later): the later one reads or writes what the earlier one writes, or writes what it reads. Without those that
+// follow from others; ascending.
+using TaskEdges = std::vector<std::pair<std::size_t, std::size_t>>;
+
 class FrameTasks {
  public:
   explicit FrameTasks(std::vector<FrameTask> tasks);
@@ -30,27 +34,46 @@ class FrameTasks {
   void run(int threads);
 
   const std::vector<FrameTask>& tasks() const { return tasks_; }
-  // (earlier, later): the later one reads or writes what the earlier one writes, or writes what it reads. Without those that
-  // follow from others.
-  const std::vector<std::pair<std::size_t, std::size_t>>& edges() const { return edges_; }
-  // How long each task took in the last run.
+  const TaskEdges& edges() const { return edges_; }
+  // How long each task took in the last run, by the clock on the wall.
   std::span<const double> seconds() const { return seconds_; }
-  // For Graphviz: tasks, and on each edge the tables that are waited for.
-  std::string dot(const std::string& name) const;
+  // How much time of processors each took, of all threads together. Only measured after a call with `on`: asking for it
+  // costs a system call per range.
+  void measureProcessors(bool on) { measures_ = on; }
+  std::span<const double> processorSeconds() const { return processorSeconds_; }
 
  private:
   struct Flow;
   void runTask(std::size_t task);
 
   std::vector<FrameTask> tasks_;
-  std::vector<std::pair<std::size_t, std::size_t>> edges_;
-  std::vector<double> seconds_;
+  TaskEdges edges_;
+  std::vector<double> seconds_, processorSeconds_;
+  bool measures_ = false;
   std::unique_ptr<Flow> flow_;  // from the first run on several threads on
 };
 
-// Calls `run` for ranges that make up 0 to `count`, on the threads of the run() that the caller is a task of; elsewhere all at
-// once. Ranges are of at least `least`, and where they end says nothing of the result if elements do not depend on each other.
-void forRanges(std::size_t count, std::size_t least,
-               const std::function<void(std::size_t from, std::size_t to)>& run);
+// Tasks that run together; groups run in their order, or beside each other where they share no table.
+struct TaskGroup {
+  std::string name;
+  std::span<const FrameTask> tasks;
+};
+// For Graphviz: a cluster per group; a node per task, with the tables that it reads and writes; an edge for each wait, with
+// the tables that are waited for. `lines` stand below the title.
+std::string taskDot(const std::string& title, std::span<const std::string> lines,
+                    std::span<const TaskGroup> groups);
+
+void splitRanges(std::size_t count, std::size_t least, const void* run,
+                 void (*call)(const void* run, std::size_t from, std::size_t to));
+
+// Calls `run(from, to)` for ranges that make up 0 to `count`, on the threads of the run() that the caller is a task of;
+// elsewhere, and inside of another call, all at once. Ranges are of at least `least`, and where they end says nothing of the
+// result if elements do not depend on each other.
+template <class Run>
+void forRanges(std::size_t count, std::size_t least, const Run& run) {
+  splitRanges(count, least, &run, [](const void* mine, std::size_t from, std::size_t to) {
+    (*static_cast<const Run*>(mine))(from, to);
+  });
+}
 
 }  // namespace weft::scene

@@ -12,7 +12,8 @@ namespace weft::scene {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr std::size_t kLeastPart = 512;  // nodes that are worth a task
+constexpr std::size_t kLeastPart = 512;      // nodes that are worth a task
+constexpr std::size_t kLeastAnimations = 4;  // the same of animations
 
 std::uint32_t rowOf(const Table<Node>& nodes, NodeId id) {
   const Node* node = nodes.find(id);
@@ -38,11 +39,17 @@ void WorldTransforms::rebuild(const Scene& scene) {
   moves_.assign(nodes.size(), 0);
   now_.locals.resize(nodes.size());
   animatedRows_.clear();
+  animationsApart_ = true;
+  std::vector<std::uint32_t> movers(nodes.size(), kNone);  // the last animation of each node
   for (const Animation& animation : scene.animations.rows()) {
     std::vector<std::uint32_t>& rows = animatedRows_.emplace_back();
     for (const NodeId id : animation.nodes) {
       rows.push_back(rowOf(scene.nodes, id));
       assert(rows.back() != kNone && "an animation moves nodes of its scene");
+      const auto mine = static_cast<std::uint32_t>(animatedRows_.size());
+      std::uint32_t& mover = movers[rows.back()];
+      animationsApart_ = animationsApart_ && (mover == kNone || mover == mine);
+      mover = mine;
       moves_[rows.back()] = 1;
     }
   }
@@ -73,8 +80,11 @@ void WorldTransforms::rebuild(const Scene& scene) {
 
 void WorldTransforms::animateAt(const Scene& scene, At& at) const {
   const std::span<const Animation> animations = scene.animations.rows();
-  for (std::size_t i = 0; i < animations.size(); ++i)
-    applyAnimation(animations[i], at.time, animatedRows_[i], at.locals);
+  forRanges(animations.size(), animationsApart_ ? kLeastAnimations : animations.size(),
+            [&](std::size_t from, std::size_t to) {
+              for (std::size_t i = from; i < to; ++i)
+                applyAnimation(animations[i], at.time, animatedRows_[i], at.locals);
+            });
 }
 
 void WorldTransforms::placeRow(const Scene& scene, At& at, std::uint32_t row) const {

@@ -53,6 +53,7 @@ class WorldTransforms {
   std::vector<std::size_t>
       parts_;  // of moving_, which need nothing of each other: where each begins, and the end
   std::vector<std::vector<std::uint32_t>> animatedRows_;  // per animation, parallel to its tracks
+  bool animationsApart_ = true;                           // no two move the same node
   std::uint64_t placed_ = 0;                              // when the scene was another
 };
 

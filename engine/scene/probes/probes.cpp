@@ -4,9 +4,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/scene/frame/tasks.h"
+
 namespace weft::scene {
 
 namespace {
+
+constexpr std::size_t kMostParts = 16;  // of a grid that are computed beside each other
 
 constexpr int bandOf(std::size_t i) {
   return i == 0 ? 0 : i < 4 ? 1 : 2;
@@ -26,14 +30,18 @@ Range rangeOf(float low, float high, std::uint32_t count, float center, float re
           static_cast<std::uint32_t>(std::clamp(end, 0.0f, last))};
 }
 
-void addSphere(const ProbeGrid& grid, const ProbeRules& rules, const Instance& sphere, std::span<Probe> out) {
+// Adds what a sphere gives to the probes of the lines along x from `from` to `to`; line j + count.y * k is at (j, k).
+void addSphere(const ProbeGrid& grid, const ProbeRules& rules, const Instance& sphere, std::size_t from,
+               std::size_t to, std::span<Probe> out) {
   const glm::vec3 color = sphere.albedo * (1.0f - sphere.metallic), c = sphere.center;
   const float reach = rules.far * sphere.radius;
   const Range x = rangeOf(grid.low.x, grid.high.x, grid.count.x, c.x, reach);
   const Range y = rangeOf(grid.low.y, grid.high.y, grid.count.y, c.y, reach);
   const Range z = rangeOf(grid.low.z, grid.high.z, grid.count.z, c.z, reach);
   for (std::uint32_t k = z.first; k < z.end; ++k)
-    for (std::uint32_t j = y.first; j < y.end; ++j)
+    for (std::uint32_t j = y.first; j < y.end; ++j) {
+      const std::size_t line = j + std::size_t{grid.count.y} * k;
+      if (line < from || line >= to) continue;
       for (std::uint32_t i = x.first; i < x.end; ++i) {
         const glm::vec3 offset = c - grid.position({i, j, k});
         const glm::vec3 bands = bandsOfSphere(rules, offset, sphere.radius);
@@ -43,6 +51,7 @@ void addSphere(const ProbeGrid& grid, const ProbeRules& rules, const Instance& s
         for (std::size_t n = 0; n < kShCount; ++n)
           probe.sh[n] += glm::vec4(bands[bandOf(n)] * basis[n] * color, 0.0f);
       }
+    }
 }
 
 }  // namespace
@@ -85,11 +94,15 @@ bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<con
                    std::span<Probe> out, const std::atomic<bool>* cancelled) {
   assert(out.size() == grid.size());
   std::ranges::fill(out, Probe{});
-  for (const Instance& sphere : spheres) {
-    if (cancelled && cancelled->load(std::memory_order_relaxed)) return false;
-    addSphere(grid, rules, sphere, out);
-  }
-  return true;
+  const std::size_t lines = std::size_t{grid.count.y} * grid.count.z;
+  const auto isCancelled = [cancelled] { return cancelled && cancelled->load(std::memory_order_relaxed); };
+  forRanges(lines, (lines + kMostParts - 1) / kMostParts, [&](std::size_t from, std::size_t to) {
+    for (const Instance& sphere : spheres) {
+      if (isCancelled()) return;
+      addSphere(grid, rules, sphere, from, to, out);
+    }
+  });
+  return !isCancelled();
 }
 
 glm::vec3 irradianceOf(const Probe& probe, glm::vec3 normal) {

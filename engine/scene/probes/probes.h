@@ -52,8 +52,8 @@ struct Probe {
   glm::vec4 sh[kShCount];
 };
 
-// Replaces `out`, which has grid.size() elements. Adds the spheres up in their order, whatever the grid. Linear in pairs of a
-// sphere and a probe within its reach. False, with anything in `out`, once `cancelled` is set.
+// Replaces `out`, which has grid.size() elements. Adds the spheres up in their order, whatever the grid, on the threads of the
+// task that calls it (engine/scene/frame/tasks.h). Linear in pairs of a sphere and a probe within its reach. False, with anything in `out`, once `cancelled` is set.
 bool computeProbes(const ProbeGrid& grid, const ProbeRules& rules, std::span<const Instance> spheres,
                    std::span<Probe> out, const std::atomic<bool>* cancelled = nullptr);
 
