@@ -151,6 +151,8 @@ bool Viewer::busy() {
   if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
       input_.movesCamera() || live_.environment().status() || live_.scene().loading())
     return true;
+  // Also what stands still for a while, or out of view: it goes on.
+  if (frame_ > 0 && live_.running() && renderer_.execution()->drawsMotion()) return true;
   const scene::Camera* camera = sceneCamera();
   return rig_.mode() == CameraRig::Mode::scene && camera && scene::isMoving(*camera);
 }

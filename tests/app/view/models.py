@@ -1,11 +1,16 @@
 #!/usr/bin/env python3
-"""Models in the viewer: a scene with models loads beside the frames, of which there are some before it has arrived; a model that is
-broken is told, with what is shown going on, and comes back when it is whole again."""
+"""Models in the viewer: a scene with models loads beside the frames; a model that is broken is told, with what is shown going on,
+and comes back when it is whole again. Idle mode comes to rest over a model that stands still, and never over one that moves now and
+then."""
+import base64
+import json
 import os
 import pathlib
+import shutil
+import struct
 import sys
 
-from program import Report, temporary_folder
+from program import TOP, Report, temporary_folder
 from window import Session, copy_of_tree, inside_display, save
 
 
@@ -55,10 +60,67 @@ def model_as_scene(weft, folder, report):
         live.stop()
 
 
+def flag(animated):
+    """A triangle; `animated`: it jumps from the left to the right and back, and stands still for two seconds each time."""
+    parts = [struct.pack("<9f", -1, -1, 0, 1, -1, 0, 0, 1, 0), struct.pack("<3I", 0, 1, 2)]
+    accessors = [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]},
+                 {"bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR"}]
+    model = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "flag", "mesh": 0, "translation": [-2, 0, 0]}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]}
+    if animated:
+        parts += [struct.pack("<3f", 0, 2, 4), struct.pack("<9f", -2, 0, 0, 2, 0, 0, -2, 0, 0)]
+        accessors += [{"bufferView": 2, "componentType": 5126, "count": 3, "type": "SCALAR", "min": [0], "max": [4]},
+                      {"bufferView": 3, "componentType": 5126, "count": 3, "type": "VEC3"}]
+        model["animations"] = [{"name": "jump", "samplers": [{"input": 2, "output": 3, "interpolation": "STEP"}],
+                                "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]
+    blob = b"".join(parts)
+    ends = [sum(map(len, parts[:i + 1])) for i in range(len(parts))]
+    model["bufferViews"] = [{"buffer": 0, "byteOffset": end - len(part), "byteLength": len(part)} for end, part in zip(ends, parts)]
+    model["buffers"] = [{"byteLength": len(blob), "uri": "data:application/octet-stream;base64," + base64.b64encode(blob).decode()}]
+    model["accessors"] = accessors
+    return json.dumps(model)
+
+
+def idle(weft, folder, report):
+    """The graph draws nothing but meshes, as they are seen from above."""
+    shutil.copy(TOP / "tests/imports/graphs/mesh.json", folder / "graphs")
+    shutil.copytree(TOP / "tests/imports/shaders/mesh", folder / "shaders/mesh")
+    for name, animated in (("still", False), ("jumping", True)):
+        save(folder / f"scenes/{name}.gltf", flag(animated))
+        live = Session(weft, folder, "--no-ui", "--idle", "--scene", f"scenes/{name}.gltf", graph="graphs/mesh.json")
+        try:
+            arrived = live.open() and live.event("files good")
+            if not report.check(arrived, f"{name}: the model does not arrive\n{live.said()}"):
+                continue
+            if not animated:
+                report.check(live.rest(0), "idle mode never comes to rest over a model that stands still")
+            else:
+                jumps(live, report)
+            live.leave(report)
+        finally:
+            live.stop()
+
+
+def jumps(live, report):
+    def resting():
+        return any(line.endswith(" resting") for line in live.lines())
+
+    def until(holds, what):
+        """Until a picture is such; each is taken, as everything may be at rest."""
+        report.check(live.until(lambda: resting() or ((s := live.shot()) and holds(s.read_bytes()))), what)
+        report.check(not resting(), f"idle mode rests over a model that will move: {what}")
+
+    first = live.shot()
+    if report.check(first, f"no picture\n{live.said()}"):
+        left = first.read_bytes()
+        until(lambda picture: picture != left, "it never jumps")
+        until(lambda picture: picture == left, "it never jumps back")
+
+
 def main():
     weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
     inside_display(report, weft, compare, __file__)
-    for part in (comes_and_stays, model_as_scene):
+    for part in (comes_and_stays, model_as_scene, idle):
         with temporary_folder() as name:
             folder = pathlib.Path(name)
             copy_of_tree(folder)
