@@ -6,6 +6,7 @@
 
 #include "app/bench/edit_bench.h"
 #include "app/bench/frame_bench.h"
+#include "app/bench/task_bench.h"
 #include "app/bench/workload_bench.h"
 #include "app/session/device_session.h"
 #include "app/session/session.h"
@@ -97,6 +98,7 @@ int runCheck(const Options& options) {
 }
 
 int runDot(const Options& options) {
+  if (options.tasks) return runTaskDot(options);
   base::Diagnostics diagnostics;
   if (const auto plan = planFor(options, diagnostics)) print(graph::dumpDot(*plan));
   return report(diagnostics);
@@ -123,6 +125,11 @@ int runBench(const Options& options) {
     Options edit = options;
     edit.graph = options.editGraph;
     const auto text = benchEdits(edit, diagnostics);
+    if (text) print(*text + "\n");
+    return report(diagnostics);
+  }
+  if (options.tasks) {
+    const auto text = benchTasks(options, diagnostics);
     if (text) print(*text + "\n");
     return report(diagnostics);
   }

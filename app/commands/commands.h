@@ -11,6 +11,7 @@ int runCheck(const Options& options);
 int runParams(const Options& options);
 int runPresets(const Options& options);
 int runDot(const Options& options);
+int runTaskDot(const Options& options);
 int runPlan(const Options& options);
 int runBench(const Options& options);
 int runFormat(const Options& options);

@@ -143,8 +143,9 @@ struct Raw {
 
 constexpr const char* kWaitForAssets = "--wait-for-assets";
 
-void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
-  command.add_option("graph", options.graph, "graph file (JSON)")->required();
+// Returns that of the graph's file.
+CLI::Option* addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
+  CLI::Option* graph = command.add_option("graph", options.graph, "graph file (JSON)")->required();
   command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
   command.add_option("--camera", options.camera, "camera of the scene to look through (default: its first)");
   command.add_option("--materials", options.materials,
@@ -160,6 +161,7 @@ void addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
                      "disable a pass (any unique suffix of its name); repeatable");
   command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
       ->check(CLI::Validator(checkSet, "NAME=VALUE"));
+  return graph;
 }
 
 void addDeviceOptions(CLI::App& command, Options& options) {
@@ -240,7 +242,15 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   presets->add_flag_callback("--json", asJson, "as JSON");
 
   CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
-  addGraphOptions(*dot, options, raw);
+  CLI::Option* drawn = addGraphOptions(*dot, options, raw);
+  drawn->required(false);
+  dot->add_flag("--tasks", options.tasks,
+                "what the CPU does for a frame of the scene, and which tables each task reads and writes; "
+                "without a graph")
+      ->excludes(drawn);
+  dot->callback([&options, drawn] {
+    if (!options.tasks && options.graph.empty()) throw CLI::RequiredError(drawn->get_name());
+  });
 
   CLI::App* plan = app.add_subcommand("plan", "print the compiled plan: order, barriers, storage, bytes");
   addGraphOptions(*plan, options, raw);
@@ -258,10 +268,18 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
                    "a graph file: what a changed parameter and a saved file cost before the next frame")
       ->excludes("--workload")
       ->excludes("--frame");
+  bench
+      ->add_flag(
+          "--tasks", options.tasks,
+          "the CPU's work for a frame of a scene (default: 100,000 moving meshes), per stage, on 1 and "
+          "on 2 threads")
+      ->excludes("--workload")
+      ->excludes("--frame")
+      ->excludes("--edit");
   bench->add_option("--environment", options.environment,
                     "environment map for --frame and --edit, .hdr or .exr");
-  bench->add_option("--scene", options.scene, "scene file for --frame and --edit");
-  bench->add_option("--camera", options.camera, "camera of the scene for --frame and --edit");
+  bench->add_option("--scene", options.scene, "scene file for --frame, --edit and --tasks");
+  bench->add_option("--camera", options.camera, "camera of the scene for --frame, --edit and --tasks");
   bench->add_option("--materials", options.materials, "material library for --frame and --edit");
   bench->add_option("--size", raw.size, "size of the screen for --frame and --edit")
       ->check(CLI::Validator(checkSize, "WxH"));

@@ -31,6 +31,7 @@ struct Options {
   std::vector<std::string> files;      // format
   bool checkOnly = false;              // format: say what differs, write nothing
   bool explain = false;                // plan: say why
+  bool tasks = false;                  // dot, bench: the CPU's work for a frame, not a plan
   std::vector<std::string> workloads;  // bench
   std::string frameGraph;              // bench --frame
   std::string editGraph;               // bench --edit
