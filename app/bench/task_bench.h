@@ -1,6 +1,6 @@
 // Times the tasks of the CPU's frame, on one thread and on two: where the meshes of a scene are, and what views see of them.
 // Both take the same frames in turns, so that a busy machine is as busy for the one as for the other, and what they make is
-// compared byte for byte. Does not: touch GL, or judge the numbers.
+// compared byte for byte in every tenth. Does not: touch GL, or judge the numbers.
 #pragma once
 
 #include <optional>

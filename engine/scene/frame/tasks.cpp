@@ -10,6 +10,8 @@
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <map>
+#include <mutex>
 
 namespace weft::scene {
 
@@ -73,6 +75,17 @@ std::vector<std::string> tablesBetween(const FrameTask& earlier, const FrameTask
   return tables;
 }
 
+// One for all graphs of so many threads: a thread that is done with one graph of a frame is awake for the next.
+tbb::task_arena& arenaOf(int threads) {
+  static std::mutex mutex;
+  static std::map<int, std::unique_ptr<tbb::task_arena>> arenas;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<tbb::task_arena>& arena = arenas[threads];
+  const int most = threads == 0 ? int{tbb::task_arena::automatic} : threads;
+  if (!arena) arena = std::make_unique<tbb::task_arena>(most);
+  return *arena;
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -88,13 +101,12 @@ std::string escaped(const std::string& text) {
 struct FrameTasks::Flow {
   int threads = 0;
   FrameTasks* owner = nullptr;
-  tbb::task_arena arena;
+  tbb::task_arena& arena;
   tbb::flow::graph graph;
   tbb::flow::broadcast_node<tbb::flow::continue_msg> start{graph};
   std::vector<std::unique_ptr<tbb::flow::continue_node<tbb::flow::continue_msg>>> nodes;
 
-  Flow(int count, const FrameTasks& from)
-      : threads(count), arena(count == 0 ? tbb::task_arena::automatic : count) {
+  Flow(int count, const FrameTasks& from) : threads(count), arena(arenaOf(count)) {
     // The graph belongs to the arena that it is made in.
     arena.execute([&] { graph.reset(); });
     std::vector<bool> waits(from.tasks_.size());
