@@ -143,6 +143,39 @@ TEST_CASE("the same with probes from the GPU and from the CPU, in textures and i
   CHECK(tally.barriers > 0);
 }
 
+TEST_CASE("the same for the deferred graphs with all that a scene may hold, and for the probes of gi.json") {
+  const CleanScope clean;
+  const std::vector<std::vector<graph::Setting>> ways = {
+      {},
+      {{"ao_method", "hemisphere"}, {"clustered", "false"}, {"sun_shadow", "filtered"}},
+      {{"store_positions", "true"}, {"bayer", "true"}, {"motion_blur", "true"}, {"auto_exposure", "true"}}};
+  const std::vector<std::vector<graph::Setting>> probes = {{{"gi_source", "gpu"}, {"probes_debug", "true"}},
+                                                           {{"gi_source", "gpu"}, {"gi_sampling", "buffer"}}};
+  Tally deferred, gi;
+  for (const bool with_probes : {false, true}) {
+    Tally& tally = with_probes ? gi : deferred;
+    const std::string graph = with_probes ? "graphs/deferred_gi.json" : "graphs/deferred.json";
+    Stage stage(graph, 96, 54, "tests/runtime/scenes/everything.json");
+    for (const std::vector<graph::Setting>& sets : with_probes ? probes : ways) {
+      stage.settings.sets = sets;
+      for (const auto& [name, texels] : {std::pair("sun_texels", "256"), std::pair("lamp_texels", "64")})
+        stage.settings.sets.push_back({name, texels});
+      REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+      std::string label = graph;
+      for (const graph::Setting& set : sets) label += " " + graph::sourceOf(set);
+      recordFrames(stage, label, tally);
+      CHECK(stage.ran("surfaces"));
+      CHECK(stage.ran("lit.transparent"));
+      CHECK(stage.ran("lamp_shadow[1,5]"));
+      CHECK(stage.ran("gi.probe_bake") == with_probes);
+    }
+  }
+  MESSAGE(deferred.frames << " frames and " << deferred.barriers << " barriers, with probes " << gi.frames
+                          << " and " << gi.barriers);
+  CHECK(deferred.barriers > 0);
+  CHECK(gi.barriers > deferred.barriers / 2);
+}
+
 TEST_CASE(
     "shader stores before clears of attachments and before mip levels: the bits are in the plan and are "
     "issued") {
