@@ -26,13 +26,6 @@ vec2 equirectUv(vec3 direction) {
   return vec2(u, v);
 }
 
-// Unit direction of a point of the map.
-vec3 equirectDirection(vec2 map_uv) {
-  float phi = (map_uv.x - 0.5) * 2.0 * kPi;
-  float theta = map_uv.y * kPi;
-  return vec3(cos(phi) * sin(theta), cos(theta), sin(phi) * sin(theta));
-}
-
 // Level at which a texel of the map at the equator is as wide as `angle` radians; 0 when the map is magnified.
 float equirectLevel(float base_width, float angle) {
   return max(log2(angle * base_width * (0.5 / kPi)), 0.0);

@@ -24,9 +24,13 @@ layout(std140) uniform View {
 vec3 viewRay(vec2 target_uv) {
   vec2 ndc = target_uv * 2.0 - 1.0;
   vec2 slope = (ndc + projection[2].xy) / vec2(projection[0].x, projection[1].y);
-  return vec3(slope.x * view[0].x + slope.y * view[0].y - view[0].z,
-              slope.x * view[1].x + slope.y * view[1].y - view[1].z,
-              slope.x * view[2].x + slope.y * view[2].y - view[2].z);
+  vec3 x = view[0].xyz, y = view[1].xyz, z = view[2].xyz;
+  return vec3(slope.x * x.x + slope.y * x.y - x.z, slope.x * y.x + slope.y * y.y - y.z, slope.x * z.x + slope.y * z.y - z.z);
+}
+
+// Unit direction from a surface towards the viewer.
+vec3 towardsEye(vec3 position) {
+  return projection[3].w == 0.0 ? normalize(eye - position) : transpose(mat3(view))[2];
 }
 
 // Radians that one pixel covers at the centre of the view.

@@ -17,15 +17,11 @@ ivec2 tilesOf(ivec2 size) { return (size + kTile - 1) / kTile; }
 int sliceOf(float view_distance) {
   return clamp(int(floor(log2(max(view_distance / near_plane, 1e-6)) * kSlicesPerOctave)), 0, kSlices - 1);
 }
-// Distances along the view axis; the first begins at 0.
-vec2 boundsOfSlice(int slice) {
-  return vec2(slice == 0 ? -1e30 : near_plane * exp2(float(slice) / kSlicesPerOctave),
-              slice == kSlices - 1 ? 1e30 : near_plane * exp2(float(slice + 1) / kSlicesPerOctave));
-}
 
 // Distance along the view axis of a world position.
 float viewDistance(vec3 position) {
-  return -(view[0].z * position.x + view[1].z * position.y + view[2].z * position.z + view[3].z);
+  vec4 back = transpose(view)[2];
+  return -(back.x * position.x + back.y * position.y + back.z * position.z + back.w);
 }
 
 #endif

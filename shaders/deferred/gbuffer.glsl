@@ -40,9 +40,4 @@ vec3 positionOfDepth(vec2 target_uv, float depth) {
   return world.xyz / world.w;
 }
 
-// Unit direction from a surface towards the viewer.
-vec3 towardsEye(vec3 position) {
-  return projection[3].w == 0.0 ? normalize(eye - position) : vec3(view[0].z, view[1].z, view[2].z);
-}
-
 #endif

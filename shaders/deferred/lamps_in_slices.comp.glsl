@@ -13,6 +13,12 @@ layout(std140) uniform Parameters {
   vec2 picture;
 };
 
+// Distances along the view axis; the first begins at 0.
+vec2 boundsOfSlice(int slice) {
+  return vec2(slice == 0 ? -1e30 : near_plane * exp2(float(slice) / kSlicesPerOctave),
+              slice == kSlices - 1 ? 1e30 : near_plane * exp2(float(slice + 1) / kSlicesPerOctave));
+}
+
 void main() {
   int count = wordsOf(lamp_count), at = int(gl_GlobalInvocationID.x);
   if (at >= count * kSlices) return;

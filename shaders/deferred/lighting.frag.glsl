@@ -3,10 +3,11 @@
 //         emissive?     radiance that is added
 //         position?     world, instead of the one that depth gives
 //         ao?           ambient visibility; the material's occlusion counts where it is darker
-//         and what light comes from: light.glsl
+//         and what light comes from: shading/light.glsl
 // modify  radiance      scene-referred, alpha 1; nothing where depth is 0
-// params, defines       see light.glsl
+// params, defines       see shading/light.glsl and light.glsl
 //         SHOW_LAMPS    instead of light, how many lamps each pixel goes through: blue 1, green 8, red 64 and more
+#include "gbuffer.glsl"
 #include "light.glsl"
 
 #ifndef SHOW_LAMPS
@@ -28,34 +29,39 @@ in vec2 uv;
 out vec4 radiance;
 #endif
 
-void main() {
+vec3 emitted = vec3(0.0);
+
+void findPoint(out Point point) {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float z = texelFetch(depth, pixel, 0).r;
   if (z <= 0.0) discard;
 #ifdef HAS_POSITION
-  vec3 at = texelFetch(position, pixel, 0).xyz;
+  point.at = texelFetch(position, pixel, 0).xyz;
 #else
-  vec3 at = positionOfDepth(uv, z);
+  point.at = positionOfDepth(uv, z);
 #endif
   vec4 stored = texelFetch(mro, pixel, 0);
-  Surface surface = Surface(texelFetch(base, pixel, 0).rgb, stored.r, stored.g);
-  Point point = pointOf(at, decodeNormal(texelFetch(normal, pixel, 0).rg), surface, stored.a);
-
-  float seen = stored.b;
+  point.n = decodeNormal(texelFetch(normal, pixel, 0).rg);
+  point.surface = Surface(texelFetch(base, pixel, 0).rgb, stored.r, stored.g);
+  finishPoint(point, stored.a > 0.0 ? decodeExponent(stored.a) : 0.0);
+  point.lobe = lobeOf(roughnessOf(point), 0.0);
+  seen = stored.b;
 #ifdef HAS_AO
   seen = min(seen, texelFetch(ao, pixel, 0).r);
 #endif
-  vec3 sum = ambient(point, seen);
+  emitted = vec3(0.0);
 #ifdef HAS_EMISSIVE
-  sum += texelFetch(emissive, pixel, 0).rgb;
+  emitted = texelFetch(emissive, pixel, 0).rgb;
 #endif
-  int looked_at;
-  sum += direct(point, pixel, textureSize(depth, 0), looked_at);
+}
+
+void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
+  vec3 light = from_around + emitted + from_lights;
 #if SHOW_LAMPS
-  float heat = log2(max(float(looked_at), 1.0)) / 3.0;
-  sum = looked_at == 0 ? vec3(0.02) : clamp(vec3(heat - 1.0, 1.0 - abs(heat - 1.0), 1.0 - heat), 0.0, 1.0);
+  float heat = log2(max(float(lamps_tried), 1.0)) / 3.0;
+  light = lamps_tried == 0 ? vec3(0.02) : clamp(vec3(heat - 1.0, 1.0 - abs(heat - 1.0), 1.0 - heat), 0.0, 1.0);
 #endif
 #ifdef HAS_RADIANCE
-  radiance = vec4(sum, 1.0);
+  radiance = vec4(light, 1.0);
 #endif
 }

@@ -1,8 +1,8 @@
 // A mesh that one sees through, lit by all that lights the G-buffer, occlusion from depth aside. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
-//         what light comes from       see light.glsl; no clusters, whose tiles know the depths of the G-buffer only
+//         what light comes from       see shading/light.glsl; no clusters, whose tiles know the depths of the G-buffer only
 // modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied"
-// params, defines    see light.glsl
+// params, defines    see shading/light.glsl and light.glsl
 #include "meshes/surface.glsl"
 #include "light.glsl"
 
@@ -10,13 +10,23 @@
 out vec4 radiance;
 #endif
 
-void main() {
+vec3 emitted = vec3(0.0);
+float alpha = 1.0;
+
+void findPoint(out Point point) {
   MeshSurface self = meshSurface();
-  Surface surface = Surface(self.albedo, self.metallic, self.roughness);
-  Point point = pointOf(world_position, self.normal, surface, self.shininess > 0.0 ? encodeExponent(self.shininess) : 0.0);
-  int looked_at;
-  vec3 sum = ambient(point, self.occlusion) + direct(point, ivec2(gl_FragCoord.xy), ivec2(viewport), looked_at) + self.emissive;
+  point.at = world_position;
+  point.n = self.normal;
+  point.surface = Surface(self.albedo, self.metallic, self.roughness);
+  finishPoint(point, self.shininess);
+  point.lobe = lobeOf(roughnessOf(point), 0.0);
+  seen = self.occlusion;
+  emitted = self.emissive;
+  alpha = self.alpha;
+}
+
+void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  radiance = vec4(sum * self.alpha, self.alpha);
+  radiance = vec4((from_around + from_lights + emitted) * alpha, alpha);
 #endif
 }

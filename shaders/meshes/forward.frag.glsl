@@ -1,10 +1,10 @@
-// A mesh lit by the environment, as spheres are. Behind meshes/surface.vert.glsl.
+// A mesh lit by the environment, the sun and lamps, as spheres are. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
-//         brdf, irradiance?, specular?, environment?, probes?, sh?   see spheres/shading.glsl; without one its light is missing
+//         what light comes from       see shading/light.glsl
 // modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
 //         velocity   screen UV per frame
 //         depth      reversed-Z
-// params  sky_turn?, compensation   see spheres/shading.glsl
+// params, defines    see shading/light.glsl
 #include "common/view.glsl"
 #include "meshes/surface.glsl"
 #include "spheres/shading.glsl"
@@ -20,17 +20,30 @@ out vec4 radiance;
 out vec2 velocity;
 #endif
 
-void main() {
+vec3 emitted = vec3(0.0);
+float occlusion = 1.0, share = 1.0;
+
+void findPoint(out Point point) {
   MeshSurface self = meshSurface();
 #ifdef HAS_RADIANCE
-  vec3 v = normalize(eye - world_position);
-  float nv = clamp(dot(self.normal, v), 0.0, 1.0);
-  Surface surface = Surface(self.albedo, self.metallic, self.roughness);
-  vec3 lit = shade(surface, world_position, self.normal, reflect(-v, self.normal), nv, lobeOf(self.roughness, 0.0));
-  float share = BLEND == 1 ? self.alpha : 1.0;
-  radiance = vec4((lit * self.occlusion + self.emissive) * share, share);
+  point.at = world_position;
+  point.n = self.normal;
+  point.v = normalize(eye - world_position);
+  point.nv = clamp(dot(point.n, point.v), 0.0, 1.0);
+  point.mirror = reflect(-point.v, point.n);
+  point.lobe = lobeOf(self.roughness, 0.0);
+  point.surface = Surface(self.albedo, self.metallic, self.roughness);
+  emitted = self.emissive;
+  occlusion = self.occlusion;
+  share = BLEND == 1 ? self.alpha : 1.0;
 #endif
 #ifdef HAS_VELOCITY
   velocity = meshVelocity(viewport);
+#endif
+}
+
+void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
+#ifdef HAS_RADIANCE
+  radiance = vec4((from_around * occlusion + from_lights + emitted) * share, share);
 #endif
 }

@@ -21,8 +21,8 @@ float seenOfLamp(Lamp self, vec3 position, vec3 n) {
   vec3 up = normalize(cross(side, from));
   float hidden = 0.0;
   for (int i = 0; i < 5; ++i) {
-    float around = float(i) * 1.57079633;
-    vec3 to = from + (i == 4 ? vec3(0.0) : axisOf(from) * texel * (cos(around) * side + sin(around) * up));
+    vec3 beside = (i & 1) == 0 ? side : up;  // side, up, and opposite to them
+    vec3 to = from + (i == 4 ? vec3(0.0) : axisOf(from) * texel * (i < 2 ? beside : -beside));
     float plane = dot(to, n), reach = plane * along > 0.0 ? clamp(along / plane, 0.5, 2.0) : 1.0;  // to the receiver's plane
     hidden += hiddenBy(texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / (reach * axisOf(to)) * (1.0 + 1e-4)));
   }

@@ -21,8 +21,6 @@ uniform sampler2D sun_depth;
 const int kBlockers = 16, kFilter = 32;  // samples of the search and of the filter
 const float kWidest = 0.1;               // share of the map that a penumbra may take
 
-vec3 rowOf(mat4 m, int i) { return vec3(m[0][i], m[1][i], m[2][i]); }
-
 // Points spread evenly over the unit disc (Vogel 1979), turned per pixel.
 vec2 onDisc(int i, int count, float turn) {
   float angle = 2.39996323 * float(i) + turn;
@@ -35,7 +33,8 @@ float seenOfSun(Sun self, vec3 position, vec3 n) {
   if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
 
   // Slope of the receiver's plane in the map: its normal there is that in the world times the inverse transpose.
-  vec3 u = rowOf(self.shadow_matrix, 0), v = rowOf(self.shadow_matrix, 1), z = rowOf(self.shadow_matrix, 2);
+  mat3 rows = transpose(mat3(self.shadow_matrix));
+  vec3 u = rows[0], v = rows[1], z = rows[2];
   vec3 facing = vec3(dot(u, n) / dot(u, u), dot(v, n) / dot(v, v), dot(z, n) / dot(z, z));
   float per_depth = length(z);  // depth per world unit
   vec2 texel = 1.0 / vec2(textureSize(sun_map, 0));

@@ -48,6 +48,13 @@ vec3 colorOf(vec2 luminance_x) {
   return max(mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570) * xyz, vec3(0.0));
 }
 
+// Unit direction of a point of the map.
+vec3 equirectDirection(vec2 map_uv) {
+  float phi = (map_uv.x - 0.5) * 2.0 * kPi;
+  float theta = map_uv.y * kPi;
+  return vec3(cos(phi) * sin(theta), cos(theta), sin(phi) * sin(theta));
+}
+
 void main() {
   // Row 0 of the map is the top.
   vec3 direction = equirectDirection(uv);

@@ -1,9 +1,9 @@
-// One sphere, found by intersecting the ray of the pixel; lit by the environment.
-// read    brdf, irradiance?, specular?, probes?, sh?   see shading/ibl.glsl; without one its light is missing
+// One sphere, found by intersecting the ray of the pixel; lit by the environment, the sun and lamps.
+// read    what light comes from   see shading/light.glsl
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)
-// params  sky_turn?, compensation   see shading/ibl.glsl
+// params, defines    see shading/light.glsl
 //
 // Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
 // its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
@@ -20,7 +20,7 @@ flat in vec3 lobe;
 flat in vec4 per_pixel;
 flat in float near_distance;
 flat in mat3 to_world;
-#ifdef HAS_PROBES
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
 flat in vec3 world_eye;
 #endif
 #ifdef HAS_VELOCITY
@@ -44,7 +44,9 @@ float halfPlane(float inside, vec2 normal) {
   return inside > 0.0 ? 1.0 - beyond : beyond;
 }
 
-void main() {
+float coverage = 1.0;
+
+void findPoint(out Point point) {
   vec3 c = sphere.xyz;
   float r = sphere.w, r2 = r * r, d2 = dot(c, c);
   vec2 pixels = gl_FragCoord.xy - anchor_pixel, offset = pixels * per_pixel.xy;
@@ -63,7 +65,7 @@ void main() {
   float curve = dot(c_across, c_across) - r2 * dot(across, across);
   float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
   bool inside_sphere = d2 <= r2;
-  float coverage = inside_sphere ? 1.0 : halfPlane(-outside - edge.x, abs(outwards));
+  coverage = inside_sphere ? 1.0 : halfPlane(-outside - edge.x, abs(outwards));
 
   if (edge.y > 0.0) {  // small ones only
     vec2 lengths = clamp(0.5 * (edge.y + 1.0) - abs(pixels), 0.0, min(edge.y, 1.0));
@@ -81,14 +83,17 @@ void main() {
   vec3 normal_view = normalize(out_of) * -side;
   float nv = clamp(root * per_length / r, 0.0, 1.0);
 #ifdef HAS_RADIANCE
-  vec3 mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
-  Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
-#ifdef HAS_PROBES
-  vec3 position = to_world * (v * t) + world_eye;
+  point.n = to_world * normal_view;
+  point.v = to_world * (v * -per_length);
+  point.mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
+  point.nv = nv;
+  point.lobe = lobe;
+  point.surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
+  point.at = to_world * (v * t) + world_eye;
 #else
-  const vec3 position = vec3(0.0);
+  point.at = vec3(0.0);
 #endif
-  radiance = vec4(shade(surface, position, to_world * normal_view, mirror, nv, lobe) * coverage, coverage);
 #endif
 #ifdef HAS_VELOCITY
   vec3 before = before_turn * (v * t) + before_eye;
@@ -96,5 +101,11 @@ void main() {
 #endif
 #ifdef HAS_DEPTH
   gl_FragDepth = near_distance / t;
+#endif
+}
+
+void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
+#ifdef HAS_RADIANCE
+  radiance = vec4((from_around + from_lights) * coverage, coverage);
 #endif
 }

@@ -4,7 +4,7 @@
 // read    order?   uvec2(key, index) per instance: the instance to draw i-th is element i's index
 #include "common/view.glsl"
 #include "scene/instances.glsl"
-#include "shading.glsl"
+#include "shading/lobe.glsl"
 
 #ifndef OCTAGON
 #define OCTAGON 0
@@ -20,12 +20,12 @@ flat out vec2 anchor_pixel;
 flat out vec2 edge;         // shift of the silhouette in pixels; side of the square for a small sphere, else 0: see below
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
-flat out vec3 lobe;             // see shading.glsl
+flat out vec3 lobe;             // see shading/lobe.glsl
 // What the fragments need of the view: in software an input costs less than a member of a block.
 flat out vec4 per_pixel;        // slope, screen UV
 flat out float near_distance;
 flat out mat3 to_world;
-#ifdef HAS_PROBES
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
 flat out vec3 world_eye;
 #endif
 #ifdef HAS_VELOCITY
@@ -70,7 +70,7 @@ void main() {
   per_pixel = vec4(1.0 / focal, 1.0 / viewport);
   near_distance = near_plane;
   to_world = transpose(mat3(view));
-#ifdef HAS_PROBES
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
   world_eye = eye;
 #endif
 #ifdef HAS_VELOCITY

@@ -1,9 +1,9 @@
-// One triangle of a sphere, lit by the environment as the ray-traced ones of spheres/billboard are.
-// read    brdf, irradiance?, specular?, probes?, sh?   see shading/ibl.glsl; without one its light is missing
+// One triangle of a sphere, lit as the ray-traced ones of spheres/billboard are.
+// read    what light comes from   see shading/light.glsl
 // write or modify  radiance   scene-referred; alpha 1
 //                  velocity   screen UV per frame
 //                  depth      near / distance along the view axis (reversed-Z)
-// params  sky_turn?, compensation   see shading/ibl.glsl
+// params, defines    see shading/light.glsl
 #include "common/view.glsl"
 #include "shading.glsl"
 
@@ -20,15 +20,25 @@ out vec4 radiance;
 out vec2 velocity;
 #endif
 
-void main() {
+void findPoint(out Point point) {
 #ifdef HAS_RADIANCE
-  vec3 n = normalize(outwards), v = normalize(from_eye);
-  float nv = clamp(-dot(n, v), 0.0, 1.0);
-  Surface surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
-  radiance = vec4(shade(surface, eye + from_eye, n, v + 2.0 * nv * n, nv, lobe), 1.0);
+  point.at = eye + from_eye;
+  point.n = normalize(outwards);
+  vec3 v = normalize(from_eye);
+  point.v = -v;
+  point.nv = clamp(-dot(point.n, v), 0.0, 1.0);
+  point.mirror = v + 2.0 * point.nv * point.n;
+  point.lobe = lobe;
+  point.surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
 #endif
 #ifdef HAS_VELOCITY
   vec4 before = previous_view_projection * vec4(eye + from_eye - motion_metallic.xyz, 1.0);
   velocity = gl_FragCoord.xy / viewport - (before.xy / max(before.w, 1e-3) * 0.5 + 0.5);
+#endif
+}
+
+void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
+#ifdef HAS_RADIANCE
+  radiance = vec4(from_around + from_lights, 1.0);
 #endif
 }

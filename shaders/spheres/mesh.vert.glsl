@@ -1,7 +1,7 @@
 // A triangle mesh of the unit sphere, moved and scaled to each instance. Opaque: no order is needed.
 #include "common/view.glsl"
 #include "scene/instances.glsl"
-#include "shading.glsl"
+#include "shading/lobe.glsl"
 
 in vec3 position;
 in vec3 normal;
@@ -10,7 +10,7 @@ out vec3 from_eye;          // world, eye to surface
 out vec3 outwards;          // world, not normalised
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
-flat out vec3 lobe;             // see shading.glsl
+flat out vec3 lobe;             // see shading/lobe.glsl
 
 void main() {
   Instance self = instance[gl_InstanceID];

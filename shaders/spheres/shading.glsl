@@ -1,11 +1,15 @@
-// shading/ibl.glsl for the shaders of spheres, which have no parameters but its own.
+// What surfaces that are drawn forward do with light: Cook-Torrance. For shading/light.glsl, which this includes.
 #ifndef SPHERES_SHADING_GLSL
 #define SPHERES_SHADING_GLSL
 
-#ifdef HAS_SKY_TURN
-layout(std140) uniform Parameters { float sky_turn; };
-#endif
+#include "shading/light.glsl"
 
-#include "shading/ibl.glsl"
+vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around) {
+  return response.single * reflected + (response.multiple + response.diffuse) * around;
+}
+
+vec3 throwFrom(Point point, Response response, vec3 l) {
+  return cookTorrance(response, point.surface.roughness, point.n, point.v, l);
+}
 
 #endif

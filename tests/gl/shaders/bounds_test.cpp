@@ -4,7 +4,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <set>
 
 #include "tests/gl/documented.h"
 
@@ -227,9 +227,10 @@ TEST_CASE("a zero byte, an include and a limit") {
   CHECK(diagnostics.items()[0].place.column == 9);
 }
 
-// Shaders that have more to do than others, and the share that they may take. Above an eighth a shader is tried first in a process
-// of its own.
-const std::map<std::string, double> kLarge = {{"lighting.frag.glsl", 0.3}, {"transparent.frag.glsl", 0.3}};
+// Shaders that have more to do than others: all that light surfaces by everything there is. Above an eighth a shader is tried first in a
+// process of its own.
+const std::set<std::string> kLarge = {"lighting.frag.glsl", "transparent.frag.glsl", "forward.frag.glsl",
+                                      "billboard.frag.glsl", "mesh.frag.glsl"};
 
 // The bundled shaders, and those of the tests, stay far below every limit.
 TEST_CASE("every shader of the tree is a usual one") {
@@ -252,10 +253,9 @@ TEST_CASE("every shader of the tree is a usual one") {
         if (word.starts_with("HAS_")) defines.push_back({word, "1"});
       const ShaderSize size = measureShader(*source, defines);
       const ShaderShare share = largestShare(size);
-      const auto large = kLarge.find(name);
-      CHECK_MESSAGE(share.share < (large == kLarge.end() ? 1.0 / 8 : large->second),
+      CHECK_MESSAGE(share.share < (kLarge.contains(name) ? 1.0 / 8 : 1.0 / 16),
                     name << ": " << share.share << " of " << weft::base::nameOf(share.limit));
-      if (large == kLarge.end()) CHECK_MESSAGE(!isUnusual(size), name);
+      CHECK_MESSAGE(!isUnusual(size), name);
       if (share.share > largest.share) {
         largest = share;
         which = name;

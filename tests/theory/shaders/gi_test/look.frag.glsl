@@ -26,6 +26,6 @@ void main() {
   vec3 c[9];
   probeAt(at, c);
   light = vec4(probeIrradiance(c, normal), 1.0);
-  Bounce bounce = bounceAt(at, normal);
+  Bounce bounce = bounceOf(c, normal);
   from = vec4(bounce.facing, bounce.sure);
 }

@@ -1,0 +1,121 @@
+// Light that leaves a surface towards the eye: of the environment, the sun and lamps. This has main(); a shader that includes it says what
+// surface there is, what that does with light, and where the result goes:
+//   void findPoint(out Point point)                                  may discard
+//   vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around)   what leaves of light from everywhere: `reflected` from
+//        about the mirror direction, `around` the mean weighted by the cosine
+//   vec3 throwFrom(Point point, Response response, vec3 l)           what leaves for an irradiance of 1 from the unit direction l
+//   void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried)   how many lamps it went through
+// read    brdf, irradiance?, specular?, environment?   see shading/ibl.glsl; without one its light is missing
+//         probes?, sh?  light that other things throw back, see gi/bounce.glsl
+//         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
+//         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
+//         clusters?     which lamps reach where, see deferred/clusters.glsl; without it every pixel goes through all lamps
+// params  lamp_count    with lamps
+//         sky_turn?     see shading/ibl.glsl
+// defines SOFT_SUN         see shading/sun_shadow.glsl
+//         LIT_IS_GREATER   see shading/compare.glsl
+// A variant without sun and lamps is as if there was no code for them. All is one function: drivers put each function into those that call
+// it, and every level of calls costs them that again.
+#ifndef SHADING_LIGHT_GLSL
+#define SHADING_LIGHT_GLSL
+
+#if defined HAS_SKY_TURN || defined HAS_LAMPS
+layout(std140) uniform Parameters {
+#ifdef HAS_SKY_TURN
+  float sky_turn;
+#endif
+#ifdef HAS_LAMPS
+  int lamp_count;
+#endif
+};
+#endif
+
+#include "shading/direct.glsl"
+#ifdef HAS_PROBES
+#include "gi/bounce.glsl"
+#endif
+#ifdef HAS_SUN_MAP
+#include "shading/sun_shadow.glsl"
+#elif defined HAS_SUN
+#include "scene/sun.glsl"
+#endif
+#ifdef HAS_LAMP_MAPS
+#include "shading/lamp_shadow.glsl"
+#elif defined HAS_LAMPS
+#include "scene/lamps.glsl"
+#endif
+#ifdef HAS_CLUSTERS
+#include "deferred/clusters.glsl"
+layout(std430) readonly buffer clusters { uint cluster[]; };
+#endif
+
+struct Point {
+  vec3 at, n, v;  // world; n and v are unit, v towards the eye
+  vec3 mirror;    // v reflected at the surface
+  float nv;       // N.V, 0..1
+  vec3 lobe;      // see lobeOf in shading/lobe.glsl
+  Surface surface;
+};
+void findPoint(out Point point);
+vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around);
+vec3 throwFrom(Point point, Response response, vec3 l);
+void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried);
+
+void main() {
+  Point point;
+  findPoint(point);
+#ifdef HAS_RADIANCE
+  vec3 around = vec3(0.0), reflected = reflection(point.lobe, point.mirror);
+#ifdef HAS_IRRADIANCE
+  vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
+  around = fromEnvironment(point.n, lookup);
+#ifdef HAS_PROBES
+  vec3 coefficients[9];
+  probeAt(point.at, coefficients);
+  Bounce bounce = bounceOf(coefficients, point.n);
+  around += bounced(bounce, fromEnvironment(bounce.facing, lookup), fromEnvironment(-bounce.facing, lookup));
+#endif
+#endif
+  Response response = responseOf(point.surface, point.nv);
+  vec3 from_around = throwAround(point, response, reflected, around), from_lights = vec3(0.0);
+  int lamps_tried = 0;
+
+#ifdef HAS_SUN
+  Sun light = sun_light[0];
+  if (dot(point.n, light.direction) > 0.0) {
+    from_lights = throwFrom(point, response, light.direction) * light.irradiance;
+#ifdef HAS_SUN_MAP
+    from_lights *= seenOfSun(light, point.at, point.n);
+#endif
+  }
+#endif
+
+#ifdef HAS_LAMPS
+  int words = (lamp_count + 31) / 32;
+#ifdef HAS_CLUSTERS
+  ivec2 tiles = tilesOf(ivec2(viewport)), tile = ivec2(gl_FragCoord.xy) / kTile;
+  int of_tile = (tile.y * tiles.x + tile.x) * words, of_slice = (tiles.x * tiles.y + sliceOf(viewDistance(point.at))) * words;
+#endif
+  for (int word = 0; word < words; ++word) {
+#ifdef HAS_CLUSTERS
+    uint left = ~(cluster[of_tile + word] | cluster[of_slice + word]);
+#else
+    uint left = 0xffffffffu >> max(32 * word + 32 - lamp_count, 0);
+#endif
+    lamps_tried += bitCount(left);
+    for (; left != 0u; left &= left - 1u) {
+      Lamp self = lamp[word * 32 + findLSB(left)];
+      vec3 l, there = lampIrradiance(self, point.at, l);
+      if (dot(point.n, l) <= 0.0 || there == vec3(0.0)) continue;
+#ifdef HAS_LAMP_MAPS
+      if (self.shadow >= 0 && self.shadow < textureSize(lamp_maps, 0).z) there *= seenOfLamp(self, point.at, point.n);
+#endif
+      from_lights += throwFrom(point, response, l) * there;
+    }
+  }
+#endif
+  putLight(point, from_around, from_lights, lamps_tried);
+#endif
+}
+
+#endif
