@@ -1,7 +1,10 @@
 // Ambient visibility by horizons: in slices through the view direction, the cosine-weighted integral between the highest
 // occluders on both sides (GTAO: Jimenez, Wu, Pesce and Jarabo, "Practical real-time strategies for accurate indirect
 // occlusion", SIGGRAPH 2016 courses). What is below the tangent plane occludes nothing, so a plane is exactly 1.
+// With `backs` each occluder ends where its back face is, so the sky between it and the surface behind it is seen: the occluders of one side
+// are one interval of angles. Without, everything behind an occluder is filled, which is too dark beside round things seen from low angles.
 // read    depth, normal   the G-buffer's
+//         backs?          depth of the nearest back faces; 0: there are none
 // write   result          half size; x: visibility, y: distance along the view axis, 0 for the sky
 // params  radius    world units within which things occlude, with a soft end
 //         slices    directions per pixel; 16 pixels next to each other take different ones
@@ -13,6 +16,9 @@ layout(std140) uniform Parameters {
   int slices;
   int steps;
 };
+#ifdef HAS_BACKS
+uniform sampler2D backs;
+#endif
 out vec2 result;
 
 const float kTangent = 0.02;  // sine of the elevation below which a sample counts as part of the surface
@@ -45,7 +51,7 @@ void main() {
     float cos_tilt = clamp(dot(projected, v) / share, -1.0, 1.0);
     float tilt = (dot(along - dot(along, v) * v, projected) < 0.0 ? -1.0 : 1.0) * acos(cos_tilt);
     float lowest[2] = float[2](cos(tilt + 0.5 * kPi), cos(tilt - 0.5 * kPi));
-    float horizon[2] = lowest;
+    float horizon[2] = lowest, back[2] = lowest, strongest[2] = float[2](0.0, 0.0);
     vec2 reach = along.xy * focal * (radius / -place.z);  // pixels
     float pixels = length(reach);
     for (int side = 0; side < 2; ++side) {
@@ -63,11 +69,27 @@ void main() {
         if (dot(delta, n) * per_length < kTangent) continue;
         float weight = clamp((radius - distance2 * per_length) / (kSoftEnd * radius), 0.0, 1.0);
         horizon[side] = max(horizon[side], mix(lowest[side], dot(delta, v) * per_length, weight));
+#ifdef HAS_BACKS
+        if (weight <= 0.0) continue;
+        // The end of the interval: the lowest back, of fading occluders by their share.
+        float behind = texelFetch(backs, at, 0).r, end = lowest[side];
+        if (behind > 0.0 && behind <= there) end = max(end, dot(normalize(placeAt(at, behind) - place), v));
+        end = mix(lowest[side], end, weight);
+        float share_of_other = min(weight, strongest[side]) / max(weight, strongest[side]);
+        back[side] = weight >= strongest[side] ? min(end, mix(end, back[side], share_of_other))
+                                               : min(back[side], mix(back[side], end, share_of_other));
+        strongest[side] = max(strongest[side], weight);
+#endif
       }
     }
     // Angles from the view direction, positive along the slice; the paper's h1 is on the negative side.
     float right = acos(clamp(horizon[0], -1.0, 1.0)), left = -acos(clamp(horizon[1], -1.0, 1.0));
-    visibility += share * (arc(right, tilt, cos_tilt) + arc(left, tilt, cos_tilt));
+    float seen = arc(right, tilt, cos_tilt) + arc(left, tilt, cos_tilt);
+#ifdef HAS_BACKS
+    if (strongest[0] > 0.0) seen += arc(tilt + 0.5 * kPi, tilt, cos_tilt) - arc(acos(clamp(back[0], -1.0, 1.0)), tilt, cos_tilt);
+    if (strongest[1] > 0.0) seen += arc(tilt - 0.5 * kPi, tilt, cos_tilt) - arc(-acos(clamp(back[1], -1.0, 1.0)), tilt, cos_tilt);
+#endif
+    visibility += share * seen;
     whole += share * (cos_tilt + tilt * sin(tilt));  // without anything in the way; its mean over all directions is 1
   }
   result = vec2(min(max(visibility, 0.0) / whole, 1.0), -place.z);

@@ -1,6 +1,7 @@
 // An analytic G-buffer: the spheres of the scene and a horizontal plane, met by the ray through each pixel's centre.
 // read    instances   @spheres
 // write   normal, base, mro, emissive, position, depth   as deferred/gbuffer.glsl has them; position is world, alpha 1
+//         back        depth where the ray leaves what it has met; 0 for the plane
 // params  count       spheres
 //         floor_y     height of the plane
 //         floor_mro   its metallic, roughness, occlusion, and which model
@@ -34,11 +35,14 @@ out vec4 emissive;
 #ifdef HAS_POSITION
 out vec4 position;
 #endif
+#ifdef HAS_BACK
+out float back;
+#endif
 
 void main() {
   vec3 ray = viewRay(uv), hit_normal = vec3(0.0, 1.0, 0.0), albedo = floor_albedo, light = vec3(0.0);
   vec4 kind = floor_mro;
-  float nearest = 1e30;
+  float nearest = 1e30, leaves = 1e30;
 #if FLOOR
   float to_floor = (floor_y - eye.y) / ray.y;
   if (to_floor > near_plane) nearest = to_floor;
@@ -51,6 +55,7 @@ void main() {
     float t = (dot(to, ray) - sqrt(root2)) / vv;
     if (t < near_plane || t >= nearest) continue;
     nearest = t;
+    leaves = (dot(to, ray) + sqrt(root2)) / vv;
     hit_normal = (ray * t - to) / self.radius;
     albedo = self.albedo;
     kind = vec4(self.metallic, self.roughness, 1.0, ball_model);
@@ -71,6 +76,9 @@ void main() {
 #endif
 #ifdef HAS_POSITION
   position = hit ? vec4(eye + ray * nearest, 1.0) : vec4(0.0);
+#endif
+#ifdef HAS_BACK
+  back = leaves < 1e30 ? near_plane / leaves : 0.0;
 #endif
   gl_FragDepth = hit ? near_plane / nearest : 0.0;
 }
