@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The gallery: each effect of gallery.json off and on, under one environment, as ../gallery.md and ../images/gallery/*.png.
+"""The gallery: each effect of gallery.json and models.json off and on, under one environment, as ../gallery.md, ../gallery_models.md and
+../images/gallery/*.png.
 
-    docs/gallery/gallery.py                 render everything anew with ./run and write the page
-    docs/gallery/gallery.py NAME ...        only the pictures of these entries, then the page
+    docs/gallery/gallery.py                 render everything anew with ./run and write the pages
+    docs/gallery/gallery.py NAME ...        only the pictures of these entries, then the pages
     docs/gallery/gallery.py --references FOLDER ...
                                             as above; only with the reference files in FOLDER is the front view made anew
-    docs/gallery/gallery.py --check WEFT    write nothing: the page must be the one that gallery.json makes, every picture
+    docs/gallery/gallery.py --check WEFT    write nothing: the pages must be those that the files make, every picture
                                             must be there, every property must be a test, and every effect, rendered small,
                                             must change the picture
 
@@ -25,8 +26,10 @@ from png import read_png
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
-PAGE, PICTURES = TOP / "docs/gallery.md", TOP / "docs/images/gallery"
-GALLERY = json.loads((HERE / "gallery.json").read_text())
+PICTURES = TOP / "docs/images/gallery"
+GALLERY, MODELS = (json.loads((HERE / f"{name}.json").read_text()) for name in ("gallery", "models"))
+PAGES = {TOP / "docs/gallery.md": GALLERY, TOP / "docs/gallery_models.md": MODELS}
+ENTRIES = [*GALLERY["entries"], *MODELS["entries"]]
 ENVIRONMENT = GALLERY["environment"]
 
 
@@ -76,10 +79,10 @@ def case_of(entry):
     return next((case for case in cases(file) if case.startswith(beginning)), None)
 
 
-def page():
-    out = [GALLERY["about"], ""]
+def page(gallery):
+    out = [gallery["about"], ""]
     chapter = None
-    for entry in GALLERY["entries"]:
+    for entry in gallery["entries"]:
         if entry["chapter"] != chapter:
             chapter = entry["chapter"]
             out += [f"## {chapter}", ""]
@@ -90,30 +93,31 @@ def page():
                 f"| `{off}` | `{on}` |", "|---|---|",
                 f"| ![off](images/gallery/{picture_of(entry, 'off')}) | ![on](images/gallery/{picture_of(entry, 'on')}) |", ""]
         out += [f"Held by `{entry['property'][0]}`: {case_of(entry)}.", ""]
-    front = GALLERY["front"]
-    out += [f"## {front['effect']}", "", front["says"], "", f"![front view](images/gallery/{front['name']}.png)"]
+    if front := gallery.get("front"):
+        out += [f"## {front['effect']}", "", front["says"], "", f"![front view](images/gallery/{front['name']}.png)"]
     return "\n".join(out).rstrip() + "\n"
 
 
 def all_pictures():
-    pairs = {picture_of(entry, side) for entry in GALLERY["entries"] for side in ("off", "on")}
+    pairs = {picture_of(entry, side) for entry in ENTRIES for side in ("off", "on")}
     return pairs | {f"{GALLERY['front']['name']}.png"}
 
 
 def check(weft):
     problems = []
-    if not PAGE.exists() or PAGE.read_text() != page():
-        problems.append(f"docs/gallery.md is not what gallery.json makes; run docs/gallery/gallery.py")
+    for path, gallery in PAGES.items():
+        if not path.exists() or path.read_text() != page(gallery):
+            problems.append(f"docs/{path.name} is not what its file in docs/gallery makes; run docs/gallery/gallery.py")
     names = all_pictures()
     there = {path.name for path in PICTURES.glob("*.png")}
     problems += [f"{PICTURES.name}/{name} is not there" for name in sorted(names - there)]
     problems += [f"{PICTURES.name}/{name} belongs to no entry" for name in sorted(there - names)]
-    for entry in GALLERY["entries"]:
+    for entry in ENTRIES:
         if not case_of(entry):
             problems.append(f"{entry['name']}: there is no test case {entry['property']}")
     with tempfile.TemporaryDirectory() as folder:
         made = {}
-        for entry in GALLERY["entries"]:
+        for entry in ENTRIES:
             for side in ("off", "on"):
                 key = picture_of(entry, side)
                 if key not in made:
@@ -129,7 +133,7 @@ def check(weft):
                 problems.append(f"{entry['name']}: the picture is one flat value")
     for problem in problems:
         print(problem)
-    print(f"{len(GALLERY['entries'])} entries, {len(problems)} problems")
+    print(f"{len(ENTRIES)} entries, {len(problems)} problems")
     return 1 if problems else 0
 
 
@@ -142,13 +146,13 @@ def main():
             sys.exit("--references needs a folder that exists")
         references, wanted = pathlib.Path(wanted[1]).resolve(), wanted[2:]
     PICTURES.mkdir(parents=True, exist_ok=True)
-    known = [entry["name"] for entry in [*GALLERY["entries"], GALLERY["front"]]]
+    known = [entry["name"] for entry in [*ENTRIES, GALLERY["front"]]]
     wanted = wanted or known
     unknown = set(wanted) - set(known)
     if unknown:
         sys.exit(f"no entry is called {', '.join(sorted(unknown))}")
     made = set()
-    for entry in GALLERY["entries"]:
+    for entry in ENTRIES:
         for side in ("off", "on"):
             name = picture_of(entry, side)
             if entry["name"] in wanted and name not in made:
@@ -166,8 +170,9 @@ def main():
     for path in PICTURES.glob("*.png"):
         if path.name not in names:
             path.unlink()
-    PAGE.write_text(page())
-    print("docs/gallery.md")
+    for path, gallery in PAGES.items():
+        path.write_text(page(gallery))
+        print(f"docs/{path.name}")
 
 
 if __name__ == "__main__":

@@ -44,7 +44,7 @@ def check_picture(weft, compare, out, entry, tolerance, update):
     golden, actual = HERE / entry["image"], out / entry["image"]
     made = HERE / entry["image"] if update else actual
     made.unlink(missing_ok=True)
-    done = execute([*command(weft, "render", entry), "--frames", entry["frame"], "--program-cache", out / "programs", "-o", made])
+    done = execute([*command(weft, "render", entry), "--frames", entry["frame"], "--quiet", "--program-cache", out / "programs", "-o", made])
     if done.returncode or done.stderr:
         return f"exit code {done.returncode}\n{done.stderr}"
     if update:
