@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""What lamps cost in graphs/deferred.json: prints one JSON, each pass in full-screen copies, for 1, 100 and 1,000 lamps.
+
+    docs/performance/lamps.py [--weft PROGRAM] [--size WxH]
+
+A floor with rocks fills the picture. `near`: lamps over the same floor that reach 0.35 each, so more of them are denser; `everywhere`: each lamp
+reaches every pixel, clusters have nothing to rule out. `touched` is how many lamps a pixel goes through, on average, read from a picture
+with show_lamps.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+TOP = HERE.parents[1]
+sys.path.insert(0, str(TOP / "docs/gallery"))
+from png import read_png
+
+GRAPH = "graphs/deferred.json"
+GRIDS = {1: ([1, 1, 1], 0.32), 100: ([10, 1, 10], 0.32), 1000: ([20, 5, 10], 0.16)}
+PASSES = ("lit.lighting", "light_clusters.lamps_in_tiles", "light_clusters.lamps_in_slices")
+
+
+def scene_of(lamps, everywhere):
+    count, spacing = GRIDS[lamps]
+    models = TOP / "scenes/models"
+    return {
+        "cameras": {"above": {"position": [0, 2.2, 1.6], "target": [0, 0, 0], "fov": 50}},
+        "models": {"floor": {"file": str(models / "floor.obj"), "scale": 4},
+                   "rocks": {"file": str(models / "rock.obj"), "count": [6, 1, 6], "spacing": 0.5, "scale": 0.4}},
+        "lamp_grids": {"lamps": {"count": count, "spacing": spacing, "center": [0, 0.45, 0], "candela": 300,
+                                 "range": 50 if everywhere else 0.35}},
+    }
+
+
+def linear(byte):
+    x = byte / 255
+    return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
+
+
+def touched_in(path):
+    """The mean number of lamps, from the colours of show_lamps: log2 of it by 3, from blue (0) by green (1) to red (2)."""
+    channels, texels = read_png(path)
+    total, pixels = 0.0, len(texels) // channels
+    for i in range(0, len(texels), channels):
+        red, green, blue = (linear(c) for c in texels[i:i + 3])
+        if max(red, green, blue) > 0.1:  # else none
+            total += 2 ** (3 * (1 - blue if blue > red else 1 + red))
+    return total / pixels
+
+
+def run_weft(weft, *line):
+    done = subprocess.run([*weft, *map(str, line)], cwd=TOP, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(done.stderr)
+    return done.stdout
+
+
+def measure(weft, size, lamps, everywhere, folder):
+    scene, picture = folder / "scene.json", folder / "touched.png"
+    scene.write_text(json.dumps(scene_of(lamps, everywhere)))
+    touched = lamps
+    if not everywhere:
+        sets = ["show_lamps=true", "bloom=false", "fxaa=false", "dither=false", "curve=linear", "composite.white=1"]
+        run_weft(weft, "render", GRAPH, "--scene", scene, "--size", size, "--quiet", "-o", picture, *(w for s in sets for w in ("--set", s)))
+        touched = touched_in(picture)
+    bench = json.loads(run_weft(weft, "bench", "--frame", GRAPH, "--scene", scene, "--size", size))
+    plain = next(each for each in bench["variants"] if each["name"] == "plain")
+    row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": round(touched, 2),
+           "frame_copies": plain["copies"], "passes": {each["pass"]: each["copies"] for each in plain["passes"]}}
+    if "cpu_copies" in plain:
+        row["frame_cpu_copies"] = plain["cpu_copies"]
+    return bench["device"], bench["copy_ms"], row
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--weft", help="the program; ./run when absent")
+    parser.add_argument("--size", default="1280x720")
+    arguments = parser.parse_args()
+    weft = [arguments.weft] if arguments.weft else [str(TOP / "run")]
+    out = {"graph": GRAPH, "size": arguments.size, "rows": []}
+    with tempfile.TemporaryDirectory() as folder:
+        for everywhere in (False, True):
+            for lamps in GRIDS:
+                device, copy, row = measure(weft, arguments.size, lamps, everywhere, pathlib.Path(folder))
+                out["device"], row["copy_ms"] = device, copy
+                out["rows"].append(row)
+                missing = [name for name in PASSES if name not in row["passes"]]
+                if missing:
+                    sys.exit(f"{lamps} lamps: the frame has no {', '.join(missing)}")
+    print(json.dumps(out, indent=1))
+
+
+if __name__ == "__main__":
+    main()
