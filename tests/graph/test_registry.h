@@ -153,7 +153,7 @@ inline Registry testRegistry(const World& world = {}) {
   Registry registry;
   registry.passTypes = testPassTypes();
   registry.imports = testImports();
-  registry.drawLists = {"spheres", "opaque", "shadow_casters", "transparent_spheres", "ui"};
+  registry.drawLists = {"spheres", "opaque", "shadow_casters", "transparent_spheres", "transparent", "ui"};
   registry.geometries = {{"quad", {}},
                          {"icosphere", {{"subdivision", 0, 6, 2}}},
                          {"mesh", {}, true},
