@@ -23,7 +23,7 @@ out vec2 velocity;
 void findPoint(out Point point) {
 #ifdef HAS_RADIANCE
   point.at = eye + from_eye;
-  point.n = normalize(outwards);
+  point.n = normalize(gl_FrontFacing ? outwards : -outwards);
   vec3 v = normalize(from_eye);
   point.v = -v;
   point.nv = clamp(-dot(point.n, v), 0.0, 1.0);

@@ -1,4 +1,5 @@
-// A triangle mesh of the unit sphere, moved and scaled to each instance. Opaque: no order is needed.
+// A triangle mesh of the unit sphere, moved and scaled to each instance. Opaque: no order is needed. It culls what faces away by itself:
+// the graph draws it without "cull".
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "shading/lobe.glsl"
@@ -11,6 +12,7 @@ out vec3 outwards;          // world, not normalised
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
 flat out vec3 lobe;             // see shading/lobe.glsl
+out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
 void main() {
   Instance self = instance[gl_InstanceID];
@@ -20,5 +22,9 @@ void main() {
   motion_metallic = vec4(self.center - self.previous_center, self.metallic);
   float depth = -(view * vec4(self.center, 1.0)).z;
   lobe = lobeOf(self.roughness, pixelAngle() * max(depth, 0.0) / self.radius);
+  // The inside of a sphere is seen when the eye is in it, or the near plane cuts it. Of all others no triangle that faces away is drawn.
+  float near_corner = near_plane * length(vec3(1.0 / projection[0].x, 1.0 / projection[1].y, 1.0));
+  bool open = length(self.center - eye) < self.radius + near_corner;
+  gl_CullDistance[0] = open ? 1.0 : -dot(normal, from_eye);
   gl_Position = view_projection * vec4(self.center + self.radius * position, 1.0);
 }

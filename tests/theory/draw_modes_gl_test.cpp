@@ -114,6 +114,48 @@ TEST_CASE(
   CHECK(worstVelocity < 2e-5);
 }
 
+TEST_CASE(
+    "icospheres around the eye and cut by the near plane show their inside, as the ray-traced spheres do") {
+  struct Place {
+    const char* name;
+    glm::dvec3 eye;
+    double nearPlane;
+  };
+  // In the sphere of radius 1 at (1.25, 2.5, 1.6); so close to it that the near plane cuts it; and in a place between all spheres.
+  for (const Place& place : {Place{"inside", {1.35, 2.6, 1.9}, 0.05}, Place{"cut", {1.25, 2.5, 2.9}, 0.6},
+                             Place{"between", {0, 1.25, 6}, 0.1}}) {
+    const auto setup = [&](std::vector<weft::graph::Setting> sets) {
+      Setup made = studio(std::move(sets));
+      made.camera = {.position = place.eye,
+                     .target = place.eye + glm::dvec3(0.1, -0.2, -2),
+                     .fovDegrees = 70,
+                     .nearPlane = place.nearPlane};
+      return made;
+    };
+    const Picture traced = draw(setup({})), mesh = draw(setup({{"draw", "icosphere"}, {"subdivision", "6"}}));
+    int covered = 0, missing = 0, same = 0;
+    double worst = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y)
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        const float near = depthAt(traced, x, y);
+        if (near <= 0) continue;
+        ++covered;
+        if (std::abs(depthAt(mesh, x, y) / near - 1) > 0.02f) {
+          ++missing;
+          continue;
+        }
+        ++same;
+        for (int c = 0; c < 3; ++c)
+          worst = std::max<double>(worst, std::abs(radianceAt(mesh, x, y)[c] - radianceAt(traced, x, y)[c]));
+      }
+    CAPTURE(place.name);
+    MESSAGE(place.name, ": ", covered, " pixels covered, ", missing,
+            " of them at another depth; radiance differs by ", worst);
+    CHECK(covered > 5000);
+    CHECK(missing < covered / 50);  // silhouettes, and where the near plane cuts
+  }
+}
+
 TEST_CASE("icospheres: nothing is sorted; a wireframe draws lines only") {
   Setup setup = studio({{"draw", "icosphere"}, {"subdivision", "3"}});
   const Picture filled = draw(setup);
