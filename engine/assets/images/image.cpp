@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cctype>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "engine/assets/images/half.h"
@@ -55,6 +57,43 @@ ImageF widenToRgba(ImageF image) {
     out[3] = from == 2 ? in[1] : 1.0f;
   }
   return wide;
+}
+
+// Solid angle of a texel of row `y` of an equirectangular map, in units of one at the equator.
+double shareOfRow(const ImageF& image, int y) {
+  return std::sin((y + 0.5) * std::numbers::pi / image.height);
+}
+
+// Moves what a texel has above kHalfMax to the texels around it, ring by ring, each filled up to kHalfMax in the texel's own
+// colour. The light (radiance times solid angle) stays but for what it returns, in the channel that has most.
+double spreadLight(ImageF& image, int x, int y) {
+  constexpr int kRings = 8;
+  const auto at = [&](int column, int row) {
+    const int wrapped = (column % image.width + image.width) % image.width;
+    return &image.texels[(static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(wrapped)) *
+                         static_cast<std::size_t>(image.channels)];
+  };
+  float* texel = at(x, y);
+  const double most = std::max({texel[0], texel[1], texel[2]});
+  const double color[3] = {texel[0] / most, texel[1] / most, texel[2] / most};
+  double left = (most - kHalfMax) * shareOfRow(image, y);
+  for (int c = 0; c < 3; ++c) texel[c] = static_cast<float>(color[c] * kHalfMax);
+  for (int ring = 1; ring <= kRings && left > 0; ++ring)
+    for (int row = std::max(y - ring, 0); row <= std::min(y + ring, image.height - 1) && left > 0; ++row) {
+      const int step = row == y - ring || row == y + ring ? 1 : 2 * ring;
+      for (int column = x - ring; column <= x + ring && left > 0; column += step) {
+        float* other = at(column, row);
+        double room = left / shareOfRow(image, row);
+        for (int c = 0; c < 3; ++c)
+          if (color[c] > 0) room = std::min(room, (kHalfMax - other[c]) / color[c]);
+        if (room <= 0) continue;
+        for (int c = 0; c < 3; ++c)
+          other[c] = std::min(static_cast<float>(other[c] + room * color[c]), kHalfMax);
+        left -= room * shareOfRow(image, row);
+      }
+    }
+  return left;
 }
 
 }  // namespace
@@ -133,7 +172,9 @@ std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::strin
 }
 
 void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagnostics) {
-  std::size_t undefined = 0, negative = 0, tooBright = 0;
+  std::size_t undefined = 0, negative = 0, infinite = 0, tooBright = 0;
+  assert(image.channels == 3 || image.channels == 4);
+  const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < image.texels.size(); ++i) {
     float& value = image.texels[i];
     if (image.channels == 4 && i % 4 == 3) continue;
@@ -144,23 +185,47 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
     } else if (value < 0) {
       ++negative;
       value = 0;
+    } else if (std::isinf(value)) {
+      ++infinite;
+      value = kHalfMax;
     } else {
       ++tooBright;
-      value = kHalfMax;
     }
   }
-  if (undefined + negative + tooBright == 0) return;
-  const auto channels = static_cast<std::size_t>(image.channels);
-  const std::size_t colours = image.texels.size() / channels * std::min<std::size_t>(channels, 3);
+  if (undefined + negative + infinite + tooBright == 0) return;
+
+  double lost = 0, whole = 0;
+  if (tooBright > 0) {
+    // Of the brightest channel of each texel, weighted by solid angle.
+    for (int pass = 0; pass < 2; ++pass)
+      for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+          float* texel = &image.texels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                        static_cast<std::size_t>(x)) *
+                                       channels];
+          const float most = std::max({texel[0], texel[1], texel[2]});
+          if (pass == 0)
+            whole += static_cast<double>(most) * shareOfRow(image, y);
+          else if (most > kHalfMax)
+            lost += spreadLight(image, x, y);
+        }
+  }
+
+  const std::size_t colours = image.texels.size() / channels * 3;
   base::Diagnostic& d =
       diagnostics.add({.severity = undefined + negative > 0 ? base::Severity::warning : base::Severity::note,
                        .code = Code::texelsReplaced,
                        .message = fmt::format("{} of {} colour values are no radiance and were replaced",
-                                              undefined + negative + tooBright, colours),
+                                              undefined + negative + infinite + tooBright, colours),
                        .place = placeOf(name)});
   d.expected = fmt::format("numbers from 0 to {}", kHalfMax);
-  d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite or above the range (now {})",
-                        undefined, negative, tooBright, kHalfMax);
+  d.found = fmt::format("{} not a number, {} negative (both now 0), {} infinite (now {})", undefined,
+                        negative, infinite, kHalfMax);
+  if (tooBright > 0)
+    d.found += fmt::format(
+        ", {} above the range (their light is spread over the texels around them, {:.2g} % of the map's "
+        "is lost)",
+        tooBright, whole > 0 ? 100 * lost / whole : 0.0);
 }
 
 float decodeSrgb(float encoded) {

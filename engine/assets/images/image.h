@@ -42,13 +42,13 @@ std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& nam
 // .png .jpg .jpeg .tga; `channels` 1 to 4, or 0 for what the file has. 16-bit files are reduced.
 std::optional<Image8> loadImage8(const std::string& path, int channels, base::Diagnostics& diagnostics);
 
-// loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite and beyond 65504
-// become 65504. Adds one W153 with the counts when anything was replaced.
+// loadImage, made RGBA (alpha 1) and fit for rgba16f: NaN and negative become 0, infinite becomes 65504, and light beyond
+// 65504 moves to the texels around. Adds one W153 with the counts, and with the share of the light that found no room.
 std::optional<ImageF> loadEnvironment(const std::string& path, base::Diagnostics& diagnostics);
 // The same for bytes in memory, as decodeImage.
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
                                         base::Diagnostics& diagnostics);
-// The cleaning step alone: the colour channels of `image`, in place.
+// The cleaning step alone: the colour channels of `image`, RGB or RGBA and equirectangular, in place.
 void sanitizeRadiance(ImageF& image, const std::string& name, base::Diagnostics& diagnostics);
 
 bool savePng8(const std::string& path, int width, int height, int channels,

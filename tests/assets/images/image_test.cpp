@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/assets/images/half.h"
 #include "tests/assets/temporary.h"
@@ -100,8 +102,8 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   image.texels[1] = -1;
   image.texels[2] = -infinity;
   image.texels[3] = infinity;
-  image.texels[4] = 1e6f;
   image.texels[5] = kHalfMax;
+  image.texels[7] = 70000;
   REQUIRE(saveExr(folder.at("a.exr"), image, diagnostics));
   const auto environment = loadEnvironment(folder.at("a.exr"), diagnostics);
   REQUIRE(environment);
@@ -111,15 +113,16 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   CHECK(environment->texels[2] == 0);
   CHECK(environment->texels[3] == 1);
   CHECK(environment->texels[4] == kHalfMax);
-  CHECK(environment->texels[5] == kHalfMax);
+  CHECK(environment->texels[5] == 0.5f);
   CHECK(environment->texels[6] == kHalfMax);
+  CHECK(environment->texels[9] == kHalfMax);
   REQUIRE(diagnostics.size() == 1);
   CHECK(diagnostics.items()[0].code == base::Code::texelsReplaced);
   CHECK(diagnostics.items()[0].message ==
         "5 of 24 colour values are no radiance and were replaced");  // 4x2 of RGB
   CHECK_FALSE(diagnostics.hasErrors());
   CHECK(diagnostics.items()[0].found.find("1 not a number, 2 negative") != std::string::npos);
-  CHECK(diagnostics.items()[0].found.find("2 infinite") != std::string::npos);
+  CHECK(diagnostics.items()[0].found.find("1 infinite (now 65504), 1 above the range") != std::string::npos);
 
   // A sun beyond the halves alone is no more than a note.
   CHECK(diagnostics.items()[0].severity == base::Severity::warning);
@@ -136,6 +139,45 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   REQUIRE(saveHdr(folder.at("clean.hdr"), makeRamp(16, 8, 3), diagnostics));
   CHECK(loadEnvironment(folder.at("clean.hdr"), diagnostics));
   CHECK(diagnostics.empty());
+}
+
+namespace {
+
+double lightOf(const ImageF& map, int channel) {
+  double sum = 0;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      sum += map.texels[static_cast<std::size_t>((y * map.width + x) * map.channels + channel)] *
+             std::sin((y + 0.5) * std::numbers::pi / map.height);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a sun beyond half floats keeps its light and its colour, and what finds no room is told") {
+  ImageF map{64, 32, 3, std::vector<float>(64 * 32 * 3, 0.5f)};
+  float* sun = &map.texels[static_cast<std::size_t>(9 * 64 * 3)];  // at the seam of the map
+  sun[0] = 400000;
+  sun[1] = 300000;
+  sun[2] = 100000;
+  const ImageF before = map;
+  base::Diagnostics diagnostics;
+  sanitizeRadiance(map, "sun", diagnostics);
+  for (int c = 0; c < 3; ++c) CHECK(lightOf(map, c) == doctest::Approx(lightOf(before, c)).epsilon(1e-4));
+  CHECK(*std::max_element(map.texels.begin(), map.texels.end()) <= kHalfMax);
+  CHECK(map.texels[(9 * 64 + 5) * 3] == 0.5f);  // no further than it must
+  CHECK(map.texels[(9 * 64 + 63) * 3] > 1000);  // across the seam
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].found.find("3 above the range") != std::string::npos);
+  CHECK(diagnostics.items()[0].found.find("0 % of the map's is lost") != std::string::npos);
+
+  // No room: everything is too bright.
+  ImageF white{8, 4, 3, std::vector<float>(8 * 4 * 3, 131008.0f)};
+  diagnostics.clear();
+  sanitizeRadiance(white, "white", diagnostics);
+  for (const float value : white.texels) CHECK(value == kHalfMax);
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].found.find("50 % of the map's is lost") != std::string::npos);
 }
 
 TEST_CASE("an output that cannot be written is W180") {
