@@ -37,12 +37,10 @@ vec2 equirectLookup(float level, float height) {
   return vec2(level, 0.5 * texels / height);
 }
 
-// Linear lookup. u may lie outside 0..1: subtracting part of a turn moves the map's content by it about +Y, from +X towards +Z.
+// Linear lookup; `lookup` from equirectLookup. u may lie outside 0..1: subtracting part of a turn moves the map's content by it about +Y,
+// from +X towards +Z.
 vec4 sampleEquirect(sampler2D map, vec2 map_uv, vec2 lookup) {
   return textureLod(map, vec2(map_uv.x, clamp(map_uv.y, lookup.y, 1.0 - lookup.y)), lookup.x);
-}
-vec4 sampleEquirect(sampler2D map, vec2 map_uv, float level, float height) {
-  return sampleEquirect(map, map_uv, equirectLookup(level, height));
 }
 
 #endif

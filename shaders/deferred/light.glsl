@@ -33,18 +33,18 @@ void finishPoint(inout Point point, float exponent) {
   point.mirror = reflect(-point.v, point.n);
   is_phong = MODEL == MODEL_BLINN_PHONG || (MODEL == MODEL_MATERIAL && exponent > 0.0);
   phong = phongOf(point.surface, exponent > 0.0 ? exponent : exponentOfRoughness(point.surface.roughness));
+  // Of a Blinn-Phong surface that of a lobe as wide.
+  point.roughness = is_phong ? roughnessOfExponent(phong.exponent) : point.surface.roughness;
 }
 
-// Of a Blinn-Phong surface that of a lobe as wide.
-float roughnessOf(Point point) { return is_phong ? roughnessOfExponent(phong.exponent) : point.surface.roughness; }
+void finishResponse(inout Response response) {
+  if (is_phong) response = Response(phong.specular, phong.specular, vec3(0.0), phong.diffuse, vec2(0.0));
+}
 
 vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around) {
-  float roughness = roughnessOf(point);
   // Occlusion of the lobe: Lagarde and de Rousiers, "Moving Frostbite to physically based rendering", SIGGRAPH 2014 courses, 4.10.2.
-  float seen_reflected = clamp(pow(point.nv + seen, exp2(-16.0 * roughness - 1.0)) - 1.0 + seen, 0.0, 1.0);
-  around *= seen;
-  if (is_phong) return phong.specular * reflected * seen_reflected + phong.diffuse * around;
-  return response.single * reflected * seen_reflected + (response.multiple + response.diffuse) * around;
+  float seen_reflected = clamp(pow(point.nv + seen, exp2(-16.0 * point.roughness - 1.0)) - 1.0 + seen, 0.0, 1.0);
+  return reflected * seen_reflected + (response.multiple + response.diffuse) * around * seen;
 }
 
 vec3 throwFrom(Point point, Response response, vec3 l) {

@@ -44,7 +44,6 @@ void findPoint(out Point point) {
   point.n = decodeNormal(texelFetch(normal, pixel, 0).rg);
   point.surface = Surface(texelFetch(base, pixel, 0).rgb, stored.r, stored.g);
   finishPoint(point, stored.a > 0.0 ? decodeExponent(stored.a) : 0.0);
-  point.lobe = lobeOf(roughnessOf(point), 0.0);
   seen = stored.b;
 #ifdef HAS_AO
   seen = min(seen, texelFetch(ao, pixel, 0).r);

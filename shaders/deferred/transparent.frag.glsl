@@ -19,7 +19,6 @@ void findPoint(out Point point) {
   point.n = self.normal;
   point.surface = Surface(self.albedo, self.metallic, self.roughness);
   finishPoint(point, self.shininess);
-  point.lobe = lobeOf(roughnessOf(point), 0.0);
   seen = self.occlusion;
   emitted = self.emissive;
   alpha = self.alpha;

@@ -2,7 +2,7 @@
 // read    environment  equirectangular with mips, `as linear wrap`
 // write   result       one level, rgba16f; each work group is 64 texels of one row
 // params  level, levels   which level of how many: roughness as in roughness_level.glsl
-//         samples         per texel, at most 256. Level 0 is the mirror: a resampled copy, no samples (define COPY)
+//         samples         per texel, at most 256
 //
 // Samples of the normal distribution, each read at the level whose texels match the sample's share of the sphere
 // (Krivanek and Colbert, EGSR 2008) and weighted by N.L. Around the axis all texels of a row see the same samples,
@@ -10,10 +10,6 @@
 #include "common/equirect.glsl"
 #include "common/slice.glsl"
 #include "roughness_level.glsl"
-
-#ifndef COPY
-#define COPY 0
-#endif
 
 layout(local_size_x = 64) in;
 uniform sampler2D environment;
@@ -24,9 +20,8 @@ layout(std140) uniform Parameters {
   int samples;
 };
 
-#if !COPY
 const int kMaxSamples = 256;
-const float kSpread = 0.5;       // levels beyond a sample's share of the sphere, so that neighbours overlap
+const float kSpread = -0.5;       // levels beyond a sample's share of the sphere, so that neighbours overlap
 shared vec4 table[kMaxSamples];  // u offset, v, level of the environment, weight
 
 float radicalInverse(uint bits) { return float(bitfieldReverse(bits)) * 2.3283064365386963e-10; }
@@ -56,20 +51,11 @@ void fillTable(float theta, int count) {
     table[i] = vec4(at.x - 0.5, at.y, lod, max(cos_l, 0.0));
   }
 }
-#endif
 
 void main() {
   ivec2 size = imageSize(result);
   ivec2 at = ivec2(sliceInvocation().x, sliceGroup().y);
   vec2 center = (vec2(at) + 0.5) / vec2(size);
-#if COPY
-  if (at.x >= size.x || at.y >= size.y) return;
-  vec2 base = vec2(textureSize(environment, 0));
-  float lod = max(log2(base.x / float(size.x)), 0.0);
-  float half_texel = 0.5 * exp2(ceil(lod)) / base.y;
-  vec3 radiance = textureLod(environment, vec2(center.x, clamp(center.y, half_texel, 1.0 - half_texel)), lod).rgb;
-  imageStore(result, at, vec4(radiance, 1.0));
-#else
   int count = clamp(samples, 1, kMaxSamples);
   fillTable(center.y * kPi, count);
   barrier();
@@ -80,5 +66,4 @@ void main() {
     sum += one.w * vec4(textureLod(environment, vec2(center.x + one.x, one.y), one.z).rgb, 1.0);
   }
   imageStore(result, at, vec4(sum.rgb / sum.a, 1.0));
-#endif
 }

@@ -31,7 +31,7 @@ void findPoint(out Point point) {
   point.v = normalize(eye - world_position);
   point.nv = clamp(dot(point.n, point.v), 0.0, 1.0);
   point.mirror = reflect(-point.v, point.n);
-  point.lobe = lobeOf(self.roughness, 0.0);
+  point.roughness = self.roughness;
   point.surface = Surface(self.albedo, self.metallic, self.roughness);
   emitted = self.emissive;
   occlusion = self.occlusion;

@@ -1,11 +1,12 @@
 // Light that leaves a surface towards the eye: of the environment, the sun and lamps. This has main(); a shader that includes it says what
 // surface there is, what that does with light, and where the result goes:
 //   void findPoint(out Point point)                                  may discard
-//   vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around)   what leaves of light from everywhere: `reflected` from
-//        about the mirror direction, `around` the mean weighted by the cosine
+//   void finishResponse(inout Response response)                     of surfaces that are not Cook-Torrance
+//   vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around)   what leaves of light from everywhere: `reflected` is what
+//        single scattering reflects of it, `around` its mean weighted by the cosine
 //   vec3 throwFrom(Point point, Response response, vec3 l)           what leaves for an irradiance of 1 from the unit direction l
 //   void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried)   how many lamps it went through
-// read    brdf, irradiance?, specular?, environment?   see shading/ibl.glsl; without one its light is missing
+// read    brdf, irradiance?, specular?, environment?, brightest?   see shading/ibl.glsl; without one its light is missing
 //         probes?, sh?  light that other things throw back, see gi/bounce.glsl
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
@@ -14,22 +15,17 @@
 //         sky_turn?     see shading/ibl.glsl
 // defines SOFT_SUN         see shading/sun_shadow.glsl
 //         LIT_IS_GREATER   see shading/compare.glsl
+//         LOBE_IS_FLAT     the vertex shader has called lobeOf (shading/lobe.glsl), with the curvature: `flat out Lobe lobe`
 // A variant without sun and lamps is as if there was no code for them. All is one function: drivers put each function into those that call
 // it, and every level of calls costs them that again.
 #ifndef SHADING_LIGHT_GLSL
 #define SHADING_LIGHT_GLSL
 
-#if defined HAS_SKY_TURN || defined HAS_LAMPS
-layout(std140) uniform Parameters {
-#ifdef HAS_SKY_TURN
-  float sky_turn;
-#endif
-#ifdef HAS_LAMPS
-  int lamp_count;
-#endif
-};
+#ifndef LOBE_IS_FLAT
+#define LOBE_IS_FLAT 0
 #endif
 
+#include "shading/parameters.glsl"
 #include "shading/direct.glsl"
 #ifdef HAS_PROBES
 #include "gi/bounce.glsl"
@@ -49,14 +45,19 @@ layout(std140) uniform Parameters {
 layout(std430) readonly buffer clusters { uint cluster[]; };
 #endif
 
+#if LOBE_IS_FLAT
+flat in Lobe lobe;
+#endif
+
 struct Point {
-  vec3 at, n, v;  // world; n and v are unit, v towards the eye
-  vec3 mirror;    // v reflected at the surface
-  float nv;       // N.V, 0..1
-  vec3 lobe;      // see lobeOf in shading/lobe.glsl
+  vec3 at, n, v;    // world; n and v are unit, v towards the eye
+  vec3 mirror;      // v reflected at the surface
+  float nv;         // N.V, 0..1
+  float roughness;  // of the lobe; with LOBE_IS_FLAT of no account
   Surface surface;
 };
 void findPoint(out Point point);
+void finishResponse(inout Response response);
 vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around);
 vec3 throwFrom(Point point, Response response, vec3 l);
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried);
@@ -65,18 +66,51 @@ void main() {
   Point point;
   findPoint(point);
 #ifdef HAS_RADIANCE
-  vec3 around = vec3(0.0), reflected = reflection(point.lobe, point.mirror);
+  Response response = responseOf(point.surface, point.nv);
+  finishResponse(response);
+
+  // What single scattering reflects of the environment.
+  vec3 reflected = vec3(0.0);
+#ifdef HAS_SPECULAR
+#if !LOBE_IS_FLAT
+  Lobe lobe = lobeOf(point.roughness, 0.0);
+#endif
+  float near_spot = dot(point.mirror, lobe.spot), height = float(textureSize(specular, 0).y);
+  float level = min(lobe.maps.y + response.lobe.y * lobe.maps.w, float(textureQueryLevels(specular) - 1));
+  vec2 axis = equirectUv(mix(point.mirror, point.n, response.lobe.x)) - vec2(sky_turn, 0.0);
+  reflected = sampleEquirect(specular, axis, equirectLookup(level, height)).rgb;
+#ifdef HAS_ENVIRONMENT
+  vec3 sharp = sampleEquirect(environment, axis, equirectLookup(lobe.maps.x, float(textureSize(environment, 0).y))).rgb;
+#ifdef HAS_BRIGHTEST
+  // The spot is not to be seen twice.
+  sharp -= (near_spot > kNearCosine ? lobe.cut.y : 0.0) * max(sharp - lobe.cut.x, 0.0);
+#endif
+  reflected = mix(sharp, reflected, lobe.maps.z);
+#endif
+  reflected *= response.single;
+#ifdef HAS_BRIGHTEST
+  // GGX, Smith's height-correlated masking (Heitz, JCGT 2014) and Schlick's Fresnel, for one direction.
+  float nv = point.nv, nl = max(dot(point.n, lobe.spot), 0.0), a2 = lobe.widths.x;
+  float h2 = max(2.0 + 4.0 * nv * nl - 2.0 * near_spot, 1e-6);  // |V + L|^2
+  float masking = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
+  float strength = spotDistribution(lobe.widths, max(h2 - (nv + nl) * (nv + nl), 0.0), h2, nl, max(masking, 1e-6));
+  float m = 1.0 - 0.5 * sqrt(h2), m2 = m * m;
+  reflected += (response.f0 + (1.0 - response.f0) * (m2 * m2 * m)) * lobe.light * strength;
+#endif
+#endif
+
+  vec3 around = vec3(0.0);
 #ifdef HAS_IRRADIANCE
   vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
-  around = fromEnvironment(point.n, lookup);
+  around = sampleEquirect(irradiance, equirectUv(point.n) - vec2(sky_turn, 0.0), lookup).rgb;
 #ifdef HAS_PROBES
   vec3 coefficients[9];
   probeAt(point.at, coefficients);
   Bounce bounce = bounceOf(coefficients, point.n);
-  around += bounced(bounce, fromEnvironment(bounce.facing, lookup), fromEnvironment(-bounce.facing, lookup));
+  vec2 there = equirectUv(bounce.facing) - vec2(sky_turn, 0.0), behind = vec2(there.x + 0.5, 1.0 - there.y);
+  around += bounced(bounce, sampleEquirect(irradiance, there, lookup).rgb, sampleEquirect(irradiance, behind, lookup).rgb);
 #endif
 #endif
-  Response response = responseOf(point.surface, point.nv);
   vec3 from_around = throwAround(point, response, reflected, around), from_lights = vec3(0.0);
   int lamps_tried = 0;
 

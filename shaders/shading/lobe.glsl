@@ -1,6 +1,9 @@
 // Which part of the environment's maps a surface of some roughness reflects: all that vertex shaders need of shading/ibl.glsl.
-// Samplers: specular? and environment? (`as linear wrap`; the latter has the mips of a box filter and takes the place of the specular
-// map's level 0).
+// Samplers: specular? and environment? (`as linear wrap`; the latter has the mips of a box filter and is what surfaces smoother than
+// level 0 of the specular map reflect; without it they are as rough as that level). Block brightest? (`as uniform`): the spot that the
+// specular map lacks, see ibl/brightest.glsl; its reflection is in closed form.
+// Parameter sky_turn?: by how much of a full turn the environment is rotated. The includer declares the block Parameters before, see
+// shading/parameters.glsl.
 // SPECULAR_AA: a pixel sees a cone of reflected directions, twice its width over the radius of curvature (ray
 // cones, Akenine-Moeller et al., JCGT 10(1), 2021). Mirrors read the environment at the level where a texel is that wide; rough
 // surfaces add its variance to that of their lobe (Tokuyoshi and Kaplanyan, "Improved geometric specular antialiasing", I3D
@@ -10,9 +13,16 @@
 
 #include "common/equirect.glsl"
 #include "ibl/roughness_level.glsl"
+#ifdef HAS_BRIGHTEST
+#include "ibl/brightest.glsl"
+#endif
 
 #ifndef SPECULAR_AA
 #define SPECULAR_AA 1
+#endif
+
+#ifndef HAS_SKY_TURN
+const float sky_turn = 0.0;
 #endif
 
 #ifdef HAS_SPECULAR
@@ -22,36 +32,61 @@ uniform sampler2D environment;
 #endif
 #endif
 
-// What of the maps a sphere reads: x level of the environment, y level of the specular map, z weight of the latter; at weight 1
-// the environment's last level, whose lookup is cheapest where branches save nothing. `bend`:
-// radians its normals span in a pixel where they face the eye. In the plane of incidence the cone of reflected directions is
-// 2 bend / nv wide, across it 2 bend nv; half of their product, which is constant on the sphere, counts, since the sampler's
-// filter is two texels wide (that half is also what differs least from supersampling, measured).
+// What a surface of one roughness reads of the maps, and how it sees the brightest spot. The same for a whole sphere.
+struct Lobe {
+  vec4 maps;     // x level of the environment, y of the specular map, z weight of the latter, w by what Response::lobe.y changes y
+  vec3 spot;     // towards it, in the world
+  vec4 widths;   // of its reflection, see ibl/brightest.glsl
+  vec3 light;    // of it, as far as it is reflected in closed form, over 2 pi
+  vec2 cut;      // what is above x near the spot is cut out of what is read of the environment, by the share y
+};
+
+// `bend`: radians the normals of a sphere span in a pixel where they face the eye. In the plane of incidence the cone of reflected
+// directions is 2 bend / nv wide, across it 2 bend nv; half of their product, which is constant on the sphere, counts, since the
+// sampler's filter is two texels wide (that half is also what differs least from supersampling, measured).
 #ifdef HAS_SPECULAR
-vec3 lobeOf(float roughness, float bend) {
+Lobe lobeOf(float roughness, float bend) {
+  Lobe lobe = Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0));
   int levels = textureQueryLevels(specular);
-  float level = levelOfRoughness(roughness, levels);
-#if SPECULAR_AA
-  // Variance along each axis: 2 alpha^2 of the lobe, (2 bend)^2 / 12 of the pixel (a box).
   float alpha = alphaOfRoughness(roughness);
-  level = levelOfRoughness(sqrt(sqrt(min(alpha * alpha + bend * bend / 6.0, 1.0))), levels);
-#endif
-#ifdef HAS_ENVIRONMENT
-  vec2 size = vec2(textureSize(environment, 0));
-  float last = float(textureQueryLevels(environment) - 1);
+  // Variance along each axis: 2 alpha^2 of the lobe, (2 bend)^2 / 12 of the pixel (a box).
 #if SPECULAR_AA
-  float sharp = min(equirectLevel(size.x, sqrt(2.0) * bend), last);
+  float wider = sqrt(min(alpha * alpha + bend * bend / 6.0, 1.0));
 #else
-  float sharp = max(log2(size.y / float(textureSize(specular, 0).y)), 0.0);
+  float wider = alpha;
+  bend = 0.0;
 #endif
-  float weight = min(levelOfRoughness(roughness, levels), 1.0);
-  return vec3(weight < 1.0 ? sharp : last, max(level, 1.0), weight);
+  // The pixel's part of the width is the same all over a sphere; only the lobe's own changes with the view.
+  float own = alpha * alpha / max(wider * wider, 1e-12);
+  lobe.maps = vec4(0.0, levelOfAlpha(wider, levels), 1.0, own * float(levels - 1));
+#ifdef HAS_ENVIRONMENT
+  // From half of level 0's roughness on the lobe takes over; up to there and between, the environment is as blurred as the lobe is wide.
+  vec2 size = vec2(textureSize(environment, 0));
+  float most = float(textureQueryLevels(environment) - 1);
+  lobe.maps.z = clamp(2.0 * roughness / kSharpest - 1.0, 0.0, 1.0);
+#if SPECULAR_AA
+  float sharp = min(equirectLevel(size.x, sqrt(2.0 * bend * bend + 4.0 * alpha * alpha)), most);
 #else
-  return vec3(0.0, level, 1.0);
+  float sharp = max(log2(size.y / float(textureSize(specular, 0).y)), equirectLevel(size.x, 2.0 * alpha));
 #endif
+  lobe.maps.x = lobe.maps.z < 1.0 ? sharp : most;  // the cheapest to read where it does not count
+#endif
+#ifdef HAS_BRIGHTEST
+  lobe.spot = towardsBrightest(sky_turn);
+  float share = 1.0;
+#ifdef HAS_ENVIRONMENT
+  // Cutting it out of the environment takes texels that are small beside the window.
+  float fine = clamp(2.0 - 50.0 * exp2(lobe.maps.x) * 2.0 * kPi / size.x, 0.0, 1.0);
+  share = max(lobe.maps.z, fine * min(2.0 * roughness / kSharpest, 1.0));
+  lobe.cut = vec2(brightest_at.w, lobe.maps.z < 1.0 ? (share - lobe.maps.z) / (1.0 - lobe.maps.z) : 0.0);
+#endif
+  lobe.light = brightest_light.rgb * (share / (2.0 * kPi));
+  lobe.widths = spotWidths(max(alpha, 0.001), min(0.25 * brightest_light.w + bend * bend / 12.0, 0.25));
+#endif
+  return lobe;
 }
 #else
-vec3 lobeOf(float roughness, float bend) { return vec3(0.0); }
+Lobe lobeOf(float roughness, float bend) { return Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0)); }
 #endif
 
 #endif

@@ -6,7 +6,7 @@
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
 //         turbidity  2 (clear) to 8 (hazy)
-#include "common/equirect.glsl"
+#include "common/equirect_direction.glsl"
 
 layout(std140) uniform Parameters {
   float elevation;
@@ -46,13 +46,6 @@ vec3 colorOf(vec2 luminance_x) {
   float luminance = luminance_x.x, x = luminance_x.y, y = (2.870 - 3.000 * x) * x - 0.275;
   vec3 xyz = vec3(x, y, 1.0 - x - y) * (luminance / y);
   return max(mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570) * xyz, vec3(0.0));
-}
-
-// Unit direction of a point of the map.
-vec3 equirectDirection(vec2 map_uv) {
-  float phi = (map_uv.x - 0.5) * 2.0 * kPi;
-  float theta = map_uv.y * kPi;
-  return vec3(cos(phi) * sin(theta), cos(theta), sin(phi) * sin(theta));
 }
 
 void main() {

@@ -7,6 +7,9 @@
 uniform sampler2D sky;
 #ifdef HAS_BLURRED
 uniform sampler2D blurred;
+#ifdef HAS_BRIGHTEST
+#include "ibl/brightest.glsl"
+#endif
 #endif
 
 #if defined HAS_SKY_TURN || defined HAS_BLUR

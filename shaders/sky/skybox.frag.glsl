@@ -1,10 +1,11 @@
 // The environment behind everything. A draw of one "triangle".
 // read    sky        equirectangular with mips, `as linear wrap`
-//         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from level 1 on instead of it
+//         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from roughness 0.1 on instead of it
+//         brightest? the spot that `blurred` lacks, see ibl/brightest.glsl
 // write   radiance   scene-referred, linear; alpha 1
 //         velocity   screen UV per frame of a point at infinity
 // params  sky_turn?  by how much of a full turn the environment is rotated, from +X towards +Z
-//         blur?      level of `blurred`; between 0 and 1 a mixture with `sky`
+//         blur?      four times the roughness of the surface that would show it so; up to 0.4 a mixture with `sky`
 #include "maps.glsl"
 
 noperspective in vec3 direction;
@@ -15,6 +16,12 @@ noperspective in vec3 before;
 flat in vec2 sky_lookup;
 #ifdef HAS_BLURRED
 flat in vec2 blurred_lookup;
+flat in float blurred_share;
+#ifdef HAS_BRIGHTEST
+flat in vec3 spot;
+flat in vec4 spot_widths;
+flat in vec3 spot_light;
+#endif
 #endif
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -28,7 +35,12 @@ void main() {
   vec2 at = equirectUv(direction) - vec2(sky_turn, 0.0);
   vec3 color = sampleEquirect(sky, at, sky_lookup).rgb;
 #ifdef HAS_BLURRED
-  color = mix(color, sampleEquirect(blurred, at, blurred_lookup).rgb, min(blur, 1.0));
+  vec3 soft = sampleEquirect(blurred, at, blurred_lookup).rgb;
+#ifdef HAS_BRIGHTEST
+  float cosine = dot(normalize(direction), spot);
+  soft += spot_light * spotDistribution(spot_widths, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0);
+#endif
+  color = mix(color, soft, blurred_share);
 #endif
   radiance = vec4(color, 1.0);
 #endif

@@ -1,6 +1,7 @@
 // The environment behind everything. Directions are linear over the picture, and levels constant, so both are computed here.
 #include "common/view.glsl"
 #include "maps.glsl"
+#include "ibl/roughness_level.glsl"
 
 noperspective out vec3 direction;  // world, not normalised
 noperspective out vec2 uv;
@@ -11,6 +12,12 @@ noperspective out vec3 before;     // the direction in last frame's clip space: 
 flat out vec2 sky_lookup;
 #ifdef HAS_BLURRED
 flat out vec2 blurred_lookup;
+flat out float blurred_share;
+#ifdef HAS_BRIGHTEST
+flat out vec3 spot;
+flat out vec4 spot_widths;
+flat out vec3 spot_light;  // times spotDistribution and the cosine: radiance
+#endif
 #endif
 
 vec2 lookupOf(sampler2D map, float least) {
@@ -27,6 +34,16 @@ void main() {
 #endif
   sky_lookup = lookupOf(sky, 0.0);
 #ifdef HAS_BLURRED
-  blurred_lookup = lookupOf(blurred, max(blur, 1.0));
+  float roughness = max(0.25 * blur, kSharpest);
+  blurred_lookup = lookupOf(blurred, levelOfAlpha(alphaOfRoughness(roughness), textureQueryLevels(blurred)));
+  blurred_share = min(0.25 * blur / kSharpest, 1.0);
+#ifdef HAS_BRIGHTEST
+  spot = towardsBrightest(sky_turn);
+  float alpha = min(alphaOfRoughness(roughness), 0.995), a2 = alpha * alpha;
+  spot_widths = spotWidths(alpha, 0.25 * brightest_light.w);
+  // Lobes of the map are those of V = N, weighted by N.L: over their mean N.L, with cos^2 of the half vector's angle as in ibl/brdf.comp.
+  float s = 1.0 + a2, mean = a2 / ((1.0 - a2) * (1.0 - a2)) * (s / a2 - 2.0 - 2.0 * log(0.5 * s / a2));
+  spot_light = brightest_light.rgb * (0.25 / (kPi * mean));
+#endif
 #endif
 }

@@ -8,6 +8,7 @@
 // Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
 // its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
 // the test and the write of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
+#define LOBE_IS_FLAT 1
 #include "shading.glsl"
 
 flat in vec4 sphere;
@@ -16,7 +17,6 @@ flat in vec2 anchor_pixel;
 flat in vec2 edge;
 flat in vec4 albedo_roughness;
 flat in vec4 motion_metallic;
-flat in vec3 lobe;
 flat in vec4 per_pixel;
 flat in float near_distance;
 flat in mat3 to_world;
@@ -80,14 +80,14 @@ void findPoint(out Point point) {
 
   // From the centre to the hit: the ray's foot is (c x v) x v / v.v away from it.
   vec3 out_of = (cross(cw, v) + side * root * v) * per_vv;
-  vec3 normal_view = normalize(out_of) * -side;
+  vec3 normal_view = out_of * (-side * inversesqrt(max(dot(out_of, out_of), 1e-30)));  // a far speck has none
   float nv = clamp(root * per_length / r, 0.0, 1.0);
 #ifdef HAS_RADIANCE
   point.n = to_world * normal_view;
   point.v = to_world * (v * -per_length);
   point.mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
   point.nv = nv;
-  point.lobe = lobe;
+  point.roughness = albedo_roughness.w;
   point.surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
 #if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
   point.at = to_world * (v * t) + world_eye;

@@ -4,6 +4,7 @@
 // read    order?   uvec2(key, index) per instance: the instance to draw i-th is element i's index
 #include "common/view.glsl"
 #include "scene/instances.glsl"
+#include "shading/parameters.glsl"
 #include "shading/lobe.glsl"
 
 #ifndef OCTAGON
@@ -20,7 +21,7 @@ flat out vec2 anchor_pixel;
 flat out vec2 edge;         // shift of the silhouette in pixels; side of the square for a small sphere, else 0: see below
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
-flat out vec3 lobe;             // see shading/lobe.glsl
+flat out Lobe lobe;             // see shading/lobe.glsl
 // What the fragments need of the view: in software an input costs less than a member of a block.
 flat out vec4 per_pixel;        // slope, screen UV
 flat out float near_distance;

@@ -5,13 +5,13 @@
 //                  depth      near / distance along the view axis (reversed-Z)
 // params, defines    see shading/light.glsl
 #include "common/view.glsl"
+#define LOBE_IS_FLAT 1
 #include "shading.glsl"
 
 in vec3 from_eye;
 in vec3 outwards;
 flat in vec4 albedo_roughness;
 flat in vec4 motion_metallic;
-flat in vec3 lobe;
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -28,7 +28,7 @@ void findPoint(out Point point) {
   point.v = -v;
   point.nv = clamp(-dot(point.n, v), 0.0, 1.0);
   point.mirror = v + 2.0 * point.nv * point.n;
-  point.lobe = lobe;
+  point.roughness = albedo_roughness.w;
   point.surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
 #endif
 #ifdef HAS_VELOCITY

@@ -2,6 +2,7 @@
 // the graph draws it without "cull".
 #include "common/view.glsl"
 #include "scene/instances.glsl"
+#include "shading/parameters.glsl"
 #include "shading/lobe.glsl"
 
 in vec3 position;
@@ -11,7 +12,7 @@ out vec3 from_eye;          // world, eye to surface
 out vec3 outwards;          // world, not normalised
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
-flat out vec3 lobe;             // see shading/lobe.glsl
+flat out Lobe lobe;             // see shading/lobe.glsl
 out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
 void main() {

@@ -4,8 +4,10 @@
 
 #include "shading/light.glsl"
 
+void finishResponse(inout Response response) {}
+
 vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around) {
-  return response.single * reflected + (response.multiple + response.diffuse) * around;
+  return reflected + (response.multiple + response.diffuse) * around;
 }
 
 vec3 throwFrom(Point point, Response response, vec3 l) {

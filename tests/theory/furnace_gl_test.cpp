@@ -96,6 +96,37 @@ TEST_CASE("white furnace: compensated dielectrics neither lose nor gain") {
   checkInvisible(row({0.0f, 0.3f, 0.7f, 1.0f}, 0, true));
 }
 
+TEST_CASE("white furnace: a partial metal is the mix of metal and dielectric, within 0.5 %") {
+  for (const float roughness : {0.1f, 0.6f}) {
+    std::vector<Picture> pictures;
+    for (const float metallic : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+      Setup setup = row({roughness}, metallic, true);
+      setup.balls[0].albedo = glm::vec3(0.8f, 0.5f, 0.2f);
+      Lab lab(setup);
+      lab.frame();
+      pictures.push_back(lab.read("hdr"));
+      CHECK(lab.complaints() == "");
+    }
+    double worst = 0;
+    int seen = 0;
+    for (std::uint32_t y = 0; y < 96; ++y)
+      for (std::uint32_t x = 0; x < 96; ++x) {
+        if (pictures[0].at(x, y)[3] < 0.999f) continue;
+        ++seen;
+        for (std::size_t i = 1; i < 4; ++i)
+          for (int c = 0; c < 3; ++c) {
+            const double ends[] = {pictures[0].at(x, y)[c], pictures[4].at(x, y)[c]};
+            const double mix = ends[0] + 0.25 * static_cast<double>(i) * (ends[1] - ends[0]);
+            worst = std::max(worst, std::abs(pictures[i].at(x, y)[c] / mix - 1));
+          }
+      }
+    CAPTURE(roughness);
+    CHECK(seen > 2000);
+    MESSAGE("worst difference from the mix: ", worst);
+    CHECK(worst < 0.005);
+  }
+}
+
 TEST_CASE("white furnace: without compensation metals show the directional albedo within 0.5 %") {
   const Setup setup = row({0.05f, 0.1f, 0.2f, 0.3f, 0.45f, 0.6f, 0.8f, 0.95f, 1.0f}, 1, false);
   Lab lab(setup);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
@@ -81,31 +82,38 @@ TEST_CASE("rotation by -180 and by 180 degrees is the same") {
   CHECK(worstDifference(draw(studio(0, -180, 0)), draw(studio(0, 180, 0))) < 0.02);
 }
 
+namespace {
+
+// Of the background over all directions.
+std::array<double, 3> meanAt(double blur, std::shared_ptr<const weft::assets::ImageF> map) {
+  std::array<double, 3> sum{};
+  double weights = 0;
+  for (const glm::dvec3 to :
+       {glm::dvec3{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}}) {
+    Setup setup = studio(0, 25, blur);
+    setup.environment = map;
+    setup.width = setup.height = 64;
+    setup.balls = {{.center = {0, 0, 1000}, .radius = 0.001f}};
+    setup.camera = {.position = {0, 0, 0}, .target = to, .fovDegrees = 90, .nearPlane = 0.1};
+    const Picture face = draw(setup);
+    for (std::uint32_t y = 0; y < face.height; ++y)
+      for (std::uint32_t x = 0; x < face.width; ++x) {
+        const double u = (x + 0.5) / face.width * 2 - 1, v = (y + 0.5) / face.height * 2 - 1;
+        const double weight = std::pow(1 + u * u + v * v, -1.5);  // solid angle of a pixel of a cube's face
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(face.at(x, y)[c]);
+        weights += weight;
+      }
+  }
+  for (double& s : sum) s /= weights;
+  return sum;
+}
+
+}  // namespace
+
 TEST_CASE("blur of the background keeps its mean over all directions") {
-  const auto meanAt = [](double blur) {
-    std::array<double, 3> sum{};
-    double weights = 0;
-    for (const glm::dvec3 to :
-         {glm::dvec3{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}}) {
-      Setup setup = studio(0, 25, blur);
-      setup.width = setup.height = 64;
-      setup.balls = {{.center = {0, 0, 1000}, .radius = 0.001f}};
-      setup.camera = {.position = {0, 0, 0}, .target = to, .fovDegrees = 90, .nearPlane = 0.1};
-      const Picture face = draw(setup);
-      for (std::uint32_t y = 0; y < face.height; ++y)
-        for (std::uint32_t x = 0; x < face.width; ++x) {
-          const double u = (x + 0.5) / face.width * 2 - 1, v = (y + 0.5) / face.height * 2 - 1;
-          const double weight = std::pow(1 + u * u + v * v, -1.5);  // solid angle of a pixel of a cube's face
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(face.at(x, y)[c]);
-          weights += weight;
-        }
-    }
-    for (double& s : sum) s /= weights;
-    return sum;
-  };
-  const auto sharp = meanAt(0);
+  const auto sharp = meanAt(0, environment(0));
   for (const double blur : {0.5, 1.0, 2.0, 3.0, 4.0}) {
-    const auto blurred = meanAt(blur);
+    const auto blurred = meanAt(blur, environment(0));
     CAPTURE(blur);
     for (std::size_t c = 0; c < 3; ++c) CHECK(blurred[c] == doctest::Approx(sharp[c]).epsilon(0.01));
   }
@@ -154,4 +162,18 @@ TEST_CASE("a camera with a focal length is the camera of that angle of view, and
   lens.sets.emplace_back("sensor_height", "18");
   setup.camera.fovDegrees = 2 * std::atan(9.0 / 36) * 180 / 3.14159265358979323846;
   CHECK(draw(lens).texels == draw(setup).texels);
+}
+
+TEST_CASE("a blurred background keeps the light of a sun") {
+  auto map = std::make_shared<weft::assets::ImageF>(weft::assets::ImageF{512, 256, 4, {}});
+  double mean = 0;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 512; ++x) {
+      const float value = x >= 200 && x < 203 && y >= 80 && y < 83 ? 20000.0f : 1.0f;
+      map->texels.insert(map->texels.end(), {value, value, value, 1});
+      mean +=
+          value * (std::cos(y * std::numbers::pi / 256) - std::cos((y + 1) * std::numbers::pi / 256)) / 1024;
+    }
+  CHECK(mean > 2);
+  for (const double blur : {2.0, 4.0}) CHECK(meanAt(blur, map)[0] == doctest::Approx(mean).epsilon(0.01));
 }

@@ -1,0 +1,118 @@
+// Finds the brightest spot of the environment, and how much of its light stands out.
+// read    environment  equirectangular with mips
+//         luminance    the mean luminance over the sphere, vec4
+// write   brightest    two vec4, see brightest.glsl; the light is 0 when nothing stands out, or more than one compact spot does
+//
+// One work group. What is above kStandsOut times the mean within 5 degrees of the brightest texel counts; colours are cut in proportion.
+// It is a spot when the ring around it, as wide again, has less than a tenth of that. Otherwise the environment stays whole.
+#include "common/equirect_direction.glsl"
+
+layout(local_size_x = 256) in;
+uniform sampler2D environment;
+layout(std140) uniform luminance { vec4 mean_luminance; };
+layout(std430) writeonly buffer brightest {
+  vec4 at;
+  vec4 light;
+};
+
+const float kStandsOut = 16.0;
+const float kWindow = 0.0873;             // as in brightest.glsl
+const float kHuge = 65504.0;
+
+shared vec4 part[256];
+shared vec4 part_moment[256];
+
+float luminanceOf(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
+float most(vec3 color) { return max(color.r, max(color.g, color.b)); }
+
+int levelOfWidth(int width) {
+  return clamp(int(ceil(log2(float(textureSize(environment, 0).x) / float(width)))), 0, textureQueryLevels(environment) - 1);
+}
+
+vec3 directionOf(ivec2 texel, ivec2 size) { return equirectDirection((vec2(texel) + 0.5) / vec2(size)); }
+
+void sumParts(uint lane) {
+  for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
+    barrier();
+    if (lane < half_width) {
+      part[lane] += part[lane + half_width];
+      part_moment[lane] += part_moment[lane + half_width];
+    }
+  }
+  barrier();
+}
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+
+  // The brightest texel of a small level; the first of equals.
+  int level = levelOfWidth(512);
+  ivec2 size = textureSize(environment, level);
+  vec2 best = vec2(-1.0, 0.0);
+  for (int i = int(lane); i < size.x * size.y; i += 256) {
+    float value = most(texelFetch(environment, ivec2(i % size.x, i / size.x), level).rgb);
+    if (value > best.x) best = vec2(value, intBitsToFloat(i));
+  }
+  part[lane] = vec4(best, 0.0, 0.0);
+  for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
+    barrier();
+    if (lane < half_width) {
+      vec2 other = part[lane + half_width].xy;
+      bool earlier = floatBitsToInt(other.y) < floatBitsToInt(part[lane].y);
+      if (other.x > part[lane].x || (other.x == part[lane].x && earlier)) part[lane].xy = other;
+    }
+  }
+  barrier();
+  int peak = floatBitsToInt(part[0].y);
+  vec3 center = directionOf(ivec2(peak % size.x, peak / size.x), size);
+  barrier();
+
+  // Light above the limit, in the window and in the ring around it.
+  float limit = kStandsOut * mean_luminance.x;
+  level = levelOfWidth(2048);
+  size = textureSize(environment, level);
+  vec2 middle = equirectUv(center) * vec2(size);
+  float height = 2.0 * kWindow / kPi * float(size.y);
+  float from_pole = max(sqrt(max(1.0 - center.y * center.y, 0.0)) - 2.0 * kWindow, 0.0);
+  float width = from_pole > 0.0 ? min(kWindow / (kPi * from_pole) * float(size.x), 0.5 * float(size.x)) : 0.5 * float(size.x);
+  ivec2 first = ivec2(floor(middle - vec2(width, height))), last = ivec2(ceil(middle + vec2(width, height)));
+  first.y = max(first.y, 0);
+  last.y = min(last.y, size.y - 1);
+  last.x = min(last.x, first.x + size.x - 1);
+  int columns = last.x - first.x + 1, count = columns * (last.y - first.y + 1);
+  vec4 sum = vec4(0.0), moment = vec4(0.0);
+  for (int i = int(lane); i < count; i += 256) {
+    ivec2 texel = first + ivec2(i % columns, i / columns);
+    texel.x = (texel.x % size.x + size.x) % size.x;
+    vec3 color = texelFetch(environment, texel, level).rgb;
+    float above = most(color) - limit;
+    vec3 offset = directionOf(texel, size) - center;
+    float away = length(offset);
+    if (above <= 0.0 || away > 2.0 * kWindow) continue;
+    float solid_angle = 2.0 * kPi / float(size.x) *
+                        (cos(float(texel.y) / float(size.y) * kPi) - cos(float(texel.y + 1) / float(size.y) * kPi));
+    vec3 cut = color * (above / most(color) * solid_angle);
+    if (away > kWindow) {
+      sum.a += luminanceOf(cut);
+    } else {
+      sum.rgb += cut;
+      moment += vec4(offset, dot(offset, offset)) * luminanceOf(cut);
+    }
+  }
+  part[lane] = sum;
+  part_moment[lane] = moment;
+  sumParts(lane);
+
+  if (lane != 0u) return;
+  sum = part[0];
+  moment = part_moment[0];
+  float weight = luminanceOf(sum.rgb);
+  if (weight <= 0.0 || sum.a > 0.1 * weight) {
+    at = vec4(0.0, 1.0, 0.0, kHuge);
+    light = vec4(0.0);
+    return;
+  }
+  moment /= weight;
+  at = vec4(normalize(center + moment.xyz), limit);
+  light = vec4(sum.rgb, 0.5 * max(moment.w - dot(moment.xyz, moment.xyz), 0.0));
+}

@@ -1,0 +1,35 @@
+// The brightest spot of the environment, a sun or a lamp, which ibl/prefilter leaves out of the specular map: a light of its own.
+// read   brightest   `as uniform`, written by ibl/brightest.comp
+#ifndef IBL_BRIGHTEST_GLSL
+#define IBL_BRIGHTEST_GLSL
+
+#include "common/equirect.glsl"
+
+layout(std140) uniform brightest {
+  vec4 brightest_at;     // towards it, in the map's own orientation; w: radiance above which it was cut out of the map
+  vec4 brightest_light;  // irradiance that was cut out, on a surface facing it; w: its variance along one axis, radians squared
+};
+
+const float kWindow = 0.0873;       // radians around the spot that are cut: 5 degrees
+const float kNearCosine = 0.98481;  // of twice as much
+
+// Towards it when the environment is rotated by `turn` of a full turn.
+vec3 towardsBrightest(float turn) {
+  float c = cos(turn * 2.0 * kPi), s = sin(turn * 2.0 * kPi);
+  return vec3(c * brightest_at.x - s * brightest_at.z, brightest_at.y, s * brightest_at.x + c * brightest_at.z);
+}
+
+// Half vectors of a GGX surface that sees a spot with the variance `spread` along each axis of a half vector. The tail is GGX's own; what
+// the spot's size takes from the peak is a rounder bump (1 + t / core)^-8, nearly a Gaussian. Both widths and the bump's share are such that a small spot
+// changes nothing up to second order, and a mirror shows the spot.
+vec4 spotWidths(float alpha, float spread) {
+  float a2 = alpha * alpha, tail = a2 + 4.0 * spread, core = 7.0 * a2 + 12.0 * spread;
+  return vec4(a2, tail, (1.0 - a2 / tail) * 7.0 / core, 1.0 / core);
+}
+// pi times their density at an angle whose sine has the square sine2 / h2, times `factor` / `below`.
+float spotDistribution(vec4 widths, float sine2, float h2, float factor, float below) {
+  float d = sine2 * (1.0 - widths.y) + h2 * widths.y, bump = h2 / (h2 + sine2 * widths.w), bump2 = bump * bump, bump4 = bump2 * bump2;
+  return factor * (widths.x * h2 * h2 + widths.z * bump4 * bump4 * d * d) / (d * d * below);
+}
+
+#endif
