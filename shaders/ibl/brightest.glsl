@@ -1,14 +1,18 @@
 // The brightest spot of the environment, a sun or a lamp, which ibl/prefilter leaves out of the specular map: a light of its own.
-// read   brightest   `as uniform`, written by ibl/brightest.comp
+// read   brightest?   `as uniform`, written by ibl/brightest.comp
 #ifndef IBL_BRIGHTEST_GLSL
 #define IBL_BRIGHTEST_GLSL
 
 #include "common/equirect.glsl"
 
+#ifdef HAS_BRIGHTEST
 layout(std140) uniform brightest {
   vec4 brightest_at;     // towards it, in the map's own orientation; w: radiance above which it was cut out of the map
   vec4 brightest_light;  // irradiance that was cut out, on a surface facing it; w: its variance along one axis, radians squared
 };
+#else
+const vec4 brightest_at = vec4(0.0, 1.0, 0.0, 65504.0), brightest_light = vec4(0.0);  // nothing is cut out
+#endif
 
 const float kWindow = 0.0873;       // radians around the spot that are cut: 5 degrees
 const float kNearCosine = 0.98481;  // of twice as much

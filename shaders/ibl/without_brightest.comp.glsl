@@ -1,6 +1,6 @@
 // The environment without its brightest spot, at the size of the result: what the specular map is made of.
 // read    environment  equirectangular with mips, `as linear wrap`
-//         brightest    see brightest.glsl
+//         brightest?   see brightest.glsl; without it all of the environment
 // write   result       level 0, rgba16f
 #include "common/equirect_direction.glsl"
 #include "common/slice.glsl"
