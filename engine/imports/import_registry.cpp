@@ -7,6 +7,7 @@
 #include "engine/imports/cut/cut.h"
 #include "engine/imports/draw_order/draw_order.h"
 #include "engine/imports/environment/environment.h"
+#include "engine/imports/ground/ground.h"
 #include "engine/imports/joints/joints.h"
 #include "engine/imports/lamps/lamps.h"
 #include "engine/imports/material_maps/material_maps.h"
@@ -29,6 +30,7 @@ ImportRegistry ImportRegistry::builtin() {
   registry.add(std::make_unique<Joints>());
   registry.add(std::make_unique<Sun>());
   registry.add(std::make_unique<Lamps>());
+  registry.add(std::make_unique<Ground>());
   registry.add(std::make_unique<Camera>());
   registry.add(std::make_unique<CubeLut>());
   registry.add(std::make_unique<Cut>());

@@ -25,7 +25,8 @@ bool operator==(const WorldFacts& a, const WorldFacts& b) {
   return a.environment == b.environment && a.environmentWidth == b.environmentWidth &&
          a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same) &&
          a.materials == b.materials && a.maps == b.maps && a.skins == b.skins && a.sun == b.sun &&
-         a.lamps == b.lamps && a.castingLamps == b.castingLamps && a.cameras == b.cameras;
+         a.ground == b.ground && a.lamps == b.lamps && a.castingLamps == b.castingLamps &&
+         a.cameras == b.cameras;
 }
 
 World::World(scene::Scene scene) : scene_(std::move(scene)) {}
@@ -75,6 +76,7 @@ WorldFacts World::facts() const {
   }
   facts.skins = scene_.skins.size();
   facts.sun = scene_.sun.has_value();
+  facts.ground = scene_.ground.has_value();
   facts.lamps = static_cast<std::uint32_t>(scene_.lamps.size());
   facts.castingLamps =
       static_cast<std::uint32_t>(std::ranges::count_if(scene_.lamps.rows(), &scene::Lamp::shadow));

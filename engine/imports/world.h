@@ -33,7 +33,7 @@ struct WorldFacts {
     friend bool operator==(const Maps&, const Maps&) = default;
   } maps;
   std::uint64_t skins = 0;
-  bool sun = false;
+  bool sun = false, ground = false;
   std::uint32_t lamps = 0, castingLamps = 0;  // all; those with a shadow
   std::vector<std::string> cameras;
   double countOf(std::string_view list) const;  // spheres; 0 for a list that is not there

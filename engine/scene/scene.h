@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/scene/camera.h"
+#include "engine/scene/ground.h"
 #include "engine/scene/light.h"
 #include "engine/scene/material.h"
 #include "engine/scene/mesh.h"
@@ -60,6 +61,7 @@ struct Scene {
   Table<MeshInstance> meshInstances;
   Table<Lamp> lamps;
   std::optional<Sun> sun;
+  std::optional<Ground> ground;
   float nits = 10000;              // cd/m² that one scene-referred unit stands for
   Table<Camera> cameras;           // at least one after loading; the first is the default
   std::vector<std::string> files;  // what it was read from, for watching

@@ -8,6 +8,8 @@
 //   void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried)   how many lamps it went through
 // read    brdf, irradiance?, specular?, environment?, brightest?   see shading/ibl.glsl; without one its light is missing
 //         probes?, sh?  light that other things throw back, see gi/bounce.glsl
+//         neighbours?   what spheres hide of each other, see neighbours/surround.glsl; the vertex shader says of which row the
+//                       point is: `flat out uint sphere_row`
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
 //         clusters?     which lamps reach where, see deferred/clusters.glsl; without it every pixel goes through all lamps
@@ -29,6 +31,10 @@
 #include "shading/direct.glsl"
 #ifdef HAS_PROBES
 #include "gi/bounce.glsl"
+#endif
+#ifdef HAS_NEIGHBOURS
+#include "neighbours/surround.glsl"
+flat in uint sphere_row;
 #endif
 #ifdef HAS_SUN_MAP
 #include "shading/sun_shadow.glsl"
@@ -69,12 +75,15 @@ void main() {
   Response response = responseOf(point.surface, point.nv);
   finishResponse(response);
 
-  // What single scattering reflects of the environment.
-  vec3 reflected = vec3(0.0);
-#ifdef HAS_SPECULAR
 #if !LOBE_IS_FLAT
   Lobe lobe = lobeOf(point.roughness, 0.0);
 #endif
+#ifdef HAS_NEIGHBOURS
+  Surround surround = surroundOf(sphere_row, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, lobe);
+#endif
+  // What single scattering reflects of the environment.
+  vec3 reflected = vec3(0.0);
+#ifdef HAS_SPECULAR
   float near_spot = dot(point.mirror, lobe.spot), height = float(textureSize(specular, 0).y);
   float level = min(lobe.maps.y + response.lobe.y * lobe.maps.w, float(textureQueryLevels(specular) - 1));
   vec2 axis = equirectUv(mix(point.mirror, point.n, response.lobe.x)) - vec2(sky_turn, 0.0);
@@ -87,6 +96,9 @@ void main() {
 #endif
   reflected = mix(sharp, reflected, lobe.maps.z);
 #endif
+#ifdef HAS_NEIGHBOURS
+  reflected = reflected * surround.mirror_seen + mirroredSpheres(surround);
+#endif
   reflected *= response.single;
 #ifdef HAS_BRIGHTEST
   // GGX, Smith's height-correlated masking (Heitz, JCGT 2014) and Schlick's Fresnel, for one direction.
@@ -95,6 +107,9 @@ void main() {
   float masking = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
   float strength = spotDistribution(lobe.widths, max(h2 - (nv + nl) * (nv + nl), 0.0), h2, nl, max(masking, 1e-6));
   float m = 1.0 - 0.5 * sqrt(h2), m2 = m * m;
+#ifdef HAS_NEIGHBOURS
+  strength *= surround.spot_seen;
+#endif
   reflected += (response.f0 + (1.0 - response.f0) * (m2 * m2 * m)) * lobe.light * strength;
 #endif
 #endif
@@ -102,7 +117,11 @@ void main() {
   vec3 around = vec3(0.0);
 #ifdef HAS_IRRADIANCE
   vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
+#ifdef HAS_NEIGHBOURS
+  around = aroundSeen(surround, point.n, lobe);
+#else
   around = sampleEquirect(irradiance, equirectUv(point.n) - vec2(sky_turn, 0.0), lookup).rgb;
+#endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];
   probeAt(point.at, coefficients);
@@ -120,6 +139,9 @@ void main() {
     from_lights = throwFrom(point, response, light.direction) * light.irradiance;
 #ifdef HAS_SUN_MAP
     from_lights *= seenOfSun(light, point.at, point.n);
+#endif
+#ifdef HAS_NEIGHBOURS
+    from_lights *= surround.sun_seen;
 #endif
   }
 #endif

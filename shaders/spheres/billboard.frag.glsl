@@ -20,7 +20,7 @@ flat in vec4 motion_metallic;
 flat in vec4 per_pixel;
 flat in float near_distance;
 flat in mat3 to_world;
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
 flat in vec3 world_eye;
 #endif
 #ifdef HAS_VELOCITY
@@ -89,7 +89,7 @@ void findPoint(out Point point) {
   point.nv = nv;
   point.roughness = albedo_roughness.w;
   point.surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
   point.at = to_world * (v * t) + world_eye;
 #else
   point.at = vec3(0.0);

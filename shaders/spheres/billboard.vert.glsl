@@ -26,8 +26,11 @@ flat out Lobe lobe;             // see shading/lobe.glsl
 flat out vec4 per_pixel;        // slope, screen UV
 flat out float near_distance;
 flat out mat3 to_world;
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
 flat out vec3 world_eye;
+#endif
+#ifdef HAS_NEIGHBOURS
+flat out uint sphere_row;
 #endif
 #ifdef HAS_VELOCITY
 flat out mat3 before_turn;      // x, y and w in last frame's clip space of a direction in view space,
@@ -55,9 +58,13 @@ vec2 edgeOf(float major, float minor) {
 
 void main() {
 #ifdef HAS_ORDER
-  Instance self = instance[order_element[gl_InstanceID].y];
+  uint row = order_element[gl_InstanceID].y;
 #else
-  Instance self = instance[gl_InstanceID];
+  uint row = uint(gl_InstanceID);
+#endif
+  Instance self = instance[row];
+#ifdef HAS_NEIGHBOURS
+  sphere_row = row;
 #endif
   vec3 c = (view * vec4(self.center, 1.0)).xyz;
   float r = self.radius, z = -c.z;
@@ -71,7 +78,7 @@ void main() {
   per_pixel = vec4(1.0 / focal, 1.0 / viewport);
   near_distance = near_plane;
   to_world = transpose(mat3(view));
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
   world_eye = eye;
 #endif
 #ifdef HAS_VELOCITY

@@ -13,10 +13,16 @@ out vec3 outwards;          // world, not normalised
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
 flat out Lobe lobe;             // see shading/lobe.glsl
+#ifdef HAS_NEIGHBOURS
+flat out uint sphere_row;
+#endif
 out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
 void main() {
   Instance self = instance[gl_InstanceID];
+#ifdef HAS_NEIGHBOURS
+  sphere_row = uint(gl_InstanceID);
+#endif
   from_eye = self.center - eye + self.radius * position;
   outwards = normal;
   albedo_roughness = vec4(self.albedo, self.roughness);

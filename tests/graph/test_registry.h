@@ -9,7 +9,7 @@
 namespace weft::graph::test {
 
 struct World {
-  bool environment = true, sun = true;
+  bool environment = true, sun = true, ground = true;
   double spheres = 100, pointLights = 8, shadowedLights = 2;
 };
 
@@ -77,6 +77,7 @@ inline std::vector<ImportType> testImports() {
        .doc = "",
        .arguments = {argument("texels", Value::number(2048))},
        .views = true},
+      {"ground", ImportKind::buffer, "", {}},
       {.name = "lamps",
        .kind = ImportKind::buffer,
        .doc = "",
@@ -131,6 +132,9 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
     facts.bytes = 800;
   } else if (request.type == "sun") {
     facts.exists = world.sun;
+    facts.count = 1;
+  } else if (request.type == "ground") {
+    facts.exists = world.ground;
     facts.count = 1;
   } else if (request.type == "point_lights") {
     facts.count = world.pointLights;

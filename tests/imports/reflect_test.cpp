@@ -67,9 +67,9 @@ TEST_CASE(
     }
     CHECK(importOf(type.name).provide(requestOf(type.name)));
   }
-  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "joints",
-                                       "lamps", "material_maps", "materials", "meshes", "probes", "spheres",
-                                       "sun"});
+  CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "ground",
+                                       "joints", "lamps", "material_maps", "materials", "meshes", "probes",
+                                       "spheres", "sun"});
   CHECK_FALSE(registry().find("clouds"));
 }
 

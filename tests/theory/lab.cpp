@@ -26,6 +26,8 @@ scene::Scene sceneOf(const Setup& setup) {
                      .pose = setup.camera,
                      .orbitDegreesPerSecond = setup.orbitDegreesPerSecond,
                      .path = setup.path});
+  scene.sun = setup.sun;
+  scene.ground = setup.ground;
   for (const Ball& ball : setup.balls) {
     const auto material = scene.materials.add(
         {.name = "", .albedo = ball.albedo, .metallic = ball.metallic, .roughness = ball.roughness});

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +33,8 @@ struct Setup {
   double orbitDegreesPerSecond = 0;                   // of the camera about its target
   std::vector<scene::CameraKey> path{};               // of the camera, instead of an orbit
   std::shared_ptr<const assets::ImageF> environment;  // null: a white one
+  std::optional<scene::Sun> sun{};
+  std::optional<scene::Ground> ground{};
 };
 
 std::shared_ptr<const assets::ImageF> constantEnvironment(float r, float g, float b);

@@ -13,6 +13,7 @@
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/fields.h"
 #include "engine/base/nearest.h"
+#include "engine/scene/files/ground.h"
 #include "engine/scene/files/lights.h"
 #include "engine/scene/files/lists.h"
 #include "engine/scene/files/model_scene.h"
@@ -63,6 +64,7 @@ class Reader {
     if (const JsonValue* spheres = fields.array("spheres"))
       for (std::size_t i = 0; i < spheres->items.size(); ++i) readSphere(spheres->items[i], i);
     readLights(fields, scene_, diagnostics_);
+    readGround(fields, scene_, diagnostics_);
     models_.read(fields, [this](const JsonValue& value, const std::string& what) {
       return value.is(JsonValue::Type::object) ? addMaterial("", value, value.place)
                                                : findMaterial(value, what);

@@ -1,0 +1,16 @@
+// The import `ground`: the plane that the scene stands on, as a table of one row.
+#pragma once
+
+#include "engine/imports/import.h"
+
+namespace weft::imports {
+
+class Ground : public Import {
+ public:
+  graph::ImportType reflect() const override;
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files& files) const override;
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override;
+};
+
+}  // namespace weft::imports

@@ -1,0 +1,27 @@
+// The rectangle around the shadow of a sphere on the ground, with its penumbra.
+// read    ground   see scene/ground.glsl
+//         sun or brightest, params: see ground/shadow.glsl
+#include "common/view.glsl"
+#include "scene/ground.glsl"
+#include "scene/instances.glsl"
+#include "shadow.glsl"
+
+out vec3 at;  // world
+flat out vec4 sphere;
+flat out vec4 light;
+
+const float kLowest = 0.02;  // sine of its height over the horizon, below which shadows grow no longer
+
+void main() {
+  Instance self = instance[gl_InstanceID];
+  light = lightAndAngle();
+  sphere = vec4(self.center, self.radius);
+  float height = ground_row[0].height, above = self.center.y - height, rise = max(light.y, kLowest);
+  vec2 horizontal = light.xz, along = dot(horizontal, horizontal) > 1e-8 ? normalize(horizontal) : vec2(1.0, 0.0);
+  vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  float across = self.radius + tan(min(light.w, 1.2)) * (max(above, 0.0) + self.radius) / rise;
+  vec2 foot = self.center.xz - horizontal * (above / rise) + along * (side.x * across / rise) + vec2(-along.y, along.x) * (side.y * across);
+  at = vec3(foot.x, height, foot.y);
+  bool visible = light.y > 0.0 && above > -self.radius;
+  gl_Position = visible ? view_projection * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+}

@@ -1,0 +1,57 @@
+// A sphere as seen from a point: a cap of the directions around it. Closed forms of what caps hide.
+#ifndef NEIGHBOURS_CAPS_GLSL
+#define NEIGHBOURS_CAPS_GLSL
+
+#include "common/equirect.glsl"
+
+// acos with an error below 7e-5 (Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, 4.4.45).
+float arcCosine(float x) {
+  float a = min(abs(x), 1.0);
+  float angle = sqrt(1.0 - a) * (((-0.0187293 * a + 0.0742610) * a - 0.2121144) * a + 1.5707288);
+  return x < 0.0 ? kPi - angle : angle;
+}
+
+// Share of a uniform sky's light on a surface that a sphere hides: the cosine over its cap, over pi, without what lies below the
+// surface's horizon. `ratio` is distance / radius, at least 1; `facing` the cosine between the normal and the direction to its centre.
+// Exact: Snyder, "Area Light Sources for Real-Time Graphics", MSR-TR-96-11, 1996; as Lagarde and de Rousiers write it, "Moving Frostbite
+// to Physically Based Rendering", SIGGRAPH 2014, 4.7.2.
+float capShare(float ratio, float facing) {
+  float r2 = ratio * ratio, height = ratio * facing;
+  if (height >= 1.0) return facing / r2;
+  if (height <= -1.0) return 0.0;
+  float tangent = sqrt(max(r2 - 1.0, 1e-12)), rim = sqrt(max(1.0 - height * height, 0.0)), slant = sqrt(max(1.0 - facing * facing, 1e-12));
+  float above = facing * arcCosine(clamp(-facing * tangent / slant, -1.0, 1.0)) - rim * tangent;
+  return max((above / r2 + fastAtan(rim, tangent)) / kPi, 0.0);
+}
+
+// Share of a cap of half angle `wide` that one of half angle `over` covers, their axes `apart`: a smooth step between touching and covering
+// (Oat and Sander, "Ambient aperture lighting", I3D 2007).
+float capOverlap(float over, float wide, float apart) {
+  float most = over >= wide ? 1.0 : (1.0 - cos(over)) / (1.0 - cos(wide));
+  float inner = abs(over - wide), x = clamp((over + wide - apart) / max(over + wide - inner, 1e-6), 0.0, 1.0);
+  return most * x * x * (3.0 - 2.0 * x);
+}
+
+// The same for a narrow cap without angles: of a disc of radius `wide` around a ray, what a sphere of radius `over` covers. The sphere's centre is
+// `away`: `along` the ray and `beside` it.
+float discShare(float over, float wide, float along, float beside, float away) {
+  beside = along > 0.0 ? beside : away - along;
+  float least = min(over, wide), x = clamp((over + wide - beside) / (2.0 * least), 0.0, 1.0), size = least / wide;
+  return size * size * x * x * (3.0 - 2.0 * x);
+}
+
+// Share of a disc of radius `wide` that one of radius `over` covers, their centres `apart`: the area that two circles share. Small angles.
+float discOverlap(float over, float wide, float apart) {
+  if (apart >= over + wide) return 0.0;
+  float least = min(over, wide);
+  if (apart <= abs(over - wide)) return least * least / (wide * wide);
+  float a2 = apart * apart, o2 = over * over, w2 = wide * wide;
+  float kite = (over + wide - apart) * (apart + over - wide) * (apart + wide - over) * (over + wide + apart);
+  float of_over = acos(clamp((a2 + o2 - w2) / (2.0 * apart * over), -1.0, 1.0)), of_wide = acos(clamp((a2 + w2 - o2) / (2.0 * apart * wide), -1.0, 1.0));
+  return (o2 * of_over + w2 * of_wide - 0.5 * sqrt(max(kite, 0.0))) / (kPi * w2);
+}
+
+// 1 near a sphere, 0 from `reach` radii on.
+float withinReach(float ratio, float reach) { return 1.0 - smoothstep(0.75 * reach, reach, ratio); }
+
+#endif

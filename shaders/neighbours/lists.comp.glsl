@@ -1,0 +1,85 @@
+// The lists of neighbours/lists.glsl, one thread a sphere. Spheres of which some point of this one is nearer than their reach count, the
+// widest kCandidates of them; equally wide ones by their rows. Nearer ones may hide them: by caps, seen from this sphere's middle. What is
+// hidden nearly whole is left out.
+// read    instances   the spheres
+//         grid        of neighbours/grid.comp.glsl
+// write   neighbours
+// params  count       spheres
+//         cells       as that shader had it
+//         reach       in radii
+#include "caps.glsl"
+#include "grid.glsl"
+#include "lists.glsl"
+#include "scene/instances.glsl"
+
+layout(local_size_x = 64) in;
+layout(rgba32f) uniform writeonly image2D neighbours;
+layout(std140) uniform Parameters {
+  uint count;
+  uint cells;
+  float reach;
+};
+
+const int kCandidates = 128;
+const float kHidden = 0.03;  // of a cap
+
+// Ordered by the sine of the half angle, then by row.
+uint rows[kCandidates];
+float sines[kCandidates];
+vec4 directions[kCandidates];  // unit; distance
+int found = 0;
+
+void consider(uint self, uint row) {
+  if (row == self) return;
+  vec3 to = instance[row].center - instance[self].center;
+  float distance_to = length(to), radius = instance[row].radius, own = instance[self].radius;
+  if (!(distance_to < reach * radius + own)) return;
+  if (distance_to + min(radius, own) <= max(radius, own)) return;  // one is within the other
+  float sine = min(radius / distance_to, 1.0);
+  if (found == kCandidates && (sine < sines[found - 1] || (sine == sines[found - 1] && row > rows[found - 1]))) return;
+  int at = min(found, kCandidates - 1);
+  for (; at > 0 && (sine > sines[at - 1] || (sine == sines[at - 1] && row < rows[at - 1])); --at) {
+    sines[at] = sines[at - 1];
+    rows[at] = rows[at - 1];
+  }
+  sines[at] = sine;
+  rows[at] = row;
+  found = min(found + 1, kCandidates);
+}
+
+void considerCell(uint self, uint cell) {
+  uint first = cells + 1u + (cell == 0u ? 0u : grid_word[cell - 1u]), last = cells + 1u + grid_word[cell];
+  for (uint i = first; i < last; ++i) consider(self, grid_word[i]);
+}
+
+void main() {
+  uint self = gl_GlobalInvocationID.x;
+  if (self >= count) return;
+  if (self == 0u) imageStore(neighbours, ivec2(0), vec4(reach));
+  vec3 center = instance[self].center;
+  float far = reach * grid_radii.x + instance[self].radius;
+  ivec3 low = cellOf(center - far), high = cellOf(center + far);
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) considerCell(self, cellIndex(ivec3(x, y, z)));
+  considerCell(self, cells);
+
+  for (int i = 0; i < found; ++i) {
+    vec3 to = instance[rows[i]].center - center;
+    float distance_to = length(to);
+    directions[i] = vec4(to / distance_to, distance_to);
+  }
+  for (int i = 0; i < found; ++i) sines[i] = asin(sines[i]);
+  int listed = 0;
+  for (int i = 0; i < found && listed < kMost; ++i) {
+    float left = 1.0;
+    for (int j = 0; j < found && left >= kHidden; ++j)
+      if (directions[j].w < directions[i].w * 0.999999)
+        left *= 1.0 - capOverlap(sines[j], sines[i], arcCosine(dot(directions[i].xyz, directions[j].xyz)));
+    if (left < kHidden) continue;
+    ivec2 texel = neighbourTexel(self, listed++);
+    imageStore(neighbours, texel, vec4(instance[rows[i]].center, instance[rows[i]].radius));
+    imageStore(neighbours, texel + ivec2(1, 0), vec4(instance[rows[i]].albedo, left));
+  }
+  if (listed < kMost) imageStore(neighbours, neighbourTexel(self, listed), vec4(0.0));
+}

@@ -1,0 +1,109 @@
+// What the spheres around a point of a sphere do to its light: they hide light from everywhere, from the sun and from the brightest spot,
+// and what they hide they replace by light that they throw back. For shading/light.glsl.
+// Slot neighbours, see neighbours/lists.glsl.
+#ifndef NEIGHBOURS_SURROUND_GLSL
+#define NEIGHBOURS_SURROUND_GLSL
+
+#include "neighbours/caps.glsl"
+#include "neighbours/lists.glsl"
+#include "shading/ibl.glsl"
+#ifdef HAS_SUN
+#include "scene/sun.glsl"
+#endif
+
+uniform sampler2D neighbours;
+
+struct Surround {
+  float seen;            // share of a uniform sky's light, weighted by the cosine
+  vec3 albedo;           // mean, of what hides the rest
+  vec3 bent;             // mean direction of what is seen, unit
+  float mirror_seen;     // share of the reflected lobe that nothing hides
+  vec3 mirror_albedo;    // of what hides the rest, times its share
+  vec3 mirror_facing;    // where that faces, not normalised
+  float spot_seen;       // shares of the brightest spot and of the sun
+  float sun_seen;
+};
+
+// Of a point of the sphere of that row. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
+Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe lobe) {
+  Surround all = Surround(1.0, vec3(0.0), vec3(0.0), 1.0, vec3(0.0), vec3(0.0), 1.0, 1.0);
+  axis = normalize(axis);
+  const float kWidth = 1.6;  // of the cone, in half angles of half vectors
+  float cone = kWidth * alphaOfRoughness(roughness) + 0.005, hidden = 0.0;
+  vec3 colors = vec3(0.0), towards = vec3(0.0);
+#ifdef HAS_BRIGHTEST
+  float spot_angle = max(2.0 * sqrt(brightest_light.w), 0.002);
+#endif
+#ifdef HAS_SUN
+  vec3 sun_direction = sun_light[0].direction;
+  float sun_angle = max(arcCosine(sun_light[0].cos_angle), 0.002);
+#endif
+  float reach = texelFetch(neighbours, ivec2(0), 0).x;
+  ivec2 texel = neighbourTexel(row, 0);
+  for (int i = 0; i < kMost; ++i) {
+    vec4 ball = texelFetch(neighbours, texel + ivec2(2 * i, 0), 0);
+    if (ball.w <= 0.0) break;
+    vec4 light = texelFetch(neighbours, texel + ivec2(2 * i + 1, 0), 0);
+    vec3 to = ball.xyz - at;
+    float distance2 = dot(to, to), per_distance = inversesqrt(distance2), distance_to = distance2 * per_distance;
+    float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);
+    float share = capShare(ratio, dot(n, to) * per_distance) * near * light.a;
+    hidden += share;
+    colors += share * light.rgb;
+    towards += share * per_distance * to;
+    float along = dot(axis, to), beside2 = max(distance2 - along * along, 0.0);
+    float in_lobe = discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near * all.mirror_seen;
+    all.mirror_seen -= in_lobe;
+    all.mirror_albedo += in_lobe * light.rgb;
+    // Where the axis meets that sphere, or is nearest to it.
+    all.mirror_facing += (axis * (along - sqrt(max(ball.w * ball.w - beside2, 0.0))) - to) * (in_lobe / ball.w);
+#ifdef HAS_BRIGHTEST
+    along = dot(lobe.spot, to);
+    all.spot_seen *= 1.0 - discShare(ball.w, spot_angle * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to) * near;
+#endif
+#ifdef HAS_SUN
+    along = dot(sun_direction, to);
+    all.sun_seen *= 1.0 - discShare(ball.w, sun_angle * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to) * near;
+#endif
+  }
+  all.seen = max(1.0 - hidden, 0.0);
+  all.albedo = colors / max(hidden, 1e-6);
+  // Over the hemisphere the mean direction is 2/3 n.
+  towards = n * (2.0 / 3.0) - towards * ((1.0 - all.seen) / max(hidden, 1e-6));
+  all.bent = dot(towards, n) > 0.01 ? normalize(towards) : n;
+  return all;
+}
+
+#ifdef HAS_IRRADIANCE
+vec3 irradianceTowards(vec3 direction) {
+  vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
+  return sampleEquirect(irradiance, equirectUv(direction) - vec2(sky_turn, 0.0), lookup).rgb;
+}
+
+// Light from everywhere, in place of irradianceTowards(n). What hides a share of it is lit as this point is, so that the light goes to
+// and fro: a geometric series (Stewart and Langer, "Towards accurate recovery of shape from shading under diffuse lighting", PAMI 1997).
+vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe) {
+  vec3 sky = irradianceTowards(surround.bent), seen = vec3(surround.seen);
+#ifdef HAS_BRIGHTEST
+  vec3 spot = brightest_light.rgb / kPi;
+  sky = max(sky - spot * max(dot(surround.bent, lobe.spot), 0.0), vec3(0.0));
+#endif
+#ifndef HAS_PROBES
+  seen /= 1.0 - surround.albedo * (1.0 - seen);  // with probes these give what comes back
+#endif
+  vec3 around = sky * seen;
+#ifdef HAS_BRIGHTEST
+  around += spot * (max(dot(n, lobe.spot), 0.0) * surround.spot_seen);
+#endif
+  return around;
+}
+
+// What the lobe meets, in place of a share of the environment: other spheres, lit from where they face.
+vec3 mirroredSpheres(Surround surround) {
+  return surround.mirror_seen < 0.999 ? surround.mirror_albedo * irradianceTowards(surround.mirror_facing) : vec3(0.0);
+}
+#else
+vec3 mirroredSpheres(Surround surround) { return vec3(0.0); }
+#endif
+
+#endif
