@@ -25,6 +25,7 @@ OTHER_MEANINGS = {
     ("engine/scene/files/scene_file.cpp", "materials"): "a key of scene files",
     ("engine/scene/files/lights.cpp", "sun"): "a key of scene files",
     ("engine/scene/files/lights.cpp", "lamps"): "a key of scene files",
+    ("engine/scene/files/ground.cpp", "ground"): "a key of scene files",
     ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
     ("engine/graph/read/overlay_apply.cpp", "name"): "a key of passes",
