@@ -27,9 +27,8 @@ float capShare(float ratio, float facing) {
 // Share of a cap of half angle `wide` that one of half angle `over` covers, their axes `apart`: a smooth step between touching and covering
 // (Oat and Sander, "Ambient aperture lighting", I3D 2007).
 float capOverlap(float over, float wide, float apart) {
-  float most = over >= wide ? 1.0 : (1.0 - cos(over)) / (1.0 - cos(wide));
-  float inner = abs(over - wide), x = clamp((over + wide - apart) / max(over + wide - inner, 1e-6), 0.0, 1.0);
-  return most * x * x * (3.0 - 2.0 * x);
+  float least = min(over, wide), size = sin(0.5 * least) / sin(0.5 * wide), x = clamp((over + wide - apart) / (2.0 * least), 0.0, 1.0);
+  return size * size * x * x * (3.0 - 2.0 * x);
 }
 
 // The same for a narrow cap without angles: of a disc of radius `wide` around a ray, what a sphere of radius `over` covers. The sphere's centre is

@@ -26,6 +26,7 @@ const float kHidden = 0.03;  // of a cap
 // Ordered by the sine of the half angle, then by row.
 uint rows[kCandidates];
 float sines[kCandidates];
+float angles[kCandidates];
 vec4 directions[kCandidates];  // unit; distance
 int found = 0;
 
@@ -68,14 +69,17 @@ void main() {
     vec3 to = instance[rows[i]].center - center;
     float distance_to = length(to);
     directions[i] = vec4(to / distance_to, distance_to);
+    angles[i] = fastAtan(sines[i], sqrt(max(1.0 - sines[i] * sines[i], 0.0)));
   }
-  for (int i = 0; i < found; ++i) sines[i] = asin(sines[i]);
   int listed = 0;
   for (int i = 0; i < found && listed < kMost; ++i) {
     float left = 1.0;
-    for (int j = 0; j < found && left >= kHidden; ++j)
-      if (directions[j].w < directions[i].w * 0.999999)
-        left *= 1.0 - capOverlap(sines[j], sines[i], arcCosine(dot(directions[i].xyz, directions[j].xyz)));
+    vec3 axis = directions[i].xyz;
+    for (int j = 0; j < found && left >= kHidden; ++j) {
+      if (directions[j].w >= directions[i].w * 0.999999) continue;
+      float apart = fastAtan(length(cross(axis, directions[j].xyz)), dot(axis, directions[j].xyz));
+      left *= 1.0 - capOverlap(angles[j], angles[i], apart);
+    }
     if (left < kHidden) continue;
     ivec2 texel = neighbourTexel(self, listed++);
     imageStore(neighbours, texel, vec4(instance[rows[i]].center, instance[rows[i]].radius));

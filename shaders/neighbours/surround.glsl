@@ -29,7 +29,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
   Surround all = Surround(1.0, vec3(0.0), vec3(0.0), 1.0, vec3(0.0), vec3(0.0), 1.0, 1.0);
   axis = normalize(axis);
   const float kWidth = 1.6;  // of the cone, in half angles of half vectors
-  float cone = kWidth * alphaOfRoughness(roughness) + 0.005, hidden = 0.0;
+  float alpha = alphaOfRoughness(roughness), cone = kWidth * alpha + 0.005, hidden = 0.0;
   vec3 colors = vec3(0.0), towards = vec3(0.0);
 #ifdef HAS_BRIGHTEST
   float spot_angle = max(2.0 * sqrt(brightest_light.w), 0.002);
@@ -52,7 +52,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
     colors += share * light.rgb;
     towards += share * per_distance * to;
     float along = dot(axis, to), beside2 = max(distance2 - along * along, 0.0);
-    float in_lobe = discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near * all.mirror_seen;
+    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near, share, alpha) * all.mirror_seen;
     all.mirror_seen -= in_lobe;
     all.mirror_albedo += in_lobe * light.rgb;
     // Where the axis meets that sphere, or is nearest to it.

@@ -27,7 +27,8 @@ void main() {
   vec3 position = instance[row].center + n * instance[row].radius;
   vec3 v = normalize(eye - position);
   Lobe lobe = lobeOf(roughness, 0.0);
-  Surround all = surroundOf(uint(row), position, n, reflect(-v, n), roughness, lobe);
+  float lean = responseOf(Surface(vec3(1.0), 1.0, roughness), clamp(dot(n, v), 0.0, 1.0)).lobe.x;
+  Surround all = surroundOf(uint(row), position, n, mix(reflect(-v, n), n, lean), roughness, lobe);
   shares = vec4(all.seen, all.mirror_seen, all.sun_seen, 1.0);
   around = vec4(aroundSeen(all, n, lobe), 1.0);
   place = vec4(position, 1.0);
