@@ -3,6 +3,7 @@
 // hidden nearly whole is left out.
 // read    instances   the spheres
 //         grid        of neighbours/grid.comp.glsl
+//         ground?     see scene/ground.glsl
 // write   neighbours
 // params  count       spheres
 //         cells       as that shader had it
@@ -10,6 +11,9 @@
 #include "caps.glsl"
 #include "grid.glsl"
 #include "lists.glsl"
+#ifdef HAS_GROUND
+#include "scene/ground.glsl"
+#endif
 #include "scene/instances.glsl"
 
 layout(local_size_x = 64) in;
@@ -22,6 +26,7 @@ layout(std140) uniform Parameters {
 
 const int kCandidates = 128;
 const float kHidden = 0.03;  // of a cap
+const float kImage = 0.8;    // how dark the ground is there
 
 // Ordered by the sine of the half angle, then by row.
 uint rows[kCandidates];
@@ -72,6 +77,15 @@ void main() {
     angles[i] = fastAtan(sines[i], sqrt(max(1.0 - sines[i] * sines[i], 0.0)));
   }
   int listed = 0;
+#ifdef HAS_GROUND
+  // The ground around its foot is dark. A sphere sees about as much of that as of its own image in the ground.
+  float height = ground_row[0].height;
+  if (center.y - height > -instance[self].radius) {
+    ivec2 texel = neighbourTexel(self, listed++);
+    imageStore(neighbours, texel, vec4(center.x, 2.0 * height - center.y, center.z, instance[self].radius));
+    imageStore(neighbours, texel + ivec2(1, 0), vec4(groundAlbedo(ground_row[0]), -kImage));
+  }
+#endif
   for (int i = 0; i < found && listed < kMost; ++i) {
     float left = 1.0;
     vec3 axis = directions[i].xyz;

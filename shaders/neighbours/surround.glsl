@@ -47,12 +47,13 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
     vec3 to = ball.xyz - at;
     float distance2 = dot(to, to), per_distance = inversesqrt(distance2), distance_to = distance2 * per_distance;
     float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);
-    float share = capShare(ratio, dot(n, to) * per_distance) * near * light.a;
+    float share = capShare(ratio, dot(n, to) * per_distance) * near * abs(light.a);
     hidden += share;
+    near = light.a > 0.0 ? near : 0.0;
     colors += share * light.rgb;
     towards += share * per_distance * to;
     float along = dot(axis, to), beside2 = max(distance2 - along * along, 0.0);
-    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near, share, alpha) * all.mirror_seen;
+    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near, near > 0.0 ? share : 0.0, alpha) * all.mirror_seen;
     all.mirror_seen -= in_lobe;
     all.mirror_albedo += in_lobe * light.rgb;
     // Where the axis meets that sphere, or is nearest to it.

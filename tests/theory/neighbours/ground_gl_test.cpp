@@ -91,7 +91,7 @@ TEST_CASE("ground: a black sphere leaves of the sky what the integral over the h
     });
     MESSAGE(count, " points, at least ", least, " seen, worst ", worst);
     CHECK(count > 150);
-    CHECK(least < 0.85);
+    CHECK(least < 0.88);
     CHECK(worst < 2.5e-3);
     CHECK(lab.complaints() == "");
   }
@@ -99,7 +99,7 @@ TEST_CASE("ground: a black sphere leaves of the sky what the integral over the h
 
 TEST_CASE("ground: spheres leave of the sun's disc what rays to it leave") {
   std::mt19937 random(4);
-  for (const float degrees : {0.53f, 8.0f}) {
+  for (const float degrees : {2.0f, 8.0f}) {
     Setup setup = studio(twoBalls(0.5f));
     setup.sun = scene::Sun{.direction = glm::normalize(glm::vec3(-0.5f, 0.6f, 0.4f)), .angle = degrees};
     setup.sun->irradiance = glm::vec3(static_cast<float>(kPi) / setup.sun->direction.y);

@@ -72,11 +72,13 @@ struct Means {
   double error() const { return ours / truth - 1; }
 };
 
-std::shared_ptr<const assets::ImageF> halfSky() {
+// 1 above the horizon.
+std::shared_ptr<const assets::ImageF> halfSky(float below = 0) {
   auto image = std::make_shared<assets::ImageF>(*constantEnvironment(1, 1, 1));
   for (int y = image->height / 2; y < image->height; ++y)
     for (int x = 0; x < image->width; ++x)
-      for (int c = 0; c < 3; ++c) image->texels[static_cast<std::size_t>((y * image->width + x) * 4 + c)] = 0;
+      for (int c = 0; c < 3; ++c)
+        image->texels[static_cast<std::size_t>((y * image->width + x) * 4 + c)] = below;
   return image;
 }
 
@@ -155,6 +157,30 @@ TEST_CASE("occlusion: of a reflected lobe it is that of rays through the lobe") 
     CHECK(lobes.truth / lobes.count < 0.9);
     CHECK(std::abs(lobes.ours - lobes.truth) / lobes.count < 0.045);
     CHECK(lobes.off / lobes.count < 0.065);
+  }
+}
+
+TEST_CASE("occlusion: spheres that stand on a ground get its light, and less of it where they are near it") {
+  std::mt19937 random(11);
+  for (const double albedo : {0.2, 0.5}) {
+    std::vector<Ball> balls = {{.center = {0, 1, 0}, .albedo = glm::vec3(0.5f)},
+                               {.center = {2.3f, 0.8f, 0.3f}, .radius = 0.8f, .albedo = glm::vec3(0.5f)}};
+    const std::vector<Solid> solids = solidsOf(balls);
+    Setup setup = labOf(balls, 0);
+    setup.ground = scene::Ground{.albedo = glm::vec3(static_cast<float>(albedo))};
+    setup.environment = halfSky(static_cast<float>(albedo));
+    Means all, below;
+    for (const Sample& sample : look(setup, 5)) {
+      const double truth = tracedLight(
+          solids, sample.at, sample.normal, 0, [](glm::dvec3 d) { return d.y > 0 ? 1.0 : 0.0; }, 300, random,
+          albedo);
+      all.add(sample.around, truth);
+      if (sample.normal.y < -0.3) below.add(sample.around, truth);
+    }
+    MESSAGE("ground of albedo ", albedo, ": light ", all.error(), " off; below ", below.error(),
+            ", a point by ", below.off / below.count, " of ", below.truth / below.count);
+    CHECK(std::abs(all.error()) < 0.02);
+    CHECK(std::abs(below.error()) < 0.1);
   }
 }
 

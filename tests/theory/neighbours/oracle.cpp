@@ -62,7 +62,7 @@ double skySeen(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 norma
 }
 
 double tracedLight(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 normal, int self,
-                   const Sky& sky, int paths, std::mt19937& random) {
+                   const Sky& sky, int paths, std::mt19937& random, std::optional<double> floor) {
   double sum = 0;
   for (int i = 0; i < paths; ++i) {
     glm::dvec3 place = at, n = normal;
@@ -71,6 +71,14 @@ double tracedLight(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 n
     while (left > 1e-4) {
       const glm::dvec3 direction = cosineDirection(frameOf(n), unit(random), unit(random));
       const Meeting met = meet(solids, place, direction, on);
+      const double down = floor && direction.y < 0 ? -place.y / direction.y : 1e300;
+      if (down > 0 && down < met.distance && down < 1e300) {
+        on = -1;
+        left *= *floor;
+        place += direction * down;
+        n = {0, 1, 0};
+        continue;
+      }
       if (met.sphere < 0) {
         sum += left * sky(direction);
         break;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -28,10 +29,11 @@ Meeting meet(const std::vector<Solid>& solids, glm::dvec3 from, glm::dvec3 direc
 double skySeen(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 normal, int self, int side,
                std::mt19937& random);
 
-// Irradiance over pi of a point of sphere `self`, all spheres diffuse, by paths that end in `sky`.
+// Irradiance over pi of a point of sphere `self`, all spheres diffuse, by paths that end in `sky`. With `floor` there is
+// a diffuse plane y = 0 of that albedo.
 using Sky = std::function<double(glm::dvec3 direction)>;
 double tracedLight(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 normal, int self,
-                   const Sky& sky, int paths, std::mt19937& random);
+                   const Sky& sky, int paths, std::mt19937& random, std::optional<double> floor = {});
 
 // Share of a GGX lobe (the BRDF of a white mirror times the cosine) in which a point sees none, towards `view`.
 double lobeSeen(const std::vector<Solid>& solids, glm::dvec3 at, glm::dvec3 normal, glm::dvec3 view,
