@@ -26,7 +26,7 @@ layout(std140) uniform Parameters {
 
 const int kCandidates = 128;
 const float kHidden = 0.03;  // of a cap
-const float kImage = 0.8;    // how dark the ground is there
+const float kImage = 1.3;    // fitted to traced paths
 
 // Ordered by the sine of the half angle, then by row.
 uint rows[kCandidates];
@@ -78,7 +78,7 @@ void main() {
   }
   int listed = 0;
 #ifdef HAS_GROUND
-  // The ground around its foot is dark. A sphere sees about as much of that as of its own image in the ground.
+  // The ground around its foot is dark. A sphere sees about as much of that as of its own image in the ground, and a little beyond.
   float height = ground_row[0].height;
   if (center.y - height > -instance[self].radius) {
     ivec2 texel = neighbourTexel(self, listed++);

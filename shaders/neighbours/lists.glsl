@@ -1,7 +1,7 @@
 // Which other spheres a sphere sees, at most kMost, the widest first; radius 0 ends a list that is shorter. A texture, two texels each: centre
 // and radius; albedo, and the share of its cap that nearer spheres leave, seen from the middle of the sphere whose list this is.
-// That share is negative
-// for what takes light of the sky alone. The first texel of all says in x how far away a sphere hides anything, in radii.
+// The share is
+// negative for the image of that sphere itself in the ground. The first texel of all says in x how far away a sphere hides anything, in radii.
 // neighbours   texture
 #ifndef NEIGHBOURS_LISTS_GLSL
 #define NEIGHBOURS_LISTS_GLSL

@@ -17,6 +17,7 @@ struct Surround {
   float seen;            // share of a uniform sky's light, weighted by the cosine
   vec3 albedo;           // mean, of what hides the rest
   vec3 bent;             // mean direction of what is seen, unit
+  float foot;            // share of the ground that is dark by the sphere itself
   float mirror_seen;     // share of the reflected lobe that nothing hides
   vec3 mirror_albedo;    // of what hides the rest, times its share
   vec3 mirror_facing;    // where that faces, not normalised
@@ -26,7 +27,7 @@ struct Surround {
 
 // Of a point of the sphere of that row. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
 Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe lobe) {
-  Surround all = Surround(1.0, vec3(0.0), vec3(0.0), 1.0, vec3(0.0), vec3(0.0), 1.0, 1.0);
+  Surround all = Surround(1.0, vec3(0.0), vec3(0.0), 0.0, 1.0, vec3(0.0), vec3(0.0), 1.0, 1.0);
   axis = normalize(axis);
   const float kWidth = 1.6;  // of the cone, in half angles of half vectors
   float alpha = alphaOfRoughness(roughness), cone = kWidth * alpha + 0.005, hidden = 0.0;
@@ -48,12 +49,15 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
     float distance2 = dot(to, to), per_distance = inversesqrt(distance2), distance_to = distance2 * per_distance;
     float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);
     float share = capShare(ratio, dot(n, to) * per_distance) * near * abs(light.a);
+    if (light.a < 0.0) {
+      all.foot = share;
+      share = near = 0.0;
+    }
     hidden += share;
-    near = light.a > 0.0 ? near : 0.0;
     colors += share * light.rgb;
     towards += share * per_distance * to;
     float along = dot(axis, to), beside2 = max(distance2 - along * along, 0.0);
-    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near, near > 0.0 ? share : 0.0, alpha) * all.mirror_seen;
+    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near, share, alpha) * all.mirror_seen;
     all.mirror_seen -= in_lobe;
     all.mirror_albedo += in_lobe * light.rgb;
     // Where the axis meets that sphere, or is nearest to it.
@@ -96,6 +100,7 @@ vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe) {
 #ifdef HAS_BRIGHTEST
   around += spot * (max(dot(n, lobe.spot), 0.0) * surround.spot_seen);
 #endif
+  if (surround.foot > 0.0) around = max(around - irradianceTowards(vec3(0.0, -1.0, 0.0)) * surround.foot, vec3(0.0));
   return around;
 }
 
