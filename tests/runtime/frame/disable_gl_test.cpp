@@ -117,6 +117,14 @@ TEST_CASE("disable: every pass of studio_gi alone, and the probes' with every ot
   }
 }
 
+TEST_CASE(
+    "disable: every pass of studio alone, where spheres hide light from each other and stand on a ground") {
+  const CleanScope clean;
+  Stage stage("graphs/studio.json", 96, 54, "tests/runtime/scenes/everything.json");
+  stage.settings.sets = {{"occlusion", "true"}};
+  tryAll(stage, false);
+}
+
 TEST_CASE("disable: every pass of deferred alone, with meshes, glass, spheres, a sun and lamps") {
   const CleanScope clean;
   Stage stage("graphs/deferred.json", 96, 54, "tests/runtime/scenes/everything.json");

@@ -1,4 +1,4 @@
-// Every pass of the deferred graphs and of those with light probes disabled, alone and in pairs, without GL: a plan, or documented
+// Every pass of the deferred graphs, of those with light probes and of the studio with all that spheres do disabled, alone and in pairs, without GL: a plan, or documented
 // diagnostics that say where and what to do. tests/runtime/frame/disable_gl_test.cpp renders them.
 #include <doctest/doctest.h>
 
@@ -103,7 +103,9 @@ void tryAll(const std::string& graph, std::vector<graph::Setting> sets, std::siz
 
 }  // namespace
 
-TEST_CASE("disable: every pass of the deferred graphs and of those with probes, alone and in pairs") {
+TEST_CASE(
+    "disable: every pass of the deferred graphs, of those with probes and of the studio, alone and in "
+    "pairs") {
   tryAll("graphs/deferred.json", {}, 30);
   tryAll("graphs/deferred.json",
          {{"ao_method", "hemisphere"}, {"store_positions", "true"}, {"bayer", "true"}}, 30);
@@ -112,5 +114,6 @@ TEST_CASE("disable: every pass of the deferred graphs and of those with probes, 
     tryAll("graphs/deferred_gi.json", sets, 32);
     tryAll("graphs/studio_gi.json", sets, 20);
   }
+  tryAll("graphs/studio.json", {{"occlusion", "true"}}, 24);
   tryAll("graphs/gi.json", {{"gi_source", "gpu"}}, 3);
 }

@@ -113,7 +113,7 @@ TEST_CASE(
 TEST_CASE("the same with every boolean parameter of the studio switched, one by one") {
   const CleanScope clean;
   Tally tally;
-  Stage stage("graphs/studio.json", 96, 54);
+  Stage stage("graphs/studio.json", 96, 54, "tests/runtime/scenes/everything.json");
   REQUIRE(stage.load());
   const auto parameters = stage.execution().plan().graph->parameters;
   std::size_t switched = 0;

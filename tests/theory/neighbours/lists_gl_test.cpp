@@ -156,3 +156,17 @@ TEST_CASE(
   crowd.push_back({.center = {5000, 0, 0}, .radius = 0.02f});
   checkLists(crowd, 1, 40);
 }
+
+TEST_CASE("neighbours: the studio makes lists of up to 65,536 spheres, and none of more or of no spheres") {
+  for (const int count : {0, 1, 65536, 65537}) {
+    CAPTURE(count);
+    const Setup setup{.graph = "graphs/studio.json",
+                      .width = 16,
+                      .height = 16,
+                      .sets = {{"occlusion", "true"}},
+                      .balls = randomBalls(count, 100, 0.1f, 0.2f, 7)};
+    const Lab lab(setup);
+    const bool listed = lab.passNames().find("neighbours.neighbour_lists") != std::string::npos;
+    CHECK(listed == (count >= 1 && count <= 65536));
+  }
+}
