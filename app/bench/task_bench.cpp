@@ -56,8 +56,9 @@ struct Course {
   std::vector<Samples> stages;  // tasks of `frame`, then of `views`
 };
 
-scene::ViewData viewOf(const scene::Scene& scene, const Look& look, const scene::Box& bounds, double time) {
-  if (look.sun) return scene::sunView(scene.sun.value_or(scene::Sun{}), bounds, kSunTexels).view;
+scene::ViewData viewOf(const scene::Scene& scene, const Look& look, const scene::MeshFrame& frame, double time) {
+  if (look.sun)
+    return scene::sunView(frame.sun().value_or(scene::Sun{}), frame.sceneBounds(), kSunTexels).view;
   const scene::CameraPose pose = scene::poseAt(*scene::findCamera(scene, ""), time);
   return scene::makeView({.pose = pose, .previousPose = pose, .viewport = kScreen, .time = time});
 }
@@ -68,7 +69,7 @@ void runFrame(Course& course, const scene::Scene& scene, int number) {
   course.frame.update(scene, 1, time, time - 1 / kFramesPerSecond);
   std::vector<scene::MeshView*> views;
   for (std::size_t i = 0; i < std::size(kLooks); ++i) {
-    const scene::ViewData view = viewOf(scene, kLooks[i], course.frame.sceneBounds(), time);
+    const scene::ViewData view = viewOf(scene, kLooks[i], course.frame, time);
     course.seen[i].look(kLooks[i].list, view.view, view.view_projection, kLooks[i].order);
     views.push_back(&course.seen[i]);
   }

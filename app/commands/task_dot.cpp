@@ -25,7 +25,7 @@ int runTaskDot(const Options& options) {
         fmt::format("{} instances of {} meshes, {} spheres", scene->meshInstances.size(),
                     scene->meshes.size(), scene->spheres.size())};
     // Providers of imports make these on the thread that has the device; the sun's follows the box of the scene.
-    const scene::FrameTask looks[] = {{"views", {"cameras", "lights", "scene box"}, {"views"}, {}}};
+    const scene::FrameTask looks[] = {{"views", {"cameras", "lights in the world", "scene box"}, {"views"}, {}}};
     const scene::TaskGroup groups[] = {
         {"where meshes are", frame.tasks().tasks()},
         {"from where they are seen, on the thread of the device", looks},

@@ -78,6 +78,19 @@ struct ModelInstance {
   std::uint32_t skin = kNoRow;
 };
 
+enum class ModelLightKind : std::uint8_t { sun, point, spot };
+
+// At the origin of a node; a sun and a spot shine along its -Z. How the node is scaled is of no account.
+struct ModelLight {
+  std::string name;
+  std::uint32_t node = 0;
+  ModelLightKind kind = ModelLightKind::point;
+  Float3 color{1, 1, 1};   // linear; a factor per channel
+  float intensity = 1;     // of a sun lux on what faces it, of the others candela
+  float range = 0;         // beyond it there is no light; 0: endless
+  float inner = 0, outer = 0;  // half angles of a spot's cones, radians
+};
+
 struct ModelSkin {
   std::vector<std::uint32_t> joints;  // nodes
   std::vector<Matrix4> inverseBind;   // parallel to joints
@@ -112,6 +125,7 @@ struct Model {
   std::vector<ModelNode> nodes;
   std::vector<ModelInstance> instances;
   std::vector<ModelSkin> skins;
+  std::vector<ModelLight> lights;  // at most one sun
   std::vector<std::shared_ptr<const ModelAnimation>> animations;
   std::vector<std::string> files;  // everything that was read or should have been, the model's own first
 };

@@ -9,11 +9,14 @@
 
 namespace weft::scene {
 
+struct Node;
+
 struct Sun {
   glm::vec3 direction{0, 1, 0};  // unit, from the scene towards the sun
   glm::vec3 irradiance{1};       // linear RGB, on a surface that faces it
   float angle = 0.53f;           // degrees: diameter of the disc
   bool shadow = true;
+  base::Id<Node> node{};  // that turns it, as a lamp's does
 };
 
 struct Lamp {
@@ -27,10 +30,18 @@ struct Lamp {
         cosOuter = -1;  // full light within the inner, none outside the outer half angle; -1: all round
   bool shadow = false;
   float radius = 0;  // world units: of the ball that shines, for soft shadows
+  // What it stands on: position and direction are in this node's coordinates then. Lengths are not scaled. None: the world.
+  base::Id<Node> node{};
 };
 using LampId = Table<Lamp>::Id;
 
 constexpr float kLeastIrradiance = 1e-3f;  // scene units
 float rangeOf(glm::vec3 intensity);        // where its brightest channel falls to kLeastIrradiance
+
+// In the world, by the matrix of the node that a light stands on.
+struct LightPose {
+  glm::vec3 position{0}, direction{0, -1, 0};
+};
+LightPose placeLight(const LightPose& light, const glm::mat4& node);
 
 }  // namespace weft::scene

@@ -24,10 +24,6 @@ glm::mat4 matrixOf(const Transform& transform) {
           glm::vec4(rotation[2] * transform.scale.z, 0), glm::vec4(transform.translation, 1)};
 }
 
-float rangeOf(glm::vec3 intensity) {
-  return std::sqrt(std::max({intensity.x, intensity.y, intensity.z}) / kLeastIrradiance);
-}
-
 const Camera* findCamera(const Scene& scene, std::string_view name) {
   for (const Camera& camera : scene.cameras.rows())
     if (name.empty() || camera.name == name) return &camera;

@@ -1,9 +1,11 @@
 #include "engine/imports/lamps/lamps.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "engine/imports/row_table.h"
+#include "engine/imports/scene_tables.h"
 #include "engine/scene/light_views.h"
 
 namespace weft::imports {
@@ -21,31 +23,50 @@ class LampsProvider : public Provider {
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     follow(frame);
     const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) { write(wanted, bytes); };
-    return table_.get(layout, scene_, fill, diagnostics);
+    return table_.get(layout, generation_, fill, diagnostics);
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     follow(frame);
-    if (part.element < lamps_.size())
-      view_ = scene::lampView(lamps_[part.element], std::min<std::uint32_t>(part.face, 5), part.width);
+    if (part.element < rows_.size())
+      view_ = scene::lampView(lamps_[rows_[part.element]], std::min<std::uint32_t>(part.face, 5), part.width);
     return view_;
   }
-  std::uint64_t generation(const Frame& frame) override { return frame.world.sceneGeneration(); }
-  bool isStill(const World&) const override { return true; }
+  std::uint64_t generation(const Frame& frame) override {
+    follow(frame);
+    return generation_;
+  }
+  bool isStill(const World& world) const override {
+    return !standOnNodes(world.scene()) || !scene::isMoving(world.scene());
+  }
 
  private:
+  static bool standOnNodes(const scene::Scene& scene) {
+    return std::ranges::any_of(scene.lamps.rows(), [](const scene::Lamp& lamp) { return lamp.node.valid(); });
+  }
+
+  // Lamps that stand on no node are the scene's own rows: nothing of the frame is needed for them.
   void follow(const Frame& frame) {
-    if (scene_ == frame.world.sceneGeneration()) return;
-    scene_ = frame.world.sceneGeneration();
-    lamps_.clear();
-    for (const scene::Lamp& lamp : frame.world.scene().lamps.rows())
-      if (lamp.shadow || !casting_) lamps_.push_back(lamp);
+    if (frame_ == frame.number) return;
+    frame_ = frame.number;
+    const scene::Scene& scene = frame.world.scene();
+    const std::uint64_t changed = frame.world.sceneGeneration();
+    if (scene_ != changed) onNodes_ = standOnNodes(scene);
+    lamps_ = onNodes_ ? frame.tables.meshFrame().lamps() : scene.lamps.rows();
+    const std::uint64_t placed = onNodes_ ? frame.tables.meshFrame().lightsGeneration() : 0;
+    if (scene_ == changed && placed_ == placed) return;
+    scene_ = changed;
+    placed_ = placed;
+    generation_ = frame.newGeneration();
+    rows_.clear();
+    for (std::uint32_t row = 0; row < lamps_.size(); ++row)
+      if (lamps_[row].shadow || !casting_) rows_.push_back(row);
   }
 
   void write(const RowLayout& layout, std::vector<std::byte>& bytes) const {
-    RowWriter writer(layout, lamps_.size(), bytes);
+    RowWriter writer(layout, rows_.size(), bytes);
     std::int32_t casters = 0;
-    for (std::size_t i = 0; i < lamps_.size(); ++i) {
-      const scene::Lamp& lamp = lamps_[i];
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const scene::Lamp& lamp = lamps_[rows_[i]];
       writer.put(i, 0, lamp.position);
       writer.put(i, 1, lamp.range);
       writer.put(i, 2, lamp.intensity);
@@ -59,8 +80,11 @@ class LampsProvider : public Provider {
   }
 
   bool casting_;
-  std::uint64_t scene_ = 0;  // generation
-  std::vector<scene::Lamp> lamps_;
+  std::uint64_t frame_ = 0, generation_ = 0;
+  std::uint64_t scene_ = 0, placed_ = 0;  // generations of what was seen last
+  bool onNodes_ = false;
+  std::span<const scene::Lamp> lamps_;  // of this frame
+  std::vector<std::uint32_t> rows_;     // of lamps_ that the import has
   scene::ViewData view_;
   RowTable table_{"lamps"};
 };

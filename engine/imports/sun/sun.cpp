@@ -44,13 +44,15 @@ class SunProvider : public Provider {
   void follow(const Frame& frame) {
     if (frame_ == frame.number) return;
     frame_ = frame.number;
-    const scene::Scene& scene = frame.world.scene();
     const std::uint64_t changed = frame.world.sceneGeneration();
     const scene::Box bounds = frame.tables.bounds();
-    if (scene_ == changed && bounds.low == bounds_.low && bounds.high == bounds_.high) return;
+    const scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{});
+    if (scene_ == changed && sun.direction == sun_.direction && bounds.low == bounds_.low &&
+        bounds.high == bounds_.high)
+      return;
     scene_ = changed;
     bounds_ = bounds;
-    sun_ = scene.sun.value_or(scene::Sun{});
+    sun_ = sun;
     const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
     // Another generation only when something is other than it was: the fit follows the bounds in steps.
     if (generation_ != 0 && sceneSeen_ == changed && fitted.shadowMatrix == fitted_.shadowMatrix) return;

@@ -52,6 +52,7 @@ std::optional<Scene> loadModelScene(const std::string& path, base::Diagnostics& 
     camera.pose = framePose(box, towards);
     scene.cameras.add(std::move(camera));
   }
+  if (scene.sun || scene.lamps.size() > 0) return scene;
   Sun sun;
   sun.direction = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));
   sun.irradiance = glm::vec3(kSunLux / scene.nits);

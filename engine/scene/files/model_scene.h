@@ -1,4 +1,5 @@
-// A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box, a sun.
+// A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box, and its
+// lights; a sun where it has none.
 // Does not: place anything else beside it; a scene file does (engine/scene/files/scene_file.h).
 #pragma once
 

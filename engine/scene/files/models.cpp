@@ -8,6 +8,7 @@
 
 #include "engine/assets/models/model_file.h"
 #include "engine/base/nearest.h"
+#include "engine/scene/files/lights.h"
 #include "engine/scene/files/lists.h"
 #include "engine/scene/files/reading.h"
 
@@ -70,6 +71,8 @@ void SceneModels::readPlace(JsonFields& fields, const std::string& what, ModelCo
   root.velocity = toVec3(fields.triple("velocity", kWorld).value_or(std::array<double, 3>{}));
   copy.lists = readLists(fields, what, diagnostics_);
   copy.speed = static_cast<float>(fields.number("speed", kSpeed).value_or(1));
+  copy.lights = fields.boolean("lights").value_or(true);
+  copy.lampShadows = fields.boolean("lamp_shadows").value_or(false);
 }
 
 void SceneModels::readModel(const std::string& name, const JsonValue& value,
@@ -132,6 +135,27 @@ void SceneModels::addCopies(const JsonValue& value, const std::string& name, con
     d.found = fmt::format("{} copies of {} nodes", total, loaded.model.nodes.size() + 1);
     return;
   }
+  const auto suns = static_cast<std::size_t>(
+      std::ranges::count(loaded.model.lights, assets::ModelLightKind::sun, &assets::ModelLight::kind));
+  const double lamps = copy.lights ? total * static_cast<double>(loaded.model.lights.size() - suns) : 0;
+  if (lamps + static_cast<double>(scene_.lamps.size()) > static_cast<double>(kMaxLamps)) {
+    base::Diagnostic& d = failAt(diagnostics_, Code::badSceneValue, value,
+                                 fmt::format("with model '{}' the scene has too many lamps", name));
+    d.expected = fmt::format("at most {} in all", kMaxLamps);
+    d.found = fmt::format("{} copies of {} lamps", total, loaded.model.lights.size() - suns);
+    d.hint = "leave them out: \"lights\": false";
+    return;
+  }
+  if (copy.lights && suns > 0 && !scene_.sun) {
+    sunOf_ = name;
+  } else if (copy.lights && suns > 0 && !sunOf_.empty()) {  // a sun of the scene file takes the place of all
+    base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, value.place,
+                                               fmt::format("the sun of model '{}' was left out", name));
+    d.pointer = value.pointer;
+    d.expected = "one model with a directional light, or a 'sun' in the scene file";
+    d.found = fmt::format("the sun of model '{}'", sunOf_);
+    d.hint = "\"lights\": false leaves the lights of a model out";
+  }
   const glm::ivec3 n(count[0], count[1], count[2]);
   const glm::vec3 center = copy.root.local.translation;
   std::size_t index = 0;
@@ -148,6 +172,13 @@ void SceneModels::addCopies(const JsonValue& value, const std::string& name, con
 bool SceneModels::addWhole(const std::string& path) {
   const Loaded* loaded = load(path);
   if (!loaded) return false;
+  if (loaded->model.lights.size() > kMaxLamps) {
+    base::Diagnostic& d = diagnostics_.error(Code::badSceneValue, {std::make_shared<const std::string>(path)},
+                                             fmt::format("the model '{}' has too many lights", path));
+    d.expected = fmt::format("at most {}", kMaxLamps);
+    d.found = fmt::format("{}", loaded->model.lights.size());
+    return false;
+  }
   ModelCopy copy;
   copy.root.name = loaded->model.name;
   if (!loaded->model.animations.empty()) copy.animation = 0;

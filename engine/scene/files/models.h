@@ -1,5 +1,6 @@
 // The key `models` of a scene file: files read by engine/assets/models/model_file.h, placed, copied, moved and animated. A
-// file that several entries name is read once. What is wrong is W160, W161, W162, W169, or what reading the model reports.
+// file that several entries name is read once. What is wrong is W160, W161, W162, W169, W168 (a
+// second sun), or what reading the model reports.
 #pragma once
 
 #include <functional>
@@ -59,6 +60,7 @@ class SceneModels {
   std::map<std::string, std::unique_ptr<Loaded>> loaded_;  // by path; null: it failed
   std::shared_ptr<MeshData> data_ = std::make_shared<MeshData>();
   std::vector<std::string> files_;
+  std::string sunOf_;  // the model that gave the scene its sun
   bool failed_ = false;
 };
 

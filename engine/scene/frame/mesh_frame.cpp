@@ -150,6 +150,30 @@ void MeshFrame::fillBounds(const Scene& scene, double time, bool all) {
   }
 }
 
+void MeshFrame::fillLights(const Scene& scene, bool all) {
+  const std::span<const Lamp> lamps = scene.lamps.rows();
+  if (all) {
+    lamps_.assign(lamps.begin(), lamps.end());
+    sun_ = scene.sun;
+    lampNodes_.clear();
+    for (const Lamp& lamp : lamps) lampNodes_.push_back(rowOf(scene.nodes, lamp.node));
+    sunNode_ = sun_ ? rowOf(scene.nodes, sun_->node) : kNone;
+    const auto moves = [&](std::uint32_t node) { return node != kNone && transforms_.isMoving(node); };
+    lightsMove_ = moves(sunNode_) || std::ranges::any_of(lampNodes_, moves);
+  }
+  if (!all && !lightsMove_) return;
+  lightsGeneration_ = count_;
+  for (std::size_t i = 0; i < lamps_.size(); ++i) {
+    if (lampNodes_[i] == kNone) continue;
+    const LightPose pose =
+        placeLight({lamps[i].position, lamps[i].direction}, transforms_.now()[lampNodes_[i]]);
+    lamps_[i].position = pose.position;
+    lamps_[i].direction = pose.direction;
+  }
+  if (sunNode_ != kNone)
+    sun_->direction = placeLight({{}, scene.sun->direction}, transforms_.now()[sunNode_]).direction;
+}
+
 MeshFrame::MeshFrame() : job_(std::make_unique<Job>()), tasks_(makeTasks()) {}
 
 std::vector<FrameTask> MeshFrame::makeTasks() {
@@ -178,6 +202,10 @@ std::vector<FrameTask> MeshFrame::makeTasks() {
        {"spheres", "boxes"},
        {"scene box"},
        [job] { job->frame->fillBounds(*job->scene, job->time, job->another); }},
+      {"lights",
+       {"lights", "world"},
+       {"lights in the world"},
+       [job] { job->frame->fillLights(*job->scene, job->another); }},
   };
 }
 

@@ -1,11 +1,12 @@
 // What a frame draws of the scene's mesh instances: a row per instance and draw list with its matrices of this frame and of
-// the one before, boxes to cull, and the matrices of joints. Owns its tables and works out again only what moved. Does not:
+// the one before, boxes to cull, the matrices of joints, and lights. Owns its tables and works out again only what moved. Does not:
 // cull (engine/scene/frame/cull.h), know views or GL.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,10 @@ class MeshFrame {
   Box sceneBounds() const { return bounds_; }
   // Whether any row of the list can ever be another.
   bool isMoving(DrawList list) const { return !tableOf(list).moving.empty(); }
+  // Scene::lamps and Scene::sun as they stand in the world.
+  std::span<const Lamp> lamps() const { return lamps_; }
+  const std::optional<Sun>& sun() const { return sun_; }
+  std::uint64_t lightsGeneration() const { return lightsGeneration_; }
   // What update() consists of, with the tables that each part reads and writes, and how long each took the last time.
   const FrameTasks& tasks() const { return tasks_; }
   FrameTasks& tasks() { return tasks_; }
@@ -74,6 +79,7 @@ class MeshFrame {
   void fillRow(const Scene& scene, ListTable& table, std::uint32_t row) const;
   void fillRows(const Scene& scene, bool all);
   void fillBounds(const Scene& scene, double time, bool all);
+  void fillLights(const Scene& scene, bool all);
   std::vector<FrameTask> makeTasks();
 
   // What the tasks work on in the present update(). Stands still when a MeshFrame moves.
@@ -99,6 +105,12 @@ class MeshFrame {
   std::vector<std::uint8_t> skinMoves_;  // by row of Scene::skins
   std::uint64_t jointsGeneration_ = 0, count_ = 0;
   bool spheresMove_ = false;
+  std::vector<Lamp> lamps_;
+  std::optional<Sun> sun_;
+  std::vector<std::uint32_t> lampNodes_;  // parallel to lamps_: rows, or none
+  std::uint32_t sunNode_ = 0;
+  bool lightsMove_ = false;
+  std::uint64_t lightsGeneration_ = 0;
   Box sphereBounds_, bounds_;
   std::vector<Box> partBoxes_;  // of parts of a table, while bounds_ is made
 };

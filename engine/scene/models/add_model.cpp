@@ -1,6 +1,7 @@
 #include "engine/scene/models/add_model.h"
 
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -93,6 +94,25 @@ Node toNode(const assets::ModelNode& from) {
   return to;
 }
 
+glm::vec3 toUnits(const Scene& scene, const assets::ModelLight& light) {
+  return toVec3(light.color) * (light.intensity / scene.nits);
+}
+
+Lamp toLamp(const Scene& scene, const assets::ModelLight& from, NodeId node, bool shadow) {
+  Lamp to;
+  to.name = from.name;
+  to.intensity = toUnits(scene, from);
+  to.range = from.range > 0 ? from.range : rangeOf(to.intensity);
+  if (from.kind == assets::ModelLightKind::spot) {
+    to.direction = {0, 0, -1};
+    to.cosInner = std::cos(from.inner);
+    to.cosOuter = std::cos(from.outer);
+  }
+  to.shadow = shadow;
+  to.node = node;
+  return to;
+}
+
 }  // namespace
 
 ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& model) {
@@ -150,6 +170,14 @@ void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& mode
     else if (scene.materials.find(instance.material)->blend)
       instance.lists = maskOf(DrawList::transparent);
     scene.meshInstances.add(instance);
+  }
+  for (const assets::ModelLight& from : model.lights) {
+    if (!copy.lights) break;
+    const NodeId node = nodes[from.node];
+    if (from.kind != assets::ModelLightKind::sun)
+      scene.lamps.add(toLamp(scene, from, node, copy.lampShadows));
+    else if (!scene.sun)
+      scene.sun = Sun{.direction = {0, 0, 1}, .irradiance = toUnits(scene, from), .node = node};
   }
   if (!copy.animation) return;
   Animation animation{model.animations[*copy.animation], {}, copy.speed};

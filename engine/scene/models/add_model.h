@@ -1,5 +1,5 @@
 // Puts a model (engine/assets/model.h) into a scene: its textures, materials and meshes once, its nodes, skins and
-// instances once per copy. Does not: read files, or know JSON.
+// instances once per copy, and its lights with them. Does not: read files, or know JSON.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,8 @@ struct ModelCopy {
   std::optional<MaterialId> material;      // of every instance
   std::optional<std::uint32_t> animation;  // row of the model's animations
   float speed = 1;
+  bool lights = true;         // with the model's lights; its sun only where the scene has none
+  bool lampShadows = false;  // its lamps cast shadows
 };
 void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy);
 

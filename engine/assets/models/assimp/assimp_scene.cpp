@@ -55,6 +55,12 @@ class AssimpReader {
         if (!readInstance(node->mMeshes[i], row)) return false;
     std::ranges::stable_sort(model_.instances, {}, &ModelInstance::node);
     readAnimations();
+    if (scene_.mNumLights > 0)
+      diagnostics_
+          .warning(Code::modelPartLeftOut, files_.place(),
+                   fmt::format("the {} of the model were left out: the format says no unit of their brightness",
+                               scene_.mNumLights == 1 ? "light" : fmt::format("{} lights", scene_.mNumLights)))
+          .hint = "give the scene file a 'sun' and 'lamps'";
     return diagnostics_.errorCount() == before;
   }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/assets/models/gltf/gltf_lights.h"
 #include "engine/assets/models/gltf/gltf_materials.h"
 #include "engine/assets/models/gltf/gltf_nodes.h"
 #include "engine/assets/models/parts/mesh_builder.h"
@@ -42,7 +43,8 @@ class GltfReader {
         return false;
       if (nodes_.shown[i] && !readInstances(rows[i], nodes_.rowOf[i])) return false;
     }
-    return readGltfAnimations(document_, files_, nodes_, model_) && diagnostics_.errorCount() == before;
+    return readGltfLights(document_, nodes_, diagnostics_, model_) &&
+           readGltfAnimations(document_, files_, nodes_, model_) && diagnostics_.errorCount() == before;
   }
 
  private:

@@ -19,8 +19,8 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1}
                                      << 40;  // no file is so large; sums of these do not overflow
 
 // What an element of a mesh may ask for that Weft does, or that changes no picture when it is left out.
-constexpr std::string_view kKnownExtensions[] = {"KHR_materials_emissive_strength", "KHR_mesh_quantization",
-                                                 "KHR_texture_transform"};
+constexpr std::string_view kKnownExtensions[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
+                                                 "KHR_mesh_quantization", "KHR_texture_transform"};
 
 std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
@@ -128,15 +128,18 @@ const std::vector<JsonValue>& GltfDocument::rows(std::string_view table) const {
 }
 
 std::optional<std::uint32_t> GltfDocument::index(std::string_view table, const JsonValue* value) {
-  if (!value) return {};
-  const std::size_t count = rows(table).size();
-  if (value->is(JsonValue::Type::number) && value->number >= 0 &&
-      value->number < static_cast<double>(count) && value->number == std::floor(value->number))
-    return static_cast<std::uint32_t>(value->number);
-  base::Diagnostic& d = fail(*value, fmt::format("there is no such row of '{}'", table));
+  return value ? indexOf(table, rows(table).size(), *value) : std::nullopt;
+}
+
+std::optional<std::uint32_t> GltfDocument::indexOf(std::string_view table, std::size_t count,
+                                                   const JsonValue& value) {
+  if (value.is(JsonValue::Type::number) && value.number >= 0 && value.number < static_cast<double>(count) &&
+      value.number == std::floor(value.number))
+    return static_cast<std::uint32_t>(value.number);
+  base::Diagnostic& d = fail(value, fmt::format("there is no such row of '{}'", table));
   d.expected = count == 0 ? fmt::format("none: the file has no '{}'", table)
                           : fmt::format("an index from 0 to {}", count - 1);
-  d.found = describe(*value);
+  d.found = describe(value);
   return {};
 }
 

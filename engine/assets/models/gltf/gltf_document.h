@@ -34,6 +34,8 @@ class GltfDocument {
 
   // An index into a table: absent when `value` is null; W165 when there is no such row.
   std::optional<std::uint32_t> index(std::string_view table, const base::JsonValue* value);
+  // The same for a table elsewhere, such as an extension's; `table` is what a message calls it.
+  std::optional<std::uint32_t> indexOf(std::string_view table, std::size_t count, const base::JsonValue& value);
   // A number of an object, or `otherwise`; W165 outside the range.
   double number(const base::JsonValue& object, std::string_view key, double otherwise, double min,
                 double max);
