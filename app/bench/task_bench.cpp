@@ -56,7 +56,8 @@ struct Course {
   std::vector<Samples> stages;  // tasks of `frame`, then of `views`
 };
 
-scene::ViewData viewOf(const scene::Scene& scene, const Look& look, const scene::MeshFrame& frame, double time) {
+scene::ViewData viewOf(const scene::Scene& scene, const Look& look, const scene::MeshFrame& frame,
+                       double time) {
   if (look.sun)
     return scene::sunView(frame.sun().value_or(scene::Sun{}), frame.sceneBounds(), kSunTexels).view;
   const scene::CameraPose pose = scene::poseAt(*scene::findCamera(scene, ""), time);

@@ -85,9 +85,9 @@ struct ModelLight {
   std::string name;
   std::uint32_t node = 0;
   ModelLightKind kind = ModelLightKind::point;
-  Float3 color{1, 1, 1};   // linear; a factor per channel
-  float intensity = 1;     // of a sun lux on what faces it, of the others candela
-  float range = 0;         // beyond it there is no light; 0: endless
+  Float3 color{1, 1, 1};       // linear; a factor per channel
+  float intensity = 1;         // of a sun lux on what faces it, of the others candela
+  float range = 0;             // beyond it there is no light; 0: endless
   float inner = 0, outer = 0;  // half angles of a spot's cones, radians
 };
 
@@ -120,6 +120,8 @@ struct Model {
   std::vector<ModelMaterial> materials;  // at least one when there is an instance
   std::vector<ModelVertex> vertices;
   std::vector<ModelSkinVertex> skinVertices;  // parallel to vertices, or empty: no mesh is skinned
+  // Parallel to vertices, or empty: all are white. Linear, 0 to 1; a factor of base colour and alpha.
+  std::vector<Float4> colors;
   std::vector<std::uint32_t> indices;
   std::vector<ModelMesh> meshes;
   std::vector<ModelNode> nodes;

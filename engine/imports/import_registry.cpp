@@ -16,6 +16,7 @@
 #include "engine/imports/probes/probes.h"
 #include "engine/imports/spheres/spheres.h"
 #include "engine/imports/sun/sun.h"
+#include "engine/imports/vertex_colors/vertex_colors.h"
 
 namespace weft::imports {
 
@@ -28,6 +29,7 @@ ImportRegistry ImportRegistry::builtin() {
   registry.add(std::make_unique<Materials>());
   registry.add(std::make_unique<MaterialMaps>());
   registry.add(std::make_unique<Joints>());
+  registry.add(std::make_unique<VertexColors>());
   registry.add(std::make_unique<Sun>());
   registry.add(std::make_unique<Lamps>());
   registry.add(std::make_unique<Ground>());

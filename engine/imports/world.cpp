@@ -24,9 +24,9 @@ bool operator==(const WorldFacts& a, const WorldFacts& b) {
   };
   return a.environment == b.environment && a.environmentWidth == b.environmentWidth &&
          a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same) &&
-         a.materials == b.materials && a.maps == b.maps && a.skins == b.skins && a.sun == b.sun &&
-         a.ground == b.ground && a.lamps == b.lamps && a.castingLamps == b.castingLamps &&
-         a.cameras == b.cameras;
+         a.materials == b.materials && a.maps == b.maps && a.skins == b.skins &&
+         a.coloredVertices == b.coloredVertices && a.sun == b.sun && a.ground == b.ground &&
+         a.lamps == b.lamps && a.castingLamps == b.castingLamps && a.cameras == b.cameras;
 }
 
 World::World(scene::Scene scene) : scene_(std::move(scene)) {}
@@ -75,6 +75,7 @@ WorldFacts World::facts() const {
     maps.mips = static_cast<std::uint32_t>(std::bit_width(std::max(maps.width, maps.height)));
   }
   facts.skins = scene_.skins.size();
+  facts.coloredVertices = scene_.meshData ? scene_.meshData->colors.size() : 0;
   facts.sun = scene_.sun.has_value();
   facts.ground = scene_.ground.has_value();
   facts.lamps = static_cast<std::uint32_t>(scene_.lamps.size());

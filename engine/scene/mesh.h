@@ -29,6 +29,8 @@ static_assert(sizeof(SkinVertex) == 24);
 struct MeshData {
   std::vector<Vertex> vertices;
   std::vector<SkinVertex> skin;  // parallel to vertices, or empty: no mesh is skinned
+  // Parallel to vertices, or empty: all are white. Linear; a factor of the material's albedo and alpha.
+  std::vector<glm::vec4> colors;
   std::vector<std::uint32_t> indices;
 };
 

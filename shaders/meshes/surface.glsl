@@ -17,6 +17,9 @@ in vec4 world_tangent;
 in vec2 map_uv;
 in vec4 previous_clip;
 flat in uint row;
+#ifdef HAS_VERTEX_COLORS
+in vec4 own_color;
+#endif
 
 struct MeshSurface {
   vec3 normal;       // world, unit, towards the viewer's side of a double-sided material
@@ -36,6 +39,9 @@ MeshSurface meshSurface() {
   vec4 texel[5];
   for (int i = 0; i < 5; ++i) texel[i] = sampleMap(maps[i], map_uv, dx, dy);
   vec4 color = texel[0] * vec4(self.albedo, self.alpha);
+#ifdef HAS_VERTEX_COLORS
+  color *= own_color;
+#endif
   if (color.a < self.alpha_cutoff || (self.double_sided == 0u && !gl_FrontFacing)) discard;
 
   if (!gl_FrontFacing) n = -n;

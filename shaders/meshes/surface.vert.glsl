@@ -1,4 +1,5 @@
-// A vertex of a mesh, for the fragment shaders that include meshes/surface.glsl. Slots: skeleton?  @joints
+// A vertex of a mesh, for the fragment shaders that include meshes/surface.glsl. Slots: skeleton?  @joints,
+// vertex_colors?  @vertex_colors
 #include "common/view.glsl"
 #include "scene/mesh_vertex.glsl"
 
@@ -12,6 +13,9 @@ out vec4 world_tangent;   // w: sign of the bitangent
 out vec2 map_uv;
 out vec4 previous_clip;
 flat out uint row;        // of @materials
+#ifdef HAS_VERTEX_COLORS
+out vec4 own_color;       // linear
+#endif
 
 void main() {
   mat4 transform = meshTransform();
@@ -20,6 +24,9 @@ void main() {
   world_normal = meshNormal(transform, normal);
   world_tangent = vec4(mat3(transform) * tangent.xyz, tangent.w);
   map_uv = uv;
+#ifdef HAS_VERTEX_COLORS
+  own_color = vertex_color[gl_VertexID].color;
+#endif
   row = mesh_row[instance].material;
   previous_clip = previous_view_projection * (meshPreviousTransform() * vec4(position, 1.0));
   gl_Position = view_projection * world;

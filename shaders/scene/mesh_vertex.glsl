@@ -1,5 +1,5 @@
-// A vertex of a mesh in the world, now and in the frame before: by its row, or by its joints. Slots: joints, an optional
-// buffer (@joints).
+// A vertex of a mesh in the world, now and in the frame before: by its row, or by its joints; and its colour. Slots:
+// skeleton? (@joints), vertex_colors? (@vertex_colors).
 #ifndef SCENE_MESH_VERTEX_GLSL
 #define SCENE_MESH_VERTEX_GLSL
 #include "scene/meshes.glsl"
@@ -13,6 +13,13 @@ struct Joint {
   mat4 now, previous;  // bind pose to world
 };
 layout(std430) readonly buffer skeleton { Joint joint[]; };
+#endif
+
+#ifdef HAS_VERTEX_COLORS
+struct VertexColor {
+  vec4 color;  // linear; a factor of the material's albedo and alpha
+};
+layout(std430) readonly buffer vertex_colors { VertexColor vertex_color[]; };
 #endif
 
 // Model to world of this vertex.

@@ -1,15 +1,23 @@
 // Depth alone, with the holes of masks.
 // read    materials        @materials
 //         material_maps?   @material_maps as linear wrap
+//         vertex_colors?   @vertex_colors
 // modify  depth            reversed-Z
 #include "scene/materials.glsl"
 
 in vec2 map_uv;
 flat in uint row;
+#ifdef HAS_VERTEX_COLORS
+in float own_alpha;
+#endif
 
 void main() {
   Material self = material[row];
+  float alpha = self.alpha;
+#ifdef HAS_VERTEX_COLORS
+  alpha *= own_alpha;
+#endif
   if (self.alpha_cutoff > 0.0 &&
-      self.alpha * sampleMap(self.albedo_map, map_uv, dFdx(map_uv), dFdy(map_uv)).a < self.alpha_cutoff)
+      alpha * sampleMap(self.albedo_map, map_uv, dFdx(map_uv), dFdy(map_uv)).a < self.alpha_cutoff)
     discard;
 }

@@ -1,4 +1,5 @@
-// Meshes into a shadow map, seen from the pass's view. Slots: skeleton?  @joints
+// Meshes into a shadow map, seen from the pass's view. Slots: skeleton?  @joints, vertex_colors?
+// @vertex_colors
 #include "common/view.glsl"
 #include "scene/mesh_vertex.glsl"
 
@@ -6,9 +7,15 @@ in vec2 uv;
 
 out vec2 map_uv;
 flat out uint row;  // of @materials
+#ifdef HAS_VERTEX_COLORS
+out float own_alpha;
+#endif
 
 void main() {
   map_uv = uv;
+#ifdef HAS_VERTEX_COLORS
+  own_alpha = vertex_color[gl_VertexID].color.a;
+#endif
   row = mesh_row[instance].material;
   gl_Position = view_projection * (meshTransform() * vec4(position, 1.0));
 }

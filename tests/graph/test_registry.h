@@ -86,6 +86,7 @@ inline std::vector<ImportType> testImports() {
       {.name = "meshes", .kind = ImportKind::buffer, .doc = "", .arguments = {drawListArgument()}},
       {.name = "materials", .kind = ImportKind::buffer, .doc = ""},
       {.name = "joints", .kind = ImportKind::buffer, .doc = ""},
+      {.name = "vertex_colors", .kind = ImportKind::buffer, .doc = ""},
       {.name = "material_maps", .kind = ImportKind::texture, .doc = "", .array = 8},
       {"point_lights", ImportKind::list, "", {}},
       {"shadowed_lights", ImportKind::view, "", {}},

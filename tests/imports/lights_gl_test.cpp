@@ -164,6 +164,18 @@ TEST_CASE(
   moving.stage.run(1);
   CHECK(moving.stage.ran("lamp_maps[1,3]"));
   CHECK(moving.stage.ran("sun_map"));
+  // A lamp on a node that turns; the spheres stand still.
+  scene::Scene turning = sceneOf();
+  const scene::NodeId arm = turning.nodes.add({.name = "arm", .parent = {}, .spin = {0, 1, 0}});
+  turning.lamps.edit(turning.lamps.idOf(2)).node = arm;
+  Drawn lamp(std::move(turning));
+  lamp.stage.run(0);
+  const std::vector<float> before = gl::readFloats(lamp.stage.execution().texture("maps"), 0, 6);
+  lamp.stage.run(1);
+  CHECK(lamp.stage.ran("lamp_maps[1,3]"));
+  CHECK_FALSE(lamp.stage.ran("sun_map"));
+  lamp.stage.run(30);
+  CHECK(gl::readFloats(lamp.stage.execution().texture("maps"), 0, 6) != before);
   scene::Scene dark = sceneOf();
   dark.sun.reset();
   dark.lamps = {};

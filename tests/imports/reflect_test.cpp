@@ -69,7 +69,7 @@ TEST_CASE(
   }
   CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "ground",
                                        "joints", "lamps", "material_maps", "materials", "meshes", "probes",
-                                       "spheres", "sun"});
+                                       "spheres", "sun", "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -188,8 +188,8 @@ TEST_CASE("what may differ from frame to frame says so; none of the built-in imp
   World still{scene};
   scene.spheres.add({.velocity = {1, 0, 0}, .material = {}});
   World moving{scene};
-  const std::set<std::string> always = {"environment", "cube_lut", "cut",           "ground",
-                                        "joints",      "lamps",    "material_maps", "materials"};
+  const std::set<std::string> always = {"environment", "cube_lut",      "cut",       "ground",       "joints",
+                                        "lamps",       "material_maps", "materials", "vertex_colors"};
   for (const graph::ImportType& type : registry().reflect()) {
     CAPTURE(type.name);
     const auto provider = importOf(type.name).provide(requestOf(type.name));

@@ -35,7 +35,8 @@ bool isModelName(const std::string& name) {
 }
 
 std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagnostics,
-                               const LoadObserver& observer, std::vector<std::string>* files) {
+                               const LoadObserver& observer, std::vector<std::string>* files,
+                               const DecodeRunner& decode) {
   ModelFiles mine(path, diagnostics, observer);
   Model model;
   model.name = std::filesystem::path(path).stem().string();
@@ -46,8 +47,8 @@ std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagn
     d.expected = ".gltf, .glb, .obj or .fbx";
     d.found = extensionOf(path).empty() ? "no extension" : extensionOf(path);
   } else if (auto bytes = mine.readModel()) {
-    good = isGltfName(path) ? readGltf(std::move(*bytes), mine, observer, diagnostics, model)
-                            : readWithAssimp(std::move(*bytes), mine, observer, diagnostics, model);
+    good = isGltfName(path) ? readGltf(std::move(*bytes), mine, observer, decode, diagnostics, model)
+                            : readWithAssimp(std::move(*bytes), mine, observer, decode, diagnostics, model);
   }
   model.files = mine.files();
   if (files) *files = model.files;

@@ -48,7 +48,8 @@ const SceneModels::Loaded* SceneModels::load(const std::string& path) {
   if (const auto known = loaded_.find(path); known != loaded_.end()) return known->second.get();
   std::unique_ptr<Loaded>& loaded = loaded_[path];
   std::vector<std::string> files;
-  std::optional<assets::Model> model = assets::loadModel(path, diagnostics_, observer_, &files);
+  std::optional<assets::Model> model = assets::loadModel(
+      path, diagnostics_, observer_, &files, [this](assets::DecodeJob& job) { decoding_.run(job, 0); });
   for (std::string& file : files)
     if (std::ranges::find(files_, file) == files_.end()) files_.push_back(std::move(file));
   failed_ = failed_ || !model;
@@ -58,6 +59,7 @@ const SceneModels::Loaded* SceneModels::load(const std::string& path) {
   // They are in the scene's arrays now.
   loaded->model.vertices = {};
   loaded->model.skinVertices = {};
+  loaded->model.colors = {};
   loaded->model.indices = {};
   return loaded.get();
 }

@@ -13,6 +13,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/json/fields.h"
 #include "engine/scene/models/add_model.h"
+#include "engine/scene/models/decode_work.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {
@@ -59,6 +60,7 @@ class SceneModels {
   const assets::LoadObserver& observer_;
   std::map<std::string, std::unique_ptr<Loaded>> loaded_;  // by path; null: it failed
   std::shared_ptr<MeshData> data_ = std::make_shared<MeshData>();
+  DecodeWork decoding_;
   std::vector<std::string> files_;
   std::string sunOf_;  // the model that gave the scene its sun
   bool failed_ = false;

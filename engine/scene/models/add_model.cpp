@@ -129,6 +129,11 @@ ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& mode
     append(data.skin, model.skinVertices);
     data.skin.resize(data.vertices.size());
   }
+  if (!model.colors.empty() || !data.colors.empty()) {
+    data.colors.resize(firstVertex, glm::vec4(1));
+    append(data.colors, model.colors);
+    data.colors.resize(data.vertices.size(), glm::vec4(1));
+  }
   data.indices.insert(data.indices.end(), model.indices.begin(), model.indices.end());
   for (const assets::ModelMesh& mesh : model.meshes)
     rows.meshes.push_back(scene.meshes.add(toMesh(model, mesh, firstVertex, firstIndex)));

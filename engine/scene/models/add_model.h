@@ -30,7 +30,7 @@ struct ModelCopy {
   std::optional<MaterialId> material;      // of every instance
   std::optional<std::uint32_t> animation;  // row of the model's animations
   float speed = 1;
-  bool lights = true;         // with the model's lights; its sun only where the scene has none
+  bool lights = true;        // with the model's lights; its sun only where the scene has none
   bool lampShadows = false;  // its lamps cast shadows
 };
 void addModelCopy(Scene& scene, const ModelRows& rows, const assets::Model& model, const ModelCopy& copy);

@@ -15,9 +15,10 @@ TABLES = {"animation": ({"animations"}, {"locals"}), "transforms": ({"nodes", "l
           "joints": ({"skins", "world"}, {"joints"}), "rows": ({"world", "joints"}, {"rows", "boxes"}),
           "views": ({"cameras", "scene box"}, {"views"}), "culling": ({"views", "boxes"}, {"visible rows"}), "sort keys": ({"boxes", "visible rows"}, {"keys"}),
           "draw order": ({"keys"}, {"visible rows"}), "commands": ({"rows", "visible rows"}, {"commands"}),
-          "probes": ({"sphere rows", "probe grid"}, {"probes"})}
-WAITS = [("animation", "transforms"), ("transforms", "rows"), ("rows", "scene box"), ("scene box", "views"), ("views", "culling"), ("culling", "sort keys"),
-         ("sort keys", "draw order"), ("draw order", "commands"), ("probe grid", "probes")]
+          "lights": ({"lights", "world"}, {"lights in the world"}), "probes": ({"sphere rows", "probe grid"}, {"probes"}),
+          "decoding": ({"image files"}, {"texels"}), "contents": ({"texels"}, {"contents"})}
+WAITS = [("animation", "transforms"), ("transforms", "rows"), ("rows", "scene box"), ("transforms", "lights"), ("lights", "views"), ("scene box", "views"), ("views", "culling"), ("culling", "sort keys"),
+         ("sort keys", "draw order"), ("draw order", "commands"), ("probe grid", "probes"), ("decoding", "contents")]
 FREE = [("transforms", "transforms before"), ("animation before", "animation"), ("commands", "probes")]
 
 

@@ -15,24 +15,16 @@
 #include "engine/assets/models/model_file.h"
 #include "engine/base/files/file.h"
 #include "tests/assets/models/fbx_records.h"
-#include "tests/assets/models/matrices.h"
-#include "tests/assets/temporary.h"
+#include "tests/assets/models/loading.h"
 
 using namespace weft;
 using namespace weft::assets;
 using base::Code;
+using weft::test::kModels;
+using weft::test::loadGood;
+using weft::test::worldOf;
 
 namespace {
-
-const std::string kModels = WEFT_SOURCE_DIR "/scenes/models/";
-
-Model loadGood(const std::string& path, std::size_t warnings = 0) {
-  base::Diagnostics diagnostics;
-  auto model = loadModel(path, diagnostics);
-  REQUIRE_MESSAGE(model, diagnostics.text());
-  CHECK_MESSAGE(diagnostics.size() == warnings, diagnostics.text());
-  return std::move(*model);
-}
 
 void writeColour(const std::string& path, std::array<std::uint8_t, 3> colour) {
   base::Diagnostics diagnostics;
@@ -50,13 +42,6 @@ void writeFox(const std::string& path, const char* format) {
   base::Diagnostics diagnostics;
   const std::string bytes = test::repairFbx(base::readFile(path, diagnostics).value());
   REQUIRE(base::writeFile(path, bytes, diagnostics));
-}
-
-Matrix4 worldOf(const Model& model, std::uint32_t node) {
-  Matrix4 world = test::matrixOf(model.nodes[node]);
-  for (std::uint32_t up = model.nodes[node].parent; up != kNoRow; up = model.nodes[up].parent)
-    world = test::multiply(test::matrixOf(model.nodes[up]), world);
-  return world;
 }
 
 std::string readBytes(const std::string& path) {
@@ -190,6 +175,28 @@ TEST_CASE("FBX, binary and text: the fox, its nodes, weights and animations") {
     }
     CHECK(worst < 0.05);  // of 150: the file's text has few digits
   }
+}
+
+TEST_CASE("FBX: lights are left out, with a warning") {
+  const TemporaryFolder folder;
+  writeFox(folder.at("fox.fbx"), "fbxa");
+  std::string text = readBytes(folder.at("fox.fbx"));
+  const auto insertAfter = [&](const std::string& line, const std::string& more) {
+    const std::size_t at = text.find(line);
+    REQUIRE(at != std::string::npos);
+    text.insert(text.find('\n', at) + 1, more);
+  };
+  insertAfter("Objects:  {",
+              "\tNodeAttribute: 9001, \"NodeAttribute::bulb\", \"Light\" {\n\t\tTypeFlags: \"Light\"\n\t}\n"
+              "\tModel: 9002, \"Model::bulb\", \"Light\" {\n\t\tVersion: 232\n\t}\n");
+  insertAfter("Connections:  {", "\tC: \"OO\",9001,9002\n\tC: \"OO\",9002,0\n");
+  base::Diagnostics diagnostics;
+  const auto model = loadModel(folder.write("lit.fbx", text), diagnostics);
+  REQUIRE_MESSAGE(model, diagnostics.text());
+  CHECK(model->lights.empty());
+  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+  CHECK(diagnostics.items()[0].code == Code::modelPartLeftOut);
+  CHECK(diagnostics.items()[0].message.find("light") != std::string::npos);
 }
 
 TEST_CASE("FBX files that are damaged anywhere") {

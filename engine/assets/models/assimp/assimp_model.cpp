@@ -67,7 +67,7 @@ bool hasEndlessFace(const aiScene& scene) {
 }  // namespace
 
 bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& observer,
-                    Diagnostics& diagnostics, Model& model) {
+                    const DecodeRunner& decode, Diagnostics& diagnostics, Model& model) {
   const bool obj = isObj(files.path());
   if (!checkBefore(bytes, obj, files, diagnostics)) return false;
   const std::size_t before = diagnostics.errorCount();
@@ -92,7 +92,7 @@ bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& ob
   if (hasEndlessFace(*scene)) return unreadable("a face of it has more than 4096 corners");
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene) return unreadable(importer.GetErrorString());
-  return readAssimpScene(*scene, files, observer, diagnostics, model);
+  return readAssimpScene(*scene, files, observer, decode, diagnostics, model);
 }
 
 }  // namespace weft::assets

@@ -6,11 +6,12 @@
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 
 // False after errors, or when `observer` gave up.
 bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& observer,
-                    base::Diagnostics& diagnostics, Model& model);
+                    const DecodeRunner& decode, base::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

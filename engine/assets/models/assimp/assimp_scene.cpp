@@ -41,13 +41,15 @@ class AssimpReader {
         builder_(model),
         pool_(diagnostics) {}
 
-  bool read(const LoadObserver& observer) {
+  bool read(const LoadObserver& observer, const DecodeRunner& decode) {
     const std::size_t before = diagnostics_.errorCount();
     if (!readNodes()) return false;
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
-      if (observer && !observer(LoadStage::decoding, 0.5 + 0.5 * i / scene_.mNumMaterials)) return false;
-      readMaterial(*scene_.mMaterials[i]);
+      if (observer && !observer(LoadStage::decoding, 0.5)) return false;
+      for (const std::string& name : imagesOf(*scene_.mMaterials[i])) numberOf(name);
     }
+    if (!pool_.decodeAll(decode, observer, 0.5)) return false;
+    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) readMaterial(*scene_.mMaterials[i]);
     model_.textures = pool_.take();
     if (pool_.full()) return false;
     for (const auto& [node, row] : nodeRows_)
@@ -57,9 +59,10 @@ class AssimpReader {
     readAnimations();
     if (scene_.mNumLights > 0)
       diagnostics_
-          .warning(Code::modelPartLeftOut, files_.place(),
-                   fmt::format("the {} of the model were left out: the format says no unit of their brightness",
-                               scene_.mNumLights == 1 ? "light" : fmt::format("{} lights", scene_.mNumLights)))
+          .warning(
+              Code::modelPartLeftOut, files_.place(),
+              fmt::format("the {} of the model were left out: the format says no unit of their brightness",
+                          scene_.mNumLights == 1 ? "light" : fmt::format("{} lights", scene_.mNumLights)))
           .hint = "give the scene file a 'sun' and 'lamps'";
     return diagnostics_.errorCount() == before;
   }
@@ -90,30 +93,56 @@ class AssimpReader {
     return true;
   }
 
-  // The image of a texture: embedded, or beside the model, by its own name if its path leads elsewhere (models often keep
-  // the paths of the machine that they were made on).
-  std::uint32_t mapOf(const aiMaterial& material, aiTextureType type, bool srgb) {
+  static std::string imageOf(const aiMaterial& material, aiTextureType type) {
     aiString path;
-    if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS || path.length == 0) return kNoRow;
-    std::string name = path.C_Str();
-    auto known = images_.find(name);
-    if (known == images_.end()) known = images_.emplace(name, readImage(name)).first;
-    return pool_.add(known->second, name, srgb);
+    return material.GetTexture(type, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
+  }
+  static constexpr aiTextureType kColorMaps[] = {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR};
+  static constexpr aiTextureType kNormalMaps[] = {aiTextureType_NORMALS, aiTextureType_HEIGHT};
+
+  // What readMaterial() will use: of two that stand for the same, the first.
+  static std::vector<std::string> imagesOf(const aiMaterial& material) {
+    std::vector<std::string> names = {imageOf(material, aiTextureType_EMISSIVE)};
+    for (const auto& types : {kColorMaps, kNormalMaps}) {
+      const std::string first = imageOf(material, types[0]);
+      names.push_back(first.empty() ? imageOf(material, types[1]) : first);
+    }
+    std::erase(names, "");
+    return names;
   }
 
-  std::shared_ptr<const Image8> readImage(const std::string& given) {
+  std::uint32_t mapOf(const aiMaterial& material, aiTextureType type, bool srgb) {
+    const std::string name = imageOf(material, type);
+    return name.empty() ? kNoRow : pool_.add(decodedNumberOf(name), name, srgb);
+  }
+
+  // In the pool; kNoRow for an image that cannot be read.
+  std::uint32_t numberOf(const std::string& name) {
+    auto known = images_.find(name);
+    if (known == images_.end()) known = images_.emplace(name, readImage(name)).first;
+    return known->second;
+  }
+  std::uint32_t decodedNumberOf(const std::string& name) {
+    const std::uint32_t number = numberOf(name);
+    pool_.decodeAll({}, {});  // of one that takes the place of another, which could not be read
+    return number;
+  }
+
+  // The image of a texture: embedded, or beside the model, by its own name if its path leads elsewhere (models often keep
+  // the paths of the machine that they were made on).
+  std::uint32_t readImage(const std::string& given) {
     if (const aiTexture* embedded = scene_.GetEmbeddedTexture(given.c_str())) {
       if (embedded->mHeight == 0)
-        return pool_.decode({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth}, given,
-                            files_.place());
+        return pool_.put(std::string(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth),
+                         given, files_.place());
       pool_.reportMissing(given, "it is packed without a file format", files_.place());
-      return nullptr;
+      return kNoRow;
     }
     std::string name = given;
     std::ranges::replace(name, '\\', '/');
     if (!files_.hasBeside(name)) name = name.substr(name.rfind('/') + 1);
-    const auto bytes = files_.readOptional(name, files_.place(), Code::missingModelTexture, false);
-    return bytes ? pool_.decode(*bytes, name, files_.place()) : nullptr;
+    auto bytes = files_.readOptional(name, files_.place(), Code::missingModelTexture, false);
+    return bytes ? pool_.put(std::move(*bytes), name, files_.place()) : kNoRow;
   }
 
   static float unitOf(float value, float otherwise) {
@@ -148,29 +177,27 @@ class AssimpReader {
     } else {
       toMetallicRoughness(material);
     }
-    material.baseColorMap = mapOf(from, aiTextureType_DIFFUSE, true);
-    if (material.baseColorMap == kNoRow) material.baseColorMap = mapOf(from, aiTextureType_BASE_COLOR, true);
+    material.baseColorMap = mapOf(from, kColorMaps[0], true);
+    if (material.baseColorMap == kNoRow) material.baseColorMap = mapOf(from, kColorMaps[1], true);
     material.emissiveMap = mapOf(from, aiTextureType_EMISSIVE, true);
-    material.normalMap = mapOf(from, aiTextureType_NORMALS, false);
+    material.normalMap = mapOf(from, kNormalMaps[0], false);
     if (material.normalMap == kNoRow) material.normalMap = normalMapOf(from);
     model_.materials.push_back(std::move(material));
   }
 
   // A bump map of OBJ is a height, but most exporters write normal maps there: taken where it is blue.
   std::uint32_t normalMapOf(const aiMaterial& from) {
-    aiString path;
-    if (from.GetTexture(aiTextureType_HEIGHT, 0, &path) != aiReturn_SUCCESS) return kNoRow;
-    auto known = images_.find(path.C_Str());
-    if (known == images_.end()) known = images_.emplace(path.C_Str(), readImage(path.C_Str())).first;
-    if (!known->second) return kNoRow;
+    const std::string name = imageOf(from, kNormalMaps[1]);
+    const std::uint32_t number = name.empty() ? kNoRow : decodedNumberOf(name);
+    const Image8* image = number == kNoRow ? nullptr : pool_.image(number);
+    if (!image) return kNoRow;
     double sums[3] = {};
-    for (std::size_t i = 0; i < known->second->texels.size(); ++i)
-      if (i % 4 < 3) sums[i % 4] += known->second->texels[i];
-    if (sums[2] > 1.2 * sums[0] && sums[2] > 1.2 * sums[1])
-      return pool_.add(known->second, path.C_Str(), false);
+    for (std::size_t i = 0; i < image->texels.size(); ++i)
+      if (i % 4 < 3) sums[i % 4] += image->texels[i];
+    if (sums[2] > 1.2 * sums[0] && sums[2] > 1.2 * sums[1]) return pool_.add(number, name, false);
     diagnostics_
         .warning(Code::modelPartLeftOut, files_.place(),
-                 fmt::format("the bump map '{}' was left out: it holds heights, not normals", path.C_Str()))
+                 fmt::format("the bump map '{}' was left out: it holds heights, not normals", name))
         .hint = "make a normal map of it";
     return kNoRow;
   }
@@ -320,15 +347,15 @@ class AssimpReader {
   TexturePool pool_;
   std::vector<std::pair<const aiNode*, std::uint32_t>> nodeRows_;
   std::map<std::string, std::uint32_t, std::less<>> rowByName_;
-  std::map<std::string, std::shared_ptr<const Image8>> images_;
+  std::map<std::string, std::uint32_t> images_;  // numbers in the pool
   std::map<unsigned, std::uint32_t> meshes_, skins_;
 };
 
 }  // namespace
 
 bool readAssimpScene(const aiScene& scene, ModelFiles& files, const LoadObserver& observer,
-                     Diagnostics& diagnostics, Model& model) {
-  return AssimpReader(scene, files, diagnostics, model).read(observer);
+                     const DecodeRunner& decode, Diagnostics& diagnostics, Model& model) {
+  return AssimpReader(scene, files, diagnostics, model).read(observer, decode);
 }
 
 }  // namespace weft::assets

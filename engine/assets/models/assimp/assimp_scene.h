@@ -3,6 +3,7 @@
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 struct aiScene;
 
@@ -10,6 +11,6 @@ namespace weft::assets {
 
 // False after errors, or when `observer` gave up. The scene's faces are triangles, lines and points.
 bool readAssimpScene(const aiScene& scene, ModelFiles& files, const LoadObserver& observer,
-                     base::Diagnostics& diagnostics, Model& model);
+                     const DecodeRunner& decode, base::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

@@ -14,7 +14,6 @@
 
 namespace weft::assets {
 
-using base::Code;
 using base::Diagnostics;
 using base::JsonValue;
 
@@ -27,11 +26,11 @@ class GltfReader {
   GltfReader(GltfDocument& document, ModelFiles& files, Diagnostics& diagnostics, Model& model)
       : document_(document), files_(files), diagnostics_(diagnostics), model_(model), builder_(model) {}
 
-  bool read(const LoadObserver& observer) {
+  bool read(const LoadObserver& observer, const DecodeRunner& decode) {
     const std::size_t before = diagnostics_.errorCount();
     if (!readGltfNodes(document_, model_, nodes_) || !readGltfSkins(document_, nodes_, model_)) return false;
     TexturePool pool(diagnostics_);
-    auto materials = readGltfMaterials(document_, files_, pool, observer, diagnostics_);
+    auto materials = readGltfMaterials(document_, files_, pool, observer, decode, diagnostics_);
     if (!materials) return false;
     uvs_ = std::move(materials->uvs);
     model_.materials = std::move(materials->materials);
@@ -64,7 +63,7 @@ class GltfReader {
       if (!found) return false;
       skin = *found;
     }
-    const std::vector<Part>* parts = partsOf(*mesh, skin != kNoRow);
+    const std::vector<Part>* parts = partsOf(*mesh, skin != kNoRow, node);
     if (!parts) return false;
     for (const Part& part : *parts) {
       const bool skinned = model_.meshes[part.mesh].skinned;
@@ -80,41 +79,48 @@ class GltfReader {
     return true;
   }
 
-  // A mesh is read once with its weights and once without, where nodes use it both ways.
-  const std::vector<Part>* partsOf(std::uint32_t mesh, bool skinned) {
-    const auto known = parts_.find({mesh, skinned});
+  // How far morph targets have moved a mesh when nothing animates it: as the node says, else as the mesh does.
+  bool readMorphWeights(const JsonValue& node, const JsonValue& mesh, std::vector<float>& weights) {
+    const JsonValue* own = node.find("weights");
+    const JsonValue* found = own ? own : mesh.find("weights");
+    if (!found) return true;
+    weights.resize(found->items.size());
+    return document_.numbers(own ? node : mesh, "weights", weights.size(), weights.data());
+  }
+
+  // A mesh is read once with its joints and once without, and once for each way in which it is morphed, where nodes use it
+  // so.
+  const std::vector<Part>* partsOf(std::uint32_t mesh, bool skinned, const JsonValue& node) {
+    const JsonValue& value = document_.rows("meshes")[mesh];
+    std::vector<float> weights;
+    if (!readMorphWeights(node, value, weights)) return nullptr;
+    const auto key = std::tuple(mesh, skinned, weights);
+    const auto known = parts_.find(key);
     if (known != parts_.end()) return &known->second;
     std::vector<Part> parts;
-    const JsonValue& value = document_.rows("meshes")[mesh];
     const JsonValue* primitives = value.find("primitives");
     std::string name = document_.text(value, "name");
     if (name.empty()) name = fmt::format("mesh {}", mesh);
     for (std::size_t i = 0; primitives && i < primitives->items.size(); ++i) {
       Part part;
       const std::string each = primitives->items.size() == 1 ? name : fmt::format("{}[{}]", name, i);
-      if (!readPrimitive(primitives->items[i], each, skinned, part)) return nullptr;
+      if (!readPrimitive(primitives->items[i], each, skinned, weights, part)) return nullptr;
       if (part.mesh != kNoRow) parts.push_back(part);
     }
-    return &parts_.emplace(std::pair{mesh, skinned}, std::move(parts)).first->second;
+    return &parts_.emplace(key, std::move(parts)).first->second;
   }
 
-  void leaveOut(const JsonValue& where, std::string message) {
-    diagnostics_.warning(Code::modelPartLeftOut, where.place, std::move(message)).pointer = where.pointer;
-  }
-
-  bool readPrimitive(const JsonValue& value, const std::string& name, bool skinned, Part& part) {
+  bool readPrimitive(const JsonValue& value, const std::string& name, bool skinned,
+                     const std::vector<float>& weights, Part& part) {
     const JsonValue* attributes = value.find("attributes");
     const JsonValue* positions = attributes ? attributes->find("POSITION") : nullptr;
     const double mode = document_.number(value, "mode", 4, 0, 6);
     if (mode < 4 || !positions) {
-      leaveOut(value, fmt::format("mesh '{}' was left out: {}", name,
-                                  positions ? "points and lines are not drawn" : "it has no positions"));
+      document_.leaveOut(value,
+                         fmt::format("mesh '{}' was left out: {}", name,
+                                     positions ? "points and lines are not drawn" : "it has no positions"));
       return true;
     }
-    if (value.find("targets"))
-      leaveOut(value, fmt::format("the morph targets of mesh '{}' were left out", name));
-    if (attributes->find("COLOR_0"))
-      leaveOut(value, fmt::format("the vertex colours of mesh '{}' were left out", name));
     part.material = static_cast<std::uint32_t>(model_.materials.size() - 1);
     if (const JsonValue* material = value.find("material")) {
       const auto row = document_.index("materials", material);
@@ -135,7 +141,9 @@ class GltfReader {
     const bool flat = !attributes->find("NORMAL");
     if (!builder_.hasRoom(flat ? corners : count_, corners, value.place, diagnostics_)) return false;
     if (!readVectors(*positions, *accessor, "POSITION", kFarthest, mesh.positions)) return false;
-    if (!readAttributes(*attributes, part.material, mesh)) return false;
+    if (!readAttributes(*attributes, part.material, mesh) || !readColors(*attributes, mesh)) return false;
+    if (const JsonValue* targets = value.find("targets"); targets && !morph(*targets, weights, mesh))
+      return false;
     if (skinned && !readWeights(*attributes, mesh, part)) return false;
     if (!readIndices(value, indices, static_cast<int>(mode), mesh)) return false;
     if (!mesh.indices.empty()) part.mesh = builder_.add(std::move(mesh));
@@ -207,6 +215,63 @@ class GltfReader {
     return true;
   }
 
+  // glTF 2.0, 3.7.2.1: linear, clamped to 0..1; floats, or unsigned bytes and shorts that are normalised.
+  bool readColors(const JsonValue& attributes, RawMesh& mesh) {
+    const JsonValue* where = attributes.find("COLOR_0");
+    if (!where) return true;
+    const std::string_view kind = document_.kindOf(*where) == "VEC3" ? "VEC3" : "VEC4";
+    bool good = true;
+    const GltfAccessor* accessor = attribute(attributes, "COLOR_0", kind, true, good);
+    if (!accessor) return good;
+    const bool whole = accessor->type == 5121 || accessor->type == 5123;
+    if (accessor->type != 5126 && !(whole && accessor->normalized)) {
+      base::Diagnostic& d =
+          document_.leaveOut(*where, fmt::format("the vertex colours of mesh '{}' were left out", mesh.name));
+      d.expected = "floats, or normalised unsigned numbers of 8 or 16 bits";
+      d.found = fmt::format("componentType {}{}", accessor->type, accessor->normalized ? ", normalised" : "");
+      return true;
+    }
+    const auto put = [&]<std::size_t N>(std::vector<std::array<float, N>> values) {
+      if (!readVectors(*where, *accessor, "COLOR_0", 1e9f, values)) return false;
+      for (const auto& value : values) {
+        Float4& color = mesh.colors.emplace_back(Float4{1, 1, 1, 1});
+        for (std::size_t c = 0; c < N; ++c) color[c] = std::clamp(value[c], 0.0f, 1.0f);
+      }
+      return true;
+    };
+    return kind == "VEC3" ? put(std::vector<Float3>{}) : put(std::vector<Float4>{});
+  }
+
+  // The mesh as its targets move it, each by its weight. glTF 2.0, 3.7.2.2.
+  bool morph(const JsonValue& targets, const std::vector<float>& weights, RawMesh& mesh) {
+    for (std::size_t t = 0; t < std::min(weights.size(), targets.items.size()); ++t) {
+      const JsonValue& target = targets.items[t];
+      if (weights[t] == 0) continue;
+      // The same accessor may serve any number of targets.
+      if (!files_.count(std::uint64_t{count_} * sizeof(Float3) * target.members.size(), target.place))
+        return false;
+      const auto add = [&](const char* name, auto& to) {
+        bool good = true;
+        std::vector<Float3> moves;
+        const GltfAccessor* accessor = to.empty() ? nullptr : attribute(target, name, "VEC3", true, good);
+        if (!accessor) return good;
+        if (!readVectors(*target.find(name), *accessor, name, kFarthest, moves)) return false;
+        for (std::size_t v = 0; v < count_; ++v)
+          for (std::size_t c = 0; c < 3; ++c) to[v][c] += weights[t] * moves[v][c];
+        return true;
+      };
+      if (!add("POSITION", mesh.positions) || !add("NORMAL", mesh.normals) || !add("TANGENT", mesh.tangents))
+        return false;
+    }
+    for (const Float3& position : mesh.positions)
+      if (std::ranges::any_of(position, [](float c) { return !(std::abs(c) <= kFarthest); })) {
+        document_.fail(targets, fmt::format("the morph targets move mesh '{}' too far", mesh.name)).expected =
+            fmt::format("positions within {}", kFarthest);
+        return false;
+      }
+    return true;
+  }
+
   bool readWeights(const JsonValue& attributes, RawMesh& mesh, Part& part) {
     for (std::size_t set = 0; set < 2; ++set) {
       bool good = true;
@@ -270,16 +335,17 @@ class GltfReader {
   MeshBuilder builder_;
   GltfNodes nodes_;
   std::vector<GltfUv> uvs_;
-  std::map<std::pair<std::uint32_t, bool>, std::vector<Part>> parts_;
+  std::map<std::tuple<std::uint32_t, bool, std::vector<float>>, std::vector<Part>> parts_;
   std::uint32_t count_ = 0;  // of vertices of the primitive that is read
 };
 
 }  // namespace
 
-bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, Diagnostics& diagnostics,
-              Model& model) {
+bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, const DecodeRunner& decode,
+              Diagnostics& diagnostics, Model& model) {
   GltfDocument document(files, diagnostics);
-  return document.open(std::move(bytes)) && GltfReader(document, files, diagnostics, model).read(observer);
+  return document.open(std::move(bytes)) &&
+         GltfReader(document, files, diagnostics, model).read(observer, decode);
 }
 
 }  // namespace weft::assets

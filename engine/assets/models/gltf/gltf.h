@@ -1,15 +1,16 @@
 // glTF 2.0, .gltf and .glb, to a Model. Everything that a file says is held against the file before it is used: indices,
-// ranges, cycles, sizes, numbers. Left out, with W168: points and lines, morph targets, further uv sets, a
-// second sun. Left out in silence: cameras. Does not: stray, whatever the file says. Internal to the folder.
+// ranges, cycles, sizes, numbers. Left out, with W168: points and lines, the motion of morph targets, further uv
+// sets, a second sun. Left out in silence: cameras. Does not: stray, whatever the file says. Internal to the folder.
 #pragma once
 
 #include "engine/assets/model.h"
 #include "engine/assets/models/parts/model_files.h"
+#include "engine/assets/models/parts/texture_pool.h"
 
 namespace weft::assets {
 
 // False after errors, or when `observer` gave up.
-bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer,
+bool readGltf(std::string bytes, ModelFiles& files, const LoadObserver& observer, const DecodeRunner& decode,
               base::Diagnostics& diagnostics, Model& model);
 
 }  // namespace weft::assets

@@ -36,6 +36,12 @@ base::Diagnostic& GltfDocument::fail(const JsonValue& where, std::string message
   return d;
 }
 
+base::Diagnostic& GltfDocument::leaveOut(const JsonValue& where, std::string message) {
+  base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, where.place, std::move(message));
+  d.pointer = where.pointer;
+  return d;
+}
+
 // "glTF", version, length; then chunks of length, kind, bytes.
 bool GltfDocument::split(std::string_view bytes, std::string_view& json, std::string_view& binary) {
   const auto bad = [&](std::string message, std::string expected, std::string found) {
@@ -349,6 +355,12 @@ const GltfAccessor* GltfDocument::accessor(const JsonValue* value, std::string_v
       fmt::format("\"{}\" of {}", kind, floats ? "floats, or of 8 or 16 bits" : "unsigned whole numbers");
   d.found = fmt::format("\"{}\", componentType {}", found.kind, found.type);
   return nullptr;
+}
+
+std::string_view GltfDocument::kindOf(const JsonValue& accessor) const {
+  const bool known = accessor.is(JsonValue::Type::number) && accessor.number >= 0 &&
+                     accessor.number < static_cast<double>(accessors_.size());
+  return known ? accessors_[static_cast<std::size_t>(accessor.number)].kind : std::string_view();
 }
 
 std::optional<std::string_view> GltfDocument::view(const JsonValue* value) {

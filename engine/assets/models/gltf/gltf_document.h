@@ -35,7 +35,8 @@ class GltfDocument {
   // An index into a table: absent when `value` is null; W165 when there is no such row.
   std::optional<std::uint32_t> index(std::string_view table, const base::JsonValue* value);
   // The same for a table elsewhere, such as an extension's; `table` is what a message calls it.
-  std::optional<std::uint32_t> indexOf(std::string_view table, std::size_t count, const base::JsonValue& value);
+  std::optional<std::uint32_t> indexOf(std::string_view table, std::size_t count,
+                                       const base::JsonValue& value);
   // A number of an object, or `otherwise`; W165 outside the range.
   double number(const base::JsonValue& object, std::string_view key, double otherwise, double min,
                 double max);
@@ -49,7 +50,11 @@ class GltfDocument {
   // The bytes of a buffer view; empty after an error.
   std::optional<std::string_view> view(const base::JsonValue* index);
 
-  base::Diagnostic& fail(const base::JsonValue& where, std::string message);
+  // "VEC3"; "" where the index is none. Nothing is said.
+  std::string_view kindOf(const base::JsonValue& accessor) const;
+
+  base::Diagnostic& fail(const base::JsonValue& where, std::string message);      // W165
+  base::Diagnostic& leaveOut(const base::JsonValue& where, std::string message);  // W168
 
  private:
   bool split(std::string_view bytes, std::string_view& json, std::string_view& binary);

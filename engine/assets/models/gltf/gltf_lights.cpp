@@ -59,7 +59,7 @@ class LightReader {
     const std::string kind = document_.text(value, "type");
     out.known = kind == "directional" || kind == "point" || kind == "spot";
     if (!out.known) {
-      base::Diagnostic& d = leaveOut(value, fmt::format("light '{}' was left out", light.name));
+      base::Diagnostic& d = document_.leaveOut(value, fmt::format("light '{}' was left out", light.name));
       d.expected = "a 'type' of \"directional\", \"point\" or \"spot\"";
       d.found = fmt::format("\"{}\"", kind);
       return out;
@@ -102,7 +102,7 @@ class LightReader {
       const auto other = std::ranges::find(model_.lights, ModelLightKind::sun, &ModelLight::kind);
       if (other != model_.lights.end()) {
         const bool brighter = brightnessOf(light) > brightnessOf(*other);
-        base::Diagnostic& d = leaveOut(
+        base::Diagnostic& d = document_.leaveOut(
             where, fmt::format("the light '{}' was left out", brighter ? other->name : light.name));
         d.expected = "one directional light: a scene has one sun";
         d.found = fmt::format("another one, '{}', that is as bright or brighter",
@@ -116,13 +116,6 @@ class LightReader {
 
   static float brightnessOf(const ModelLight& light) {
     return light.intensity * *std::ranges::max_element(light.color);
-  }
-
-  base::Diagnostic& leaveOut(const JsonValue& where, std::string message) {
-    base::Diagnostic& d =
-        diagnostics_.warning(base::Code::modelPartLeftOut, where.place, std::move(message));
-    d.pointer = where.pointer;
-    return d;
   }
 
   GltfDocument& document_;

@@ -15,17 +15,20 @@ class MaterialReader {
   MaterialReader(GltfDocument& document, ModelFiles& files, TexturePool& pool, Diagnostics& diagnostics)
       : document_(document), files_(files), pool_(pool), diagnostics_(diagnostics) {}
 
-  std::optional<GltfMaterials> read(const LoadObserver& observer) {
+  std::optional<GltfMaterials> read(const LoadObserver& observer, const DecodeRunner& decode) {
     const std::size_t before = diagnostics_.errorCount();
     images_.resize(document_.rows("images").size());
     const std::vector<JsonValue>& rows = document_.rows("materials");
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (observer &&
-          !observer(LoadStage::decoding, static_cast<double>(i) / static_cast<double>(rows.size())))
-        return {};
+      if (observer && !observer(LoadStage::decoding, 0)) return {};
       readMaterial(rows[i], i);
       if (diagnostics_.errorCount() > before) return {};
     }
+    if (!pool_.decodeAll(decode, observer)) return {};
+    for (ModelMaterial& material : out_.materials)
+      for (std::uint32_t* map : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
+                                 &material.occlusionMap, &material.emissiveMap})
+        if (*map != kNoRow) *map = pool_.add(uses_[*map].image, uses_[*map].name, uses_[*map].srgb);
     ModelMaterial plain;  // glTF's default material
     plain.name = "default";
     plain.metallic = 1;
@@ -37,11 +40,17 @@ class MaterialReader {
  private:
   struct Image {
     bool tried = false;
-    std::shared_ptr<const Image8> image;
+    std::uint32_t number = kNoRow;  // in the pool
     std::string name;
   };
+  // Of a map, before its image is decoded.
+  struct Use {
+    std::uint32_t image = kNoRow;  // number in the pool
+    std::string name;
+    bool srgb = false;
+  };
 
-  // Decoded once.
+  // Put into the pool once.
   const Image& imageOf(std::uint32_t row) {
     Image& image = images_[row];
     if (image.tried) return image;
@@ -52,19 +61,19 @@ class MaterialReader {
     image.name = document_.text(value, "name");
     if (uri && uri->text.starts_with("data:")) {
       if (image.name.empty()) image.name = fmt::format("image {}", row);
-      const auto bytes = decodeDataUri(uri->text);
+      auto bytes = decodeDataUri(uri->text);
       if (!bytes) pool_.reportMissing(image.name, "its base64 is damaged", uri->place);
       if (bytes && files_.count(bytes->size(), uri->place))
-        image.image = pool_.decode(*bytes, image.name, uri->place);
+        image.number = pool_.put(std::move(*bytes), image.name, uri->place);
     } else if (uri) {
       image.name = uri->text;
-      const std::optional<std::string> bytes =
+      std::optional<std::string> bytes =
           files_.readOptional(uri->text, uri->place, Code::missingModelTexture, true);
-      if (bytes) image.image = pool_.decode(*bytes, image.name, uri->place);
+      if (bytes) image.number = pool_.put(std::move(*bytes), image.name, uri->place);
     } else if (view) {
       if (image.name.empty()) image.name = fmt::format("image {}", row);
       if (const auto bytes = document_.view(view))
-        image.image = pool_.decode(*bytes, image.name, view->place);
+        image.number = pool_.put(std::string(*bytes), image.name, view->place);
     } else {
       image.name = fmt::format("image {}", row);
       pool_.reportMissing(image.name, "it has neither 'uri' nor 'bufferView'", value.place);
@@ -85,7 +94,7 @@ class MaterialReader {
     return uv;
   }
 
-  // A row of the textures; kNoRow without a map.
+  // A row of uses_; kNoRow without a map.
   std::uint32_t mapOf(const JsonValue& object, std::string_view key, bool srgb) {
     const JsonValue* info = object.find(key);
     if (!info) return kNoRow;
@@ -94,9 +103,7 @@ class MaterialReader {
     const GltfUv uv = uvOf(*info);
     if (uv_ && *uv_ != uv) {
       base::Diagnostic& d =
-          diagnostics_.warning(Code::modelPartLeftOut, info->place,
-                               fmt::format("'{}' of material {} was left out", key, material_));
-      d.pointer = info->pointer;
+          document_.leaveOut(*info, fmt::format("'{}' of material {} was left out", key, material_));
       d.expected = "one set of texture coordinates and one transform for all maps of a material";
       d.found = "another one than that of its first map";
       return kNoRow;
@@ -108,10 +115,15 @@ class MaterialReader {
       if (!row.find("source"))
         pool_.reportMissing(fmt::format("texture {}", *texture), "it names no image that Weft can read",
                             row.place);
-      return pool_.add(nullptr, "missing", srgb);
+      return use({kNoRow, "missing", srgb});
     }
-    const Image& decoded = imageOf(*image);
-    return pool_.add(decoded.image, decoded.name, srgb);
+    const Image& found = imageOf(*image);
+    return use({found.number, found.name, srgb});
+  }
+
+  std::uint32_t use(Use one) {
+    uses_.push_back(std::move(one));
+    return static_cast<std::uint32_t>(uses_.size() - 1);
   }
 
   void readMaterial(const JsonValue& value, std::size_t number) {
@@ -168,6 +180,7 @@ class MaterialReader {
   Diagnostics& diagnostics_;
   GltfMaterials out_;
   std::vector<Image> images_;
+  std::vector<Use> uses_;
   std::size_t material_ = 0;
   std::optional<GltfUv> uv_;
 };
@@ -175,8 +188,9 @@ class MaterialReader {
 }  // namespace
 
 std::optional<GltfMaterials> readGltfMaterials(GltfDocument& document, ModelFiles& files, TexturePool& pool,
-                                               const LoadObserver& observer, Diagnostics& diagnostics) {
-  return MaterialReader(document, files, pool, diagnostics).read(observer);
+                                               const LoadObserver& observer, const DecodeRunner& decode,
+                                               Diagnostics& diagnostics) {
+  return MaterialReader(document, files, pool, diagnostics).read(observer, decode);
 }
 
 }  // namespace weft::assets

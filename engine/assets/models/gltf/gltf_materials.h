@@ -25,8 +25,9 @@ struct GltfMaterials {
   std::vector<GltfUv> uvs;               // parallel
 };
 
-// Decodes what the materials use. `observer` hears how far it is; empty after errors, or when it gave up.
+// Decodes what the materials use, by `decode`, or in turn where that is empty. `observer` hears how far it is; empty after errors, or when it gave up.
 std::optional<GltfMaterials> readGltfMaterials(GltfDocument& document, ModelFiles& files, TexturePool& pool,
-                                               const LoadObserver& observer, base::Diagnostics& diagnostics);
+                                               const LoadObserver& observer, const DecodeRunner& decode,
+                                               base::Diagnostics& diagnostics);
 
 }  // namespace weft::assets

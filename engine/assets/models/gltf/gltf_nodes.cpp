@@ -160,8 +160,8 @@ class AnimationReader {
       const JsonValue* target = channel.find("target");
       const JsonValue* node = target ? target->find("node") : nullptr;
       const std::string path = target ? document_.text(*target, "path") : "";
-      if (!node || (path != "translation" && path != "rotation" && path != "scale"))
-        continue;  // morph weights
+      if (path == "weights") leaveOutWeights(channel, out.name);
+      if (!node || (path != "translation" && path != "rotation" && path != "scale")) continue;
       ModelTrack track;
       const auto at = document_.index("nodes", node);
       if (!at) return false;
@@ -185,6 +185,16 @@ class AnimationReader {
   }
 
  private:
+  // Once for an animation, which may have such a channel for every mesh.
+  void leaveOutWeights(const JsonValue& channel, const std::string& animation) {
+    if (saidWeights_) return;
+    saidWeights_ = true;
+    base::Diagnostic& d = document_.leaveOut(
+        channel, fmt::format("the moving morph targets of animation '{}' were left out", animation));
+    d.expected = "channels of translation, rotation or scale";
+    d.hint = "meshes are shown with the 'weights' that they or their nodes begin with";
+  }
+
   bool readTrack(const JsonValue& sampler, ModelTrack& track) {
     const std::string how = document_.text(sampler, "interpolation");
     track.interpolation = how == "STEP"          ? TrackInterpolation::step
@@ -243,6 +253,7 @@ class AnimationReader {
   GltfDocument& document_;
   ModelFiles& files_;
   const GltfNodes& nodes_;
+  bool saidWeights_ = false;
 };
 
 }  // namespace

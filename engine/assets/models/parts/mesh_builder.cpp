@@ -67,6 +67,7 @@ void reorder(RawMesh& mesh, const std::vector<std::uint32_t>& order) {
   pick(mesh.normals, order);
   pick(mesh.tangents, order);
   pick(mesh.uvs, order);
+  pick(mesh.colors, order);
   pick(mesh.joints, order);
   pick(mesh.weights, order);
 }
@@ -132,6 +133,7 @@ void makeTangents(RawMesh& mesh) {
           repeatRow(mesh.positions, vertex);
           repeatRow(mesh.normals, vertex);
           repeatRow(mesh.uvs, vertex);
+          repeatRow(mesh.colors, vertex);
           repeatRow(mesh.joints, vertex);
           repeatRow(mesh.weights, vertex);
           sums.emplace_back();
@@ -181,8 +183,9 @@ struct BytesHash {
 
 // Equal vertices become one, in the order in which they come first.
 void joinVertices(RawMesh& mesh) {
-  const bool normals = !mesh.normals.empty(), uvs = !mesh.uvs.empty(), skin = !mesh.weights.empty();
-  constexpr std::size_t kBytes = sizeof(Float3) * 2 + sizeof(Float2) + 64;
+  const bool normals = !mesh.normals.empty(), uvs = !mesh.uvs.empty(), colors = !mesh.colors.empty(),
+             skin = !mesh.weights.empty();
+  constexpr std::size_t kBytes = sizeof(Float3) * 2 + sizeof(Float2) + sizeof(Float4) + 64;
   std::vector<char> keys(mesh.positions.size() * kBytes, 0);
   std::unordered_map<std::string_view, std::uint32_t, BytesHash> known;
   known.reserve(mesh.positions.size());
@@ -195,6 +198,7 @@ void joinVertices(RawMesh& mesh) {
     put(mesh.positions[v]);
     if (normals) put(mesh.normals[v]);
     if (uvs) put(mesh.uvs[v]);
+    if (colors) put(mesh.colors[v]);
     if (skin) {
       put(mesh.joints[v]);
       put(mesh.weights[v]);
@@ -251,6 +255,11 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
     for (std::size_t v = 0; v < mesh.weights.size(); ++v)
       model_.skinVertices.push_back(heaviest(mesh.joints[v], mesh.weights[v]));
     model_.skinVertices.resize(model_.vertices.size());
+  }
+  if (!mesh.colors.empty() || !model_.colors.empty()) {
+    model_.colors.resize(row.firstVertex, {1, 1, 1, 1});
+    model_.colors.insert(model_.colors.end(), mesh.colors.begin(), mesh.colors.end());
+    model_.colors.resize(model_.vertices.size(), {1, 1, 1, 1});
   }
   model_.indices.insert(model_.indices.end(), mesh.indices.begin(), mesh.indices.end());
   model_.meshes.push_back(std::move(row));

@@ -17,7 +17,8 @@ struct RawMesh {
   std::string name;
   std::vector<Float3> positions, normals;
   std::vector<Float4> tangents;
-  std::vector<Float2> uvs;  // (0,0) top left
+  std::vector<Float2> uvs;     // (0,0) top left
+  std::vector<Float4> colors;  // linear, 0 to 1
   std::vector<std::array<std::uint32_t, 8>> joints;
   std::vector<std::array<float, 8>> weights;
   std::vector<std::uint32_t> indices;  // triangles; below the number of positions

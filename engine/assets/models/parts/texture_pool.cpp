@@ -24,21 +24,17 @@ std::shared_ptr<const Image8> makeStandIn() {
   return std::make_shared<const Image8>(std::move(image));
 }
 
-std::uint64_t hashOf(const Image8& image, bool srgb) {
+std::uint64_t hashOf(const Image8& image) {
   const std::string_view texels(reinterpret_cast<const char*>(image.texels.data()), image.texels.size());
-  const std::uint64_t shape =
-      base::hashCombine(static_cast<std::uint64_t>(image.width),
-                        static_cast<std::uint64_t>(image.height) << 1 | (srgb ? 1 : 0));
-  return base::hashBytes(texels, shape);
+  return base::hashBytes(texels, base::hashCombine(static_cast<std::uint64_t>(image.width),
+                                                   static_cast<std::uint64_t>(image.height)));
 }
 
 }  // namespace
 
-std::shared_ptr<const Image8> TexturePool::decode(std::string_view bytes, const std::string& name,
-                                                  const base::Place& place) {
-  base::Diagnostics found;
-  const auto size = readImageSize(bytes, name, found);
-  if (size) {
+std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const base::Place& place) {
+  Entry entry{std::move(bytes), name, place, nullptr, 0, {}};
+  if (const auto size = readImageSize(entry.bytes, name, entry.found)) {
     const std::uint64_t texels =
         texels_ + static_cast<std::uint64_t>(size->first) * static_cast<std::uint64_t>(size->second);
     if (texels > base::limitOf(base::Limit::model_texels)) {
@@ -47,14 +43,51 @@ std::shared_ptr<const Image8> TexturePool::decode(std::string_view bytes, const 
                           fmt::format("with '{}' the model's textures are too large", name), texels)
             .found = fmt::format("{} texels", texels);
       full_ = true;
-      return nullptr;
+      return kNoRow;
     }
     texels_ = texels;
-    if (auto image = decodeBytes(bytes, 4, name, found))
-      return std::make_shared<const Image8>(std::move(*image));
+  } else {
+    entry.bytes.clear();
   }
-  reportMissing(name, found.empty() ? "it is empty" : found.items().front().message, place);
-  return nullptr;
+  images_.push_back(std::move(entry));
+  return static_cast<std::uint32_t>(images_.size() - 1);
+}
+
+void TexturePool::decode(std::size_t image) {
+  if (gaveUp_) return;
+  Entry& entry = images_[first_ + image];
+  if (!entry.bytes.empty()) {
+    if (auto decoded = decodeBytes(entry.bytes, 4, entry.name, entry.found))
+      entry.image = std::make_shared<const Image8>(std::move(*decoded));
+    entry.bytes = {};
+  }
+  const double done = static_cast<double>(++done_) / static_cast<double>(count());
+  // The observer is asked on the thread that loads.
+  if (std::this_thread::get_id() == loader_ && *observer_ &&
+      !(*observer_)(LoadStage::decoding, from_ + (1 - from_) * done))
+    gaveUp_ = true;
+}
+
+void TexturePool::identify(std::size_t image) {
+  Entry& entry = images_[first_ + image];
+  if (entry.image) entry.content = hashOf(*entry.image);
+}
+
+bool TexturePool::decodeAll(const DecodeRunner& runner, const LoadObserver& observer, double from) {
+  observer_ = &observer;
+  from_ = from;
+  loader_ = std::this_thread::get_id();
+  done_ = 0;
+  if (observer && !observer(LoadStage::decoding, from)) return false;
+  if (count() > 0) runner ? runner(*this) : decodeInTurn(*this);
+  if (gaveUp_) return false;
+  for (; first_ < images_.size(); ++first_) {
+    const Entry& entry = images_[first_];
+    if (!entry.image)
+      reportMissing(entry.name, entry.found.empty() ? "it is empty" : entry.found.items().front().message,
+                    entry.place);
+  }
+  return true;
 }
 
 void TexturePool::reportMissing(const std::string& name, const std::string& why, const base::Place& place) {
@@ -65,21 +98,28 @@ void TexturePool::reportMissing(const std::string& name, const std::string& why,
   d.hint = "a colour is shown as a magenta checkerboard instead; other maps are left out";
 }
 
-std::uint32_t TexturePool::add(std::shared_ptr<const Image8> image, const std::string& name, bool srgb) {
-  if (!image) {
+std::uint32_t TexturePool::add(std::uint32_t number, const std::string& name, bool srgb) {
+  if (number == kNoRow || !images_[number].image) {
     if (!srgb) return kNoRow;
-    if (!standIn_) standIn_ = makeStandIn();
-    image = standIn_;
+    if (standIn_ == kNoRow) {
+      standIn_ = static_cast<std::uint32_t>(images_.size());
+      images_.push_back({{}, name, {}, makeStandIn(), 0, {}});
+      images_.back().content = hashOf(*images_.back().image);
+      first_ = images_.size();
+    }
+    number = standIn_;
   }
-  const std::uint64_t content = hashOf(*image, srgb);
+  const Entry& entry = images_[number];
+  const std::uint64_t content = base::hashCombine(entry.content, srgb ? 1 : 0);
   const auto [from, to] = byContent_.equal_range(content);
   for (auto each = from; each != to; ++each) {
     const ModelTexture& known = textures_[each->second];
-    if (known.srgb == srgb && known.image->width == image->width && known.image->texels == image->texels)
+    if (known.srgb == srgb && known.image->width == entry.image->width &&
+        known.image->texels == entry.image->texels)
       return each->second;
   }
   const auto row = static_cast<std::uint32_t>(textures_.size());
-  textures_.push_back({name, std::move(image), srgb, content});
+  textures_.push_back({name, entry.image, srgb, content});
   byContent_.emplace(content, row);
   return row;
 }

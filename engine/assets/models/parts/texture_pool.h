@@ -1,42 +1,68 @@
 // The textures of one model, shared by what is in them: an image is decoded once, and equal texels of one use are one row.
-// A missing image is a warning (W167) and a checkerboard where it is a colour, else no map. Does not: know file formats.
+// Images are put in first, then decoded all at once, then used. A missing image is a warning (W167) and a checkerboard where
+// it is a colour, else no map. Does not: know file formats.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
+#include <thread>
 #include <vector>
 
+#include "engine/assets/loading/decode_job.h"
+#include "engine/assets/loading/load_observer.h"
 #include "engine/assets/model.h"
 #include "engine/base/diagnostic.h"
 
 namespace weft::assets {
 
-class TexturePool {
+class TexturePool : private DecodeJob {
  public:
   explicit TexturePool(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Decodes the bytes of an image, with 4 channels. Null after W167 for damaged ones, or W201 beyond the limit model_texels.
-  std::shared_ptr<const Image8> decode(std::string_view bytes, const std::string& name,
-                                       const base::Place& place);
+  // Puts the bytes of an image in: its number. kNoRow after W201, beyond the limit model_texels.
+  std::uint32_t put(std::string bytes, const std::string& name, const base::Place& place);
+  // Decodes what was put in since the last call, with 4 channels; W167 for damaged ones, in the order of their numbers.
+  // `observer` hears of stage `decoding` from `from` on. False when it gave up.
+  bool decodeAll(const DecodeRunner& runner, const LoadObserver& observer, double from = 0);
+  // Null where an image could not be decoded.
+  const Image8* image(std::uint32_t number) const { return images_[number].image.get(); }
   // W167: there is no image.
   void reportMissing(const std::string& name, const std::string& why, const base::Place& place);
-  // A row of textures(); `image` null: kNoRow, or the stand-in for a colour.
-  std::uint32_t add(std::shared_ptr<const Image8> image, const std::string& name, bool srgb);
+  // A row of the textures, of an image that was decoded; kNoRow, or the stand-in for a colour, where there is none.
+  std::uint32_t add(std::uint32_t image, const std::string& name, bool srgb);
 
   bool full() const { return full_; }
   std::vector<ModelTexture> take() { return std::move(textures_); }
 
  private:
+  struct Entry {
+    std::string bytes, name;
+    base::Place place;
+    std::shared_ptr<const Image8> image;
+    std::uint64_t content = 0;  // hash of size and texels
+    base::Diagnostics found;
+  };
+  std::size_t count() const override { return images_.size() - first_; }
+  void decode(std::size_t image) override;
+  void identify(std::size_t image) override;
+
   base::Diagnostics& diagnostics_;
+  std::vector<Entry> images_;
+  std::size_t first_ = 0;  // that is not decoded
   std::vector<ModelTexture> textures_;
   std::multimap<std::uint64_t, std::uint32_t> byContent_;
-  std::shared_ptr<const Image8> standIn_;
+  std::uint32_t standIn_ = kNoRow;  // its number
   std::uint64_t texels_ = 0;
   bool full_ = false;
+  // While images are decoded.
+  const LoadObserver* observer_ = nullptr;
+  double from_ = 0;
+  std::thread::id loader_;
+  std::atomic<std::size_t> done_{0};
+  std::atomic<bool> gaveUp_{false};
 };
 
 }  // namespace weft::assets

@@ -1,0 +1,16 @@
+// The import `vertex_colors`: a colour for each vertex of the scene's meshes, where one of them has any.
+#pragma once
+
+#include "engine/imports/import.h"
+
+namespace weft::imports {
+
+class VertexColors : public Import {
+ public:
+  graph::ImportType reflect() const override;
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files& files) const override;
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override;
+};
+
+}  // namespace weft::imports

@@ -1,0 +1,39 @@
+// Models of tests: loaded without an error, and where their nodes stand.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <utility>
+
+#include "engine/assets/models/model_file.h"
+#include "tests/assets/models/gltf_maker.h"
+#include "tests/assets/models/matrices.h"
+#include "tests/assets/temporary.h"
+
+namespace weft::test {
+
+// Of the models that come with Weft.
+inline const std::string kModels = WEFT_SOURCE_DIR "/scenes/models/";
+
+inline assets::Model loadGood(const std::string& path, std::size_t warnings = 0) {
+  base::Diagnostics diagnostics;
+  auto model = assets::loadModel(path, diagnostics);
+  REQUIRE_MESSAGE(model, diagnostics.text());
+  CHECK_MESSAGE(diagnostics.size() == warnings, diagnostics.text());
+  return std::move(*model);
+}
+
+inline assets::Model make(const GltfMaker& maker, std::size_t warnings = 0) {
+  const TemporaryFolder folder;
+  return loadGood(folder.write("m.gltf", maker.gltf()), warnings);
+}
+
+inline assets::Matrix4 worldOf(const assets::Model& model, std::uint32_t node) {
+  assets::Matrix4 world = matrixOf(model.nodes[node]);
+  for (std::uint32_t up = model.nodes[node].parent; up != assets::kNoRow; up = model.nodes[up].parent)
+    world = multiply(matrixOf(model.nodes[up]), world);
+  return world;
+}
+
+}  // namespace weft::test

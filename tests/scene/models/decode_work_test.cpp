@@ -1,0 +1,112 @@
+// Images of models decoded as tasks: the same model and the same messages on one thread, on two, and in turn.
+#include "engine/scene/models/decode_work.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+#include "engine/assets/models/model_file.h"
+#include "tests/assets/models/gltf_maker.h"
+#include "tests/assets/temporary.h"
+
+using namespace weft;
+using weft::test::GltfMaker;
+using weft::test::json;
+
+namespace {
+
+const std::string kHelmet = WEFT_SOURCE_DIR "/scenes/models/FlightHelmet/FlightHelmet.gltf";
+
+struct Loaded {
+  assets::Model model;
+  std::string said;
+};
+
+// On `threads` threads; 0: in turn, without tasks.
+Loaded load(const std::string& path, int threads) {
+  scene::DecodeWork work;
+  base::Diagnostics diagnostics;
+  auto model = assets::loadModel(
+      path, diagnostics, {}, nullptr,
+      threads == 0 ? assets::DecodeRunner{} : [&](assets::DecodeJob& job) { work.run(job, threads); });
+  REQUIRE_MESSAGE(model, diagnostics.text());
+  return {std::move(*model), diagnostics.text()};
+}
+
+void checkSame(const std::string& path, std::size_t textures) {
+  const Loaded turn = load(path, 0);
+  CHECK(turn.model.textures.size() == textures);
+  for (const int threads : {1, 2, 5}) {
+    CAPTURE(threads);
+    const Loaded other = load(path, threads);
+    CHECK(other.said == turn.said);
+    REQUIRE(other.model.textures.size() == textures);
+    for (std::size_t i = 0; i < textures; ++i) {
+      const assets::ModelTexture &a = turn.model.textures[i], &b = other.model.textures[i];
+      CHECK(a.name == b.name);
+      CHECK(a.srgb == b.srgb);
+      CHECK(a.content == b.content);
+      CHECK(a.image->width == b.image->width);
+      CHECK(a.image->texels == b.image->texels);
+    }
+    for (std::size_t i = 0; i < turn.model.materials.size(); ++i)
+      CHECK(turn.model.materials[i].normalMap == other.model.materials[i].normalMap);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("FlightHelmet's images are the same to the byte on one thread and on several") {
+  checkSame(kHelmet, 15);
+}
+
+TEST_CASE("damaged and missing images say the same in the same order on any number of threads") {
+  const TemporaryFolder folder;
+  GltfMaker maker;
+  maker.square();
+  const std::filesystem::path good = std::filesystem::path(kHelmet).parent_path();
+  std::vector<std::filesystem::path> pictures;
+  for (const auto& each : std::filesystem::directory_iterator(good))
+    if (each.path().extension() == ".png" || each.path().extension() == ".jpg")
+      pictures.push_back(each.path());
+  std::ranges::sort(pictures);
+  REQUIRE(pictures.size() > 2);
+  std::filesystem::copy_file(pictures[0], folder.at("good.png"));
+  folder.write("cut.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x40\0\0\0\x20\x08\x06\0\0\0", 29));
+  for (const char* name : {"cut.png", "gone.png", "good.png", "text.png"})
+    maker.document["images"].push_back({{"uri", name}});
+  folder.write("text.png", "no picture at all");
+  for (int i = 0; i < 4; ++i) {
+    maker.document["textures"].push_back({{"source", i}});
+    maker.document["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  }
+  const std::string path = folder.write("m.gltf", maker.gltf());
+  checkSame(path, 2);  // the good one, and one that stands for all others
+  const std::string said = load(path, 2).said;
+  CHECK(said.find("cut.png") != std::string::npos);
+  CHECK(said.find("gone.png") != std::string::npos);
+  CHECK(said.find("cut.png") < said.find("text.png"));
+}
+
+TEST_CASE("whoever gives up while images are decoded gets nothing, and is asked on his own thread") {
+  for (const int threads : {1, 2}) {
+    scene::DecodeWork work;
+    base::Diagnostics diagnostics;
+    const std::thread::id mine = std::this_thread::get_id();
+    std::atomic<int> elsewhere = 0;
+    double last = 0;
+    const assets::LoadObserver observer = [&](assets::LoadStage stage, double done) {
+      elsewhere += std::this_thread::get_id() != mine;
+      if (stage == assets::LoadStage::decoding) last = done;
+      return stage != assets::LoadStage::decoding || done < 0.3;
+    };
+    CHECK_FALSE(assets::loadModel(kHelmet, diagnostics, observer, nullptr,
+                                  [&](assets::DecodeJob& job) { work.run(job, threads); }));
+    CHECK(diagnostics.empty());
+    CHECK(elsewhere == 0);
+    CHECK(last >= 0.3);
+  }
+}
