@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """What lamps cost in graphs/deferred.json: prints one JSON, each pass in full-screen copies, for 1, 100 and 1,000 lamps.
 
-    docs/performance/lamps.py [--weft PROGRAM] [--size WxH]
+    docs/performance/lamps.py [--weft PROGRAM] [--size WxH] [--spheres]
 
 A floor with rocks fills the picture. `near`: lamps over the same floor that reach 0.35 each, so more of them are denser; `everywhere`: each lamp
 reaches every pixel, clusters have nothing to rule out. `touched` is how many lamps a pixel goes through, on average, read from a picture
-with show_lamps.
+with show_lamps. With --spheres, ray-traced spheres fill the picture instead, whose pass is lit.spheres; `touched` is not read then.
 """
 import argparse
 import json
@@ -21,16 +21,19 @@ from png import read_png
 
 GRAPH = "graphs/deferred.json"
 GRIDS = {1: ([1, 1, 1], 0.32), 100: ([10, 1, 10], 0.32), 1000: ([20, 5, 10], 0.16)}
-PASSES = ("lit.lighting", "light_clusters.lamps_in_tiles", "light_clusters.lamps_in_slices")
+PASSES = ("lit.lighting", "lit.spheres", "light_clusters.lamps_in_tiles", "light_clusters.lamps_in_slices")
 
 
-def scene_of(lamps, everywhere):
+def scene_of(lamps, everywhere, spheres):
     count, spacing = GRIDS[lamps]
     models = TOP / "scenes/models"
+    meshes = {"models": {"floor": {"file": str(models / "floor.obj"), "scale": 4},
+                         "rocks": {"file": str(models / "rock.obj"), "count": [6, 1, 6], "spacing": 0.5, "scale": 0.4}}}
+    balls = {"materials": {"grey": {"albedo": [0.5, 0.5, 0.5]}},
+             "grid": {"count": [36, 1, 24], "spacing": 0.16, "radius": 0.1, "materials": ["grey"]}}
     return {
         "cameras": {"above": {"position": [0, 2.2, 1.6], "target": [0, 0, 0], "fov": 50}},
-        "models": {"floor": {"file": str(models / "floor.obj"), "scale": 4},
-                   "rocks": {"file": str(models / "rock.obj"), "count": [6, 1, 6], "spacing": 0.5, "scale": 0.4}},
+        **(balls if spheres else meshes),
         "lamp_grids": {"lamps": {"count": count, "spacing": spacing, "center": [0, 0.45, 0], "candela": 300,
                                  "range": 50 if everywhere else 0.35}},
     }
@@ -59,17 +62,17 @@ def run_weft(weft, *line):
     return done.stdout
 
 
-def measure(weft, size, lamps, everywhere, folder):
+def measure(weft, size, lamps, everywhere, spheres, folder):
     scene, picture = folder / "scene.json", folder / "touched.png"
-    scene.write_text(json.dumps(scene_of(lamps, everywhere)))
-    touched = lamps
-    if not everywhere:
+    scene.write_text(json.dumps(scene_of(lamps, everywhere, spheres)))
+    touched = lamps if everywhere else None
+    if not everywhere and not spheres:
         sets = ["show_lamps=true", "bloom=false", "fxaa=false", "dither=false", "curve=linear", "composite.white=1"]
         run_weft(weft, "render", GRAPH, "--scene", scene, "--size", size, "--quiet", "-o", picture, *(w for s in sets for w in ("--set", s)))
         touched = touched_in(picture)
     bench = json.loads(run_weft(weft, "bench", "--frame", GRAPH, "--scene", scene, "--size", size))
     plain = next(each for each in bench["variants"] if each["name"] == "plain")
-    row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": round(touched, 2),
+    row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": touched and round(touched, 2),
            "frame_copies": plain["copies"], "passes": {each["pass"]: each["copies"] for each in plain["passes"]}}
     if "cpu_copies" in plain:
         row["frame_cpu_copies"] = plain["cpu_copies"]
@@ -80,13 +83,14 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--weft", help="the program; ./run when absent")
     parser.add_argument("--size", default="1280x720")
+    parser.add_argument("--spheres", action="store_true")
     arguments = parser.parse_args()
     weft = [arguments.weft] if arguments.weft else [str(TOP / "run")]
     out = {"graph": GRAPH, "size": arguments.size, "rows": []}
     with tempfile.TemporaryDirectory() as folder:
         for everywhere in (False, True):
             for lamps in GRIDS:
-                device, copy, row = measure(weft, arguments.size, lamps, everywhere, pathlib.Path(folder))
+                device, copy, row = measure(weft, arguments.size, lamps, everywhere, arguments.spheres, pathlib.Path(folder))
                 out["device"], row["copy_ms"] = device, copy
                 out["rows"].append(row)
                 missing = [name for name in PASSES if name not in row["passes"]]

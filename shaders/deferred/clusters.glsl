@@ -1,7 +1,9 @@
 // Which lamps reach where: a bit per lamp for each tile of 16 x 16 pixels, and for each slice of depth. The lamps of a
 // pixel are those that are in the masks of both its tile and its slice (after Drobot, "Improved culling for tiled and clustered
 // rendering", SIGGRAPH 2017 courses). Bits are in the lamps' order and there is one for each, so no list can be full. A
-// bit that is set says that its lamp does not reach there: of what was only cleared nothing is left out.
+// bit that is set says that its lamp does not reach there: of what was only cleared nothing is left out. There are two masks of
+// a tile: `clusters` is of the surfaces that the G-buffer has in it, `columns` of all that is seen through its pixels, whatever
+// its depth: for what is drawn forward.
 #ifndef DEFERRED_CLUSTERS_GLSL
 #define DEFERRED_CLUSTERS_GLSL
 

@@ -1,17 +1,13 @@
 // For each slice of depth, the lamps that reach into it; see clusters.glsl. An invocation is a word of 32 lamps of one slice.
 // read    lamps     see scene/lamps.glsl
-// modify  clusters  the words behind those of the tiles
+// modify  slices    uints: words of each slice, the nearest first
 // params  lamp_count
-//         picture   size in pixels
 #include "clusters.glsl"
 #include "scene/lamps.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430) buffer clusters { uint cluster[]; };
-layout(std140) uniform Parameters {
-  int lamp_count;
-  vec2 picture;
-};
+layout(std430) buffer slices { uint slice_word[]; };
+layout(std140) uniform Parameters { int lamp_count; };
 
 // Distances along the view axis; the first begins at 0.
 vec2 boundsOfSlice(int slice) {
@@ -29,6 +25,5 @@ void main() {
     float distance_along = viewDistance(sphere.xyz), reach = sphere.w * 1.001;
     if (distance_along + reach >= bounds.x * 0.9999 && distance_along - reach <= bounds.y * 1.0001) word |= 1u << bit;
   }
-  ivec2 tiles = tilesOf(ivec2(picture));
-  cluster[tiles.x * tiles.y * count + at] = ~word;
+  slice_word[at] = ~word;
 }

@@ -1,19 +1,31 @@
-// For each tile of 16 x 16 pixels, the lamps that may reach a surface in it; see clusters.glsl. A work group is a tile.
-// read    depth     the G-buffer's
-//         lamps     see scene/lamps.glsl
-// modify  clusters  uints: words of each tile, row by row, then of each slice; a word has 32 lamps
+// For each tile of 16 x 16 pixels, the lamps that may reach what is seen through it; see clusters.glsl. A work group is a tile.
+// read    depth?     the G-buffer's; without it `clusters` is what `columns` is
+//         lamps      see scene/lamps.glsl
+// modify  clusters?  uints: words of each tile, row by row; a word has 32 lamps. Of the surfaces that have these depths
+//         columns?   the same for any depth
 // params  lamp_count
+//         picture    size in pixels
 #include "clusters.glsl"
 #include "gbuffer.glsl"
 #include "scene/lamps.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
+#ifdef HAS_DEPTH
 uniform sampler2D depth;
-layout(std430) buffer clusters { uint cluster[]; };
-layout(std140) uniform Parameters { int lamp_count; };
-
 shared uint nearest, farthest;  // depths as bits: positive floats are ordered as they are
-shared uint words[8];
+#endif
+#ifdef HAS_CLUSTERS
+layout(std430) buffer clusters { uint cluster[]; };
+#endif
+#ifdef HAS_COLUMNS
+layout(std430) buffer columns { uint column[]; };
+#endif
+layout(std140) uniform Parameters {
+  int lamp_count;
+  vec2 picture;
+};
+
+shared uint of_surfaces[8], of_all[8];
 
 // Signed distance of `at` (view space) from the plane through all points of the target at `ndc` of one axis; positive to the right or above.
 float beside(vec3 at, int axis, float ndc) {
@@ -25,44 +37,57 @@ float beside(vec3 at, int axis, float ndc) {
 }
 
 void main() {
-  ivec2 size = textureSize(depth, 0), tile = ivec2(gl_WorkGroupID.xy), tiles = tilesOf(size), pixel = ivec2(gl_GlobalInvocationID.xy);
-  int lane = int(gl_LocalInvocationIndex), count = wordsOf(lamp_count);
+  ivec2 size = ivec2(picture), tile = ivec2(gl_WorkGroupID.xy), tiles = tilesOf(size);
+  int lane = int(gl_LocalInvocationIndex), count = wordsOf(lamp_count), at = (tile.y * tiles.x + tile.x) * count;
+  vec2 low = vec2(tile * kTile) / picture * 2.0 - 1.0, high = min(vec2((tile + 1) * kTile) / picture, 1.0) * 2.0 - 1.0;
+  // Distances of the surfaces in the tile; none where to < from.
+  float from = -1e30, to = 1e30;
+#ifdef HAS_DEPTH
   if (lane == 0) {
     nearest = 0u;
     farthest = 0xffffffffu;
   }
   barrier();
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   float z = all(lessThan(pixel, size)) ? texelFetch(depth, pixel, 0).r : 0.0;
   if (z > 0.0) {
     atomicMax(nearest, floatBitsToUint(z));
     atomicMin(farthest, floatBitsToUint(z));
   }
   barrier();
-  bool empty = nearest == 0u;
-  vec2 low = vec2(tile * kTile) / vec2(size) * 2.0 - 1.0, high = min(vec2((tile + 1) * kTile) / vec2(size), 1.0) * 2.0 - 1.0;
   vec2 middle = 0.25 * (low + high) + 0.5;
-  float from = 0.0, to = 0.0;
-  if (!empty) {
+  from = to = -1e30;
+  if (nearest != 0u) {
     from = viewDistance(positionOfDepth(middle, uintBitsToFloat(nearest))) * 0.9999;
     to = viewDistance(positionOfDepth(middle, uintBitsToFloat(farthest))) * 1.0001;
   }
+#endif
 
   // 256 lamps at a time, one for each lane.
   for (int first = 0; first < count; first += 8) {
-    if (lane < 8) words[lane] = 0u;
+    if (lane < 8) of_surfaces[lane] = of_all[lane] = 0u;
     barrier();
     int i = first * 32 + lane;
-    if (i < lamp_count && !empty) {
+    if (i < lamp_count) {
       vec4 bounds = lampBounds(lamp[i]);
-      vec3 at = (view * vec4(bounds.xyz, 1.0)).xyz;
+      vec3 center = (view * vec4(bounds.xyz, 1.0)).xyz;
       float reach = bounds.w * 1.001;
-      bool within = -at.z + reach >= from && -at.z - reach <= to && beside(at, 0, low.x) >= -reach && beside(at, 0, high.x) <= reach &&
-                    beside(at, 1, low.y) >= -reach && beside(at, 1, high.y) <= reach;
-      if (within) atomicOr(words[lane >> 5], 1u << (lane & 31));
+      if (beside(center, 0, low.x) >= -reach && beside(center, 0, high.x) <= reach && beside(center, 1, low.y) >= -reach &&
+          beside(center, 1, high.y) <= reach) {
+        uint bit = 1u << (lane & 31);
+        atomicOr(of_all[lane >> 5], bit);
+        if (-center.z + reach >= from && -center.z - reach <= to) atomicOr(of_surfaces[lane >> 5], bit);
+      }
     }
     barrier();
-    if (lane < 8 && first + lane < count && all(lessThan(tile, tiles)))
-      cluster[(tile.y * tiles.x + tile.x) * count + first + lane] = ~words[lane];
+    if (lane < 8 && first + lane < count && all(lessThan(tile, tiles))) {
+#ifdef HAS_CLUSTERS
+      cluster[at + first + lane] = ~of_surfaces[lane];
+#endif
+#ifdef HAS_COLUMNS
+      column[at + first + lane] = ~of_all[lane];
+#endif
+    }
     barrier();
   }
 }

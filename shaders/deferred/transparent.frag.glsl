@@ -1,6 +1,6 @@
 // A mesh that one sees through, lit by all that lights the G-buffer, occlusion from depth aside. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
-//         what light comes from       see shading/light.glsl; no clusters, whose tiles know the depths of the G-buffer only
+//         what light comes from       see shading/light.glsl
 // modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied"
 // params, defines    see shading/light.glsl and light.glsl
 #include "meshes/surface.glsl"

@@ -12,7 +12,8 @@
 //                       point is: `flat out uint sphere_row`
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
-//         clusters?     which lamps reach where, see deferred/clusters.glsl; without it every pixel goes through all lamps
+//         clusters?, slices?   which lamps reach where, see deferred/clusters.glsl (forward, `clusters` is its `columns`); without
+//                       both every pixel goes through all lamps
 // params  lamp_count    with lamps
 //         sky_turn?     see shading/ibl.glsl
 // defines SOFT_SUN         see shading/sun_shadow.glsl
@@ -46,9 +47,14 @@ flat in uint sphere_row;
 #elif defined HAS_LAMPS
 #include "scene/lamps.glsl"
 #endif
-#ifdef HAS_CLUSTERS
+#if defined HAS_LAMPS && (defined HAS_CLUSTERS || defined HAS_SLICES)
 #include "deferred/clusters.glsl"
+#endif
+#ifdef HAS_CLUSTERS
 layout(std430) readonly buffer clusters { uint cluster[]; };
+#endif
+#ifdef HAS_SLICES
+layout(std430) readonly buffer slices { uint slice_word[]; };
 #endif
 
 #if LOBE_IS_FLAT
@@ -149,14 +155,19 @@ void main() {
 #ifdef HAS_LAMPS
   int words = (lamp_count + 31) / 32;
 #ifdef HAS_CLUSTERS
-  ivec2 tiles = tilesOf(ivec2(viewport)), tile = ivec2(gl_FragCoord.xy) / kTile;
-  int of_tile = (tile.y * tiles.x + tile.x) * words, of_slice = (tiles.x * tiles.y + sliceOf(viewDistance(point.at))) * words;
+  ivec2 tile = ivec2(gl_FragCoord.xy) / kTile;
+  int of_tile = (tile.y * tilesOf(ivec2(viewport)).x + tile.x) * words;
+#endif
+#ifdef HAS_SLICES
+  int of_slice = sliceOf(viewDistance(point.at)) * words;
 #endif
   for (int word = 0; word < words; ++word) {
-#ifdef HAS_CLUSTERS
-    uint left = ~(cluster[of_tile + word] | cluster[of_slice + word]);
-#else
     uint left = 0xffffffffu >> max(32 * word + 32 - lamp_count, 0);
+#ifdef HAS_CLUSTERS
+    left &= ~cluster[of_tile + word];
+#endif
+#ifdef HAS_SLICES
+    left &= ~slice_word[of_slice + word];
 #endif
     lamps_tried += bitCount(left);
     for (; left != 0u; left &= left - 1u) {

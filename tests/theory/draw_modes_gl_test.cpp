@@ -16,17 +16,10 @@ constexpr std::uint32_t kWidth = 320, kHeight = 240;
 
 // Bright above, a gradient around, darker below: every direction has its own colour.
 std::shared_ptr<const weft::assets::ImageF> gradientEnvironment() {
-  auto image = std::make_shared<weft::assets::ImageF>();
-  image->width = 256;
-  image->height = 128;
-  image->channels = 4;
-  for (int y = 0; y < image->height; ++y)
-    for (int x = 0; x < image->width; ++x) {
-      const Vec3 d = equirectDirection(x, y, 256, 128);
-      for (const double c : {1 + 0.8 * d.x, 1 + 0.8 * d.y, 1 + 0.8 * d.z, 1.0})
-        image->texels.push_back(static_cast<float>(c));
-    }
-  return image;
+  return makeEnvironment([](int x, int y) {
+    const Vec3 d = equirectDirection(x, y, 256, 128);
+    return std::array{1 + 0.8 * d.x, 1 + 0.8 * d.y, 1 + 0.8 * d.z};
+  });
 }
 
 std::vector<Ball> crowd() {

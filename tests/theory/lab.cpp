@@ -39,16 +39,6 @@ scene::Scene sceneOf(const Setup& setup) {
 
 }  // namespace
 
-std::shared_ptr<const assets::ImageF> constantEnvironment(float r, float g, float b) {
-  auto image = std::make_shared<assets::ImageF>();
-  image->width = 256;
-  image->height = 128;
-  image->channels = 4;
-  for (int i = 0; i < image->width * image->height; ++i)
-    image->texels.insert(image->texels.end(), {r, g, b, 1.0f});
-  return image;
-}
-
 Lab::Lab(const Setup& setup) : setup_(setup), world_(sceneOf(setup)) {
   world_.setEnvironment(setup.environment ? setup.environment : constantEnvironment(1, 1, 1));
   renderer_ = std::make_unique<runtime::Renderer>(

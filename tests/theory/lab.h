@@ -12,6 +12,7 @@
 #include "engine/gl/context/context.h"
 #include "engine/imports/world.h"
 #include "engine/runtime/frame/renderer.h"
+#include "tests/theory/environments.h"
 
 namespace weft::theory {
 
@@ -36,8 +37,6 @@ struct Setup {
   std::optional<scene::Sun> sun{};
   std::optional<scene::Ground> ground{};
 };
-
-std::shared_ptr<const assets::ImageF> constantEnvironment(float r, float g, float b);
 
 struct Picture {
   std::uint32_t width = 0, height = 0, channels = 4;

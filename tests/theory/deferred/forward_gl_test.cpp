@@ -16,20 +16,13 @@ constexpr std::uint32_t kWidth = 320, kHeight = 200;
 
 // A blue sky over a brown ground with a broad warm light, in scene-referred units.
 std::shared_ptr<const weft::assets::ImageF> broadSky() {
-  auto image = std::make_shared<weft::assets::ImageF>();
-  image->width = 256;
-  image->height = 128;
-  image->channels = 4;
-  for (int y = 0; y < image->height; ++y)
-    for (int x = 0; x < image->width; ++x) {
-      const Vec3 d = equirectDirection(x, y, image->width, image->height);
-      const double up = 1 / (1 + std::exp(-8 * d.y)),
-                   light = 3 * std::pow(std::max(0.0, dot(d, {0.6, 0.64, 0.48})), 20);
-      for (const double c : {0.25 * (1 - up) + 0.4 * up + light, 0.2 * (1 - up) + 0.6 * up + 0.9 * light,
-                             0.15 * (1 - up) + 1.0 * up + 0.7 * light, 1.0})
-        image->texels.push_back(static_cast<float>(c));
-    }
-  return image;
+  return makeEnvironment([](int x, int y) {
+    const Vec3 d = equirectDirection(x, y, 256, 128);
+    const double up = 1 / (1 + std::exp(-8 * d.y)),
+                 light = 3 * std::pow(std::max(0.0, dot(d, {0.6, 0.64, 0.48})), 20);
+    return std::array{0.25 * (1 - up) + 0.4 * up + light, 0.2 * (1 - up) + 0.6 * up + 0.9 * light,
+                      0.15 * (1 - up) + 1.0 * up + 0.7 * light};
+  });
 }
 
 // Reinhard's curve and sRGB, as steps of 255.

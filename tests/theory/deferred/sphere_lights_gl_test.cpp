@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "tests/runtime/stage.h"
+#include "tests/theory/mesh_scene.h"
 
 using namespace weft;
-using namespace weft::runtime::test;
+using namespace weft::theory;
+using runtime::test::CleanScope;
 
 namespace {
 
@@ -24,70 +25,22 @@ const std::vector<Ball> kBalls = {
     {{-1.3f, 0, 0}, {.name = "", .albedo = {0.8f, 0.5f, 0.3f}, .metallic = 0, .roughness = 0.6f}},
     {{1.3f, 0, 0}, {.name = "", .albedo = {0.9f, 0.8f, 0.5f}, .metallic = 1, .roughness = 0.5f}}};
 
-// A mesh of the unit sphere, and a square in the plane z = 0.
-void addMeshes(scene::Scene& scene, scene::MeshId& ball, scene::MeshId& square) {
-  auto data = std::make_shared<scene::MeshData>();
-  constexpr std::uint32_t kRings = 96, kColumns = 192;
-  for (std::uint32_t ring = 0; ring <= kRings; ++ring)
-    for (std::uint32_t column = 0; column <= kColumns; ++column) {
-      const float up = kPi * static_cast<float>(ring) / kRings,
-                  round = 2 * kPi * static_cast<float>(column) / kColumns;
-      const glm::vec3 at(std::sin(up) * std::sin(round), std::cos(up), std::sin(up) * std::cos(round));
-      data->vertices.push_back({.position = at, .normal = at});
-      if (ring == kRings || column == kColumns) continue;
-      const std::uint32_t a = ring * (kColumns + 1) + column, b = a + kColumns + 1;
-      for (const std::uint32_t index : {a, b, a + 1, a + 1, b, b + 1}) data->indices.push_back(index);
-    }
-  scene::Mesh mesh{.name = "ball",
-                   .vertexCount = static_cast<std::uint32_t>(data->vertices.size()),
-                   .indexCount = static_cast<std::uint32_t>(data->indices.size())};
-  for (const float corner : {-1.0f, 1.0f}) mesh.bounds.add(glm::vec3(corner));
-  ball = scene.meshes.add(mesh);
-  scene::Mesh flat{.name = "square",
-                   .firstVertex = mesh.vertexCount,
-                   .vertexCount = 4,
-                   .firstIndex = mesh.indexCount,
-                   .indexCount = 6};
-  for (const glm::vec3 corner : {glm::vec3(-1, -1, 0), {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}) {
-    data->vertices.push_back({.position = corner});
-    flat.bounds.add(corner);
-  }
-  for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) data->indices.push_back(index);
-  square = scene.meshes.add(flat);
-  scene.meshData = data;
-}
-
 scene::Scene sceneOf(bool meshes) {
-  scene::Scene scene;
-  scene.cameras.add(
-      {.name = "front",
-       .pose = {.position = {0, 0, 6}, .target = {0, 0, 0}, .fovDegrees = 26, .nearPlane = 0.1}});
-  scene::MeshId ball, square;
-  addMeshes(scene, ball, square);
+  MeshScene made({0, 0, 6}, 26);
+  const scene::MeshId ball = made.addBall(), square = made.addSquare(1);
   const auto casts = scene::maskOf(scene::DrawList::shadow_casters);
+  const auto with = [&](scene::DrawList list) {
+    return static_cast<std::uint8_t>(scene::maskOf(list) | casts);
+  };
   for (const Ball& each : kBalls) {
-    const auto material = scene.materials.add(each.material);
     if (meshes)
-      scene.meshInstances.add(
-          {.node = scene.nodes.add({.name = "ball", .parent = {}, .local = {.translation = each.center}}),
-           .mesh = ball,
-           .material = material,
-           .lists = static_cast<std::uint8_t>(scene::maskOf(scene::DrawList::opaque) | casts)});
+      made.put(ball, each.material, each.center, with(scene::DrawList::opaque));
     else
-      scene.spheres.add(
-          {.center = each.center,
-           .radius = 1,
-           .material = material,
-           .lists = static_cast<std::uint8_t>(scene::maskOf(scene::DrawList::spheres) | casts)});
+      made.putSphere(each.center, 1, each.material, with(scene::DrawList::spheres));
   }
   // Between the sun and the upper half of the left sphere; nobody sees it.
-  scene::Material hidden{.name = "", .doubleSided = true};
-  scene.meshInstances.add(
-      {.node =
-           scene.nodes.add({.name = "square", .parent = {}, .local = {.translation = {-1.3f, 2.5f, 2.5f}}}),
-       .mesh = square,
-       .material = scene.materials.add(hidden),
-       .lists = casts});
+  made.put(square, {.name = "", .doubleSided = true}, {-1.3f, 2.5f, 2.5f}, casts);
+  scene::Scene& scene = made.scene;
   scene.sun = scene::Sun{.direction = glm::normalize(glm::vec3(0, 1, 1)), .irradiance = {2, 1.8f, 1.5f}};
   scene.lamps.add(
       {.name = "lamp", .position = {0, -1.5f, 2}, .intensity = {1, 2, 4}, .range = 20, .shadow = true});
@@ -102,18 +55,9 @@ scene::Scene sceneOf(bool meshes) {
 }
 
 std::vector<float> render(const std::string& graph, bool meshes, std::vector<graph::Setting> sets) {
-  Stage stage(graph, kWidth, kHeight);
-  stage.world.setScene(sceneOf(meshes));
-  auto black = std::make_shared<assets::ImageF>();
-  black->width = 256;
-  black->height = 128;
-  black->channels = 4;
-  black->texels.assign(std::size_t{256} * 128 * 4, 0.0f);
-  stage.world.setEnvironment(black);
-  stage.settings.sets = std::move(sets);
-  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  stage.run();
-  return stage.read("hdr");
+  return take(sceneOf(meshes),
+              {.graph = graph, .width = kWidth, .height = kHeight, .environment = 0, .sets = std::move(sets)})
+      .radiance;
 }
 
 // Whether a pixel shows a sphere well inside its silhouette.

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "engine/scene/probes/probes.h"
-#include "tests/runtime/stage.h"
+#include "tests/theory/mesh_scene.h"
 
 using namespace weft;
-using namespace weft::runtime::test;
+using namespace weft::theory;
+using runtime::test::CleanScope;
 
 namespace {
 
@@ -23,47 +24,23 @@ const std::vector<scene::Instance> kSpheres = {
 
 // A wall at z = 0 that faces the eye and fills the picture, and the spheres before it and in it.
 scene::Scene wallAndSpheres() {
-  scene::Scene scene;
-  scene.cameras.add(
-      {.name = "front",
-       .pose = {.position = {0, 0, kEye}, .target = {0, 0, 0}, .fovDegrees = 45, .nearPlane = 0.1}});
-  auto data = std::make_shared<scene::MeshData>();
-  scene::Mesh mesh{.name = "wall", .vertexCount = 4, .indexCount = 6};
-  for (const glm::vec3 corner : {glm::vec3(-9, -9, 0), {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}) {
-    data->vertices.push_back({.position = corner});
-    mesh.bounds.add(corner);
-  }
-  data->indices = {0, 1, 2, 0, 2, 3};
-  scene.meshData = data;
-  scene.meshInstances.add({.node = scene.nodes.add({.name = "n", .parent = {}}),
-                           .mesh = scene.meshes.add(mesh),
-                           .material = scene.materials.add(
-                               {.name = "", .albedo = {0.8f, 0.7f, 0.6f}, .metallic = 0, .roughness = 1})});
+  MeshScene made({0, 0, kEye}, 45);
+  made.put(made.addSquare(9), {.name = "", .albedo = {0.8f, 0.7f, 0.6f}, .metallic = 0, .roughness = 1}, {});
   for (const scene::Instance& sphere : kSpheres)
-    scene.spheres.add(
-        {.center = sphere.center,
-         .radius = sphere.radius,
-         .material = scene.materials.add(
-             {.name = "", .albedo = sphere.albedo, .metallic = sphere.metallic, .roughness = 1})});
-  return scene;
+    made.putSphere(sphere.center, sphere.radius,
+                   {.name = "", .albedo = sphere.albedo, .metallic = sphere.metallic, .roughness = 1});
+  return made.scene;
 }
 
 // Under an environment of radiance 1.
 std::vector<float> render(const std::string& graph, std::vector<graph::Setting> sets,
                           std::vector<graph::Disable> disables = {}) {
-  Stage stage(graph, kWidth, kHeight);
-  stage.world.setScene(wallAndSpheres());
-  auto white = std::make_shared<assets::ImageF>();
-  white->width = 256;
-  white->height = 128;
-  white->channels = 4;
-  white->texels.assign(std::size_t{256} * 128 * 4, 1.0f);
-  stage.world.setEnvironment(white);
-  stage.settings.sets = std::move(sets);
-  stage.settings.disables = std::move(disables);
-  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  stage.run();
-  return stage.read("hdr");
+  return take(wallAndSpheres(), {.graph = graph,
+                                 .width = kWidth,
+                                 .height = kHeight,
+                                 .sets = std::move(sets),
+                                 .disables = std::move(disables)})
+      .radiance;
 }
 
 // Where the ray of a pixel's centre meets the wall, unless it comes near a sphere.

@@ -5,17 +5,7 @@
 //         far             range of each
 //         outer           half angle of the spot, degrees
 layout(local_size_x = 2) in;
-struct Lamp {
-  vec3 position;
-  float range;
-  vec3 intensity;
-  float cos_inner;
-  vec3 direction;
-  float cos_outer;
-  float near_plane;
-  int shadow;
-};
-layout(std430) writeonly buffer lamps { Lamp lamp[]; };
+#include "lamp_rows.glsl"
 layout(std140) uniform Parameters {
   vec3 first;
   vec3 second;

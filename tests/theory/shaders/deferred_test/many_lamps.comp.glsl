@@ -4,17 +4,7 @@
 //         extent  half the size of the box about (0, 1.5, 0)
 //         reach   range of each, times 0.5 to 1.5
 layout(local_size_x = 64) in;
-struct Lamp {
-  vec3 position;
-  float range;
-  vec3 intensity;
-  float cos_inner;
-  vec3 direction;
-  float cos_outer;
-  float near_plane;
-  int shadow;
-};
-layout(std430) writeonly buffer lamps { Lamp lamp[]; };
+#include "lamp_rows.glsl"
 layout(std140) uniform Parameters {
   int count;
   float reach;

@@ -1,0 +1,95 @@
+// Ray-traced spheres, triangles of spheres and glass under many lamps, in the deferred frame and in the studio: with clusters
+// against a loop over all lamps. Not a bit may differ, because lamps are added in the same order and those left out give exactly
+// nothing.
+#include <random>
+#include <string>
+
+#include "tests/theory/mesh_scene.h"
+
+using namespace weft;
+using namespace weft::theory;
+using runtime::test::CleanScope;
+
+namespace {
+
+constexpr std::uint32_t kWidth = 150, kHeight = 77;  // neither is a multiple of a tile
+
+// A wall, panes at two depths, and spheres from specks of less than a pixel to one that reaches beyond the picture; lamps all
+// among them, every third a spot.
+scene::Scene sceneOf(int lamps, float reach) {
+  MeshScene made({0, 0.5, 9}, 60);
+  const scene::MeshId square = made.addSquare(9);
+  made.put(square, {.name = "", .albedo = {0.8f, 0.8f, 0.8f}, .roughness = 0.9f}, {0, 0, -6});
+  for (const float z : {-2.0f, 3.0f})
+    made.put(square,
+             {.name = "", .albedo = {0.3f, 0.5f, 0.7f}, .roughness = 0.4f, .alpha = 0.4f, .blend = true},
+             {9 + z / 2, 2, z}, scene::maskOf(scene::DrawList::transparent));
+  std::mt19937 random(5);
+  const auto number = [&](float low, float high) {
+    return low + (high - low) * static_cast<float>(random() % 65536) / 65536;
+  };
+  for (int i = 0; i < 60; ++i)
+    made.putSphere({number(-6, 6), number(-4, 4), number(-5, 6)}, i % 3 ? number(0.3f, 0.9f) : 0.01f,
+                   {.name = "", .albedo = {0.9f, 0.5f, 0.3f}, .roughness = 0.5f});
+  made.putSphere({7, -5, 2}, 4, {.name = "", .albedo = {0.7f, 0.7f, 0.7f}, .roughness = 0.6f});
+  for (int i = 0; i < lamps; ++i) {
+    scene::Lamp lamp{.name = "lamp",
+                     .position = {number(-7, 7), number(-5, 5), number(-6, 8)},
+                     .intensity = {number(0.1f, 1), number(0.1f, 1), number(0.1f, 1)},
+                     .range = reach * number(0.5f, 1.5f)};
+    if (i % 3 == 1) {
+      lamp.direction = glm::normalize(glm::vec3(number(-1, 1), -1, number(-1, 1)));
+      lamp.cosOuter = number(0.2f, 0.95f);
+      lamp.cosInner = (1 + lamp.cosOuter) / 2;
+    }
+    made.scene.lamps.add(lamp);
+  }
+  return made.scene;
+}
+
+struct Way {
+  std::string graph;
+  std::vector<graph::Setting> sets;
+};
+
+std::vector<float> render(const Way& way, const scene::Scene& scene, std::vector<graph::Disable> disables) {
+  return take(scene, {.graph = way.graph,
+                      .width = kWidth,
+                      .height = kHeight,
+                      .environment = 0.1,
+                      .sets = way.sets,
+                      .disables = std::move(disables)})
+      .radiance;
+}
+
+const Way kDeferred{"graphs/deferred.json", {{"ao", "false"}}};
+
+}  // namespace
+
+TEST_CASE("clustered lamps: spheres and glass too are those of a loop over all lamps, to the bit") {
+  const CleanScope clean;
+  const std::vector<Way> ways = {
+      kDeferred, {"graphs/studio.json", {}}, {"graphs/studio.json", {{"draw", "icosphere"}}}};
+  for (const Way& way : ways) {
+    CAPTURE(way.graph);
+    const std::vector<float> dark = render(way, sceneOf(0, 1), {});
+    for (const int lamps : {1, 100, 1000}) {
+      CAPTURE(lamps);
+      const scene::Scene scene = sceneOf(lamps, lamps == 1 ? 30 : 1.5f);
+      const std::vector<float> clustered = render(way, scene, {});
+      CHECK(clustered == render(way, scene, {std::string("light_clusters")}));
+      CHECK(clustered != dark);
+    }
+  }
+}
+
+TEST_CASE("clustered lamps: with tiles or slices disabled spheres and glass are the same") {
+  const CleanScope clean;
+  const scene::Scene scene = sceneOf(300, 1.5f);
+  for (const Way& way : {kDeferred, Way{"graphs/studio.json", {}}}) {
+    CAPTURE(way.graph);
+    const std::vector<float> whole = render(way, scene, {});
+    for (const char* pass : {"lamps_in_tiles", "lamps_in_slices"})
+      CHECK(whole == render(way, scene, {std::string(pass)}));
+  }
+}
