@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-from program import SANITIZED, SLOWER, TOP, count_run
+from program import SANITIZED, SLOWER, TOP, Report, count_run, temporary_folder
 
 LIMIT = 300 * SLOWER  # seconds for anything to happen
 
@@ -120,6 +120,14 @@ class Session:
         """In idle mode: until the picture stands still."""
         return self.event("resting", since)
 
+    def opened(self, report):
+        """The first picture that is at rest; None when there is no window or no picture, which is reported."""
+        if not report.check(self.open(), f"no window\n{self.said()}"):
+            return None
+        first = self.settled()
+        report.check(first, f"no picture\n{self.said()}")
+        return first
+
     def settled(self):
         """The picture at rest: of two later frames that are alike. While an environment fades in, no two are."""
         shots = [self.shot()]
@@ -186,3 +194,15 @@ def inside_display(report, weft, compare, script):
         command = [sys.executable, script, weft, compare, *sys.argv[3:], "--inside", *(["--sanitized"] if SANITIZED else [])]
         done = subprocess.run(command, env={**environment, "WEFT_SCREEN": screen})
     sys.exit(done.returncode)
+
+
+def run_parts(script, *parts):
+    """What a script of the viewer consists of: each part gets the program, a tree of its own and the report."""
+    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
+    inside_display(report, weft, compare, script)
+    for part in parts:
+        with temporary_folder() as name:
+            folder = pathlib.Path(name)
+            copy_of_tree(folder)
+            part(weft, folder, report)
+    report.end()

@@ -144,10 +144,8 @@ def viewer(weft, folder, report):
     def session(code, *options):
         live = Session(weft, folder, *options, graph="graphs/glow.json")
         try:
-            if not report.check(live.open(), f"no window\n{live.said()}"):
-                return
-            first = live.settled()
-            if not report.check(first, f"no picture\n{live.said()}"):
+            first = live.opened(report)
+            if not first:
                 return
             save(composite, bomb)
             report.check(live.until(lambda: f"error[{code}]" in live.said()), f"{code} is not reported\n{live.said()}")

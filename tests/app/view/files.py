@@ -2,12 +2,9 @@
 """What the viewer reads again. A file that became a pipe is refused on reload, the last good picture stays and Escape works; so does it
 while an environment's pipe has no writer. Without inotify, really used up, saves are found by looking, which is said once."""
 import os
-import pathlib
 import subprocess
-import sys
 
-from program import Report, temporary_folder
-from window import Session, copy_of_tree, edit, inside_display, save
+from window import Session, edit, run_parts, save
 
 
 def other_picture(live, old):
@@ -73,15 +70,4 @@ def without_inotify(weft, folder, report):
         live.stop()
 
 
-def main():
-    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
-    inside_display(report, weft, compare, __file__)
-    for part in (becomes_a_pipe, waits_for_a_pipe, without_inotify):
-        with temporary_folder() as name:
-            folder = pathlib.Path(name)
-            copy_of_tree(folder)
-            part(weft, folder, report)
-    report.end()
-
-
-main()
+run_parts(__file__, becomes_a_pipe, waits_for_a_pipe, without_inotify)

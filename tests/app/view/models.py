@@ -4,14 +4,11 @@ and comes back when it is whole again. Idle mode comes to rest over a model that
 then."""
 import base64
 import json
-import os
-import pathlib
 import shutil
 import struct
-import sys
 
-from program import TOP, Report, temporary_folder
-from window import Session, copy_of_tree, inside_display, save
+from program import TOP
+from window import Session, run_parts, save
 
 
 def comes_and_stays(weft, folder, report):
@@ -117,15 +114,4 @@ def jumps(live, report):
         until(lambda picture: picture == left, "it never jumps back")
 
 
-def main():
-    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
-    inside_display(report, weft, compare, __file__)
-    for part in (comes_and_stays, model_as_scene, idle):
-        with temporary_folder() as name:
-            folder = pathlib.Path(name)
-            copy_of_tree(folder)
-            part(weft, folder, report)
-    report.end()
-
-
-main()
+run_parts(__file__, comes_and_stays, model_as_scene, idle)

@@ -20,10 +20,8 @@ KEYS = ["F4", "F5", "F6", "F7"]
 def panels(weft, folder, report, scale):
     live = Session(weft, folder, "--ui-scale", scale, "--panels", "inspector,profiler,storage,histogram", "--trace", "session.json")
     try:
-        if not report.check(live.open(), f"no window\n{live.said()}"):
-            return
-        first = live.settled()
-        if not report.check(first, f"no picture\n{live.said()}"):
+        first = live.opened(report)
+        if not first:
             return
         for key in [*KEYS, "F2", "F3", "p", *KEYS, "F2", "F3"]:
             live.key(key)

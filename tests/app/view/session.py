@@ -25,10 +25,8 @@ def session(weft, compare, folder, report):
     settings, composite = folder / "graphs/effects/composite.json", folder / "shaders/composite/composite.frag.glsl"
     live = Session(weft, folder)
     try:
-        if not report.check(live.open(), f"no window\n{live.said()}"):
-            return
-        first = live.settled()
-        if not report.check(first, f"no first picture\n{live.said()}"):
+        first = live.opened(report)
+        if not first:
             return
         size = describe(first)
         report.check(size[:2] == (320, 180) and size[2] > 20 and size[3] > 10, f"first picture: {size}")
