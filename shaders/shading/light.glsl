@@ -74,6 +74,8 @@ vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around);
 vec3 throwFrom(Point point, Response response, vec3 l);
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried);
 
+float coverage = 1.0;  // of the pixel, for the spot's reflection; findPoint may set it
+
 void main() {
   Point point;
   findPoint(point);
@@ -112,6 +114,10 @@ void main() {
   float h2 = max(2.0 + 4.0 * nv * nl - 2.0 * near_spot, 1e-6);  // |V + L|^2
   float masking = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
   float strength = spotDistribution(lobe.widths, max(h2 - (nv + nl) * (nv + nl), 0.0), h2, nl, max(masking, 1e-6));
+#if LOBE_IS_FLAT
+  vec2 grown = exp2(min(abs(gl_FragCoord.xy - lobe.glint) * lobe.shares.x, 60.0)), shared_by = lobe.shares.y + 0.5 * (grown + 1.0 / grown);
+  strength += lobe.shares.z / (shared_by.x * shared_by.y * max(coverage, 0.1));
+#endif
   float m = 1.0 - 0.5 * sqrt(h2), m2 = m * m;
 #ifdef HAS_NEIGHBOURS
   strength *= surround.spot_seen;

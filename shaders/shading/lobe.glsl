@@ -39,6 +39,8 @@ struct Lobe {
   vec4 widths;   // of its reflection, see ibl/brightest.glsl
   vec3 light;    // of it, as far as it is reflected in closed form, over 2 pi
   vec2 cut;      // what is above x near the spot is cut out of what is read of the environment, by the share y
+  vec2 glint;    // of a small sphere: where the spot is seen, in pixels; see spheres/glint.glsl
+  vec3 shares;   // its share of a pixel at the distance d: z / ((y + cosh(x d.x)) (y + cosh(x d.y))), with x to the base of 2
 };
 
 // `bend`: radians the normals of a sphere span in a pixel where they face the eye. In the plane of incidence the cone of reflected
@@ -46,7 +48,7 @@ struct Lobe {
 // sampler's filter is two texels wide (that half is also what differs least from supersampling, measured).
 #ifdef HAS_SPECULAR
 Lobe lobeOf(float roughness, float bend) {
-  Lobe lobe = Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0));
+  Lobe lobe = Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0));
   int levels = textureQueryLevels(specular);
   float alpha = alphaOfRoughness(roughness);
   // Variance along each axis: 2 alpha^2 of the lobe, (2 bend)^2 / 12 of the pixel (a box).
@@ -60,10 +62,12 @@ Lobe lobeOf(float roughness, float bend) {
   float own = alpha * alpha / max(wider * wider, 1e-12);
   lobe.maps = vec4(0.0, levelOfAlpha(wider, levels), 1.0, own * float(levels - 1));
 #ifdef HAS_ENVIRONMENT
-  // From half of level 0's roughness on the lobe takes over; up to there and between, the environment is as blurred as the lobe is wide.
+  // From half of level 0's roughness on the lobe takes over, or where the pixel is as wide as level 0; up to there and between, the
+  // environment is as blurred as the lobe is wide.
   vec2 size = vec2(textureSize(environment, 0));
   float most = float(textureQueryLevels(environment) - 1);
-  lobe.maps.z = clamp(2.0 * roughness / kSharpest - 1.0, 0.0, 1.0);
+  float blurred = sqrt(wider);
+  lobe.maps.z = clamp(max(2.0 * roughness / kSharpest - 1.0, 5.0 * blurred / kSharpest - 4.5), 0.0, 1.0);
 #if SPECULAR_AA
   float sharp = min(equirectLevel(size.x, sqrt(2.0 * bend * bend + 4.0 * alpha * alpha)), most);
 #else
@@ -76,8 +80,8 @@ Lobe lobeOf(float roughness, float bend) {
   float share = 1.0;
 #ifdef HAS_ENVIRONMENT
   // Cutting it out of the environment takes texels that are small beside the window.
-  float fine = clamp(2.0 - 50.0 * exp2(lobe.maps.x) * 2.0 * kPi / size.x, 0.0, 1.0);
-  share = max(lobe.maps.z, fine * min(2.0 * roughness / kSharpest, 1.0));
+  float fine = clamp(2.0 - 25.0 * exp2(lobe.maps.x) * 2.0 * kPi / size.x, 0.0, 1.0);
+  share = max(lobe.maps.z, fine * min(2.0 * blurred / kSharpest, 1.0));
   lobe.cut = vec2(brightest_at.w, lobe.maps.z < 1.0 ? (share - lobe.maps.z) / (1.0 - lobe.maps.z) : 0.0);
 #endif
   lobe.light = brightest_light.rgb * (share / (2.0 * kPi));
@@ -86,7 +90,7 @@ Lobe lobeOf(float roughness, float bend) {
   return lobe;
 }
 #else
-Lobe lobeOf(float roughness, float bend) { return Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0)); }
+Lobe lobeOf(float roughness, float bend) { return Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0)); }
 #endif
 
 #endif

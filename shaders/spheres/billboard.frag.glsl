@@ -44,8 +44,6 @@ float halfPlane(float inside, vec2 normal) {
   return inside > 0.0 ? 1.0 - beyond : beyond;
 }
 
-float coverage = 1.0;
-
 void findPoint(out Point point) {
   vec3 c = sphere.xyz;
   float r = sphere.w, r2 = r * r, d2 = dot(c, c);

@@ -6,6 +6,7 @@
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
 #include "shading/lobe.glsl"
+#include "glint.glsl"
 
 #ifndef OCTAGON
 #define OCTAGON 0
@@ -72,7 +73,9 @@ void main() {
   albedo_roughness = vec4(self.albedo, self.roughness);
   motion_metallic = vec4(self.center - self.previous_center, self.metallic);
 
-  lobe = lobeOf(self.roughness, pixelAngle() * max(z, 0.0) / r);
+  float bend = pixelAngle() * max(z, 0.0) / r;
+  lobe = lobeOf(self.roughness, bend);
+  addGlint(lobe, self.center, r, bend);
 
   vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
   per_pixel = vec4(1.0 / focal, 1.0 / viewport);
