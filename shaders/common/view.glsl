@@ -36,4 +36,7 @@ vec3 towardsEye(vec3 position) {
 // Radians that one pixel covers at the centre of the view.
 float pixelAngle() { return 2.0 / (projection[1].y * viewport.y); }
 
+// How wide a lookup for one pixel has to be. Jitter means that the mean of many frames is shown, which blurs by itself.
+float lookupAngle() { return (jitter == vec2(0.0) ? 1.0 : 0.5) * pixelAngle(); }
+
 #endif

@@ -9,7 +9,7 @@ in vec2 uv;
 out vec4 radiance;
 
 void main() {
-  int level = min(int(equirectLevel(float(textureSize(environment, 0).x), pixelAngle())),
+  int level = min(int(equirectLevel(float(textureSize(environment, 0).x), lookupAngle())),
                   textureQueryLevels(environment) - 1);
   ivec2 size = textureSize(environment, level);
   vec2 p = equirectUv(viewRay(uv)) * vec2(size) - 0.5;

@@ -73,9 +73,9 @@ void main() {
   albedo_roughness = vec4(self.albedo, self.roughness);
   motion_metallic = vec4(self.center - self.previous_center, self.metallic);
 
-  float bend = pixelAngle() * max(z, 0.0) / r;
-  lobe = lobeOf(self.roughness, bend);
-  addGlint(lobe, self.center, r, bend);
+  float bend = max(z, 0.0) / r;
+  lobe = lobeOf(self.roughness, lookupAngle() * bend);
+  addGlint(lobe, self.center, r, pixelAngle() * bend);
 
   vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
   per_pixel = vec4(1.0 / focal, 1.0 / viewport);

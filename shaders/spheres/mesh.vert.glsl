@@ -29,9 +29,9 @@ void main() {
   albedo_roughness = vec4(self.albedo, self.roughness);
   motion_metallic = vec4(self.center - self.previous_center, self.metallic);
   float depth = -(view * vec4(self.center, 1.0)).z;
-  float bend = pixelAngle() * max(depth, 0.0) / self.radius;
-  lobe = lobeOf(self.roughness, bend);
-  addGlint(lobe, self.center, self.radius, bend);
+  float bend = max(depth, 0.0) / self.radius;
+  lobe = lobeOf(self.roughness, lookupAngle() * bend);
+  addGlint(lobe, self.center, self.radius, pixelAngle() * bend);
   // The inside of a sphere is seen when the eye is in it, or the near plane cuts it. Of all others no triangle that faces away is drawn.
   float near_corner = near_plane * length(vec3(1.0 / projection[0].x, 1.0 / projection[1].y, 1.0));
   bool open = length(self.center - eye) < self.radius + near_corner;

@@ -1,0 +1,129 @@
+// Temporal anti-aliasing: mixes each frame, whose camera is moved by less than a pixel, with what earlier frames showed of the same surface.
+// read    current         scene-referred radiance; any sampler (texels are fetched)
+//         velocity        screen UV per frame, free of jitter
+//         depth           reversed-Z, 0 is the sky
+//         previous        `as linear`, what this pass kept: radiance, and in alpha the pixel's state, see below
+//         previous_seen   what this pass wrote as `seen`
+// write   kept            radiance and state
+//         seen            least and greatest of what the pixel showed, compressed; depth; pixels per frame
+//         result          radiance; alpha is that of `current`
+// params  share           of a new frame while things move
+//         frames          so many frames are averaged when nothing does; then the picture stays as it is to the bit
+//
+// A pixel is in one of four states. 0: nothing is known. -1 .. -kYoung: it moves or has just come into view, and so many frames are mixed.
+// 1 .. kPeriod: it has stood still for so many frames and gets to know the range of what it shows while the camera's offsets
+// go round once. Above: it has shown nothing else since; frames count alike, until there are enough of them. A pixel that shows
+// something out of its range has changed and begins anew; so lights and shadows that move over still things are followed.
+// As long as that is not certain the history is clipped to what is around the pixel now.
+//
+// Karis, "High-quality temporal supersampling" (SIGGRAPH 2014 courses): nearest velocity of a neighbourhood, bright texels weigh less; Salvi,
+// "An excursion in temporal supersampling" (GDC 2016): clipping by variance, in YCoCg; Jimenez, "Filmic SMAA" (SIGGRAPH 2016 courses):
+// Catmull-Rom in five lookups.
+#include "common/finite.glsl"
+
+uniform sampler2D current, velocity, depth, previous, previous_seen;
+layout(std140) uniform Parameters {
+  float share;
+  float frames;
+};
+in vec2 uv;
+out vec4 kept;
+out vec4 seen;
+out vec4 result;
+
+const float kPeriod = 16.0;  // of the camera's jitter
+const float kYoung = 8.0;
+const float kStill = 0.002;  // pixels per frame
+const float kWide = 1.25;    // of the box that the history is clipped to, standard deviations
+const float kEqual = 0.002;  // compressed values that differ by less are rounded otherwise
+
+float lumaOf(vec3 color) { return dot(color, vec3(0.25, 0.5, 0.25)); }
+vec3 compress(vec3 color) { return color / (1.0 + lumaOf(color)); }
+vec3 expand(vec3 color) { return color / max(1.0 - lumaOf(color), 1e-5); }
+vec3 toYcocg(vec3 c) { return vec3(lumaOf(c), 0.5 * (c.r - c.b), 0.5 * c.g - 0.25 * (c.r + c.b)); }
+vec3 fromYcocg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
+
+vec3 sharpHistory(vec2 at, vec2 size) {
+  vec2 p = at * size, middle = floor(p - 0.5) + 0.5, f = p - middle;
+  vec2 w0 = f * (-0.5 + f * (1.0 - 0.5 * f)), w1 = 1.0 + f * f * (-2.5 + 1.5 * f);
+  vec2 w2 = f * (0.5 + f * (2.0 - 1.5 * f)), w3 = f * f * (-0.5 + 0.5 * f), w12 = w1 + w2;
+  vec2 t0 = (middle - 1.0) / size, t3 = (middle + 2.0) / size, t12 = (middle + w2 / w12) / size;
+  vec4 sum = vec4(textureLod(previous, vec2(t12.x, t0.y), 0.0).rgb, 1.0) * (w12.x * w0.y);
+  sum += vec4(textureLod(previous, vec2(t0.x, t12.y), 0.0).rgb, 1.0) * (w0.x * w12.y);
+  sum += vec4(textureLod(previous, t12, 0.0).rgb, 1.0) * (w12.x * w12.y);
+  sum += vec4(textureLod(previous, vec2(t3.x, t12.y), 0.0).rgb, 1.0) * (w3.x * w12.y);
+  sum += vec4(textureLod(previous, vec2(t12.x, t3.y), 0.0).rgb, 1.0) * (w12.x * w3.y);
+  return max(sum.rgb / sum.a, 0.0);
+}
+
+// To a half float above or below, by chance, so that the mean of many frames does not drift.
+vec3 toHalf(vec3 color, ivec2 pixel, float salt) {
+  uvec3 bits = floatBitsToUint(max(color, 1e-4));
+  uint chance = uint(pixel.x) * 1664525u + uint(pixel.y) * 22695477u + uint(salt) * 2891336453u;
+  chance = (chance ^ (chance >> 15)) * 0x2c1b3c6du;
+  chance ^= chance >> 13;
+  uvec3 rest = uvec3(chance, chance >> 7, chance >> 14) & 0x1fffu;
+  return min(uintBitsToFloat((bits + rest) & ~uvec3(0x1fffu)), vec3(65504.0));
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(current, 0) - 1;
+  vec2 size = vec2(last + 1);
+  vec4 own = texelFetch(current, pixel, 0);
+  vec3 color = finite(own.rgb), sum = vec3(0.0), squares = vec3(0.0);
+  ivec2 nearest = pixel;
+  float near = -1.0;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), last);
+      vec3 c = toYcocg(compress(finite(texelFetch(current, at, 0).rgb)));
+      sum += c;
+      squares += c * c;
+      float there = texelFetch(depth, at, 0).r;
+      nearest = there > near ? at : nearest;
+      near = max(near, there);
+    }
+  vec3 mean = sum / 9.0, wide = kWide * sqrt(max(squares / 9.0 - mean * mean, 0.0)) + 1e-4;
+
+  vec2 moved = texelFetch(velocity, nearest, 0).rg;
+  float speed = length(moved * size);
+  bool still = speed < kStill;
+  vec2 before = gl_FragCoord.xy / size - (still ? vec2(0.0) : moved);
+  bool inside = all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
+  ivec2 from = clamp(ivec2(before * size), ivec2(0), last);
+  vec4 history = texelFetch(previous, from, 0), range = texelFetch(previous_seen, from, 0);
+  // All that was there and around it stood well before what is here: it has gone. Edges that only the jitter moves stay nearer than that.
+  vec2 around = 2.0 / size;
+  float covered = min(min(textureLod(previous_seen, before + vec2(around.x, 0.0), 0.0).b, textureLod(previous_seen, before - vec2(around.x, 0.0), 0.0).b),
+                      min(textureLod(previous_seen, before + vec2(0.0, around.y), 0.0).b, textureLod(previous_seen, before - vec2(0.0, around.y), 0.0).b));
+  bool uncovered = min(covered, range.b) > 1.2 * near + 1e-6 && max(range.a, speed) >= kStill;
+  float state = inside && !uncovered ? history.a : 0.0;
+
+  float shown = lumaOf(color) / (1.0 + lumaOf(color));
+  bool known = state > kPeriod && still;
+  bool changed = known && (shown < range.x - kEqual || shown > range.y + kEqual);
+  known = known && !changed;
+  float mixed = changed ? 0.5 * kYoung : state > 0.0 ? kYoung : -state;  // frames in the history, if it is to be clipped
+  float weight = known ? 1.0 / (state - kPeriod + 0.5 * kYoung) : max(1.0 / (mixed + 1.0), share);
+  if (state == 0.0) weight = 1.0;
+
+  vec3 old = still ? history.rgb : sharpHistory(before, size);
+  vec3 offset = toYcocg(compress(old)) - mean, ratio = abs(offset) / wide;
+  float beyond = max(ratio.x, max(ratio.y, ratio.z));
+  if (!known && beyond > 1.0) old = max(expand(fromYcocg(mean + offset / beyond)), 0.0);
+
+  float of_new = weight, of_old = 1.0 - weight;
+  if (!known) {
+    of_new /= 1.0 + lumaOf(color);
+    of_old /= 1.0 + lumaOf(old);
+  }
+  bool finished = known && state >= kPeriod + frames;
+  vec3 mixture = finished ? history.rgb : toHalf((color * of_new + old * of_old) / (of_new + of_old), pixel, state + 64.0 * fract(float(pixel.x) * 0.37));
+
+  float next = finished ? state : known ? state + 1.0 : !still || changed || state == 0.0 || state <= 0.0 && mixed < kYoung
+             ? -min(mixed + 1.0, kYoung) : max(state, 0.0) + 1.0;
+  bool begins = next <= 1.0;
+  kept = vec4(mixture, next);
+  seen = vec4(begins ? shown : min(range.x, shown), begins ? shown : max(range.y, shown), near, min(speed, 1000.0));
+  result = vec4(mixture, own.a);
+}
