@@ -5,7 +5,7 @@
 //         previous        `as linear`, what this pass kept: radiance, and in alpha the pixel's state, see below
 //         previous_seen   what this pass wrote as `seen`
 // write   kept            radiance and state
-//         seen            least and greatest of what the pixel showed, compressed; depth; pixels per frame
+//         seen            least and greatest luma that the pixel showed, as x / (1 + x); depth; pixels per frame
 //         result          radiance; alpha is that of `current`
 // params  share           of a new frame while things move
 //         frames          so many frames are averaged when nothing does; then the picture stays as it is to the bit
@@ -16,9 +16,10 @@
 // something out of its range has changed and begins anew; so lights and shadows that move over still things are followed.
 // As long as that is not certain the history is clipped to what is around the pixel now.
 //
-// Karis, "High-quality temporal supersampling" (SIGGRAPH 2014 courses): nearest velocity of a neighbourhood, bright texels weigh less; Salvi,
-// "An excursion in temporal supersampling" (GDC 2016): clipping by variance, in YCoCg; Jimenez, "Filmic SMAA" (SIGGRAPH 2016 courses):
-// Catmull-Rom in five lookups.
+// Karis, "High-quality temporal supersampling" (SIGGRAPH 2014 courses): the nearest velocity of a neighbourhood, clipping in YCoCg; Salvi, "An
+// excursion in temporal supersampling" (GDC 2016): clipping by variance; Jimenez, "Filmic SMAA" (SIGGRAPH 2016 courses): Catmull-Rom in
+// five lookups. All of it in linear light: compressed by a tone curve or with less weight for bright texels, as both say, the glint in
+// a moving mirror of 16 pixels loses nearly all of its light.
 #include "common/finite.glsl"
 
 uniform sampler2D current, velocity, depth, previous, previous_seen;
@@ -35,11 +36,9 @@ const float kPeriod = 16.0;  // of the camera's jitter
 const float kYoung = 8.0;
 const float kStill = 0.002;  // pixels per frame
 const float kWide = 1.25;    // of the box that the history is clipped to, standard deviations
-const float kEqual = 0.002;  // compressed values that differ by less are rounded otherwise
+const float kEqual = 0.002;  // what differs by less, as x / (1 + x), is rounded otherwise
 
 float lumaOf(vec3 color) { return dot(color, vec3(0.25, 0.5, 0.25)); }
-vec3 compress(vec3 color) { return color / (1.0 + lumaOf(color)); }
-vec3 expand(vec3 color) { return color / max(1.0 - lumaOf(color), 1e-5); }
 vec3 toYcocg(vec3 c) { return vec3(lumaOf(c), 0.5 * (c.r - c.b), 0.5 * c.g - 0.25 * (c.r + c.b)); }
 vec3 fromYcocg(vec3 c) { return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z); }
 
@@ -58,12 +57,13 @@ vec3 sharpHistory(vec2 at, vec2 size) {
 
 // To a half float above or below, by chance, so that the mean of many frames does not drift.
 vec3 toHalf(vec3 color, ivec2 pixel, float salt) {
-  uvec3 bits = floatBitsToUint(max(color, 1e-4));
+  uvec3 bits = floatBitsToUint(color);
   uint chance = uint(pixel.x) * 1664525u + uint(pixel.y) * 22695477u + uint(salt) * 2891336453u;
   chance = (chance ^ (chance >> 15)) * 0x2c1b3c6du;
   chance ^= chance >> 13;
   uvec3 rest = uvec3(chance, chance >> 7, chance >> 14) & 0x1fffu;
-  return min(uintBitsToFloat((bits + rest) & ~uvec3(0x1fffu)), vec3(65504.0));
+  vec3 rounded = min(uintBitsToFloat((bits + rest) & ~uvec3(0x1fffu)), vec3(65504.0));
+  return mix(rounded, color, lessThan(color, vec3(1e-4)));  // those have fewer bits
 }
 
 void main() {
@@ -76,7 +76,7 @@ void main() {
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), last);
-      vec3 c = toYcocg(compress(finite(texelFetch(current, at, 0).rgb)));
+      vec3 c = toYcocg(finite(texelFetch(current, at, 0).rgb));
       sum += c;
       squares += c * c;
       float there = texelFetch(depth, at, 0).r;
@@ -108,17 +108,12 @@ void main() {
   if (state == 0.0) weight = 1.0;
 
   vec3 old = still ? history.rgb : sharpHistory(before, size);
-  vec3 offset = toYcocg(compress(old)) - mean, ratio = abs(offset) / wide;
+  vec3 offset = toYcocg(old) - mean, ratio = abs(offset) / wide;
   float beyond = max(ratio.x, max(ratio.y, ratio.z));
-  if (!known && beyond > 1.0) old = max(expand(fromYcocg(mean + offset / beyond)), 0.0);
+  if (!known && beyond > 1.0) old = max(fromYcocg(mean + offset / beyond), 0.0);
 
-  float of_new = weight, of_old = 1.0 - weight;
-  if (!known) {
-    of_new /= 1.0 + lumaOf(color);
-    of_old /= 1.0 + lumaOf(old);
-  }
   bool finished = known && state >= kPeriod + frames;
-  vec3 mixture = finished ? history.rgb : toHalf((color * of_new + old * of_old) / (of_new + of_old), pixel, state + 64.0 * fract(float(pixel.x) * 0.37));
+  vec3 mixture = finished ? history.rgb : toHalf(mix(old, color, weight), pixel, state);
 
   float next = finished ? state : known ? state + 1.0 : !still || changed || state == 0.0 || state <= 0.0 && mixed < kYoung
              ? -min(mixed + 1.0, kYoung) : max(state, 0.0) + 1.0;

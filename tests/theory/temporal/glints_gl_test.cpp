@@ -88,7 +88,7 @@ double hidden(std::uint32_t frame, std::uint32_t x, std::uint32_t y) {
 }
 
 // The mirror's light in each frame: that of the picture, less the sky beside it.
-std::vector<double> lightOf(const Moving& moving, const std::string& graph,
+std::vector<double> lightOf(const Moving& moving, const std::string& graph, const std::string& picture_of,
                             const std::vector<weft::graph::Setting>& sets) {
   Setup setup = moving.setup;
   setup.graph = graph;
@@ -97,12 +97,12 @@ std::vector<double> lightOf(const Moving& moving, const std::string& graph,
   empty.balls.clear();
   Lab sky(empty), lab(setup);
   sky.frame();
-  const Picture behind = sky.read("panels");
+  const Picture behind = sky.read(picture_of);
   std::vector<double> light;
   for (std::uint32_t frame = 0; frame < kFirst + kFrames; ++frame) {
     lab.frame(frame);
     if (frame < kFirst) continue;
-    const Picture picture = lab.read("panels");
+    const Picture picture = lab.read(picture_of);
     double sum = 0;
     for (std::uint32_t y = 0; y < kHeight; ++y)
       for (std::uint32_t x = 0; x < kWidth; ++x)
@@ -139,7 +139,7 @@ TEST_CASE(
   for (const double roughness : {0.0, 0.05, 0.1, 0.2})
     for (const double azimuth : {0.0, 215.0}) {
       const Moving mirror = moving(azimuth, roughness, image);
-      const Spread raw = spreadOf(lightOf(mirror, "tests/theory/draw_modes.json", {}));
+      const Spread raw = spreadOf(lightOf(mirror, "tests/theory/draw_modes.json", "panels", {}));
       CAPTURE(roughness);
       CAPTURE(azimuth);
       MESSAGE("roughness ", roughness, ", camera at ", azimuth, ": min/max ", raw.ratio, ", deviation ",
@@ -148,4 +148,19 @@ TEST_CASE(
       CHECK(raw.deviation < 0.02);
       CHECK(std::abs(raw.mean / truth - 1) < 0.02);
     }
+}
+
+TEST_CASE("glints: a moving mirror keeps its light under temporal anti-aliasing") {
+  const Image image = environment();
+  const double truth = std::numbers::pi * kRadius * kRadius * meanRadiance(*image);
+  for (const double roughness : {0.0, 0.1}) {
+    const Moving mirror = moving(0, roughness, image);
+    const Spread taa = spreadOf(lightOf(mirror, "graphs/taa.json", "post.taa.kept", {}));
+    CAPTURE(roughness);
+    MESSAGE("roughness ", roughness, ": min/max ", taa.ratio, ", deviation ", 100 * taa.deviation,
+            " %, mean of theory's ", taa.mean / truth);
+    CHECK(taa.ratio > 0.9);
+    CHECK(taa.deviation < 0.04);
+    CHECK(std::abs(taa.mean / truth - 1) < 0.1);
+  }
 }

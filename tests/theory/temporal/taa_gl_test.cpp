@@ -139,3 +139,67 @@ TEST_CASE(
     CHECK(rootMeanSquare(taa, truth) < rootMeanSquare(plain, truth));
   }
 }
+
+TEST_CASE("temporal anti-aliasing: a ball that moves four pixels a frame leaves no ghost") {
+  constexpr std::uint32_t kFrame = 14;
+  constexpr double kStep = 0.4, kPixels = kHeight / 2 / 0.41421356 / 10;  // units a frame, pixels a unit
+  Setup setup = busy();
+  setup.balls = {{.center = {static_cast<float>(-kStep * kFrame / 2), 0.3f, 0},
+                  .albedo = {0.9f, 0.1f, 0.05f},
+                  .metallic = 0,
+                  .velocity = {static_cast<float>(kStep * 60), 0, 0}}};
+  const Encoded truth = supersampled(setup, kFrame), taa = drawn(setup, kFrame + 1),
+                plain = drawn(with(setup, {{"taa", "false"}}), kFrame + 1);
+  // Where the ball was within the last eight frames, two pixels beside where it is now.
+  const auto distance = [&](std::uint32_t x, std::uint32_t y, double frame) {
+    return std::hypot(x + 0.5 - kWidth / 2.0 - kPixels * kStep * (frame - kFrame / 2.0),
+                      y + 0.5 - kHeight / 2.0 - kPixels * 0.3);
+  };
+  double sum = 0, most = 0, sum_plain = 0, ball = 0;
+  int count = 0;
+  for (std::uint32_t y = 0; y < kHeight; ++y)
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      bool was = false;
+      for (int i = 1; i <= 8; ++i) was = was || distance(x, y, kFrame - i) < kPixels;
+      if (!was || distance(x, y, kFrame) < kPixels + 2) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = (std::size_t{y} * kWidth + x) * 3 + c;
+        sum += std::abs(taa[at] - truth[at]);
+        sum_plain += std::abs(plain[at] - truth[at]);
+        most = std::max(most, std::abs(taa[at] - truth[at]));
+        ++count;
+      }
+    }
+  // What a ghost would be: the ball's colour beside the sky's.
+  const std::size_t on_ball = (std::size_t{kHeight / 2} * kWidth + kWidth / 2 +
+                               static_cast<std::size_t>(kPixels * kStep * kFrame / 2)) *
+                                  3 +
+                              2;
+  ball = std::abs(truth[on_ball] - truth[(std::size_t{kHeight / 2} * kWidth + 4) * 3 + 2]);
+  REQUIRE(count > 1000);
+  CHECK(ball > 60);
+  MESSAGE("in the wake: mean ", sum / count, " and at most ", most, " of 255; without TAA ",
+          sum_plain / count, "; the ball is off by ", ball, "; whole picture: TAA ",
+          meanDifference(taa, truth), ", without ", meanDifference(plain, truth));
+  CHECK(sum / count < 5);
+  CHECK(most < 0.3 * ball);
+}
+
+TEST_CASE("temporal anti-aliasing: light that changes on still things is followed") {
+  constexpr std::uint32_t kFrom = 160;  // as in dim.json: by then the picture rests
+  static_assert(kFrom > kConverged);
+  Setup setup = busy();
+  setup.graph = "tests/theory/temporal/dim.json";
+  Lab lab(setup);
+  const auto mean = [&] {
+    const Picture picture = lab.read("post.taa.kept");
+    double sum = 0;
+    for (std::size_t i = 0; i < picture.texels.size(); i += 4) sum += static_cast<double>(picture.texels[i]);
+    return sum;
+  };
+  for (std::uint32_t frame = 0; frame < kFrom; ++frame) lab.frame(frame);
+  const double before = mean();
+  for (std::uint32_t frame = kFrom; frame < kFrom + 12; ++frame) lab.frame(frame);
+  MESSAGE("a tenth darker; after 12 frames: ", mean() / before);
+  CHECK(std::abs(mean() / before - 0.9) < 0.01);
+}
