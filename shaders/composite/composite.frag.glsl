@@ -1,10 +1,9 @@
 // Turns scene-referred into display-referred values. This is the last pass that sees radiance; later ones work on encoded values.
-// The order: aberration, bloom, fog, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift,
+// The order: aberration, bloom, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift,
 // gamma, gain), sRGB encoding, table, grain, dither. Steps that are off are not compiled. docs/effects.md has the details.
 // read    color   scene-referred radiance, the target's size, not `as linear`: one texel per pixel
 //         shifted?  the same `as linear`, for ABERRATION
 //         bloom?  scene-referred, any size; `as linear` unless its size is the target's: the blurred bright part
-//         depth?  reversed-Z, for FOG
 //         exposure?  buffer of exposure/adapt.comp.glsl, `as uniform`: a factor beside `ev`; without it, or below 0, there is none
 //         lut?    3D table on encoded values, `as linear`; see lut.glsl. With it the parameter lut_strength, 0..1
 // write   result  display-referred, sRGB encoded
@@ -13,7 +12,6 @@
 //         bloom_strength  share of the bright part that its blur replaces, 0..1 [0.05]
 //         white           radiance, after exposure, that becomes white [8]
 //         threshold, knee what the bright part is, as in bloom/prefilter; both or none [0, 0: everything]
-//         fog             define: fog_color (radiance), fog_density, fog_falloff, fog_base, fog_layer, fog_sky; see fog.glsl
 //         curve           CURVE, see tone_curve.glsl
 //         aberration      define: aberration_px, how far the middles of red and blue part from green at the corners, in pixels
 //         white_balance   define: temperature, tint; see white_balance.glsl
@@ -44,18 +42,12 @@
 #ifndef GRAIN
 #define GRAIN 0
 #endif
-#ifndef FOG
-#define FOG 0
-#endif
 
 #ifdef HAS_BLOOM
 #include "bloom/bright.glsl"
 #endif
 #ifdef HAS_LUT
 #include "lut.glsl"
-#endif
-#if FOG
-#include "fog.glsl"
 #endif
 #if WHITE_BALANCE
 #include "white_balance.glsl"
@@ -75,16 +67,13 @@ uniform sampler2D shifted;
 #ifdef HAS_BLOOM
 uniform sampler2D bloom;
 #endif
-#ifdef HAS_DEPTH
-uniform sampler2D depth;
-#endif
 #ifdef HAS_EXPOSURE
 layout(std140) uniform exposure { vec4 adapted; };  // a storage block would cost three tenths of a copy in software
 #endif
 #ifdef HAS_LUT
 uniform sampler3D lut;
 #endif
-#if defined(HAS_EV) || defined(HAS_THRESHOLD) || defined(HAS_LUT) || FOG || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
+#if defined(HAS_EV) || defined(HAS_THRESHOLD) || defined(HAS_LUT) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
 layout(std140) uniform Parameters {
 #ifdef HAS_EV
   float ev;
@@ -94,14 +83,6 @@ layout(std140) uniform Parameters {
 #ifdef HAS_THRESHOLD
   float threshold;
   float knee;
-#endif
-#if FOG
-  vec3 fog_color;
-  float fog_density;
-  float fog_falloff;
-  float fog_base;
-  float fog_layer;
-  float fog_sky;
 #endif
 #ifdef HAS_LUT
   float lut_strength;
@@ -158,10 +139,6 @@ void main() {
   c = finite(c);
 #ifdef HAS_BLOOM
   c += bloom_strength * (textureLod(bloom, uv, 0.0).rgb - brightPart(c, threshold, knee));
-#endif
-#if FOG && defined(HAS_DEPTH)
-  float far = texelFetch(depth, ivec2(pixel), 0).r;
-  c = mix(fog_color, c, fogTransmittance(uv, far, fog_density, fog_falloff, fog_base, fog_layer, fog_sky));
 #endif
   c *= exp2(ev);
 #ifdef HAS_EXPOSURE

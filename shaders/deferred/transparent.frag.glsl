@@ -1,8 +1,10 @@
 // A mesh that one sees through, lit by all that lights the G-buffer, occlusion from depth aside. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
+//         air?                        see fog/fog.glsl
 //         what light comes from       see shading/light.glsl
 // modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied"
 // params, defines    see shading/light.glsl and light.glsl
+#include "fog/fog.glsl"
 #include "meshes/surface.glsl"
 #include "light.glsl"
 
@@ -26,6 +28,6 @@ void findPoint(out Point point) {
 
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  radiance = vec4((from_around + from_lights + emitted) * alpha, alpha);
+  radiance = vec4(throughFog(from_around + from_lights + emitted, world_position - eye) * alpha, alpha);
 #endif
 }

@@ -4,12 +4,14 @@
 //         irradiance?, brightest?, sun?   light, see shading/ibl.glsl, ibl/brightest.glsl, scene/sun.glsl
 //         sky?         rgb: share of the sky's light that arrives
 //         lights?      x, y: shares of the sun's and of the brightest spot's
+//         air?         see fog/fog.glsl
 // modify  radiance     scene-referred; blend "premultiplied"
 //         velocity     screen UV per frame
 //         depth        near / distance along the view axis (reversed-Z)
 // params  sky_turn     by how much of a full turn the environment is rotated
 #include "common/equirect.glsl"
 #include "common/view.glsl"
+#include "fog/fog.glsl"
 #include "ibl/brightest.glsl"
 #include "scene/ground.glsl"
 #ifdef HAS_SUN
@@ -67,7 +69,11 @@ void main() {
   vec3 arrives = from_sky * sky_seen + from_sun * lights_seen.x + from_spot * lights_seen.y;
   float all = dot(from_sky + from_sun + from_spot, luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
   float surface = self.radius > 0.0 ? 1.0 - smoothstep(0.5 * self.radius, self.radius, length(at.xz)) : 0.0;
-  radiance = vec4(self.albedo * arrives * surface, 1.0 - (1.0 - surface) * min(left, 1.0));
+  float kept = min(left, 1.0);  // of the light of the environment behind
+#ifdef HAS_AIR
+  kept = mix(1.0, kept, fogTransmittance(at - eye));
+#endif
+  radiance = vec4(throughFog(self.albedo * arrives, at - eye) * surface, 1.0 - (1.0 - surface) * kept);
 #endif
 #ifdef HAS_VELOCITY
   vec4 before = previous_view_projection * vec4(at, 1.0);

@@ -1,11 +1,12 @@
 // A mesh lit by the environment, the sun and lamps, as spheres are. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
-//         what light comes from       see shading/light.glsl
+//         what light comes from       see shading/light.glsl; air?: fog/fog.glsl
 // modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
 //         velocity   screen UV per frame
 //         depth      reversed-Z
 // params, defines    see shading/light.glsl
 #include "common/view.glsl"
+#include "fog/fog.glsl"
 #include "meshes/surface.glsl"
 #include "spheres/shading.glsl"
 
@@ -44,6 +45,6 @@ void findPoint(out Point point) {
 
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  radiance = vec4((from_around * occlusion + from_lights + emitted) * share, share);
+  radiance = vec4(throughFog(from_around * occlusion + from_lights + emitted, world_position - eye) * share, share);
 #endif
 }

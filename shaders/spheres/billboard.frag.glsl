@@ -1,5 +1,5 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment, the sun and lamps.
-// read    what light comes from   see shading/light.glsl
+// read    what light comes from   see shading/light.glsl; air?: fog/fog.glsl
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)
@@ -8,6 +8,7 @@
 // Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
 // its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
 // the test and the write of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
+#include "fog/fog.glsl"
 #define LOBE_IS_FLAT 1
 #include "shading.glsl"
 
@@ -44,6 +45,7 @@ float halfPlane(float inside, vec2 normal) {
   return inside > 0.0 ? 1.0 - beyond : beyond;
 }
 
+vec3 from_eye = vec3(0.0);
 void findPoint(out Point point) {
   vec3 c = sphere.xyz;
   float r = sphere.w, r2 = r * r, d2 = dot(c, c);
@@ -83,12 +85,13 @@ void findPoint(out Point point) {
 #ifdef HAS_RADIANCE
   point.n = to_world * normal_view;
   point.v = to_world * (v * -per_length);
+  from_eye = to_world * (v * t);
   point.mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
   point.nv = nv;
   point.roughness = albedo_roughness.w;
   point.surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
 #if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
-  point.at = to_world * (v * t) + world_eye;
+  point.at = from_eye + world_eye;
 #else
   point.at = vec3(0.0);
 #endif
@@ -104,6 +107,6 @@ void findPoint(out Point point) {
 
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  radiance = vec4((from_around + from_lights) * coverage, coverage);
+  radiance = vec4(throughFog(from_around + from_lights, from_eye) * coverage, coverage);
 #endif
 }

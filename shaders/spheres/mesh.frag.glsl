@@ -1,10 +1,11 @@
 // One triangle of a sphere, lit as the ray-traced ones of spheres/billboard are.
-// read    what light comes from   see shading/light.glsl
+// read    what light comes from   see shading/light.glsl; air?: fog/fog.glsl
 // write or modify  radiance   scene-referred; alpha 1
 //                  velocity   screen UV per frame
 //                  depth      near / distance along the view axis (reversed-Z)
 // params, defines    see shading/light.glsl
 #include "common/view.glsl"
+#include "fog/fog.glsl"
 #define LOBE_IS_FLAT 1
 #include "shading.glsl"
 
@@ -39,6 +40,6 @@ void findPoint(out Point point) {
 
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  radiance = vec4(from_around + from_lights, 1.0);
+  radiance = vec4(throughFog(from_around + from_lights, from_eye), 1.0);
 #endif
 }

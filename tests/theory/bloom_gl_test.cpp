@@ -1,5 +1,5 @@
 // Bloom: what is below the threshold is left alone; light moves and is not made or lost; what is not a number
-// stays where it is. And fog, which works on the same picture: Beer's law, at distances known to the test.
+// stays where it is. And fog, on the same plane: Beer's law, at distances known to the test.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -142,7 +142,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("fog of density 0 is the identity; off, nothing reads depth") {
+TEST_CASE("fog of density 0 is the identity") {
   const Sets sets{{"plane.background", "0.7"}, {"plane.distance", "30"}};
   const Radiance off = render(sets), on = render(with(sets, {{"fog", "true"}, {"fog_density", "0"}}));
   CHECK(off.panels.texels == on.panels.texels);

@@ -192,7 +192,7 @@ TEST_CASE("live: random values give every uniform of the bundled graphs the bits
       Settings settings;
       if (all && std::string(name) == "studio")
         for (const char* effect :
-             {"dof", "motion_blur", "auto_exposure", "composite.fog", "grain", "grading", "ibl.sliced"})
+             {"dof", "motion_blur", "auto_exposure", "fog", "grain", "grading", "ibl.sliced"})
           settings.sets.emplace_back(effect, "true");
       const auto base = expandGraph(*desc, testRegistry(), settings, said);
       REQUIRE_MESSAGE(base, said.text());

@@ -65,7 +65,7 @@ TEST_CASE("live: every live parameter of the studio, one after the other, leaves
   const CleanScope clean;
   Stage stage("graphs/studio.json", 64, 36);
   stage.settings.sets = {
-      {"dof", "true"}, {"motion_blur", "true"}, {"auto_exposure", "true"}, {"composite.fog", "true"}};
+      {"dof", "true"}, {"motion_blur", "true"}, {"auto_exposure", "true"}, {"fog", "true"}};
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   const auto& parameters = stage.execution().plan().graph->parameters;
   Stage fresh("graphs/studio.json", 64, 36);

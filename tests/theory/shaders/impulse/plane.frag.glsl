@@ -1,4 +1,5 @@
 // A plane across the view, of one radiance but for one square of another. A test picture.
+// read    air?        see fog/fog.glsl
 // write   radiance    scene-referred
 //         velocity    screen UV per frame
 //         depth       reversed-Z of a plane
@@ -9,6 +10,7 @@
 //         motion      pixels per frame
 // defines BAD         one of BAD_NONE, BAD_NAN, BAD_INFINITE: what the square holds instead of `value`
 #include "common/view.glsl"
+#include "fog/fog.glsl"
 
 layout(std140) uniform Parameters {
   float background;
@@ -33,7 +35,8 @@ void main() {
 #else
   float special = value;
 #endif
-  radiance = vec4(vec3(inside ? special : background), 1.0);
+  vec3 light = vec3(inside ? special : background), ray = viewRay(gl_FragCoord.xy / viewport);
+  radiance = vec4(distance > 0.0 ? throughFog(light, ray * distance) : skyThroughFog(light, ray), 1.0);
 #ifdef HAS_VELOCITY
   velocity = motion / viewport;
 #endif

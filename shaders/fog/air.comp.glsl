@@ -1,0 +1,27 @@
+// What the air between the eye and the scene is like, for all shaders that include fog/fog.glsl.
+// write   air           buffer of 32 bytes
+// params  fog_color     radiance of endless fog
+//         fog_density   extinction per world unit at the height `fog_base`
+//         fog_falloff   in 1 / fog_falloff world units of height the extinction falls to 1/e; 0: it is the same everywhere
+//         fog_base      world units
+//         fog_layer     the fog before the sky ends so many world units above and below the eye
+//         fog_sky       how much of that layer counts
+layout(local_size_x = 1) in;
+
+layout(std430) writeonly buffer air {
+  vec4 light;
+  vec4 shape;
+};
+layout(std140) uniform Parameters {
+  vec3 fog_color;
+  float fog_density;
+  float fog_falloff;
+  float fog_base;
+  float fog_layer;
+  float fog_sky;
+};
+
+void main() {
+  light = vec4(fog_color, fog_density);
+  shape = vec4(fog_falloff, fog_base, fog_layer, fog_sky);
+}
