@@ -3,12 +3,10 @@
 //         emissive?     radiance that is added
 //         position?     world, instead of the one that depth gives
 //         ao?           ambient visibility; the material's occlusion counts where it is darker
-//         air?          see fog/fog.glsl
 //         and what light comes from: shading/light.glsl
 // modify  radiance      scene-referred, alpha 1; nothing where depth is 0
 // params, defines       see shading/light.glsl and light.glsl
 //         SHOW_LAMPS    instead of light, how many lamps each pixel goes through: blue 1, green 8, red 64 and more
-#include "fog/fog.glsl"
 #include "gbuffer.glsl"
 #include "light.glsl"
 
@@ -31,7 +29,7 @@ in vec2 uv;
 out vec4 radiance;
 #endif
 
-vec3 emitted = vec3(0.0), from_eye = vec3(0.0);
+vec3 emitted = vec3(0.0);
 
 void findPoint(out Point point) {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -42,7 +40,6 @@ void findPoint(out Point point) {
 #else
   point.at = positionOfDepth(uv, z);
 #endif
-  from_eye = point.at - eye;
   vec4 stored = texelFetch(mro, pixel, 0);
   point.n = decodeNormal(texelFetch(normal, pixel, 0).rg);
   point.surface = Surface(texelFetch(base, pixel, 0).rgb, stored.r, stored.g);
@@ -58,7 +55,7 @@ void findPoint(out Point point) {
 }
 
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
-  vec3 light = throughFog(from_around + emitted + from_lights, from_eye);
+  vec3 light = from_around + emitted + from_lights;
 #if SHOW_LAMPS
   float heat = log2(max(float(lamps_tried), 1.0)) / 3.0;
   light = lamps_tried == 0 ? vec3(0.02) : clamp(vec3(heat - 1.0, 1.0 - abs(heat - 1.0), 1.0 - heat), 0.0, 1.0);

@@ -6,6 +6,8 @@
 //         fog_base      world units
 //         fog_layer     the fog before the sky ends so many world units above and below the eye
 //         fog_sky       how much of that layer counts
+#include "common/view.glsl"
+
 layout(local_size_x = 1) in;
 
 layout(std430) writeonly buffer air {
@@ -22,6 +24,7 @@ layout(std140) uniform Parameters {
 };
 
 void main() {
-  light = vec4(fog_color, fog_density);
-  shape = vec4(fog_falloff, fog_base, fog_layer, fog_sky);
+  light = vec4(fog_color, fog_density * exp(min(-fog_falloff * (eye.y - fog_base), 60.0)));
+  // Without fog nothing is to overflow.
+  shape = vec4(fog_density > 0.0 ? fog_falloff : 0.0, fog_layer, fog_sky, 0.0);
 }

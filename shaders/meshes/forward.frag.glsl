@@ -45,6 +45,10 @@ void findPoint(out Point point) {
 
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  radiance = vec4(throughFog(from_around * occlusion + from_lights + emitted, world_position - eye) * share, share);
+  vec3 light = from_around * occlusion + from_lights + emitted;
+#ifdef HAS_AIR
+  light = mix(fog_light.rgb, light, throughFog(world_position - eye));
+#endif
+  radiance = vec4(light * share, share);
 #endif
 }

@@ -2,12 +2,12 @@
 // read    sky        equirectangular with mips, `as linear wrap`
 //         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from roughness 0.1 on instead of it
 //         brightest? the spot that `blurred` lacks, see ibl/brightest.glsl
-//         air?       see fog/fog.glsl
+//         air?       see fog/sky.glsl
 // write   radiance   scene-referred, linear; alpha 1
 //         velocity   screen UV per frame of a point at infinity
 // params  sky_turn?  by how much of a full turn the environment is rotated, from +X towards +Z
 //         blur?      four times the roughness of the surface that would show it so; up to 0.4 a mixture with `sky`
-#include "fog/fog.glsl"
+#include "fog/sky.glsl"
 #include "maps.glsl"
 
 noperspective in vec3 direction;
@@ -44,7 +44,10 @@ void main() {
 #endif
   color = mix(color, soft, blurred_share);
 #endif
-  radiance = vec4(skyThroughFog(color, direction), 1.0);
+#ifdef HAS_AIR
+  color = mix(fog_light.rgb, color, throughFogOfSky(direction));
+#endif
+  radiance = vec4(color, 1.0);
 #endif
 #ifdef HAS_VELOCITY
   velocity = uv - (before.xy / max(before.z, 1e-3) * 0.5 + 0.5);

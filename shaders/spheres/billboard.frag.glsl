@@ -107,6 +107,10 @@ void findPoint(out Point point) {
 
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  radiance = vec4(throughFog(from_around + from_lights, from_eye) * coverage, coverage);
+  vec3 light = from_around + from_lights;
+#ifdef HAS_AIR
+  light = mix(fog_light.rgb, light, throughFog(from_eye));
+#endif
+  radiance = vec4(light * coverage, coverage);
 #endif
 }

@@ -1,5 +1,5 @@
 // A plane across the view, of one radiance but for one square of another. A test picture.
-// read    air?        see fog/fog.glsl
+// read    air?        see fog/sky.glsl
 // write   radiance    scene-referred
 //         velocity    screen UV per frame
 //         depth       reversed-Z of a plane
@@ -10,7 +10,7 @@
 //         motion      pixels per frame
 // defines BAD         one of BAD_NONE, BAD_NAN, BAD_INFINITE: what the square holds instead of `value`
 #include "common/view.glsl"
-#include "fog/fog.glsl"
+#include "fog/sky.glsl"
 
 layout(std140) uniform Parameters {
   float background;
@@ -36,7 +36,10 @@ void main() {
   float special = value;
 #endif
   vec3 light = vec3(inside ? special : background), ray = viewRay(gl_FragCoord.xy / viewport);
-  radiance = vec4(distance > 0.0 ? throughFog(light, ray * distance) : skyThroughFog(light, ray), 1.0);
+#ifdef HAS_AIR
+  light = mix(fog_light.rgb, light, distance > 0.0 ? throughFog(ray * distance) : throughFogOfSky(ray));
+#endif
+  radiance = vec4(light, 1.0);
 #ifdef HAS_VELOCITY
   velocity = motion / viewport;
 #endif

@@ -1,0 +1,17 @@
+// The fog before a picture whose pixels show one surface or the sky each: of a G-buffer, before anything that blends is drawn over it.
+// read    depth    reversed-Z, nearest
+//         air      see fog.glsl
+// modify  result   radiance, with "blend": "premultiplied"
+#include "common/view.glsl"
+#include "sky.glsl"
+
+uniform sampler2D depth;
+in vec2 uv;
+out vec4 result;
+
+void main() {
+  float z = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r;
+  vec3 ray = viewRay(uv);
+  float hidden = 1.0 - (z > 0.0 ? throughFog(ray * (near_plane / z)) : throughFogOfSky(ray));
+  result = vec4(fog_light.rgb * hidden, hidden);
+}
