@@ -1,21 +1,21 @@
 // Motion blur over an open shutter, centred on the frame, in the tiles that gather.vert.glsl picks. Scene-referred.
-// read    source     a copy of the radiance; all textures by any sampler (texels are fetched)
-//         velocity   screen UV per frame
-//         depth      reversed-Z, 0 is the sky, which is blurred like everything else
-//         tiles      from neighbour_max
+// read    still, streaks   from streaks.frag.glsl; all textures by any sampler (texels are fetched)
+//         tiles, more?     from motions
 // modify  result     radiance; alpha stays
 // params  shutter    degrees: 360 is open all the time between two frames
-//         samples    per line at most; short streaks take one per pixel
+//         samples    moments of the shutter's time at most; short streaks take two for each pixel of their length
 //         tile       pixels along a tile's side; also limits the blur
 //
-// Tiles after McGuire et al. (I3D 2012); weights after Jimenez ("Next generation post processing in Call of Duty", SIGGRAPH
-// 2014). A nearer texel counts where its own streak reaches, and the less, the longer the streak is. The sum is divided by the
-// number of all samples, not of those found, so that light is neither made nor lost. The pixel's own layer lies underneath,
-// blurred along its own velocity over texels that are not nearer: what a moving thing hides is filled in from beside it.
-#include "common/finite.glsl"
+// For each of some moments, what is at the pixel then? A texel that moves by a streak is at the pixel when it lies that far before it. Which
+// texel that is depends on its own motion, so it is searched for along the motion of the pixel and along up to four motions around it (tiles
+// after McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012). Of the texels that do arrive at the pixel the nearest is
+// seen. Where none does, something comes into view that nobody has drawn, and the nearest texel behind the pixel's own surface stands in for it.
 #include "blur.glsl"
 
-uniform sampler2D source, velocity, depth, tiles;
+uniform sampler2D still, streaks, tiles;
+#ifdef HAS_MORE
+uniform sampler2D more;
+#endif
 layout(std140) uniform Parameters {
   float shutter;
   int samples;
@@ -23,59 +23,58 @@ layout(std140) uniform Parameters {
 };
 out vec4 result;
 
-const float kThickness = 0.05;  // a texel nearer by this share of the distance counts wholly as nearer
-const float kOwn = 1e-3;        // weight of the pixel itself, for pixels whose layer no sample belongs to
-
-// 1 where the texel is nearer than the pixel, 0 where not.
-float nearer(float there, float here) { return clamp((there - here) / max(kThickness * there, 1e-20), 0.0, 1.0); }
-
-// Does a streak of `half_length` reach `distance`? Integrates to twice the half length over a line.
-float reach(float half_length, float distance) { return clamp(half_length - distance + 0.5, 0.0, 1.0); }
+const float kBehind = 0.95;  // depth of what counts as behind a surface of depth 1
+const float kMiss = 0.6;     // pixels: a texel that passes so close to the pixel's centre arrives
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  ivec2 size = textureSize(source, 0);
-  vec4 own = texelFetch(source, pixel, 0);
-  vec2 longest = streakOf(texelFetch(tiles, pixel / tile, 0).rg, vec2(size), shutter, tile);
-  float far_reach = length(longest);
-  vec2 streak = streakOf(texelFetch(velocity, pixel, 0).rg, vec2(size), shutter, tile);
-  float own_reach = length(streak);
-  float own_depth = texelFetch(depth, pixel, 0).r;
-  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  // Both lines at once when they are nearly one.
-  bool two_lines = own_reach >= 0.25 && distance(longest, streak) > 0.1 * far_reach + 0.5;
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(still, 0) - 1;
+  vec2 size = vec2(last + 1), here = gl_FragCoord.xy;
+  vec4 own = texelFetch(streaks, pixel, 0);
+  vec4 two = texelFetch(tiles, pixel / tile, 0), others = two.xyxy;
+#ifdef HAS_MORE
+  others = texelFetch(more, pixel / tile, 0);
+#endif
+  vec2 longest = streakOf(two.xy, size, shutter, tile);
+  float noise = fract(52.9829189 * fract(dot(here, vec2(0.06711056, 0.00583715))));
+  int n = min(samples, int(ceil(4.0 * length(longest))) + 1);
+  bool alike = two.xy == two.zw && two.xy == others.xy && two.xy == others.zw;
+  vec3 sum = vec3(0.0);
 
-  vec2 along = longest / far_reach;
-  float span = far_reach + 0.5;
-  vec3 front = vec3(0.0), under = finite(own.rgb) * kOwn;
-  float front_weight = 0.0, under_weight = kOwn;
-  int n = min(samples, int(ceil(2.0 * span)));
-  for (int i = 0; i < n; ++i) {
-    float t = ((float(i) + noise) / float(n) * 2.0 - 1.0) * span;
-    ivec2 at = clamp(ivec2(floor(gl_FragCoord.xy + along * t)), ivec2(0), size - 1);
-    float in_front = nearer(texelFetch(depth, at, 0).r, own_depth);
-    vec3 c = finite(texelFetch(source, at, 0).rgb);
-    float spread = abs(dot(streakOf(texelFetch(velocity, at, 0).rg, vec2(size), shutter, tile), along));
-    float w = in_front * reach(spread, abs(t)) * span / max(spread, 0.5);
-    front += w * c;
-    front_weight += w;
-    if (!two_lines) {
-      w = (1.0 - in_front) * reach(own_reach, abs(t));
-      under += w * c;
-      under_weight += w;
-    }
+  // Everything around moves alike.
+  for (int i = 0; i < (alike ? n : 0); ++i) {
+    float t = (float(i) + noise) / float(n) * 2.0 - 1.0;
+    sum += texelFetch(still, clamp(ivec2(floor(here - own.xy * t)), ivec2(0), last), 0).rgb;
   }
-  if (two_lines) {
-    along = streak / own_reach;
-    for (int i = 0; i < n; ++i) {
-      float t = ((float(i) + noise) / float(n) * 2.0 - 1.0) * own_reach;
-      ivec2 at = clamp(ivec2(floor(gl_FragCoord.xy + along * t)), ivec2(0), size - 1);
-      float w = 1.0 - nearer(texelFetch(depth, at, 0).r, own_depth);
-      under += w * finite(texelFetch(source, at, 0).rgb);
-      under_weight += w;
-    }
+
+  vec2 around[4] = vec2[](longest, two.zw, others.xy, others.zw);
+  int motions = 0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 motion = i == 0 ? longest : streakOf(around[i], size, shutter, tile);
+    bool known = distance(motion, own.xy) < 0.5 || (i > 0 && distance(motion, longest) < 0.25);
+    around[motions] = motion;
+    motions += known ? 0 : 1;
   }
-  under /= under_weight;
-  float cover = min(front_weight / float(n), 1.0);
-  result = vec4(front_weight > 0.0 ? mix(under, front / front_weight, cover) : under, own.a);
+  int tries = motions > 0 ? motions + 3 : 2;
+  for (int i = 0; i < (alike ? 0 : n); ++i) {
+    float t = (float(i) + noise) / float(n) * 2.0 - 1.0, seen = -1.0, fill = -1.0;
+    ivec2 seen_at = pixel, fill_at = pixel;
+    // The pixel's own motion and that of the texel found so, the first of the others and that of the texel found so, the rest.
+    vec2 motion = own.xy;
+    for (int k = 0; k < tries; ++k) {
+      if (k == 2) motion = around[0];
+      if (k > 3) motion = around[k - 3];
+      ivec2 at = clamp(ivec2(floor(here - motion * t)), ivec2(0), last);
+      vec4 found = texelFetch(streaks, at, 0);
+      vec2 miss = abs(vec2(at) + 0.5 + found.xy * t - here);
+      bool arrives = max(miss.x, miss.y) < kMiss && found.w > seen;
+      seen = arrives ? found.w : seen;
+      seen_at = arrives ? at : seen_at;
+      bool fills = found.w < kBehind * own.w && found.w > fill;
+      fill = fills ? found.w : fill;
+      fill_at = fills ? at : fill_at;
+      motion = found.xy;
+    }
+    sum += texelFetch(still, seen >= 0.0 ? seen_at : fill_at, 0).rgb;
+  }
+  result = vec4(sum / float(n), texelFetch(still, pixel, 0).a);
 }

@@ -1,5 +1,5 @@
 // The tiles in which something moves half a pixel while the shutter is open.
-// read    tiles            from neighbour_max; any sampler
+// read    tiles            from motions; any sampler
 // params  shutter, tile    as in gather.frag.glsl
 #include "common/tile_quad.glsl"
 #include "blur.glsl"

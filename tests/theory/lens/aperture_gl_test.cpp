@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/assets/images/image.h"
 #include "tests/theory/lab.h"
+#include "tests/theory/lens/compare.h"
 
 using namespace weft;
 using namespace weft::theory;
@@ -22,31 +22,14 @@ struct Lens {
 };
 
 Setup sceneOf(std::vector<Ball> balls, std::uint32_t finer) {
-  base::Diagnostics diagnostics;
-  auto sky = assets::loadEnvironment(
-      std::string(WEFT_SOURCE_DIR) + "/scenes/environments/spiaggia_di_mondello_1k.hdr", diagnostics);
-  REQUIRE_MESSAGE(sky, diagnostics.text());
   Setup setup{.graph = "tests/theory/lens/lens.json",
               .width = kWidth * finer,
               .height = kHeight * finer,
               .balls = std::move(balls),
               .camera = {.position = {0, 0.6, 7}, .target = {0, 0, 0}, .fovDegrees = 40, .nearPlane = 0.1}};
-  // Coarse, and with a sun of no more than 20: a pixel that misses or meets a detail of a reflection is no matter of the lens.
-  constexpr int kCoarser = 8;
-  assets::ImageF coarse{.width = sky->width / kCoarser, .height = sky->height / kCoarser, .channels = 4};
-  coarse.texels.resize(std::size_t(coarse.width * coarse.height) * 4);
-  for (int y = 0; y < coarse.height * kCoarser; ++y)
-    for (int x = 0; x < coarse.width * kCoarser; ++x)
-      for (int c = 0; c < 4; ++c)
-        coarse.texels[std::size_t((y / kCoarser) * coarse.width + x / kCoarser) * 4 + std::size_t(c)] +=
-            std::min(sky->texels[std::size_t(y * sky->width + x) * 4 + std::size_t(c)], 20.0f) /
-            (kCoarser * kCoarser);
-  setup.environment = std::make_shared<const assets::ImageF>(std::move(coarse));
+  setup.environment = coarseEnvironment();
   return setup;
 }
-
-// Row y, column x: three numbers.
-using Radiance = std::vector<double>;
 
 Radiance throughLens(const std::vector<Ball>& balls, const Lens& lens) {
   Setup setup = sceneOf(balls, kFiner);
@@ -106,31 +89,6 @@ Radiance byWeft(const std::vector<Ball>& balls, const Lens& lens) {
   for (std::uint32_t y = 0; y < kHeight; ++y)
     for (std::uint32_t x = 0; x < kWidth; ++x)
       for (int c = 0; c < 3; ++c) result.push_back(double(panels.at(kWidth + x, y)[c]));
-  return result;
-}
-
-double shown(double radiance) {
-  return 255 * std::pow(radiance / (1 + radiance), 1 / 2.2);
-}
-
-struct Difference {
-  double mean = 0, percentile99 = 0, above32 = 0;
-};
-
-Difference differenceOf(const Radiance& a, const Radiance& b) {
-  std::vector<double> pixels;
-  Difference result;
-  for (std::size_t i = 0; i < a.size(); i += 3) {
-    double worst = 0;
-    for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(shown(a[i + c]) - shown(b[i + c])));
-    pixels.push_back(worst);
-    result.mean += worst;
-    result.above32 += worst > 32;
-  }
-  std::sort(pixels.begin(), pixels.end());
-  result.mean /= double(pixels.size());
-  result.above32 /= double(pixels.size());
-  result.percentile99 = pixels[pixels.size() * 99 / 100];
   return result;
 }
 

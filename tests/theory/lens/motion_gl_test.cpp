@@ -63,10 +63,10 @@ Dark darkOf(const Panels& panels, std::uint32_t panel) {
 
 const Ball kGrey{.center = {0, 0, 0}, .radius = 2, .albedo = {0.2f, 0.2f, 0.2f}};
 
-// World units per second across the view that move a point at distance 18 by `pixels` in a frame.
+// World units per second across the view that move the silhouette of kGrey, at a distance of 19.8, by `pixels` in a frame.
 float speedOf(double pixels) {
   const double focal = kHeight / 2.0 / std::tan(M_PI / 6);
-  return static_cast<float>(pixels * 18 / focal * 60);
+  return static_cast<float>(pixels * 19.8 / focal * 60);
 }
 
 }  // namespace
