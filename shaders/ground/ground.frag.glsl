@@ -70,10 +70,13 @@ void main() {
   float all = dot(from_sky + from_sun + from_spot, luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
   float surface = self.radius > 0.0 ? 1.0 - smoothstep(0.5 * self.radius, self.radius, length(at.xz)) : 0.0;
   float kept = min(left, 1.0);  // of the light of the environment behind
+  vec3 thrown = self.albedo * arrives;
 #ifdef HAS_AIR
-  kept = mix(1.0, kept, fogTransmittance(at - eye));
+  float through = throughFog(at - eye);
+  kept = mix(1.0, kept, through);
+  thrown = mix(fog_light.rgb, thrown, through);
 #endif
-  radiance = vec4(throughFog(self.albedo * arrives, at - eye) * surface, 1.0 - (1.0 - surface) * kept);
+  radiance = vec4(thrown * surface, 1.0 - (1.0 - surface) * kept);
 #endif
 #ifdef HAS_VELOCITY
   vec4 before = previous_view_projection * vec4(at, 1.0);
