@@ -8,9 +8,9 @@
 // params  count       spheres
 //         cells       as that shader had it
 //         reach       in radii
-#include "caps.glsl"
 #include "grid.glsl"
 #include "lists.glsl"
+#include "overlap.glsl"
 #ifdef HAS_GROUND
 #include "scene/ground.glsl"
 #endif
@@ -24,7 +24,7 @@ layout(std140) uniform Parameters {
   float reach;
 };
 
-const int kCandidates = 128;
+const int kCandidates = 120;
 const float kHidden = 0.03;  // of a cap
 const float kImage = 1.3;    // fitted to traced paths
 
@@ -32,7 +32,8 @@ const float kImage = 1.3;    // fitted to traced paths
 uint rows[kCandidates];
 float sines[kCandidates];
 float angles[kCandidates];
-vec4 directions[kCandidates];  // unit; distance
+float distances[kCandidates];
+float x[kCandidates], y[kCandidates], z[kCandidates];  // of the direction, unit
 int found = 0;
 
 void consider(uint self, uint row) {
@@ -65,15 +66,18 @@ void main() {
   vec3 center = instance[self].center;
   float far = reach * grid_radii.x + instance[self].radius;
   ivec3 low = cellOf(center - far), high = cellOf(center + far);
-  for (int z = low.z; z <= high.z; ++z)
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) considerCell(self, cellIndex(ivec3(x, y, z)));
+  for (int k = low.z; k <= high.z; ++k)
+    for (int j = low.y; j <= high.y; ++j)
+      for (int i = low.x; i <= high.x; ++i) considerCell(self, cellIndex(ivec3(i, j, k)));
   considerCell(self, cells);
 
   for (int i = 0; i < found; ++i) {
     vec3 to = instance[rows[i]].center - center;
     float distance_to = length(to);
-    directions[i] = vec4(to / distance_to, distance_to);
+    distances[i] = distance_to;
+    x[i] = to.x / distance_to;
+    y[i] = to.y / distance_to;
+    z[i] = to.z / distance_to;
     angles[i] = fastAtan(sines[i], sqrt(max(1.0 - sines[i] * sines[i], 0.0)));
   }
   int listed = 0;
@@ -88,10 +92,11 @@ void main() {
 #endif
   for (int i = 0; i < found && listed < kMost; ++i) {
     float left = 1.0;
-    vec3 axis = directions[i].xyz;
+    vec3 axis = vec3(x[i], y[i], z[i]);
     for (int j = 0; j < found && left >= kHidden; ++j) {
-      if (directions[j].w >= directions[i].w * 0.999999) continue;
-      float apart = fastAtan(length(cross(axis, directions[j].xyz)), dot(axis, directions[j].xyz));
+      if (distances[j] >= distances[i] * 0.999999) continue;
+      vec3 other = vec3(x[j], y[j], z[j]);
+      float apart = fastAtan(length(cross(axis, other)), dot(axis, other));
       left *= 1.0 - capOverlap(angles[j], angles[i], apart);
     }
     if (left < kHidden) continue;

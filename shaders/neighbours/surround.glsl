@@ -37,7 +37,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
 #endif
 #ifdef HAS_SUN
   vec3 sun_direction = sun_light[0].direction;
-  float sun_angle = max(arcCosine(sun_light[0].cos_angle), 0.002);
+  float sun_angle = max(sqrt(max(1.0 - sun_light[0].cos_angle * sun_light[0].cos_angle, 0.0)), 0.002);
 #endif
   float reach = texelFetch(neighbours, ivec2(0), 0).x;
   ivec2 texel = neighbourTexel(row, 0);
@@ -79,16 +79,10 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
   return all;
 }
 
-#ifdef HAS_IRRADIANCE
-vec3 irradianceTowards(vec3 direction) {
-  vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
-  return sampleEquirect(irradiance, equirectUv(direction) - vec2(sky_turn, 0.0), lookup).rgb;
-}
-
-// Light from everywhere, in place of irradianceTowards(n). What hides a share of it is lit as this point is, so that the light goes to
+// Light from everywhere of a point with normal n: `sky` is the irradiance map's value in the bent direction, `below` that straight down. What hides a share of it is lit as this point is, so that the light goes to
 // and fro: a geometric series (Stewart and Langer, "Towards accurate recovery of shape from shading under diffuse lighting", PAMI 1997).
-vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe) {
-  vec3 sky = irradianceTowards(surround.bent), seen = vec3(surround.seen);
+vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below) {
+  vec3 seen = vec3(surround.seen);
 #ifdef HAS_BRIGHTEST
   vec3 spot = brightest_light.rgb / kPi;
   sky = max(sky - spot * max(dot(surround.bent, lobe.spot), 0.0), vec3(0.0));
@@ -100,16 +94,7 @@ vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe) {
 #ifdef HAS_BRIGHTEST
   around += spot * (max(dot(n, lobe.spot), 0.0) * surround.spot_seen);
 #endif
-  if (surround.foot > 0.0) around = max(around - irradianceTowards(vec3(0.0, -1.0, 0.0)) * surround.foot, vec3(0.0));
-  return around;
+  return max(around - below * surround.foot, vec3(0.0));
 }
-
-// What the lobe meets, in place of a share of the environment: other spheres, lit from where they face.
-vec3 mirroredSpheres(Surround surround) {
-  return surround.mirror_seen < 0.999 ? surround.mirror_albedo * irradianceTowards(surround.mirror_facing) : vec3(0.0);
-}
-#else
-vec3 mirroredSpheres(Surround surround) { return vec3(0.0); }
-#endif
 
 #endif

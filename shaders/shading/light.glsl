@@ -33,9 +33,12 @@
 #ifdef HAS_PROBES
 #include "gi/bounce.glsl"
 #endif
-#ifdef HAS_NEIGHBOURS
+#if defined HAS_NEIGHBOURS && LOBE_IS_FLAT
+#define SEES_NEIGHBOURS 1
 #include "neighbours/surround.glsl"
 flat in uint sphere_row;
+#else
+#define SEES_NEIGHBOURS 0
 #endif
 #ifdef HAS_SUN_MAP
 #include "shading/sun_shadow.glsl"
@@ -86,7 +89,7 @@ void main() {
 #if !LOBE_IS_FLAT
   Lobe lobe = lobeOf(point.roughness, 0.0);
 #endif
-#ifdef HAS_NEIGHBOURS
+#if SEES_NEIGHBOURS
   Surround surround = surroundOf(sphere_row, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, lobe);
 #endif
   // What single scattering reflects of the environment.
@@ -104,8 +107,13 @@ void main() {
 #endif
   reflected = mix(sharp, reflected, lobe.maps.z);
 #endif
-#ifdef HAS_NEIGHBOURS
-  reflected = reflected * surround.mirror_seen + mirroredSpheres(surround);
+#if SEES_NEIGHBOURS
+  reflected *= surround.mirror_seen;
+#ifdef HAS_IRRADIANCE
+  vec2 met = equirectUv(surround.mirror_facing) - vec2(sky_turn, 0.0);
+  if (surround.mirror_seen < 0.999)
+    reflected += surround.mirror_albedo * sampleEquirect(irradiance, met, equirectLookup(0.0, float(textureSize(irradiance, 0).y))).rgb;
+#endif
 #endif
   reflected *= response.single;
 #ifdef HAS_BRIGHTEST
@@ -119,7 +127,7 @@ void main() {
   strength += lobe.shares.z / (shared_by.x * shared_by.y * max(coverage, 0.1));
 #endif
   float m = 1.0 - 0.5 * sqrt(h2), m2 = m * m;
-#ifdef HAS_NEIGHBOURS
+#if SEES_NEIGHBOURS
   strength *= surround.spot_seen;
 #endif
   reflected += (response.f0 + (1.0 - response.f0) * (m2 * m2 * m)) * lobe.light * strength;
@@ -129,10 +137,13 @@ void main() {
   vec3 around = vec3(0.0);
 #ifdef HAS_IRRADIANCE
   vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
-#ifdef HAS_NEIGHBOURS
-  around = aroundSeen(surround, point.n, lobe);
-#else
-  around = sampleEquirect(irradiance, equirectUv(point.n) - vec2(sky_turn, 0.0), lookup).rgb;
+  vec3 facing = point.n;
+#if SEES_NEIGHBOURS
+  facing = surround.bent;
+#endif
+  around = sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), lookup).rgb;
+#if SEES_NEIGHBOURS
+  around = aroundSeen(surround, point.n, lobe, around, sampleEquirect(irradiance, vec2(0.0, 1.0), lookup).rgb);
 #endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];
@@ -152,7 +163,7 @@ void main() {
 #ifdef HAS_SUN_MAP
     from_lights *= seenOfSun(light, point.at, point.n);
 #endif
-#ifdef HAS_NEIGHBOURS
+#if SEES_NEIGHBOURS
     from_lights *= surround.sun_seen;
 #endif
   }

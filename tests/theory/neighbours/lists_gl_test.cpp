@@ -12,7 +12,7 @@ using namespace weft::theory;
 
 namespace {
 
-constexpr std::size_t kMost = 48, kCandidates = 128, kAcross = 64;
+constexpr std::size_t kMost = 48, kCandidates = 120, kAcross = 64;
 constexpr double kHidden = 0.03, kClose = 4e-3, kRounding = 1e-6;
 
 struct Entry {

@@ -1,0 +1,25 @@
+// What caps of directions, and discs in the sky, cover of each other.
+#ifndef NEIGHBOURS_OVERLAP_GLSL
+#define NEIGHBOURS_OVERLAP_GLSL
+
+#include "common/equirect.glsl"
+
+// Share of a cap of half angle `wide` that one of half angle `over` covers, their axes `apart`: a smooth step between touching and covering
+// (Oat and Sander, "Ambient aperture lighting", I3D 2007).
+float capOverlap(float over, float wide, float apart) {
+  float least = min(over, wide), size = sin(0.5 * least) / sin(0.5 * wide), x = clamp((over + wide - apart) / (2.0 * least), 0.0, 1.0);
+  return size * size * x * x * (3.0 - 2.0 * x);
+}
+
+// Share of a disc of radius `wide` that one of radius `over` covers, their centres `apart`: the area that two circles share. Small angles.
+float discOverlap(float over, float wide, float apart) {
+  if (apart >= over + wide) return 0.0;
+  float least = min(over, wide);
+  if (apart <= abs(over - wide)) return least * least / (wide * wide);
+  float a2 = apart * apart, o2 = over * over, w2 = wide * wide;
+  float kite = (over + wide - apart) * (apart + over - wide) * (apart + wide - over) * (over + wide + apart);
+  float of_over = acos(clamp((a2 + o2 - w2) / (2.0 * apart * over), -1.0, 1.0)), of_wide = acos(clamp((a2 + w2 - o2) / (2.0 * apart * wide), -1.0, 1.0));
+  return (o2 * of_over + w2 * of_wide - 0.5 * sqrt(max(kite, 0.0))) / (kPi * w2);
+}
+
+#endif
