@@ -70,13 +70,14 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(current, 0) - 1;
   vec2 size = vec2(last + 1);
   vec4 own = texelFetch(current, pixel, 0);
-  vec3 color = finite(own.rgb), sum = vec3(0.0), squares = vec3(0.0);
+  vec3 color = finite(own.rgb), sum = vec3(0.0), squares = vec3(0.0), darkest = color;
   ivec2 nearest = pixel;
   float near = -1.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), last);
-      vec3 c = toYcocg(finite(texelFetch(current, at, 0).rgb));
+      vec3 there_now = finite(texelFetch(current, at, 0).rgb), c = toYcocg(there_now);
+      darkest = min(darkest, there_now);
       sum += c;
       squares += c * c;
       float there = texelFetch(depth, at, 0).r;
@@ -110,7 +111,8 @@ void main() {
   vec3 old = still ? history.rgb : sharpHistory(before, size);
   vec3 offset = toYcocg(old) - mean, ratio = abs(offset) / wide;
   float beyond = max(ratio.x, max(ratio.y, ratio.z));
-  if (!known && beyond > 1.0) old = max(fromYcocg(mean + offset / beyond), 0.0);
+  if (!known && beyond > 1.0) old = fromYcocg(mean + offset / beyond);
+  if (!known) old = max(old, darkest);  // no dark ring around a glint
 
   bool finished = known && state >= kPeriod + frames;
   vec3 mixture = finished ? history.rgb : toHalf(mix(old, color, weight), pixel, state);
