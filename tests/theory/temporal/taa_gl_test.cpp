@@ -15,11 +15,15 @@ namespace {
 
 constexpr std::uint32_t kWidth = 128, kHeight = 80, kFine = 8;
 // What is known after the first frame, eight more, one round of the camera's offsets, and the frames that are averaged.
-constexpr std::uint32_t kConverged = 8 + 16 + 128 + 2;
+constexpr std::uint32_t kFrames = 64, kConverged = 8 + 16 + kFrames + 2;
 
 Setup busy() {
   Setup setup{.graph = "graphs/taa.json", .width = kWidth, .height = kHeight};
-  setup.sets = {{"curve", "linear"}, {"composite.white", "1"}, {"dither", "false"}, {"bloom", "false"}};
+  setup.sets = {{"curve", "linear"},
+                {"composite.white", "1"},
+                {"dither", "false"},
+                {"bloom", "false"},
+                {"taa_frames", std::to_string(kFrames)}};
   setup.camera = {.position = {0, 0, 10}, .target = {0, 0, 0}, .fovDegrees = 45, .nearPlane = 0.1};
   float x = -5;
   for (const float roughness : {0.0f, 0.1f, 0.3f, 0.6f}) {
@@ -110,7 +114,7 @@ TEST_CASE("temporal anti-aliasing: a still picture comes to rest, to the bit") {
     for (std::uint32_t frame = 0; frame < kConverged; ++frame) lab.frame(frame);
     const Picture rest = lab.read("post.taa.kept");
     int young = 0;
-    for (std::size_t i = 3; i < rest.texels.size(); i += 4) young += rest.texels[i] < 16 + 128;
+    for (std::size_t i = 3; i < rest.texels.size(); i += 4) young += rest.texels[i] < 16 + kFrames;
     CHECK(young == 0);
     for (std::uint32_t frame = kConverged; frame < kConverged + 17; ++frame) {
       lab.frame(frame);
@@ -186,7 +190,7 @@ TEST_CASE("temporal anti-aliasing: a ball that moves four pixels a frame leaves 
 }
 
 TEST_CASE("temporal anti-aliasing: light that changes on still things is followed") {
-  constexpr std::uint32_t kFrom = 160;  // as in dim.json: by then the picture rests
+  constexpr std::uint32_t kFrom = 100;  // as in dim.json: by then the picture rests
   static_assert(kFrom > kConverged);
   Setup setup = busy();
   setup.graph = "tests/theory/temporal/dim.json";
