@@ -117,8 +117,9 @@ TEST_CASE("aperture: a near field before things nearer to the focus is what 64 p
   const Difference difference = differenceOf(truth, weft);
   MESSAGE("mean ", difference.mean, ", 99th percentile ", difference.percentile99,
           ", above 32: ", 100 * difference.above32, " %");
-  // Measured: 1.55, 14.6 and 0.014 %. With one layer for all of the near field: 1.89, 21.0 and 0.249 %.
-  CHECK(difference.mean < 1.7);
-  CHECK(difference.percentile99 < 16);
+  // Measured: 1.30, 13.9 and 0.007 %. With one layer for all of the near field, and reflections as they were before 2026-11-22: 1.89, 21.0 and
+  // 0.249 %.
+  CHECK(difference.mean < 1.4);
+  CHECK(difference.percentile99 < 14.5);
   CHECK(difference.above32 < 0.0005);
 }
