@@ -83,6 +83,11 @@ std::size_t bandedDistance(std::string_view a, std::string_view b, std::size_t l
   return a.empty() ? b.size() : distance;
 }
 
+// Two edits make another word of a short one, unless it begins the same: "mul" is not "all", "round" not "count".
+bool isFar(std::string_view name, std::string_view candidate, std::size_t distance) {
+  return distance > 1 && name.size() < 6 && name[0] != candidate[0];
+}
+
 struct Nearest {
   std::size_t index = 0, distance = 0;
 };
@@ -108,8 +113,9 @@ std::optional<Nearest> findNearest(std::string_view name, std::span<const std::s
     if (static_cast<std::size_t>(
             std::max(std::popcount(classes & ~others), std::popcount(others & ~classes))) > limit)
       continue;
-    const std::size_t distance = bandedDistance(wanted, lowered(candidate), limit);
-    if (distance > limit) continue;
+    const std::string other = lowered(candidate);
+    const std::size_t distance = bandedDistance(wanted, other, limit);
+    if (distance > limit || isFar(wanted, other, distance)) continue;
     found = {i, distance};
     if (distance == 0) break;
     limit = distance - 1;

@@ -20,7 +20,7 @@ std::size_t editDistance(std::string_view a, std::string_view b);
 std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit);
 
 // The candidate with the smallest edit distance to `name`, or "" when none is within a third of its length
-// (at least 2).
+// (at least 2). Of names of fewer than 6 letters two edits are too far, unless the first letter is the same.
 std::string nearestName(std::string_view name, std::span<const std::string> candidates);
 
 // "did you mean 'x'?" (or 'y', at most three, when they are as near), or "known: a, b, c" when nothing is

@@ -23,6 +23,15 @@ TEST_CASE("nearest name, or the list when nothing is near") {
   CHECK(nearestHint("velocity", names) == "known: scene, glow, ldr");
 }
 
+TEST_CASE("two edits make another word of a short name") {
+  CHECK(nearestName("mul", {{"all"}}).empty());
+  CHECK(nearestName("round", {{"count"}}).empty());
+  CHECK(nearestName("lerp", {{"exp"}}).empty());
+  CHECK(nearestName("D32", {{"r32f"}}).empty());
+  CHECK(nearestName("gllow", {{"glow"}}) == "glow");
+  CHECK(nearestName("lrde", {{"ldr"}}) == "ldr");
+}
+
 TEST_CASE("names that are as near are all offered") {
   const std::vector<std::string> formats = {"rgba8", "rgba16", "rgba16f", "r8"};
   CHECK(weft::base::nearestHint("rgba16q", formats) == "did you mean 'rgba16' or 'rgba16f'?");
@@ -51,7 +60,9 @@ std::string wholeNearest(const std::string& name, const std::vector<std::string>
   std::size_t best = std::numeric_limits<std::size_t>::max();
   std::string found;
   for (const std::string& candidate : candidates)
-    if (const std::size_t distance = wholeDistance(name, candidate); distance < best) {
+    if (const std::size_t distance = wholeDistance(name, candidate);
+        distance < best && (distance < 2 || name.size() > 5 || candidate.empty() ||
+                            std::tolower(name[0]) == std::tolower(candidate[0]))) {
       best = distance;
       found = candidate;
     }

@@ -1,0 +1,324 @@
+#include "engine/base/foreign_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace weft::base {
+
+namespace {
+
+struct Word {
+  std::string_view theirs, hint;
+};
+
+constexpr Word kPassKeys[] = {
+    {"inputs", "slots that are read stand in \"read\""},
+    {"input", "slots that are read stand in \"read\""},
+    {"reads", "slots that are read stand in \"read\""},
+    {"textures", "slots that are read stand in \"read\""},
+    {"samplers", "slots that are read stand in \"read\""},
+    {"outputs", "slots that are written stand in \"write\""},
+    {"output", "slots that are written stand in \"write\""},
+    {"writes", "slots that are written stand in \"write\""},
+    {"target", "slots that are written stand in \"write\""},
+    {"targets", "slots that are written stand in \"write\""},
+    {"attachments", "slots that are written stand in \"write\""},
+    {"color", "slots that are written stand in \"write\""},
+    {"depth", "slots that are written stand in \"write\" or, with a depth test, in \"modify\""},
+    {"uniforms", "uniforms stand in \"parameters\""},
+    {"constants", "uniforms stand in \"parameters\""},
+    {"params", "uniforms stand in \"parameters\""},
+    {"macros", "preprocessor names stand in \"defines\""},
+    {"definitions", "preprocessor names stand in \"defines\""},
+    {"fragment", "the shader's path stands in \"shader\""},
+    {"frag", "the shader's path stands in \"shader\""},
+    {"program", "the shader's path stands in \"shader\""},
+    {"material", "the shader's path stands in \"shader\""},
+    {"vertex", "of a draw: \"shader\": { \"vertex\": …, \"fragment\": … }"},
+    {"if", "a condition stands in \"enabled\""},
+    {"when", "a condition stands in \"enabled\""},
+    {"condition", "a condition stands in \"enabled\""},
+    {"active", "a condition stands in \"enabled\""},
+    {"disabled", "say \"enabled\": false"},
+    {"loop", "write \"repeat\": { \"i\": [first, last] }"},
+    {"count", "write \"repeat\": { \"i\": [first, last] }"},
+    {"dispatch", "compute invocations stand in \"threads\""},
+    {"groups", "compute invocations stand in \"threads\""},
+    {"workgroups", "compute invocations stand in \"threads\""},
+    {"clear", "a texture says with what it begins: \"clear\" in \"resources\""},
+    {"size", "a texture says its size, in \"resources\""},
+    {"viewport", "a texture says its size, in \"resources\""},
+    {"format", "a texture says its format, in \"resources\""},
+    {"depends", "order follows from what passes read and write, and from their place in the list"},
+    {"dependencies", "order follows from what passes read and write, and from their place in the list"},
+};
+constexpr Word kTextureKeys[] = {
+    {"format", "the format is the value of \"texture\""},
+    {"width", "write \"size\": [width, height]"},
+    {"height", "write \"size\": [width, height]"},
+    {"scale", "write \"size\": \"screen/2\""},
+    {"resolution", "write \"size\": \"screen\" or [width, height]"},
+    {"levels", "the number of levels is \"mips\""},
+    {"mipmaps", "the number of levels is \"mips\""},
+    {"mip_levels", "the number of levels is \"mips\""},
+    {"msaa", "the number of samples is \"samples\""},
+    {"array_size", "an array texture has \"layers\", an array of textures \"array\""},
+    {"slices", "an array texture has \"layers\""},
+    {"type", "\"view\" says 2d_array, cube, cube_array or 3d"},
+    {"dimension", "\"view\" says 2d_array, cube, cube_array or 3d"},
+    {"filter", "a reference says how it is sampled: \"map as linear\""},
+    {"wrap", "a reference says how it is sampled: \"map as linear wrap\""},
+    {"sampler", "a reference says how it is sampled: \"map as linear\""},
+    {"persistent", "earlier frames are kept with \"history\": 1 and read as x@-1"},
+    {"usage", "leave it out: how passes use a texture says all"},
+    {"clear_value", "write \"clear\""},
+};
+constexpr Word kGraphKeys[] = {
+    {"textures", "textures and buffers stand in \"resources\""},
+    {"buffers", "textures and buffers stand in \"resources\""},
+    {"images", "textures and buffers stand in \"resources\""},
+    {"targets", "textures and buffers stand in \"resources\""},
+    {"nodes", "write \"passes\""},
+    {"effects", "write \"passes\""},
+    {"steps", "write \"passes\""},
+    {"variables", "values that are set stand in \"parameters\", computed ones in \"let\""},
+    {"uniforms", "values that are set stand in \"parameters\", computed ones in \"let\""},
+    {"constants", "computed values stand in \"let\""},
+    {"include", "an include stands in \"passes\": { \"include\": \"file.json\" }"},
+    {"includes", "an include stands in \"passes\": { \"include\": \"file.json\" }"},
+    {"output", "what is shown stands in \"present\""},
+    {"screen", "what is shown stands in \"present\""},
+    {"backbuffer", "what is shown stands in \"present\""},
+};
+constexpr Word kStateWords[] = {
+    {"lequal", "write 'less_equal'"},
+    {"gequal", "write 'greater_equal'"},
+    {"notequal", "write 'not_equal'"},
+    {"lessequal", "write 'less_equal'"},
+    {"lessorequal", "write 'less_equal'"},
+    {"greaterequal", "write 'greater_equal'"},
+    {"greaterorequal", "write 'greater_equal'"},
+    {"less", "write 'less'"},
+    {"greater", "write 'greater'"},
+    {"equal", "write 'equal'"},
+    {"always", "write 'always'"},
+    {"never", "write 'never'"},
+    {"<", "write 'less'"},
+    {"<=", "write 'less_equal'"},
+    {">", "write 'greater'"},
+    {">=", "write 'greater_equal'"},
+    {"==", "write 'equal'"},
+    {"additive", "write 'add'"},
+    {"alphablend", "write 'alpha'"},
+    {"over", "write 'alpha', or 'premultiplied' where colour is multiplied by alpha already"},
+    {"blend", "write 'alpha', or 'premultiplied' where colour is multiplied by alpha already"},
+    {"srcalpha", "write 'alpha'"},
+    {"modulate", "write 'multiply'"},
+    {"opaque", "write 'none'"},
+    {"off", "write 'none'"},
+    {"cw", "counter-clockwise triangles are the front; write 'front' or 'back'"},
+    {"ccw", "counter-clockwise triangles are the front; write 'front' or 'back'"},
+    {"backface", "write 'back'"},
+    {"frontface", "write 'front'"},
+    {"wireframe", "write 'line'"},
+    {"solid", "write 'fill'"},
+};
+constexpr Word kValueTypes[] = {
+    {"float1", "write \"float\""},
+    {"number", "write \"float\""},
+    {"double", "write \"float\""},
+    {"half", "write \"float\""},
+    {"scalar", "write \"float\""},
+    {"real", "write \"float\""},
+    {"float2", "write \"vec2\""},
+    {"float3", "write \"vec3\""},
+    {"float4", "write \"vec4\""},
+    {"point2d", "write \"vec2\""},
+    {"color", "write \"vec3\", or \"vec4\" with alpha"},
+    {"colour", "write \"vec3\", or \"vec4\" with alpha"},
+    {"rgb", "write \"vec3\""},
+    {"rgba", "write \"vec4\""},
+    {"boolean", "write \"bool\""},
+    {"integer", "write \"int\""},
+    {"uint", "write \"int\", with \"min\": 0"},
+    {"long", "write \"int\""},
+    {"enum", "write \"choice\", with \"choices\""},
+    {"string", "write \"choice\" for one of some words, \"file\" for a path"},
+    {"select", "write \"choice\", with \"choices\""},
+    {"path", "write \"file\""},
+    {"texture", "write \"file\" for the path of one that an import reads"},
+};
+constexpr Word kSampling[] = {
+    {"repeat", "write 'wrap'"},
+    {"tile", "write 'wrap'"},
+    {"point", "write 'nearest'"},
+    {"bilinear", "write 'linear'"},
+    {"trilinear", "write 'linear': levels are filtered the same way"},
+    {"clamp_to_edge", "write 'clamp'"},
+    {"edge", "write 'clamp'"},
+    {"shadow", "write 'compare'"},
+    {"comparison", "write 'compare'"},
+    {"uav", "write 'image'"},
+    {"rwtexture", "write 'image'"},
+    {"texture", "write 'sampled'"},
+    {"srv", "write 'sampled'"},
+    {"ssbo", "write 'storage'"},
+    {"ubo", "write 'uniform'"},
+};
+constexpr Word kExpressions[] = {
+    {"round", "write 'floor(a + 0.5)'"},
+    {"clamp", "write 'min(max(a, low), high)'"},
+    {"saturate", "write 'min(max(a, 0), 1)'"},
+    {"int", "write 'floor(a)'"},
+    {"trunc", "write 'floor(a)', or 'ceil(a)' below zero"},
+    {"sqrt", "there is none: compute it in the shader"},
+    {"pow", "there is none: 'a * a', or compute it in the shader"},
+    {"exp2", "there is none: compute it in the shader, or give a table by '?:'"},
+    {"log2", "write 'log2ceil(a)' for whole levels"},
+    {"mod", "write 'a % b'"},
+    {"lerp", "write 'a + (b - a) * t'"},
+    {"mix", "write 'a + (b - a) * t'"},
+    {"step", "write 'a < b ? 0 : 1'"},
+    {"select", "write 'condition ? a : b'"},
+    {"width", "write 'size(name).x'"},
+    {"height", "write 'size(name).y'"},
+    {"levels", "write 'mips(name)'"},
+    {"exists", "write 'has(name)'"},
+    {"length", "write 'count(name)'"},
+    {"vec2", "write a list: '[a, b]'"},
+    {"vec3", "write a list: '[a, b, c]'"},
+    {"vec4", "write a list: '[a, b, c, d]'"},
+};
+constexpr Word kShaderNames[] = {
+    {"float2", "GLSL says 'vec2'"},
+    {"float3", "GLSL says 'vec3'"},
+    {"float4", "GLSL says 'vec4'"},
+    {"half", "GLSL says 'float'"},
+    {"half2", "GLSL says 'vec2'"},
+    {"half3", "GLSL says 'vec3'"},
+    {"half4", "GLSL says 'vec4'"},
+    {"int2", "GLSL says 'ivec2'"},
+    {"int3", "GLSL says 'ivec3'"},
+    {"int4", "GLSL says 'ivec4'"},
+    {"uint2", "GLSL says 'uvec2'"},
+    {"uint3", "GLSL says 'uvec3'"},
+    {"uint4", "GLSL says 'uvec4'"},
+    {"float2x2", "GLSL says 'mat2'"},
+    {"float3x3", "GLSL says 'mat3'"},
+    {"float4x4", "GLSL says 'mat4'"},
+    {"saturate", "GLSL says 'clamp(x, 0.0, 1.0)'"},
+    {"lerp", "GLSL says 'mix'"},
+    {"frac", "GLSL says 'fract'"},
+    {"mul", "GLSL says 'a * b'"},
+    {"rsqrt", "GLSL says 'inversesqrt'"},
+    {"ddx", "GLSL says 'dFdx'"},
+    {"ddy", "GLSL says 'dFdy'"},
+    {"atan2", "GLSL says 'atan(y, x)'"},
+    {"fmod", "GLSL says 'mod'"},
+    {"mad", "GLSL says 'fma'"},
+    {"clip", "GLSL says 'if (x < 0.0) discard;'"},
+    {"asuint", "GLSL says 'floatBitsToUint'"},
+    {"asfloat", "GLSL says 'uintBitsToFloat'"},
+    {"tex2D", "GLSL says 'texture(map, uv)'"},
+    {"tex2Dlod", "GLSL says 'textureLod(map, uv, level)'"},
+    {"texture2D", "this version of GLSL says 'texture(map, uv)'"},
+    {"texture2DLod", "this version of GLSL says 'textureLod(map, uv, level)'"},
+    {"textureCube", "this version of GLSL says 'texture(map, direction)'"},
+    {"shadow2D", "this version of GLSL says 'texture(map, uvz)'"},
+    {"gl_FragColor", "declare an output with the name of the slot: 'out vec4 result;'"},
+    {"gl_FragData", "declare an output for each slot, with its name: 'out vec4 result;'"},
+    {"gl_ModelViewProjectionMatrix", "#include \"common/view.glsl\" has 'view_projection'"},
+    {"gl_Vertex", "declare an attribute of the geometry: 'in vec3 position;'"},
+    {"gl_Normal", "declare an attribute of the geometry: 'in vec3 normal;'"},
+    {"iTime", "#include \"common/view.glsl\" has 'time'"},
+    {"iResolution", "#include \"common/view.glsl\" has 'viewport'"},
+    {"iFrame", "#include \"common/view.glsl\" has 'frame'"},
+    {"iChannel0", "declare a sampler with the name of the slot: 'uniform sampler2D source;'"},
+    {"fragCoord", "GLSL says 'gl_FragCoord.xy'"},
+    {"fragColor", "declare an output with the name of the slot: 'out vec4 result;'"},
+};
+
+std::string lowered(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+std::span<const Word> wordsOf(Foreign where) {
+  switch (where) {
+    case Foreign::pass_key:
+      return kPassKeys;
+    case Foreign::texture_key:
+      return kTextureKeys;
+    case Foreign::graph_key:
+      return kGraphKeys;
+    case Foreign::state_word:
+      return kStateWords;
+    case Foreign::value_type:
+      return kValueTypes;
+    case Foreign::sampling:
+      return kSampling;
+    case Foreign::expression:
+      return kExpressions;
+    case Foreign::shader_name:
+      return kShaderNames;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string hintForForeign(Foreign where, std::string_view word) {
+  const bool exact = where == Foreign::shader_name;  // GLSL tells cases apart
+  std::string wanted = exact ? std::string(word) : lowered(word);
+  if (where == Foreign::state_word) {
+    for (const std::string_view prefix : {"gl_", "vk_compare_op_", "d3d11_comparison_", "comparison_"})
+      if (wanted.starts_with(prefix)) wanted.erase(0, prefix.size());
+    std::erase_if(wanted, [](char c) { return c == '_' || c == '-' || c == ' '; });
+  }
+  for (const Word& known : wordsOf(where))
+    if (known.theirs == wanted) return std::string(known.hint);
+  return {};
+}
+
+bool isGlslWord(std::string_view word) {
+  constexpr std::string_view kWords[] = {
+      "attribute", "const",    "uniform",   "varying",   "buffer",        "shared",
+      "coherent",  "volatile", "restrict",  "readonly",  "writeonly",     "atomic_uint",
+      "layout",    "centroid", "flat",      "smooth",    "noperspective", "patch",
+      "sample",    "break",    "continue",  "do",        "for",           "while",
+      "switch",    "case",     "default",   "if",        "else",          "subroutine",
+      "in",        "out",      "inout",     "float",     "double",        "int",
+      "void",      "bool",     "true",      "false",     "invariant",     "precise",
+      "discard",   "return",   "uint",      "lowp",      "mediump",       "highp",
+      "precision", "struct",   "common",    "partition", "active",        "asm",
+      "class",     "union",    "enum",      "typedef",   "template",      "this",
+      "resource",  "goto",     "inline",    "noinline",  "public",        "static",
+      "extern",    "external", "interface", "long",      "short",         "half",
+      "fixed",     "unsigned", "superp",    "input",     "output",        "filter",
+      "sizeof",    "cast",     "namespace", "using",     "sampler3DRect", "main"};
+  if (std::ranges::find(kWords, word) != std::end(kWords)) return true;
+  const auto rest = [&](std::string_view prefix) {
+    return word.starts_with(prefix) ? std::optional(word.substr(prefix.size())) : std::nullopt;
+  };
+  const auto isDigits = [](std::string_view text) { return text == "2" || text == "3" || text == "4"; };
+  for (const std::string_view prefix : {"vec", "ivec", "uvec", "bvec", "dvec", "hvec", "fvec"})
+    if (const auto tail = rest(prefix); tail && isDigits(*tail)) return true;
+  for (const std::string_view prefix : {"mat", "dmat"})
+    if (const auto tail = rest(prefix))
+      if (isDigits(*tail) || (tail->size() == 3 && (*tail)[1] == 'x' && isDigits(tail->substr(0, 1)) &&
+                              isDigits(tail->substr(2))))
+        return true;
+  for (const std::string_view prefix : {"sampler", "isampler", "usampler", "image", "iimage", "uimage"})
+    if (const auto tail = rest(prefix); tail && !tail->empty())
+      for (const std::string_view shape : {"1D", "2D", "3D", "Cube", "Buffer"})
+        if (tail->starts_with(shape)) return true;
+  return word.starts_with("gl_");
+}
+
+}  // namespace weft::base

@@ -1,0 +1,28 @@
+// Words that authors bring from other engines, APIs and shading languages, with what Weft and GLSL call the same thing; and
+// the words that GLSL keeps for itself. For hints: nothing is accepted that is not spelled as the format says.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace weft::base {
+
+enum class Foreign : std::uint8_t {
+  pass_key,     // of a pass stanza: "inputs"
+  texture_key,  // of a texture: "format"
+  graph_key,    // of a file: "nodes"
+  state_word,   // of "state": "lequal"
+  value_type,   // of a parameter: "float4"
+  sampling,     // behind "as": "repeat"
+  expression,   // a function in an expression: "round"
+  shader_name,  // in GLSL: "saturate", "gl_FragColor"
+};
+
+// What is to be written instead, as a hint ("write \"read\""), or "".
+std::string hintForForeign(Foreign where, std::string_view word);
+
+// Whether GLSL 4.5 keeps the word: a keyword, a type, or one that is reserved. Nothing in a shader can have such a name.
+bool isGlslWord(std::string_view word);
+
+}  // namespace weft::base

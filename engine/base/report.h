@@ -1,0 +1,19 @@
+// Diagnostics for other programs: JSON of Weft's own, and SARIF 2.1.0, which code hosts and editors read. Does not: choose
+// which of many to tell, or print.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/base/diagnostic.h"
+
+namespace weft::base {
+
+// An array of objects: severity, code, title, message, and where they are known file, line, column (from 1, in bytes),
+// pointer, pass, resource, expected, found, fix. `indent` as of a JSON printer; -1: one line.
+std::string diagnosticsJson(const Diagnostics& diagnostics, int indent = 2);
+
+// One SARIF document with one run. `version`: of the program.
+std::string diagnosticsSarif(const Diagnostics& diagnostics, std::string_view version);
+
+}  // namespace weft::base
