@@ -29,10 +29,12 @@ SUB_ROOMS = {
         "versions": {"."},
         "read": {".", "language"},
         "expand/names": {".", "language", "versions"},
-        "expand": {".", "language", "versions", "expand/names"},
+        "expand/judge": {".", "language", "versions", "expand/names"},
+        "expand": {".", "language", "versions", "expand/names", "expand/judge"},
         "compile": {".", "versions", "expand"},
         "print": {".", "language", "compile"},
         "edit": {".", "language", "read", "expand/names", "expand"},
+        "survey": {".", "language", "expand"},
         "workload": {".", "language", "versions"},
     },
     "assets": {

@@ -206,6 +206,13 @@ struct SetDesc {
   Value value;
 };
 
+// A pass or include that an overlay removed: a read of what it would write says so.
+struct RemovedPass {
+  std::string name;
+  Place place;                      // in the overlay
+  std::vector<std::string> writes;  // names of resources, as written
+};
+
 // Files by path, as they were read.
 using FileTexts = std::map<std::string, std::shared_ptr<const std::string>>;
 
@@ -219,7 +226,8 @@ struct GraphDesc {
   std::vector<PassDesc> passes;
   std::optional<RefDesc> present;
   std::vector<OutputDesc> outputs;
-  std::vector<SetDesc> sets;        // in order: the last wins
+  std::vector<SetDesc> sets;  // in order: the last wins
+  std::vector<RemovedPass> removed;
   std::vector<std::string> unread;  // names declared in this file that were reported as wrong and left out:
                                     // a use of one is no second error
   std::vector<std::string> files;   // this file, what it extends, its presets, and all of every file

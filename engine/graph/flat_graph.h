@@ -141,6 +141,7 @@ struct UniformSpec {
   std::string path;  // full name of the parameter behind it ("post.dof.aperture"), or empty
   Place place;
   Role role = Role::uniform;
+  bool constant = false;  // written as a number or a list
   bool choosesVariant() const { return role != Role::uniform; }
 };
 

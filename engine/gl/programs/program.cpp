@@ -53,9 +53,9 @@ std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsize
 // The log as diagnostics. What succeeded has no errors, whatever the driver's wording; what failed has at
 // least one.
 void reportLog(const std::string& log, const ShaderSource& source, Code code, bool succeeded,
-               const std::string& failure, Diagnostics& diagnostics) {
+               const std::string& failure, Diagnostics& diagnostics, std::span<const Define> defines = {}) {
   Diagnostics found;
-  mapLog(log, source, code, found);
+  mapLog(log, source, code, found, defines);
   for (base::Diagnostic d : found.items()) {
     if (succeeded && d.severity == Severity::error) d.severity = Severity::note;
     diagnostics.add(std::move(d));
@@ -78,7 +78,7 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   });
   reportLog(log, *stage.source, Code::shaderDoesNotCompile, compiled != 0,
             fmt::format("the {} does not compile, and the driver does not say why", stageName(stage.stage)),
-            diagnostics);
+            diagnostics, defines);
   return compiled != 0;
 }
 

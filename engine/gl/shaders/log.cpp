@@ -1,6 +1,7 @@
 // A driver's compile or link log to diagnostics with true places.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "engine/gl/shaders/source.h"
@@ -115,6 +116,38 @@ std::uint32_t trueColumn(std::string_view line, std::uint32_t column) {
   return 0;
 }
 
+// What stands between the parentheses of "vec4 texture(sampler2D, vec2)", apart.
+std::vector<std::string_view> argumentsOf(std::string_view call) {
+  std::vector<std::string_view> arguments;
+  const std::size_t open = call.find('('), close = call.rfind(')');
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return arguments;
+  for (std::string_view rest = call.substr(open + 1, close - open - 1); !rest.empty();) {
+    const std::size_t comma = rest.find(',');
+    arguments.push_back(trim(rest.substr(0, comma)));
+    rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
+  }
+  return arguments;
+}
+
+// Of a function's forms those that are most like the call, at most three: a list of 28 helps nobody.
+std::string nearestForms(std::string_view call, const std::vector<std::string>& forms) {
+  const std::vector<std::string_view> given = argumentsOf(call);
+  const auto likeness = [&](const std::string& form) {
+    const std::vector<std::string_view> wanted = argumentsOf(form);
+    int alike = wanted.size() == given.size() ? 2 : 0;
+    for (std::size_t i = 0; i < std::min(given.size(), wanted.size()); ++i)
+      alike += wanted[i] == given[i] ? (i == 0 ? 4 : 1) : 0;
+    return alike;
+  };
+  std::vector<std::string> sorted = forms;
+  std::ranges::stable_sort(sorted, std::ranges::greater(), likeness);
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, sorted.size()); ++i) text += (i ? "; " : "") + sorted[i];
+  if (sorted.size() > kShown) text += fmt::format("; or one of {} others", sorted.size() - kShown);
+  return text;
+}
+
 // Headings and rules of NVIDIA's logs.
 bool isOrnament(std::string_view text) {
   return text.empty() || text.find_first_not_of('-') == std::string_view::npos || text == "Vertex info" ||
@@ -124,21 +157,21 @@ bool isOrnament(std::string_view text) {
 }  // namespace
 
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
-                   base::Diagnostics& diagnostics) {
-  static const auto defines = std::make_shared<const std::string>("<defines>");
+                   base::Diagnostics& diagnostics, std::span<const Define> defines) {
+  static const auto prefix = std::make_shared<const std::string>("<defines>");
   std::vector<LogMessage> messages;
   LogMessage message;
   base::Diagnostic& pending = message.diagnostic;
   // Mesa gives each overload that does not fit a line of its own, at the place of the call: they are counted,
   // not reported.
   constexpr std::string_view kCandidates = "; candidates are:";
-  std::uint32_t candidates = 0, callLine = 0, callColumn = 0;
-  std::string only;
+  std::vector<std::string> candidates;
+  std::uint32_t callLine = 0, callColumn = 0;
   const auto flush = [&] {
-    if (candidates > 0) {
+    if (!candidates.empty()) {
       pending.message.resize(pending.message.size() - kCandidates.size());
-      pending.expected = candidates == 1 ? only : fmt::format("one of its {} forms", candidates);
-      candidates = 0;
+      pending.expected = nearestForms(pending.message, candidates);
+      candidates.clear();
     }
     if (!pending.message.empty()) messages.push_back(message);
     message = {};
@@ -155,8 +188,7 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
     }
     if (line && line->placed && line->line == callLine && line->column == callColumn &&
         pending.message.ends_with(kCandidates)) {
-      ++candidates;
-      only = trim(line->text);
+      candidates.emplace_back(trim(line->text));
       continue;
     }
     flush();
@@ -170,7 +202,7 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
       pending.place =
           source.placeOf(message.textLine, trueColumn(lineOf(source.text, message.textLine), line->column));
     } else if (line && line->placed) {
-      pending.place = {defines, line->line, line->column};
+      pending.place = {prefix, line->line, line->column};
     } else {
       pending.place = {source.file, 0, 0};
     }
@@ -178,7 +210,7 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
   flush();
   dropConsequences(messages);
   for (LogMessage& known : messages) {
-    explainMessage(known, source);
+    explainMessage(known, source, defines);
     diagnostics.add(std::move(known.diagnostic));
   }
   return messages.size();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <vector>
 
 namespace weft::gl {
@@ -74,7 +75,7 @@ namespace {
 // Collects the names of one global declaration, token by token.
 class DeclarationScan {
  public:
-  explicit DeclarationScan(NameSet& declared) : declared_(declared) {}
+  DeclarationScan(NameSet& declared, DeclaredParts& parts) : declared_(declared), parts_(parts) {}
 
   void feed(std::string_view token) {
     if (token == "{") {
@@ -82,9 +83,13 @@ class DeclarationScan {
     } else if (token == "}") {
       depth_ = std::max(0, depth_ - 1);
       statement_.clear();
+      closed_ = depth_ == 0 && inBlock_;
       if (depth_ == 0) inBlock_ = false;
     } else if (token == ";") {
-      if ((depth_ == 0 && isInterface()) || (depth_ == 1 && inBlock_)) addDeclarators();
+      if (std::exchange(closed_, false))
+        addInstance();
+      else if ((depth_ == 0 && isInterface()) || (depth_ == 1 && inBlock_))
+        addDeclarators();
       statement_.clear();
     } else if (depth_ <= 1) {
       statement_.emplace_back(token);
@@ -106,7 +111,9 @@ class DeclarationScan {
   }
   void openBlock() {
     inBlock_ = isInterface() && !statement_.empty() && isStart(statement_.back()[0]);
-    if (inBlock_) declared_.insert(statement_.back());
+    if (inBlock_) declared_.insert(block_ = statement_.back());
+    members_.clear();
+    closed_ = false;
     statement_.clear();
   }
   void addDeclarators() {
@@ -119,12 +126,37 @@ class DeclarationScan {
       const bool last = i + 1 == statement_.size();
       if (last || statement_[i + 1] == "," || statement_[i + 1] == "[" || statement_[i + 1] == "=") {
         const bool keyword = token == "in" || token == "out" || token == "uniform" || token == "buffer";
-        if (!keyword) declared_.insert(token);
+        if (keyword) continue;
+        declared_.insert(token);
+        if (inBlock_) members_.push_back(token);
+        addImageFormat(token);
       }
     }
   }
 
+  // What stands between a block's '}' and its ';'.
+  void addInstance() {
+    if (statement_.empty() || !isStart(statement_[0][0])) return;
+    parts_.instanceOf[block_] = statement_[0];
+    for (const std::string& member : members_) parts_.blockOf[member] = block_;
+  }
+  // The words of layout(…) of an image; which of them are formats is not known here.
+  void addImageFormat(const std::string& name) {
+    const bool image = std::ranges::any_of(statement_, [](const std::string& t) {
+      return t.starts_with("image") || t.starts_with("iimage") || t.starts_with("uimage");
+    });
+    const auto layout = std::ranges::find(statement_, "layout");
+    if (!image || layout == statement_.end()) return;
+    std::vector<std::string>& formats = parts_.imageFormats[name];
+    for (auto at = layout; at != statement_.end() && *at != ")"; ++at)
+      if (at != layout && isStart((*at)[0])) formats.push_back(*at);
+  }
+
   NameSet& declared_;
+  DeclaredParts& parts_;
+  std::string block_;  // the one that is open, or closed last
+  std::vector<std::string> members_;
+  bool closed_ = false;  // the statement is what follows a block
   std::vector<std::string> statement_;
   int depth_ = 0;
   bool inBlock_ = false;
@@ -132,8 +164,8 @@ class DeclarationScan {
 
 }  // namespace
 
-void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared) {
-  DeclarationScan declarations(declared);
+void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared, DeclaredParts& parts) {
+  DeclarationScan declarations(declared, parts);
   bool lineStart = true, directive = false, directiveName = false;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];

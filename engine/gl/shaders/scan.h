@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/gl/shaders/declared.h"
+
 namespace weft::gl {
 
 struct Directive {
@@ -41,7 +43,7 @@ using NameSet = std::set<std::string, std::less<>>;
 
 // `identifiers`: every identifier outside comments. `declared`: names of uniforms, blocks, block members, ins
 // and outs as far as brackets tell; branches of an #if that split a bracket may confuse it, so it is for
-// hints only.
-void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared);
+// hints only. So are `parts`.
+void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared, DeclaredParts& parts);
 
 }  // namespace weft::gl

@@ -84,7 +84,7 @@ class IncludeExpander {
 
   std::shared_ptr<ShaderSource> finish() {
     source_->hash = base::hashBytes(source_->text);
-    scanNames(source_->text, source_->identifiers, source_->declared);
+    scanNames(source_->text, source_->identifiers, source_->declared, source_->parts);
     return source_;
   }
 

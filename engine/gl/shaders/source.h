@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/gl/shaders/declared.h"
 #include "engine/gl/shaders/names.h"
 
 namespace weft::gl {
@@ -42,6 +43,7 @@ struct ShaderSource {
   std::set<std::string, std::less<>> identifiers;  // the token scan
   std::set<std::string, std::less<>> declared;     // a subset: names that look like uniforms, blocks, block
                                                    // members, ins and outs; for "did you mean"
+  DeclaredParts parts;                             // for "did you mean", and image formats
   bool mentions(std::string_view name) const { return identifiers.find(name) != identifiers.end(); }
   // Where a line of the text (from 1) was written.
   base::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
@@ -112,7 +114,8 @@ std::string assembleSource(const ShaderSource& source, std::span<const Define> d
 // part of the message before them, or a message at the file itself. Known messages are said in plain words (words.h); a
 // message that only follows from another is left out. `code` is W104 (compile) or W105 (link). Returns how many
 // diagnostics were added.
+// `defines`: those the text was assembled with; a name that one of them hides is told apart.
 std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
-                   base::Diagnostics& diagnostics);
+                   base::Diagnostics& diagnostics, std::span<const Define> defines = {});
 
 }  // namespace weft::gl

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/gl/shaders/vocabulary.h"
 
@@ -153,6 +154,8 @@ std::string fixFor(const SyntaxError& error, const LogMessage& message, const Sh
   if (place.column == 0 || message.textLine == 0) return {};
   const std::string_view line = lineOf(source.text, message.textLine);
   const std::string_view before = wordBefore(line, place.column);
+  if (const std::string meant = base::hintForForeign(base::Foreign::shader_name, before); !meant.empty())
+    return fmt::format("'{}' is no type: {}", before, meant);
   // A type or a qualifier that is none: the name behind it is what does not fit.
   if (!before.empty() && !std::isdigit(static_cast<unsigned char>(before[0])) && !isKnownWord(before) &&
       (error.token == "NEW_IDENTIFIER" || error.token == "BASIC_TYPE_TOK")) {
@@ -206,6 +209,16 @@ bool explainSyntax(LogMessage& message, const ShaderSource& source) {
 
 void explainNames(base::Diagnostic& d, const ShaderSource& source) {
   const auto meant = [&](std::string_view name, bool function) {
+    d.hint = base::hintForForeign(base::Foreign::shader_name, name);
+    if (!d.hint.empty()) return;
+    if (const auto block = source.parts.blockOf.find(name);
+        !function && block != source.parts.blockOf.end()) {
+      const std::string& instance = source.parts.instanceOf.find(block->second)->second;
+      d.message = fmt::format("'{}' is not declared by itself: its block '{}' has the instance name '{}'",
+                              name, block->second, instance);
+      d.hint = fmt::format("write '{}.{}', or take '{}' away behind the block", instance, name, instance);
+      return;
+    }
     if (const std::string near = nearestOf(name, function, source); !near.empty())
       d.hint = fmt::format("did you mean '{}'?", near);
   };
@@ -238,6 +251,20 @@ bool namesErrorType(const std::string& text) {
          text.find(", error,") != std::string::npos || text.find(", error)") != std::string::npos;
 }
 
+// The word at the place of the message, when a define of the graph stands in its place.
+const Define* hidingDefine(const LogMessage& message, const ShaderSource& source,
+                           std::span<const Define> defines) {
+  const std::uint32_t column = message.diagnostic.place.column;
+  const std::string_view line = message.textLine ? lineOf(source.text, message.textLine) : std::string_view();
+  if (column == 0 || column > line.size() || !message.diagnostic.message.starts_with("syntax error"))
+    return nullptr;
+  std::size_t first = column - 1, end = column - 1;
+  while (first > 0 && isWordChar(line[first - 1])) --first;
+  while (end < line.size() && isWordChar(line[end])) ++end;
+  const auto found = std::ranges::find(defines, line.substr(first, end - first), &Define::name);
+  return found == defines.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::string_view lineOf(std::string_view text, std::uint32_t number) {
@@ -263,8 +290,15 @@ void dropConsequences(std::vector<LogMessage>& messages) {
   });
 }
 
-void explainMessage(LogMessage& message, const ShaderSource& source) {
+void explainMessage(LogMessage& message, const ShaderSource& source, std::span<const Define> defines) {
   base::Diagnostic& d = message.diagnostic;
+  if (const Define* define = hidingDefine(message, source, defines)) {
+    d.message = fmt::format("'{}' is a name of the shader, and the graph defines it as {}", define->name,
+                            define->value);
+    d.expected = "a name under \"defines\" that nothing in the shader has";
+    d.hint = fmt::format("rename the define, such as '{}_MODE'", define->name);
+    return;
+  }
   if (!explainSyntax(message, source)) explainNames(d, source);
   std::ranges::replace(d.message, '`', '\'');
   for (const auto& [side, words] : std::initializer_list<std::pair<std::string_view, const char*>>{

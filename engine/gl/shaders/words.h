@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -18,7 +19,7 @@ struct LogMessage {
 };
 
 // Rewrites message, expected and hint.
-void explainMessage(LogMessage& message, const ShaderSource& source);
+void explainMessage(LogMessage& message, const ShaderSource& source, std::span<const Define> defines);
 
 // Takes away errors that only follow from another one of the list: on the same line, or about the type
 // "error" that Mesa gives to what it could not understand. Before explainMessage.

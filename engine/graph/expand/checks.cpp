@@ -280,7 +280,11 @@ bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::
                         a.use.access == Access::write ? "writes" : "modifies", a.slot->ref.text));
         d.pass = context.pass;
         d.resource = name;
-        d.hint = a.use.access == Access::modify
+        d.hint = a.use.access == Access::modify && a.whole && b.whole
+                     ? "say \"write\" instead of \"modify\": the pass then reads the version before it and "
+                       "makes the next "
+                       "one; or \"feedback\": true, to read its own texel only"
+                 : a.use.access == Access::modify
                      ? "\"feedback\": true lets a pass read its own texel of what it modifies"
                      : "write another level or layer, or read and write the whole resource, which makes its "
                        "next version";

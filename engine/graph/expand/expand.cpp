@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "engine/graph/expand/finish.h"
-#include "engine/graph/expand/live.h"
+#include "engine/graph/expand/judge/culled.h"
+#include "engine/graph/expand/judge/missing.h"
 #include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"

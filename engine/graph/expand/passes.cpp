@@ -7,6 +7,7 @@
 
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/names/limits.h"
+#include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/expand/spec.h"
 #include "engine/graph/expand/stanza.h"
@@ -77,7 +78,9 @@ class PassWalk {
     stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
     Names names(model_, scope);
     repeat(names, 0);
-    if (failed_) model_.incomplete = true;
+    if (!failed_) return;
+    for (const SlotDesc& slot : desc.slots)
+      if (slot.access != Access::read) leaveOutWrite(model_, scope, slot.ref);
   }
 
   void repeat(Names& names, std::size_t depth) {
@@ -103,6 +106,7 @@ class PassWalk {
     }
     // Counted before the innermost range runs; outer ranges around empty ones count as well.
     const std::int64_t steps = (*last - *first) / *step + 1;
+    if (steps <= 0) noteEmptyRepeat(model_, *scope_, *desc_, {declared_, range.index, *first, *last, *step});
     if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
     walked_ += std::max<std::int64_t>(steps, 1);
     if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
@@ -168,7 +172,8 @@ class PassWalk {
       if (isOver(model_)) return;
       slots.push_back(resolveSlot(context, slot, enabled ? pass : kNone));
       if (slots.back().state == State::empty && !gone) gone = &slot;
-      if (slots.back().state == State::failed && slot.access != Access::read) model_.incomplete = true;
+      if (slots.back().state == State::failed && slot.access != Access::read)
+        leaveOutWrite(model_, *scope_, slot.ref);
     }
     checkPassUses(context, *desc_, slots);
     if (isOver(model_)) return;

@@ -273,8 +273,11 @@ bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, c
 
 void mention(Model& model, std::uint32_t index, std::uint32_t position) {
   Entity& entity = model.entities[index];
-  if (!entity.mentions.empty() && entity.mentions.back() == position) return;
-  entity.mentions.push_back(position);
+  if (!entity.mentions.empty() && entity.mentions.back().position == position) {
+    entity.mentions.back() = {position};
+    return;
+  }
+  entity.mentions.push_back({position});
   if (!entity.candidates.empty() && !lookAt(model, entity.candidates.size(), entity.desc->place)) return;
   for (std::size_t i = 0; i < entity.candidates.size(); ++i)
     if (entity.candidates[i] != kNone)
@@ -297,7 +300,9 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
                                                                     : "modifies"),
                          context.pass, slot.name);
   if (found == kNone) return work;
+  const std::size_t mentioned = model.entities[found].mentions.size();
   if (slot.access == Access::read) mention(model, found, ref.history > 0 ? kNone : model.position);
+  const bool fresh = model.entities[found].mentions.size() > mentioned;
   if (slot.access != Access::read && !isWritable(context, slot, found)) return work;
 
   const auto holds = evaluateCondition(context.names, ref.condition, true,
@@ -327,6 +332,11 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     if (!placeSelection(checked, leaf, ref, candidate) ||
         !finishUse(checked, leaf, ref, slot.access, candidate))
       return work;
+    if (fresh && candidate.entity == found && candidate.state == State::connected) {
+      Mention& narrowed = model.entities[found].mentions.back();
+      narrowed.firstMip = candidate.use.mip;
+      narrowed.lastMip = candidate.use.mip + candidate.use.mips - 1u;
+    }
     const Entity& entity = model.entities[candidate.entity];
     // An import that is not there has shown nothing before either: one of the other alternatives has.
     const bool last = &leaf == &leaves.back();
@@ -358,7 +368,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     }
     if (complete && real) {
       if (entity.timing == 0 || entity.timing == context.timing) return candidate;
-      reportMadeAtTimes(context, slot, entity);
+      reportMadeAtTimes(context, slot, candidate);
       return work;
     }
     onlyImports = onlyImports && entity.kind == ResourceDesc::Kind::import;

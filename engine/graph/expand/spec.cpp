@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/view.h"
@@ -72,7 +73,9 @@ class SpecFiller {
                     fmt::format("has an unknown value for the state '{}'", state.name));
     d.expected = all;
     d.found = toText(value);
-    if (value.type == Value::Type::symbol) d.hint = base::nearestHint(value.symbol, words);
+    if (value.type == Value::Type::symbol)
+      d.hint = base::hintForForeign(base::Foreign::state_word, value.symbol);
+    if (value.type == Value::Type::symbol && d.hint.empty()) d.hint = base::nearestHint(value.symbol, words);
     return -1;
   }
 
@@ -264,6 +267,7 @@ class SpecFiller {
       spec_.uniforms.push_back(std::move(uniform));
       return;
     } else {
+      uniform.constant = desc.value.isConstant();
       uniform.value = desc.value.evaluate(names_, model_.diagnostics);
       if (uniform.value.type == Value::Type::none) return;
     }
@@ -312,10 +316,12 @@ class SpecFiller {
         return;
       }
       for (std::size_t i = 0; i < value.count; ++i) {
-        if (!(value.v[i] >= 0) || value.v[i] > 2147483647.0) {
+        // As with sizes: written as such, 0 is a mistake; computed, it is at least 1.
+        const bool none = value.v[i] < 1 && desc_.threads.isConstant();
+        if (!(value.v[i] >= 0) || none || value.v[i] > 2147483647.0) {
           auto& d = error(Code::numberOutOfRange, desc_.threads.place(),
                           "has a number of threads out of its range");
-          d.expected = "0 to 2147483647";
+          d.expected = "1 to 2147483647";
           d.found = toText(value);
           return;
         }
@@ -334,7 +340,11 @@ class SpecFiller {
           shape.target == Target::texture_3d ? std::max(1u, shape.depth >> work.use.mip) : work.use.layers;
       return;
     }
-    if (model_.incomplete) return;  // the slot that would say may have been left out for its mistakes
+    // The slot that would say may have been left out for its mistakes.
+    const bool failed = std::ranges::any_of(slots_, [](const SlotWork& work) {
+      return work.slot->access != Access::read && work.state == SlotWork::State::failed;
+    });
+    if (model_.incomplete || failed) return;
     auto& d = error(Code::keyNeeded, desc_.namePlace, "lacks threads");
     d.expected = "\"threads\": a number or a list, since no texture is written whose size could be meant";
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/checks.h"
@@ -36,6 +37,30 @@ void checkKey(const Stanza& stanza, bool present, const char* key, const Place& 
   d.hint = keys.empty() ? "" : base::nearestHint(key, keys);
 }
 
+// A file says by its name for which stage it is written; another stage would not compile it, with riddles for messages.
+void checkStage(const Stanza& stanza) {
+  static constexpr std::pair<const char*, ShaderShape> kStages[] = {{".comp.glsl", ShaderShape::compute},
+                                                                    {".frag.glsl", ShaderShape::fragment},
+                                                                    {".vert.glsl", ShaderShape::draw}};
+  const ShaderShape shader = stanza.type->shader;
+  for (const auto& [ending, shape] : kStages) {
+    if (!stanza.desc.shader.ends_with(ending) || shape == shader) continue;
+    if (shape == ShaderShape::fragment && shader == ShaderShape::draw) continue;  // as one of two, or W100
+    auto& d = stanza.error(Code::keyNotTaken, stanza.desc.shaderPlace,
+                           fmt::format("is a {} pass and names '{}', a shader of another stage",
+                                       stanza.type->name, stanza.desc.shader));
+    d.expected = shader == ShaderShape::draw
+                     ? "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
+                     : fmt::format("a path that ends in '{}'",
+                                   shader == ShaderShape::compute ? kStages[0].first : kStages[1].first);
+    const auto& types = stanza.model.registry.passTypes;
+    const auto other = std::ranges::find(types, shape, &PassType::shader);
+    d.hint = other == types.end() ? "name another shader"
+                                  : fmt::format("say \"type\": \"{}\", or name another shader", other->name);
+    return;
+  }
+}
+
 void checkKeys(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
   checkKey(stanza, desc.threads.present(), "threads", desc.threads.place());
@@ -65,6 +90,7 @@ void checkKeys(const Stanza& stanza) {
                      fmt::format("names a vertex shader, which a {} pass does not take", stanza.type->name));
     d.expected = fmt::format("\"shader\": \"{}\"", desc.shader);
   }
+  checkStage(stanza);
   if (desc.shader.empty() && desc.vertexShader.empty())
     lacks("a shader", shader == ShaderShape::draw ? "\"shader\": \"spheres/billboard\", without stage and "
                                                     "ending, or { \"vertex\": …, \"fragment\": … }"

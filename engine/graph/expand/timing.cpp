@@ -56,7 +56,8 @@ std::uint32_t timingOf(Model& model, Scope& scope, const PassDesc& desc, std::ui
   return known->second;
 }
 
-void reportMadeAtTimes(const SlotContext& context, const SlotDesc& slot, const Entity& entity) {
+void reportMadeAtTimes(const SlotContext& context, const SlotDesc& slot, const SlotWork& work) {
+  const Entity& entity = context.model.entities[work.entity];
   auto& d = context.model.diagnostics.error(
       Code::madeAtTimes, slot.ref.place,
       fmt::format("{} {} '{}', which is made only at times", context.user,
@@ -65,6 +66,16 @@ void reportMadeAtTimes(const SlotContext& context, const SlotDesc& slot, const E
   d.resource = entity.name;
   d.found = fmt::format("'{}' is made while {}", entity.name,
                         context.model.timings[entity.timing - 1].expr->text());
+  const auto off = std::ranges::find_if(context.model.writes, [&](const WriteRecord& write) {
+    return write.disabled != kNone && write.entity == work.entity;
+  });
+  if (off != context.model.writes.end()) {
+    const DisabledPass& disabled = context.model.graph.disabled[off->disabled];
+    d.found += fmt::format(", and pass '{}' that writes it in every frame is disabled ({})", disabled.name,
+                           disabled.why);
+    d.hint = fmt::format("enable '{}', or disable what makes it at times too", disabled.name);
+    return;
+  }
   d.hint = "give it the same \"enabled\" as those that write it, or have them modify what is always made";
 }
 

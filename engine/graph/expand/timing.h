@@ -17,6 +17,6 @@ std::uint32_t timingOf(Model& model, Scope& scope, const PassDesc& desc, std::ui
 bool mayMake(const SlotContext& context, const SlotWork& work);
 
 // Reports that the pass uses what timed passes with another condition make.
-void reportMadeAtTimes(const SlotContext& context, const SlotDesc& slot, const Entity& entity);
+void reportMadeAtTimes(const SlotContext& context, const SlotDesc& slot, const SlotWork& work);
 
 }  // namespace weft::graph::expansion

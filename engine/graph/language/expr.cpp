@@ -319,6 +319,26 @@ bool Expr::isConstant() const {
   return root_ && root_->op == ExprOp::constant;
 }
 
+bool reportBareWords(const ExprNode& comparison, EvalScope& scope, base::Diagnostics& diagnostics) {
+  const auto isWord = [&](const ExprNode& node) {
+    return node.op == ExprOp::identifier && !scope.index(node.name);
+  };
+  const ExprNode &left = *comparison.children[0], &right = *comparison.children[1];
+  if (!isWord(left) || !isWord(right)) return false;
+  const std::vector<std::string> variables = scope.candidates(EvalScope::NameKind::variable);
+  const auto isVariable = [&](const ExprNode& node) {
+    return std::ranges::find(variables, node.name) != variables.end();
+  };
+  const ExprNode& meant = !isVariable(left) && isVariable(right) ? right : left;
+  base::Diagnostic& d =
+      diagnostics.error(base::Code::unknownVariable, meant.place,
+                        fmt::format("'{}' and '{}' are bare words: comparing them always gives the same",
+                                    left.name, right.name));
+  d.expected = "a parameter or an index of \"repeat\" on one side";
+  d.hint = hintForWord(scope, Value::text(meant.name));
+  return true;
+}
+
 std::string hintForWord(EvalScope& scope, const Value& value) {
   if (value.type != Value::Type::symbol) return {};
   const std::vector<std::string> variables = scope.candidates(EvalScope::NameKind::variable);

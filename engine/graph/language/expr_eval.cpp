@@ -122,7 +122,10 @@ class Evaluator {
     if (base::Diagnostic* d = error(Code::unknownVariable, node, std::move(message))) {
       std::vector<std::string> names = scope_->candidates(kind);
       std::sort(names.begin(), names.end());
-      if (const std::string nearest = base::nearestName(name, names); !nearest.empty())
+      const std::vector<std::string> builtins = scope_->candidates(EvalScope::NameKind::builtin);
+      if (std::ranges::find(builtins, name) != builtins.end())
+        d->hint = fmt::format("write '{}', without the '$'", name);
+      else if (const std::string nearest = base::nearestName(name, names); !nearest.empty())
         d->hint = fmt::format("did you mean '{}{}'?", sigil, nearest);
       else
         d->hint = base::nearestHint(name, names);
@@ -226,6 +229,7 @@ class Evaluator {
     const Value left = run(*node.children[0]);
     const Value right = run(*node.children[1]);
     if (left.type == Value::Type::none || right.type == Value::Type::none || !choicesFit(node)) return {};
+    if (scope_ && diagnostics_ && reportBareWords(node, *scope_, *diagnostics_)) return {};
     const bool comparable = left.isNumeric() ? right.isNumeric()
                             : left.type == Value::Type::list
                                 ? right.type == Value::Type::list && left.count == right.count

@@ -84,6 +84,8 @@ OpInfo infoOf(ExprOp op);
 
 // A hint for a word that stands where a number or a condition belongs: it was probably a parameter without its $, or a
 // misspelt `screen`. "" when the value is no word, or nothing is near.
+// True after a report: '==' or '!=' of two bare words, neither of them an index, is always the same.
+bool reportBareWords(const ExprNode& comparison, EvalScope& scope, base::Diagnostics& diagnostics);
 std::string hintForWord(EvalScope& scope, const Value& value);
 
 // "size", "mips", "count", "has", "age".

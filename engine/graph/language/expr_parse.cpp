@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/expr_token.h"
@@ -78,6 +79,12 @@ class Parser {
   }
 
   ExprPtr failUnexpected(const char* expected) {
+    if (std::string hint = hintForSize(text_); !hint.empty()) {
+      auto& d = diagnostics_.error(base::Code::badExpression, place_, fmt::format("'{}' is no value", text_));
+      d.expected = "a number, a list or an expression";
+      d.hint = std::move(hint);
+      return nullptr;
+    }
     if (token_.kind == Token::Kind::end)
       return fail(token_, fmt::format("the expression ends where {} is expected", expected), "", expected);
     std::string hint;
@@ -309,7 +316,8 @@ class Parser {
     if (!function) {
       auto& d = diagnostics_.error(base::Code::badFunctionCall, placeOf(word),
                                    fmt::format("unknown function '{}'", word.text));
-      d.hint = base::nearestHint(word.text, known);
+      d.hint = base::hintForForeign(base::Foreign::expression, word.text);
+      if (d.hint.empty()) d.hint = base::nearestHint(word.text, known);
       return nullptr;
     }
     std::vector<ExprPtr> arguments;

@@ -1,5 +1,7 @@
 #include "engine/graph/language/expr_token.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -49,6 +51,22 @@ Token scanToken(std::string_view text, std::size_t from) {
   }
   token.text = text.substr(from, end - from);
   return token;
+}
+
+std::string hintForSize(std::string_view text) {
+  double first = 0, second = 0;
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  const auto number = std::from_chars(begin, end, first);
+  if (number.ec != std::errc() || number.ptr == end) return {};
+  const std::string_view rest(number.ptr, static_cast<std::size_t>(end - number.ptr));
+  if (rest == "%")
+    return fmt::format("write '{}' of what it is a part of: 'screen*{}'", first / 100, first / 100);
+  if (rest == "px") return fmt::format("texels have no unit: write {}", first);
+  if (rest == "x") return fmt::format("write 'screen*{}'", first);
+  if (rest[0] != 'x' && rest[0] != 'X') return {};
+  const auto other = std::from_chars(number.ptr + 1, end, second);
+  return other.ec == std::errc() && other.ptr == end ? fmt::format("write [{}, {}]", first, second) : "";
 }
 
 }  // namespace weft::graph

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace weft::graph {
@@ -20,5 +21,8 @@ struct Token {
 // The token at or after `from`, spaces left out; of kind `end` behind the last. A number that a double cannot
 // hold is `bad`. Never cuts a UTF-8 sequence in half.
 Token scanToken(std::string_view text, std::size_t from);
+
+// What to write for a size in another format's spelling: "50%", "1920x1080", "512px"; "" for anything else.
+std::string hintForSize(std::string_view text);
 
 }  // namespace weft::graph

@@ -118,7 +118,8 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
     auto& d = diagnostics_.error(Code::overlayOutOfPlace, set->place,
                                  fmt::format("'{}' is a preset, not a graph", path));
     d.pointer = set->pointer;
-    d.hint = "say what this file \"extends\"; a preset is laid over a graph";
+    d.hint = fmt::format(
+        "lay it over a graph: weft check GRAPH --preset {}; or say what this file \"extends\"", path);
     return nullptr;
   }
   if (set && set->is(Type::object)) {
@@ -147,6 +148,7 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
     source.root = below->root;
     source.sets = below->sets;
     source.changed = below->changed;
+    source.removed = below->removed;
     if (source.root.is(Type::object)) {
       source.root.place = root.place;
       for (const char* own : {"name", "description"}) eraseMember(source.root, own);  // of the base

@@ -330,7 +330,9 @@ class Applier {
           mergeStanza(source, items[found->index], stanza);
           return;
         }
-        source.changed.erase(stanzaName(items[found->index]));
+        const JsonValue& gone = items[found->index];
+        source.removed.push_back({stanzaName(gone), place, writtenBy(gone)});
+        source.changed.erase(stanzaName(gone));
         items.erase(items.begin() + static_cast<std::ptrdiff_t>(found->index));
       });
     }

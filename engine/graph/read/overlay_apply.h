@@ -35,6 +35,9 @@ std::string namesOf(const std::vector<Found>& all, const std::vector<std::size_t
 // has none.
 std::string stanzaName(const base::JsonValue& stanza);
 
+// What a pass stanza writes and modifies: the names of the resources.
+std::vector<std::string> writtenBy(const base::JsonValue& stanza);
+
 // The array of "passes", or null.
 base::JsonValue* passesOf(Source& source);
 // The stanza without "before", "after" and "remove"; without its name too unless `named`.

@@ -104,6 +104,19 @@ std::string stanzaName(const JsonValue& stanza) {
   return name ? name->text : includePrefix(stanza);
 }
 
+std::vector<std::string> writtenBy(const JsonValue& stanza) {
+  std::vector<std::string> names;
+  for (const char* key : {"write", "modify"})
+    if (const JsonValue* slots = stanza.find(key))
+      for (const JsonMember& slot : slots->members) {
+        std::string name = slot.value.text.substr(0, slot.value.text.find_first_of(" [@"));
+        for (const char* part : {".mip", ".layer", ".face", ".stencil"})
+          if (name.ends_with(part)) name.resize(name.size() - std::string_view(part).size());
+        names.push_back(std::move(name));
+      }
+  return names;
+}
+
 JsonValue* passesOf(Source& source) {
   JsonMember* passes = memberOf(source.root, "passes");
   return passes && passes->value.is(Type::array) ? &passes->value : nullptr;

@@ -81,7 +81,9 @@ class GraphReader {
     graph->path = source.path;
     graph->place = root.place;
     graph->files = source.files;
-    context.checkKeys(root, kGraphKeys, "a graph");
+    graph->removed = source.removed;
+    if (isOtherFile(root, context)) return nullptr;
+    context.checkKeys(root, kGraphKeys, "a graph", base::Foreign::graph_key);
     context.text(root.find("$schema"), "\"$schema\"");
     graph->name = context.text(root.find("name"), "\"name\"");
     context.text(root.find("description"), "\"description\"");
@@ -104,6 +106,31 @@ class GraphReader {
     }
     graph->texts = loader_.texts();
     return graph;
+  }
+
+  // A file of another kind that was given as a graph: one report says what it is and who takes it.
+  static bool isOtherFile(const JsonValue& root, ReadContext& context) {
+    struct Other {
+      const char *key, *what, *option;
+    };
+    static constexpr Other kOthers[] = {{"cameras", "a scene", "--scene"},
+                                        {"models", "a scene", "--scene"},
+                                        {"lamp_grids", "a scene", "--scene"}};
+    for (const char* own :
+         {"passes", "resources", "parameters", "let", "set", "extends", "present", "outputs"})
+      if (root.find(own)) return false;
+    for (const Other& other : kOthers)
+      if (root.find(other.key)) {
+        const std::string file = root.place.file ? *root.place.file : "FILE";
+        auto& d = context.error(Code::missingKey, root,
+                                fmt::format("this file has \"{}\" and no \"passes\": it is {}, not a graph",
+                                            other.key, other.what));
+        d.expected = "a graph, with \"passes\"";
+        d.hint =
+            fmt::format("the option {} takes it: weft check GRAPH {} {}", other.option, other.option, file);
+        return true;
+      }
+    return false;
   }
 
   static const std::vector<JsonMember>& membersOf(ReadContext& context, const JsonValue& root,

@@ -54,7 +54,24 @@ bool ReadContext::expect(const JsonValue& value, JsonValue::Type type, std::stri
   return false;
 }
 
-void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what) {
+namespace {
+
+// What the author of an unknown key needs to know: where it belongs, what it is called here, or the nearest.
+std::string hintForUnknown(std::string_view key, std::span<const std::string> known,
+                           const std::string& nearest, std::optional<base::Foreign> foreign) {
+  if (foreign == base::Foreign::pass_key)
+    for (const KeySpec& state : kStateKeys)
+      if (state.key == key) return fmt::format("it belongs into \"state\": {{ \"{}\": … }}", key);
+  const std::string meant = foreign ? base::hintForForeign(*foreign, key) : std::string();
+  if (!meant.empty() && base::editDistance(key, nearest) > 1) return meant;
+  return nearest.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
+                         : fmt::format("did you mean \"{}\"?", nearest);
+}
+
+}  // namespace
+
+void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what,
+                            std::optional<base::Foreign> foreign) {
   std::vector<std::string> known, meant;
   for (const KeySpec& spec : keys) known.emplace_back(spec.key);
   for (const JsonMember& member : object.members) {
@@ -63,8 +80,7 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
     auto& d = errorAt(Code::unknownKey, member.place, member.value.pointer,
                       fmt::format("unknown key \"{}\" in {}", member.key, what));
     const std::string nearest = base::nearestName(member.key, known);
-    d.hint = nearest.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
-                             : fmt::format("did you mean \"{}\"?", nearest);
+    d.hint = hintForUnknown(member.key, known, nearest, foreign);
     meant.push_back(nearest);
   }
   for (const KeySpec& spec : keys) {
@@ -97,6 +113,18 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const Jso
   return false;
 }
 
+bool ReadContext::checkShaderName(std::string_view name, const Place& place, const JsonPointer& pointer,
+                                  std::string_view what) {
+  if (!checkName(name, place, pointer, what)) return false;
+  if (!base::isGlslWord(name)) return true;
+  auto& d = errorAt(Code::notAName, place, pointer,
+                    fmt::format("\"{}\" cannot name {}: it is a word of GLSL", name, what));
+  d.expected = "a name that the shader can declare";
+  d.hint = fmt::format("choose another here and in the shader, such as 'my_{}'",
+                       name.starts_with("gl_") ? name.substr(3) : name);
+  return false;
+}
+
 bool ReadContext::checkFresh(Seen& seen, const std::string& name, const Place& place,
                              const JsonPointer& pointer, std::string_view what) {
   const auto [before, fresh] = seen.try_emplace(name, place);
@@ -126,6 +154,9 @@ std::optional<std::string> ReadContext::word(const JsonValue* value, std::span<c
   if (std::find(words.begin(), words.end(), value->text) != words.end()) return value->text;
   auto& d = error(Code::unknownWord, *value, fmt::format("unknown word \"{}\" for {}", value->text, what));
   d.expected = fmt::format("{}", fmt::join(words, ", "));
+  if (std::ranges::find(words, "vec4") != words.end())  // types of parameters
+    d.hint = base::hintForForeign(base::Foreign::value_type, value->text);
+  if (!d.hint.empty()) return std::nullopt;
   const std::vector<std::string> known(words.begin(), words.end());
   if (const std::string nearest = base::nearestName(value->text, known); !nearest.empty())
     d.hint = fmt::format("did you mean \"{}\"?", nearest);

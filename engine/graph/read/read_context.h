@@ -9,6 +9,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/json/dom.h"
 #include "engine/base/limit_report.h"
 #include "engine/graph/desc.h"
@@ -35,11 +36,16 @@ class ReadContext {
 
   // Code::unknownKey for keys that are not in `keys`, Code::missingKey for required ones that are missing. A missing key that
   // an unknown one is a misspelling of is not reported again.
-  void checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what);
+  // `foreign`: where the keys of other engines are looked up for the hint.
+  void checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what,
+                 std::optional<base::Foreign> foreign = std::nullopt);
 
   // Code::notAName unless `name` is an identifier without reserved words.
   bool checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
                  std::string_view what);
+  // The same, and not a word of GLSL: slots, parameters and defines are spelled alike in shaders.
+  bool checkShaderName(std::string_view name, const Place& place, const JsonPointer& pointer,
+                       std::string_view what);
   // Code::duplicateName when `name` was already registered in `seen`.
   using Seen = std::unordered_map<std::string, Place>;
   bool checkFresh(Seen& seen, const std::string& name, const Place& place, const JsonPointer& pointer,

@@ -109,7 +109,7 @@ class PassReader {
   }
 
   std::optional<PassDesc> readPass() {
-    context_.checkKeys(value_, kPassKeys, "a pass");
+    context_.checkKeys(value_, kPassKeys, "a pass", base::Foreign::pass_key);
     if (const JsonValue* name = value_.find("name")) {
       out_.namePlace = name->place;
       out_.name = context_.text(name, "\"name\"");
@@ -248,7 +248,7 @@ class PassReader {
       for (const JsonMember& slot : membersOf(member.key.c_str())) {
         if (!context_.goesOn()) return;
         const std::string what = fmt::format("the slot '{}'", slot.key);
-        bool good = context_.checkName(slot.key, slot.place, slot.value.pointer, "a slot");
+        bool good = context_.checkShaderName(slot.key, slot.place, slot.value.pointer, "a slot");
         good = context_.checkFresh(names_, slot.key, slot.place, slot.value.pointer, kSharedName) && good;
         std::optional<RefDesc> ref = context_.ref(&slot.value, what);
         if (good && ref)
@@ -265,7 +265,8 @@ class PassReader {
         parameter.declared = readParameter(context_, member);
         good = good && parameter.declared;
       } else {
-        good = context_.checkName(member.key, member.place, member.value.pointer, "a parameter") && good;
+        good =
+            context_.checkShaderName(member.key, member.place, member.value.pointer, "a parameter") && good;
         parameter.value = context_.expr(&member.value, fmt::format("the parameter '{}'", member.key));
         good = good && parameter.value.present();
       }
@@ -275,7 +276,7 @@ class PassReader {
 
   void readDefines() {
     for (const JsonMember& member : membersOf("defines")) {
-      bool good = context_.checkName(member.key, member.place, member.value.pointer, "a define");
+      bool good = context_.checkShaderName(member.key, member.place, member.value.pointer, "a define");
       good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, kSharedName) && good;
       Expr expr = context_.expr(&member.value, fmt::format("the define '{}'", member.key));
       if (good && expr.present())

@@ -121,7 +121,8 @@ class ResourceReader {
 
   std::optional<ResourceDesc> readTexture(const JsonValue& texture) {
     out_.kind = ResourceDesc::Kind::texture;
-    context_.checkKeys(value_, kTextureKeys, fmt::format("the texture '{}'", out_.name));
+    context_.checkKeys(value_, kTextureKeys, fmt::format("the texture '{}'", out_.name),
+                       base::Foreign::texture_key);
     out_.format = context_.text(&texture, "\"texture\"");
     out_.formatPlace = texture.place;
     out_.size = context_.expr(value_.find("size"), "\"size\"");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/subresource.h"
@@ -273,6 +274,8 @@ class RefParser {
     }
     for (const std::string_view name : kSamplerWords) known.emplace_back(name);
     std::string hint = base::nearestHint(word, known);
+    if (const std::string meant = base::hintForForeign(base::Foreign::sampling, word); !meant.empty())
+      hint = meant;
     if (hint.empty())
       hint = fmt::format("kinds are {}, filters are linear nearest wrap clamp compare",
                          fmt::join(kKindNames, " "));

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/base/nearest.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/imports/row_layout.h"
 #include "engine/passes/compute/work_groups.h"
+#include "engine/runtime/prepare/parameter_fit.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/sampler_types.h"
+#include "engine/runtime/prepare/shader_advice.h"
 #include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {
@@ -43,7 +46,7 @@ class Checker {
 
   bool run() {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
-    checkParameters();
+    good_ = checkParameters(graph_, spec_, variant_, shaders_, diagnostics_) && good_;
     checkRest();
     checkSlices(graph_.passes[pass_]);
     checkGroups();
@@ -58,25 +61,49 @@ class Checker {
     return d;
   }
 
-  std::vector<std::string> declaredNames() const {
-    std::vector<std::string> names;
-    for (const gl::StageSource& stage : variant_.stages)
-      names.insert(names.end(), stage.source->declared.begin(), stage.source->declared.end());
-    std::ranges::sort(names);
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
-  }
-
-  void missing(const SlotSpec& slot, const char* what, const std::string& other) {
+  void missing(const SlotSpec& slot, const char* what, const std::string& other, const FlatUse& use) {
     slotMissing_ = true;
     base::Diagnostic& d = fail(Code::slotNotInShader, slot.place,
                                fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_));
     d.expected = fmt::format("{} named '{}'", what, slot.name);
     if (!other.empty()) {
       d.found = other;
+      adviseKind(slot, use, d);
       return;
     }
-    d.hint = base::nearestHint(slot.name, declaredNames());
+    for (const gl::StageSource& stage : variant_.stages)
+      for (const auto& [block, instance] : stage.source->parts.instanceOf)
+        if (instance == slot.name) {
+          d.found = fmt::format("a block '{}' with the instance name '{}'", block, instance);
+          d.hint = fmt::format("a slot has the name of the block: call it '{}'", block);
+          return;
+        }
+    d.hint = base::nearestHint(slot.name, declaredNames(variant_));
+    if (!d.hint.starts_with("did you mean"))
+      d.hint = fmt::format("declare `{}`{}{}", declarationFor(slot, slot.kind, use, resourceOf(use)),
+                           d.hint.empty() ? "" : "; ", d.hint);
+  }
+
+  const FlatResource& resourceOf(const FlatUse& use) const { return graph_.resources[use.resource]; }
+
+  // The shader has the name, for something else: a buffer where it has a texture, an image where it has a sampler.
+  void adviseKind(const SlotSpec& slot, const FlatUse& use, base::Diagnostic& d) {
+    const FlatResource& resource = resourceOf(use);
+    const std::string& name = graph_.resourceNames[use.resource];
+    const bool buffer =
+        resource.kind == graph::ResourceKind::buffer || resource.kind == graph::ResourceKind::imported_buffer;
+    const bool wantsTexture = reflection_.findSampler(slot.name) || reflection_.findImage(slot.name);
+    const std::string declaration = declarationFor(slot, slot.kind, use, resource);
+    d.resource = name;
+    if (buffer != !wantsTexture && !reflection_.findOutput(slot.name))
+      d.hint = fmt::format("'{}' is a {}: name a {}, or declare `{}`", name, buffer ? "buffer" : "texture",
+                           buffer ? "texture" : "buffer", declaration);
+    else if (slot.kind == Kind::image && slot.access == Access::read)
+      d.hint = fmt::format("leave \"as image\" out, or declare `{}`", declaration);
+    else if (slot.kind == Kind::sampled && reflection_.findImage(slot.name))
+      d.hint = fmt::format("say \"{} as image\", or declare `{}`", name, declaration);
+    else
+      d.hint = fmt::format("declare `{}`", declaration);
   }
 
   // What else carries the name, for the message.
@@ -99,14 +126,14 @@ class Checker {
       case Kind::image:
         return checkImage(slot, use);
       case Kind::uniform:
-        return checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block");
+        return checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block", use);
       case Kind::storage:
-        checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block");
+        checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block", use);
         checkTable(reflection_.findStorageBlock(slot.name), columnsOf(graph_, use), slot.place);
         return;
       case Kind::color:
         if (!reflection_.findOutput(slot.name) && (!mentioned(slot) || !otherUse(slot.name).empty()))
-          missing(slot, "an output", otherUse(slot.name));
+          missing(slot, "an output", otherUse(slot.name), use);
         checkOutput(slot, use);
         return;
       case Kind::depth:
@@ -120,9 +147,9 @@ class Checker {
 
   bool mentioned(const SlotSpec& slot) const { return variant_.mentions(slot.name); }
 
-  void checkBlock(const SlotSpec& slot, const gl::Block* block, const char* what) {
+  void checkBlock(const SlotSpec& slot, const gl::Block* block, const char* what, const FlatUse& use) {
     if (!block && (!mentioned(slot) || !otherUse(slot.name).empty()))
-      missing(slot, what, otherUse(slot.name));
+      missing(slot, what, otherUse(slot.name), use);
   }
 
   void checkTable(const gl::Block* block, std::span<const graph::TableColumn> columns,
@@ -161,12 +188,15 @@ class Checker {
                                               : "an unsigned int",
                              graph::infoOf(graph_.resources[use.resource].format).name);
     d.found = gl::glslTypeName(output->type);
+    d.hint = fmt::format("declare `{}`, or write a texture of another format",
+                         declarationFor(slot, Kind::color, use, resourceOf(use)));
   }
 
   void checkSampler(const SlotSpec& slot, const FlatUse& use) {
     const gl::OpaqueUniform* sampler = reflection_.findSampler(slot.name);
     if (!sampler) {
-      if (!mentioned(slot) || !otherUse(slot.name).empty()) missing(slot, "a sampler", otherUse(slot.name));
+      if (!mentioned(slot) || !otherUse(slot.name).empty())
+        missing(slot, "a sampler", otherUse(slot.name), use);
       return;
     }
     checkOpaque(slot, use, *sampler, slot.sampler.compare);
@@ -175,10 +205,39 @@ class Checker {
   void checkImage(const SlotSpec& slot, const FlatUse& use) {
     const gl::OpaqueUniform* image = reflection_.findImage(slot.name);
     if (!image) {
-      if (!mentioned(slot) || !otherUse(slot.name).empty()) missing(slot, "an image", otherUse(slot.name));
+      if (!mentioned(slot) || !otherUse(slot.name).empty())
+        missing(slot, "an image", otherUse(slot.name), use);
       return;
     }
     checkOpaque(slot, use, *image, false);
+    checkImageFormat(slot, use);
+  }
+
+  // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
+  void checkImageFormat(const SlotSpec& slot, const FlatUse& use) {
+    const graph::Format format = resourceOf(use).format;
+    for (const gl::StageSource& stage : variant_.stages) {
+      const auto declared = stage.source->parts.imageFormats.find(slot.name);
+      if (declared == stage.source->parts.imageFormats.end()) continue;
+      std::string other;  // a format that is declared and is none of the texture's
+      bool same = false;
+      for (const std::string& word : declared->second)
+        if (const auto named = graph::findFormat(word)) {
+          same = same || *named == format;
+          other = word;
+        }
+      if (same || other.empty()) continue;
+      const char* const own = graph::infoOf(format).name;
+      base::Diagnostic& d = fail(
+          Code::slotTypeMismatch, slot.place,
+          fmt::format("slot '{}' is a texture of {}, and the shader's image of {}", slot.name, own, other));
+      d.resource = graph_.resourceNames[use.resource];
+      d.expected = fmt::format("layout({})", own);
+      d.found = fmt::format("layout({}) in '{}'", other, shaders_);
+      d.hint = fmt::format("declare `{}`, or make the texture {}",
+                           declarationFor(slot, Kind::image, use, resourceOf(use)), other);
+      return;
+    }
   }
 
   void checkOpaque(const SlotSpec& slot, const FlatUse& use, const gl::OpaqueUniform& uniform, bool compare) {
@@ -192,41 +251,26 @@ class Checker {
       d.resource = graph_.resourceNames[use.resource];
       d.expected = problem;
       d.found = gl::glslTypeName(uniform.type);
+      d.hint = fmt::format("declare `{}`, or name another resource",
+                           declarationFor(slot, slot.kind, use, resource));
     }
     if (uniform.arraySize < slot.useCount || (!slot.array && uniform.arraySize > 1)) {
       base::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
                                  fmt::format("slot '{}' has {} textures and the shader an array of {}",
                                              slot.name, slot.useCount, uniform.arraySize));
       d.expected = fmt::format("{}[{}]", slot.name, slot.useCount);
+      d.found = fmt::format("{}[{}]", slot.name, uniform.arraySize);
+      d.hint = fmt::format("declare `{}`", declarationFor(slot, slot.kind, use, resource));
     }
   }
 
-  void checkParameters() {
-    const gl::Block* block = reflection_.findUniformBlock("Parameters");
-    for (const graph::UniformSpec& uniform : spec_.uniforms) {
-      if (uniform.choosesVariant()) continue;
-      const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
-      if (!member) {
-        if (variant_.mentions(uniform.name)) continue;
-        fail(Code::parameterNotInShader, uniform.place,
-             fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, shaders_))
-            .hint = "declare it in `layout(std140) uniform Parameters { … };`" + withNearest(uniform.name);
-        continue;
-      }
-      std::string expected;
-      if (!memberTakes(*member, uniform.value, expected)) {
-        base::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place,
-                                   fmt::format("parameter '{}' does not fit the shader's {}", uniform.name,
-                                               gl::glslTypeName(member->type)));
-        d.expected = expected;
-        d.found = graph::toText(uniform.value);
-      }
-    }
-  }
-
-  std::string withNearest(const std::string& name) const {
-    const std::string nearest = base::nearestName(name, declaredNames());
-    return nearest.empty() ? "" : fmt::format(", or did you mean '{}'?", nearest);
+  // The instance name of a block, or "".
+  std::string instanceOf(const std::string& block) const {
+    for (const gl::StageSource& stage : variant_.stages)
+      if (const auto found = stage.source->parts.instanceOf.find(block);
+          found != stage.source->parts.instanceOf.end())
+        return found->second;
+    return {};
   }
 
   bool isSlot(const std::string& name) const {
@@ -241,10 +285,20 @@ class Checker {
     std::vector<std::string> names;
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
       names.push_back(graph_.slots[spec_.firstSlot + i].name);
-    fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-         fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what, name,
-                     spec_.name))
-        .hint = base::nearestHint(name, names);
+    const std::string instance = instanceOf(name);
+    const std::string nearest = base::nearestName(name, names);
+    auto& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+                   fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what,
+                               name, spec_.name));
+    d.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name);
+    if (!instance.empty() && isSlot(instance)) {
+      d.hint = fmt::format("a slot has the name of the block, not of its instance: call '{}' '{}'", instance,
+                           name);
+      return;
+    }
+    d.hint = nearest.empty() ? fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
+                                           name, presenceDefineOf(name))
+                             : fmt::format("did you mean '{}'?", nearest);
   }
 
   void checkRest() {

@@ -28,12 +28,13 @@ void main() {
 }
 )";
 
-std::string upper(std::string text) {
+}  // namespace
+
+std::string presenceDefineOf(std::string_view name) {
+  std::string text = "HAS_" + std::string(name);
   for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
   return text;
 }
-
-}  // namespace
 
 std::span<const graph::TableColumn> columnsOf(const FlatGraph& graph, const FlatUse& use) {
   const std::uint32_t import = graph.resources[use.resource].import;
@@ -101,7 +102,7 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
     const SlotSpec& slot = graph.slots[spec.firstSlot + i];
     if (slot.useCount == 0) continue;
     if (slot.access != Access::read && !plan.attached[slot.firstUse]) continue;
-    request.defines.push_back({"HAS_" + upper(slot.name), "1"});
+    request.defines.push_back({presenceDefineOf(slot.name), "1"});
     if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
   }
   std::uint32_t bit = 0;
@@ -110,7 +111,7 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
       const char* const holds = (conditions >> bit++ & 1u) != 0 ? "1" : "0";
       if (uniform.role == graph::UniformSpec::Role::define) request.defines.push_back({uniform.name, holds});
     } else {
-      request.defines.push_back({"HAS_" + upper(uniform.name), "1"});
+      request.defines.push_back({presenceDefineOf(uniform.name), "1"});
     }
   }
   for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});

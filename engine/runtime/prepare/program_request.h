@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <string_view>
 
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/plan.h"
@@ -23,6 +25,9 @@ bool runsUnder(const graph::PassSpec& spec, std::uint32_t conditions);
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan,
                                     std::uint32_t pass, const graph::PassType& type,
                                     std::uint32_t conditions);
+
+// "HAS_GAIN": what a shader finds defined when its pass has the slot or parameter "gain".
+std::string presenceDefineOf(std::string_view name);
 
 // The columns of the table that a use reads; empty when the use reads no table.
 std::span<const graph::TableColumn> columnsOf(const graph::FlatGraph& graph, const graph::FlatUse& use);

@@ -75,7 +75,8 @@ TEST_CASE("the broken shaders give the messages of docs/errors.md") {
   }
 }
 
-TEST_CASE("overloads that do not fit are counted, an undeclared name gets the nearest declared one") {
+TEST_CASE(
+    "of overloads that do not fit the nearest are named, an undeclared name gets the nearest declared one") {
   TempFolder folder;
   folder.write("a.frag.glsl", "uniform sampler2D skyy;\nvoid main() { textureSize(sky, 0); }\n");
   SourceLoader loader({folder.path()});
@@ -89,7 +90,8 @@ TEST_CASE("overloads that do not fit are counted, an undeclared name gets the ne
       "(15): error:    ivec2 textureSize(sampler2D, int)\n" + at + "(27): error: `sky' undeclared\n";
   CHECK(mapLog(log, *source, Code::shaderDoesNotCompile, diagnostics) == 2);
   CHECK(diagnostics.items()[0].message == "no matching function for call to 'textureSize(vec2, int)'");
-  CHECK(diagnostics.items()[0].expected == "one of its 2 forms");
+  CHECK(diagnostics.items()[0].expected ==
+        "int textureSize(sampler1D, int); ivec2 textureSize(sampler2D, int)");
   CHECK(diagnostics.items()[0].place.line == 2);
   CHECK(diagnostics.items()[1].hint == "did you mean 'skyy'?");
 }

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "tests/gl/temp_folder.h"
 
 using namespace weft::gl;
@@ -136,4 +138,71 @@ TEST_CASE("what only follows from another error is left out, but never the only 
                        mesa(3, 7, "cannot construct `vec4' from a non-numeric data type"))
             .size() == 2);
   CHECK(said(text, mesa(2, 7, "no matching function for call to `f(error)'")).size() == 1);
+}
+
+TEST_CASE("of many forms of a function those that are like the call are named, and the others counted") {
+  const std::string text = "void main() { texture(map, 1.0); }\n";
+  std::string log =
+      mesa(1, 15, "no matching function for call to `texture(sampler2D, float)'; candidates are:");
+  for (const char* form :
+       {"vec4 texture(sampler1D, float)", "vec4 texture(sampler2D, vec2)", "vec4 texture(sampler3D, vec3)",
+        "vec4 texture(sampler2D, vec2, float)", "float texture(sampler2DShadow, vec3)"})
+    log += mesa(1, 15, std::string("   ") + form);
+  CHECK(only(said(text, log)).expected ==
+        "vec4 texture(sampler2D, vec2); vec4 texture(sampler2D, vec2, float); vec4 texture(sampler1D, "
+        "float); or one of 2 "
+        "others");
+}
+
+TEST_CASE("words of other languages get what GLSL says") {
+  Diagnostic d = only(said("void main() { float4 c; }\n",
+                           mesa(1, 22, "syntax error, unexpected NEW_IDENTIFIER, expecting ',' or ';'")));
+  CHECK(d.hint == "'float4' is no type: GLSL says 'vec4'");
+  d = only(said("void main() { x = lerp(a, b, c); }\n", mesa(1, 19, "no function with name 'lerp'")));
+  CHECK(d.hint == "GLSL says 'mix'");
+  d = only(said("void main() { gl_FragColor = c; }\n", mesa(1, 15, "`gl_FragColor' undeclared")));
+  CHECK(d.hint.find("out vec4 result;") != std::string::npos);
+}
+
+TEST_CASE("a member of a block with an instance name says so") {
+  const std::string text =
+      "layout(std140) uniform Parameters { float gain; vec3 tint; } params;\nuniform sampler2D gian;\nvoid "
+      "main() { x = gain; }\n";
+  const Diagnostic d = only(said(text, mesa(3, 19, "`gain' undeclared")));
+  CHECK(d.message ==
+        "'gain' is not declared by itself: its block 'Parameters' has the instance name 'params'");
+  CHECK(d.hint == "write 'params.gain', or take 'params' away behind the block");
+}
+
+TEST_CASE("a define that hides a name of the shader is told apart from a syntax error") {
+  TempFolder folder;
+  folder.write("x.frag.glsl", "uniform sampler2D source;\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(source);
+  const std::vector<Define> defines = {{"OTHER", "2"}, {"source", "1"}};
+  mapLog(mesa(1, 19, "syntax error, unexpected INTCONSTANT, expecting ',' or ';'"), *source,
+         Code::shaderDoesNotCompile, diagnostics, defines);
+  const Diagnostic d = only(diagnostics);
+  CHECK(d.message == "'source' is a name of the shader, and the graph defines it as 1");
+  CHECK(d.hint == "rename the define, such as 'source_MODE'");
+}
+
+TEST_CASE("the scan finds instance names of blocks, and the words of layout() of images") {
+  TempFolder folder;
+  folder.write("x.comp.glsl",
+               "layout(std430) buffer Rows { float value[]; } rows;\nlayout(std140) uniform Parameters { "
+               "float gain; };\n"
+               "layout(rgba16f, binding = 1) uniform writeonly image2D result;\nuniform sampler2D map;\n"
+               "struct Row { float gain; } row;\nvoid main() {}\n");
+  SourceLoader loader({folder.path()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.comp.glsl", diagnostics);
+  REQUIRE(source);
+  CHECK(source->parts.instanceOf == decltype(source->parts.instanceOf){{"Rows", "rows"}});
+  CHECK(source->parts.blockOf == decltype(source->parts.blockOf){{"value", "Rows"}});
+  REQUIRE(source->parts.imageFormats.size() == 1);
+  const auto& formats = source->parts.imageFormats.at("result");
+  CHECK(std::find(formats.begin(), formats.end(), "rgba16f") != formats.end());
 }

@@ -66,6 +66,12 @@ struct Element {
   bool zeroUsed = false;           // version zero was read or modified
 };
 
+// Where something may read an entity, and which levels of it.
+struct Mention {
+  std::uint32_t position = 0;  // of the instance, in declared order; kNone: after all passes
+  std::uint32_t firstMip = 0, lastMip = kNone;
+};
+
 struct Entity {
   ResourceDesc::Kind kind = ResourceDesc::Kind::texture;
   const ResourceDesc* desc = nullptr;  // null: an import named only by @x
@@ -88,12 +94,13 @@ struct Entity {
   Progress listState = Progress::fresh;  // alternatives: cycle check
   // The condition of the timed passes that make it (into Model::timings, from 1). 0: no timed pass does, so far.
   std::uint32_t timing = 0;
-  bool made = false;  // some pass writes or modifies it
+  bool made = false;              // some pass writes or modifies it
+  std::uint32_t emptied = kNone;  // into Model::emptied: one that would write it
+  bool incomplete = false;        // a pass that would write it was left out for its mistakes
   std::vector<std::uint32_t>
       candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
-  // positions (instances in declared order) at which anything may read it, ascending; kNone: after all passes
-  std::vector<std::uint32_t> mentions;
+  std::vector<Mention> mentions;  // by position
 };
 
 // One file instance.
@@ -147,6 +154,12 @@ struct WriteRecord {
   bool whole = false;
 };
 
+// A pass whose "repeat" leaves nothing of it.
+struct EmptyRepeat {
+  std::string pass, index;
+  std::int64_t first = 0, last = 0, step = 1;
+};
+
 // A slot that found no version. Only when it is known which passes live, it is known whether that is an error or a warning.
 struct MissingRead {
   enum class Cause : std::uint8_t { version, condition, import };
@@ -197,13 +210,18 @@ struct Model {
   std::map<std::pair<const Scope*, std::string>, std::uint32_t> timingByText{};  // from 1
   std::vector<WriteRecord> writes{};
   std::vector<MissingRead> missing{};
+  std::vector<EmptyRepeat> emptied{};
   struct HistoryUse {
     std::uint32_t use, entity, element;
   };
   std::vector<HistoryUse> historyUses{};    // their resource is the last one, known at the end
   std::vector<std::uint32_t> positionOf{};  // per pass of the FlatGraph
   std::vector<Unincluded> unincluded{};     // reported at the end
-  bool incomplete = false;  // some writes are missing because of mistakes: missing versions are not reported
+  // Some write is missing because of a mistake, and nobody knows of what: missing versions are not reported. Where it is
+  // known, Entity::incomplete says so.
+  bool incomplete = false;
+  bool toInclude =
+      false;  // the file that was opened has inputs: it is to be included, and its own names are not all
   std::uint32_t position = 0;             // of the instance being expanded
   std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle
   Effort effort{};

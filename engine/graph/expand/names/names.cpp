@@ -62,7 +62,7 @@ std::optional<Value> Names::variable(std::string_view name) {
   const Variable found = findVariable(model_, scope_, name);
   switch (found.kind) {
     case Variable::Kind::none:
-      if (mayBeUnread(scope_, name)) return Value{};
+      if (model_.toInclude || mayBeUnread(scope_, name)) return Value{};
       return std::nullopt;
     case Variable::Kind::parameter:
       return model_.parameters[found.index].value;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/foreign_formats.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/language/expr_node.h"
@@ -59,6 +60,9 @@ bool evaluateSize(Model& model, Names& names, Entity& entity) {
     d.expected = "\"screen\", \"screen/2\", \"size(x)\", a number, or a list of 2 or 3 numbers";
     d.found = toText(value);
     d.hint = hintForWord(names, value);
+    if (value.symbol == "full") d.hint = "write 'screen'";
+    if (value.symbol == "half") d.hint = "write 'screen/2'";
+    if (value.symbol == "quarter") d.hint = "write 'screen/4'";
     d.resource = entity.name;
     return false;
   }
@@ -134,7 +138,11 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
         Code::unknownFormat, desc.formatPlace,
         fmt::format("texture '{}' has the unknown format '{}'", entity.name, desc.format));
     d.resource = entity.name;
-    d.hint = base::nearestHint(desc.format, formatNames());
+    const std::string meant = base::formatMeantBy(desc.format);
+    d.hint =
+        findFormat(meant) ? fmt::format("write '{}'", meant) : base::nearestHint(desc.format, formatNames());
+    if (d.hint.empty())
+      d.hint = "channels, bits and kind: r8, rg16f, rgba16f, rgba32ui, srgb8_a8, depth32f, …";
     good = false;
   }
   good = evaluateSize(model, names, entity) && good;

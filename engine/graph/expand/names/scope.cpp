@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/names/limits.h"
@@ -135,11 +136,7 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
     entity.listState = Progress::done;
     target = index;
   } else if (!scope.parent) {
-    auto& d = model.diagnostics.error(
-        Code::unboundInput, entity.desc->place,
-        fmt::format("input '{}' has nothing behind it: this file is not included by another", name));
-    d.resource = entity.name;
-    d.hint = "open the graph that includes this file";
+    // reportToInclude said so.
   } else {
     const RefDesc* bind = nullptr;
     for (const auto& [input, ref] : scope.stanza->include->binds)
@@ -179,6 +176,29 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   return target;
 }
 
+// A file with inputs that is opened by itself has nothing behind them.
+void reportToInclude(Model& model) {
+  const GraphDesc& desc = model.desc;
+  const ResourceDesc* first = nullptr;
+  std::string inputs, binds;
+  for (const ResourceDesc& resource : desc.resources) {
+    if (resource.kind != ResourceDesc::Kind::input || resource.optional) continue;
+    if (!first) first = &resource;
+    inputs += (inputs.empty() ? "" : ", ") + resource.name;
+    if (binds.empty()) binds = fmt::format("\"{}\": …", resource.name);
+  }
+  if (!first) return;
+  model.toInclude = model.incomplete = true;
+  const std::string file = std::filesystem::path(desc.path).filename().string();
+  auto& d = model.diagnostics.error(
+      Code::unboundInput, first->place,
+      fmt::format("'{}' is a file to include, not a graph: nothing is behind its inputs ({})", file, inputs));
+  d.resource = first->name;
+  d.hint = fmt::format(
+      "open a graph that includes it, or include it in one: {{ \"include\": \"{}\", \"bind\": {{ {} }} }}",
+      file, binds);
+}
+
 // An import declared under `name` here or in an enclosing file.
 std::uint32_t declaredImport(Model& model, Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent)
@@ -193,6 +213,7 @@ void buildScopes(Model& model) {
   Scope& root = model.scopes.emplace_back();
   root.desc = &model.desc;
   buildScope(model, root);
+  reportToInclude(model);
   findDynamicLets(model);
   linkAlternatives(model);
 }

@@ -93,6 +93,24 @@ bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place
   return true;
 }
 
+void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref) {
+  const std::uint32_t found = findEntity(model, scope, ref.name, ref.import);
+  if (found == kNone)
+    model.incomplete = true;
+  else
+    model.entities[found].incomplete = true;
+}
+
+void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, EmptyRepeat empty) {
+  for (const SlotDesc& slot : desc.slots) {
+    const std::uint32_t found =
+        slot.access == Access::read ? kNone : findEntity(model, scope, slot.ref.name, slot.ref.import);
+    if (found != kNone && model.entities[found].emptied == kNone)
+      model.entities[found].emptied = static_cast<std::uint32_t>(model.emptied.size());
+  }
+  model.emptied.push_back(std::move(empty));
+}
+
 void reportUnincluded(Model& model) {
   for (const Unincluded& group : model.unincluded) {
     const Unincluded::Use& first = group.uses[0];

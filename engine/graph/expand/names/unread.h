@@ -18,6 +18,10 @@ bool mayBeUnread(const Scope& from, std::string_view name);
 // True when `name` is dotted and this file includes nothing under its first part: kept for reportUnincluded.
 bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
                   std::string_view user, const std::string& pass = {});
+// A pass that writes by this slot was left out for its mistakes: what is missing of the resource is no second mistake.
+void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref);
+// The "repeat" of a pass is empty: what it would write says so when it is missing.
+void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, EmptyRepeat empty);
 // Reports them, each name once: W040, or a note when it is because of an include that could not be read.
 void reportUnincluded(Model& model);
 }  // namespace weft::graph::expansion

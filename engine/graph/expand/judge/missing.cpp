@@ -1,4 +1,4 @@
-#include "engine/graph/expand/live.h"
+#include "engine/graph/expand/judge/missing.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,6 @@ namespace weft::graph::expansion {
 
 namespace {
 
-// ---- missing versions ----
-
 bool touches(const Model& model, const WriteRecord& write, const MissingRead::Wanted& wanted) {
   if (write.entity != wanted.entity || wanted.element < write.firstElement ||
       wanted.element >= write.firstElement + write.elementCount)
@@ -26,7 +24,8 @@ struct Writers {
   const WriteRecord* disabledEarlier = nullptr;
   const WriteRecord* enabledLater = nullptr;
   const WriteRecord* disabledLater = nullptr;
-  bool self = false;
+  const WriteRecord* self = nullptr;
+  bool incomplete = false;  // a pass left out for its mistakes may be the writer
 };
 
 class Judge {
@@ -50,7 +49,9 @@ class Judge {
  private:
   Writers findWriters(const MissingRead& missing) const {
     Writers writers;
+    writers.incomplete = model_.incomplete;
     for (const MissingRead::Wanted& wanted : missing.wanted) {
+      writers.incomplete = writers.incomplete || model_.entities[wanted.entity].incomplete;
       const auto records = byEntity_.find(wanted.entity);
       if (records == byEntity_.end()) continue;
       if (!compare(model_, records->second.size(), missing.ref->place)) break;
@@ -58,7 +59,7 @@ class Judge {
         const WriteRecord& write = model_.writes[index];
         if (!touches(model_, write, wanted)) continue;
         if (write.pass != kNone && write.pass == missing.pass)
-          writers.self = true;
+          writers.self = &write;
         else if (write.disabled != kNone && write.position < missing.position)
           writers.disabledEarlier = &write;
         else if (write.disabled != kNone && !writers.disabledLater)
@@ -130,11 +131,19 @@ class Judge {
               fmt::format("{} {} '{}', which has nothing now", subject, verb(missing), missing.ref->text)))
         d->hint =
             "provide it, or end the reference with '?', or read a resource that is a list of alternatives";
+    } else if (const RemovedPass* removed = removedWriter(missing)) {
+      judgeRemoved(missing, *removed, thing, subject);
     } else if (writers.disabledEarlier) {
       judgeDisabled(missing, *writers.disabledEarlier, thing, subject);
+    } else if (const EmptyRepeat* empty = emptyWriter(missing)) {
+      judgeEmpty(missing, *empty, thing, subject);
+    } else if (writers.incomplete) {
+      return;
     } else if (writers.enabledLater && slot) {
       judgeLater(missing, *writers.enabledLater, thing, subject);
-    } else if (writers.self && !model_.incomplete) {
+    } else if (writers.self && !writers.self->whole && missing.access == Access::read) {
+      judgeOwnLevel(missing, thing, subject);
+    } else if (writers.self) {
       if (auto* d =
               report(missing, Code::readBeforeWrite,
                      fmt::format("{} {} {}, which nothing wrote before", subject, verb(missing), thing)))
@@ -145,8 +154,6 @@ class Judge {
                                     d->resource, missing.ref->name);
     } else if (writers.disabledLater) {
       judgeDisabled(missing, *writers.disabledLater, thing, subject);
-    } else if (model_.incomplete) {
-      return;  // a pass that was left out for its mistakes may be the writer
     } else if (missing.slot == "present" && !slot) {
       if (auto* d = report(missing, Code::presentsUnwritten,
                            fmt::format("present shows {}, which no pass writes", thing)))
@@ -177,6 +184,66 @@ class Judge {
           "resource that is a list of alternatives",
           graph_.specs[missing.pass].declared);
     d->hint += fmt::format(", or give '{}' a \"clear\"", d->resource);
+  }
+
+  // A pass that an overlay took out and that would write what is missing, or null.
+  const RemovedPass* removedWriter(const MissingRead& missing) const {
+    for (const MissingRead::Wanted& wanted : missing.wanted) {
+      const Entity& entity = model_.entities[wanted.entity];
+      if (!entity.desc) continue;
+      for (const RemovedPass& removed : entity.scope->desc->removed)
+        if (std::ranges::find(removed.writes, entity.desc->name) != removed.writes.end()) return &removed;
+    }
+    return nullptr;
+  }
+
+  void judgeRemoved(const MissingRead& missing, const RemovedPass& removed, const std::string& thing,
+                    const std::string& subject) {
+    auto* d = report(missing, Code::disabledWriter,
+                     fmt::format("{} {} {}, but pass '{}' that would write it is removed", subject,
+                                 verb(missing), thing, removed.name));
+    if (!d) return;
+    if (removed.place.file)
+      d->found = fmt::format("\"remove\" at {}:{}:{}", *removed.place.file, removed.place.line,
+                             removed.place.column);
+    d->hint = fmt::format("keep '{}', let another pass write '{}' before it, or give '{}' a \"clear\"",
+                          removed.name, d->resource, d->resource);
+  }
+
+  // A pass that does not repeat even once and that would write what is missing, or null.
+  const EmptyRepeat* emptyWriter(const MissingRead& missing) const {
+    for (const MissingRead::Wanted& wanted : missing.wanted)
+      if (const std::uint32_t empty = model_.entities[wanted.entity].emptied; empty != kNone)
+        return &model_.emptied[empty];
+    return nullptr;
+  }
+
+  void judgeEmpty(const MissingRead& missing, const EmptyRepeat& empty, const std::string& thing,
+                  const std::string& subject) {
+    auto* d = report(
+        missing, Code::disabledWriter,
+        fmt::format("{} {} {}, but pass '{}' that would write it is not there once: its \"repeat\" is empty",
+                    subject, verb(missing), thing, empty.pass));
+    if (!d) return;
+    d->found = fmt::format("\"{}\": [{}, {}{}]", empty.index, empty.first, empty.last,
+                           empty.step == 1 ? "" : fmt::format(", {}", empty.step));
+    const std::string clear = fmt::format("give '{}' a \"clear\"", d->resource);
+    d->hint = empty.step > 0 && empty.first > empty.last
+                  ? fmt::format("a range counts down with a step: \"{}\": [{}, {}, -1]; or {}", empty.index,
+                                empty.first, empty.last, clear)
+                  : fmt::format("let the range have an index, or {}", clear);
+  }
+
+  // A pass reads what it writes itself, and neither is a whole resource: there is no earlier version of it.
+  void judgeOwnLevel(const MissingRead& missing, const std::string& thing, const std::string& subject) {
+    auto* d = report(missing, Code::readAndWritten,
+                     fmt::format("{} reads {} and writes it in one go", subject, thing));
+    if (!d) return;
+    d->expected = "a level, layer or element that an earlier pass wrote";
+    d->hint = fmt::format(
+        "name one, such as '{}.mip[i-1]' in a pass that writes '{}.mip[i]', or read '{}@-1' "
+        "for what it was in the frame before",
+        missing.ref->name, missing.ref->name, missing.ref->name);
   }
 
   void judgeLater(const MissingRead& missing, const WriteRecord& writer, const std::string& thing,
@@ -236,91 +303,10 @@ class Judge {
   int searches_ = 0;
 };
 
-// ---- culled by mistake ----
-
-bool covers(const WriteRecord& later, const WriteRecord& earlier) {
-  return later.rect.access == Access::write && later.firstElement <= earlier.firstElement &&
-         earlier.firstElement + earlier.elementCount <= later.firstElement + later.elementCount &&
-         covers(later.rect, earlier.rect);
-}
-
-struct Fate {
-  bool writes = false, intended = false;
-  std::uint32_t overwriter = kNone, entity = kNone;
-};
-
 }  // namespace
 
 void judgeMissing(Model& model) {
   if (!model.missing.empty()) Judge(model).run();
-}
-
-void warnUnread(Model& model) {
-  FlatGraph& graph = model.graph;
-  const bool effects =
-      std::any_of(graph.passes.begin(), graph.passes.end(), [](const FlatPass& p) { return p.sideEffect; });
-  if (graph.present.resource == kNone && !effects) {
-    auto& d = model.diagnostics.warning(Code::nothingPresented, model.desc.place,
-                                        "the graph shows nothing: no pass will run");
-    d.hint = "say \"present\" with the texture to show";
-    return;
-  }
-  const Liveness live = findLive(graph);
-  for (Entity& entity : model.entities) std::sort(entity.mentions.begin(), entity.mentions.end());
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> byEntity;
-  for (std::uint32_t i = 0; i < model.writes.size(); ++i)
-    if (model.writes[i].pass != kNone) byEntity[model.writes[i].entity].push_back(i);
-
-  std::vector<Fate> fates(graph.passes.size());
-  for (const auto& [index, records] : byEntity) {
-    const Entity& entity = model.entities[index];
-    for (std::size_t r = 0; r < records.size(); ++r) {
-      const WriteRecord& write = model.writes[records[r]];
-      if (live.pass[write.pass] != 0) continue;
-      Fate& fate = fates[write.pass];
-      fate.writes = true;
-      const auto mention = std::upper_bound(entity.mentions.begin(), entity.mentions.end(), write.position);
-      const WriteRecord* overwriter = nullptr;
-      for (std::size_t l = r + 1; l < std::min(records.size(), r + 64) && !overwriter; ++l)
-        if (const WriteRecord& later = model.writes[records[l]];
-            later.position > write.position && covers(later, write))
-          overwriter = &later;
-      // What an included file makes is its interface: leaving some of it unused is no mistake.
-      if (entity.scope->parent && !overwriter) fate.intended = true;
-      if (mention != entity.mentions.end() && (!overwriter || *mention <= overwriter->position))
-        fate.intended = true;
-      if (overwriter && (fate.overwriter == kNone || overwriter->pass < fate.overwriter))
-        fate.overwriter = overwriter->pass;
-      if (fate.entity == kNone || index < fate.entity) fate.entity = index;
-    }
-  }
-  std::set<std::string_view> said;
-  for (std::uint32_t pass = 0; pass < graph.passes.size(); ++pass) {
-    const Fate& fate = fates[pass];
-    if (live.pass[pass] != 0 || fate.intended || !said.insert(graph.specs[pass].declared).second) continue;
-    const PassSpec& spec = graph.specs[pass];
-    const std::string resource = fate.entity == kNone ? "" : model.entities[fate.entity].name;
-    base::Diagnostic* d = nullptr;
-    if (fate.overwriter != kNone) {
-      d = &model.diagnostics.warning(
-          Code::culledOverwritten, spec.place,
-          fmt::format("pass '{}' is culled: '{}' overwrites '{}' before anybody reads it", spec.name,
-                      graph.passNames[fate.overwriter], resource));
-      d->hint = fmt::format("read '{}' in '{}', or use \"modify\" there, or disable '{}'", resource,
-                            graph.passNames[fate.overwriter], spec.declared);
-    } else if (fate.writes) {
-      d = &model.diagnostics.warning(
-          Code::culledUnread, spec.place,
-          fmt::format("pass '{}' is culled: nobody reads what it writes", spec.name));
-      d->hint = fmt::format("read '{}' in a later pass, or disable '{}'", resource, spec.declared);
-    } else {
-      d = &model.diagnostics.warning(Code::culledUnread, spec.place,
-                                     fmt::format("pass '{}' is culled: it writes nothing", spec.name));
-      d->hint = "say \"side_effect\": true if it is meant to run all the same";
-    }
-    d->pass = spec.name;
-    d->resource = resource;
-  }
 }
 
 }  // namespace weft::graph::expansion

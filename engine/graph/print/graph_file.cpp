@@ -1,0 +1,318 @@
+#include "engine/graph/print/graph_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/graph/print/shared.h"
+#include "engine/graph/subresource.h"
+
+namespace weft::graph {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string plainName(std::string_view name) {
+  std::string plain;
+  for (const char c : name)
+    if (c == '#')
+      plain += "_v";
+    else if (c == '.' || c == '[' || c == ',')
+      plain += '_';
+    else if (c != ']' && c != '@')
+      plain += c;
+  return plain;
+}
+
+// "maps[3]#2": the array "maps_v2" and its element 3.
+struct ElementName {
+  std::string array;
+  std::string index;  // "" for no element
+};
+
+ElementName elementName(const std::string& name) {
+  const std::size_t open = name.find('['), close = name.find(']');
+  if (open == std::string::npos) return {plainName(name), ""};
+  return {plainName(name.substr(0, open) + name.substr(close + 1)), name.substr(open + 1, close - open - 1)};
+}
+
+Json jsonOf(const Value& value) {
+  switch (value.type) {
+    case Value::Type::boolean:
+      return value.truth();
+    case Value::Type::number:
+      return value.v[0];
+    case Value::Type::list:
+      return std::vector<double>(value.v.begin(), value.v.begin() + value.count);
+    default:
+      return value.symbol;
+  }
+}
+
+std::string spanText(const char* part, std::uint32_t first, std::uint32_t count) {
+  return count == 1 ? fmt::format(".{}[{}]", part, first)
+                    : fmt::format(".{}[{}..{}]", part, first, first + count - 1);
+}
+
+class FileWriter {
+ public:
+  explicit FileWriter(const Plan& plan)
+      : plan_(plan), graph_(*plan.graph), used_(graph_.resources.size(), 0) {
+    for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
+      if (graph_.resources[r].import != kNone) importResource_[graph_.resources[r].import] = r;
+  }
+
+  std::string write() {
+    Json file;
+    file["name"] = graph_.name;
+    Json passes = Json::array();
+    for (std::uint32_t pass = 0; pass < graph_.passes.size(); ++pass)
+      if (plan_.stepOf[pass] != kNone) passes.push_back(passJson(pass));
+    if (graph_.present.resource != kNone) use(graph_.present.resource);
+    for (const FlatUse& output : graph_.outputs) use(output.resource);
+    file["resources"] = resourcesJson();
+    file["passes"] = std::move(passes);
+    if (graph_.present.resource != kNone) file["present"] = presentText();
+    for (std::size_t i = 0; i < graph_.outputs.size(); ++i)
+      if (plan_.outputLive[i] != 0)
+        file["outputs"][plainName(graph_.outputNames[i])] = textOf(graph_.outputs[i], false);
+    return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+
+ private:
+  // ---- names ----
+
+  std::string importName(std::uint32_t import) const {
+    const auto resource = importResource_.find(import);
+    const ImportSpec& spec = graph_.imports[import];
+    // A view under the name of its type would be the view of all passes.
+    if (spec.kind == ImportKind::view) return plainName(spec.name) + "_view";
+    return elementName(resource == importResource_.end() ? spec.name : graph_.resourceNames[resource->second])
+        .array;
+  }
+
+  // The resource is to be declared.
+  void use(std::uint32_t resource) { used_[resource] = 1; }
+
+  std::string textOf(const FlatUse& use, bool wholeArray) const {
+    const FlatResource& r = graph_.resources[use.resource];
+    const ElementName name = elementName(graph_.resourceNames[use.resource]);
+    std::string text = name.array;
+    if (!wholeArray && !name.index.empty()) text += "[" + name.index + "]";
+    if (!isBuffer(r)) {
+      const bool cube = r.target == Target::texture_cube || r.target == Target::texture_cube_array;
+      if (use.mips < r.mips) text += spanText("mip", use.mip, use.mips);
+      if (use.layers < r.layers && !cube) text += spanText("layer", use.layer, use.layers);
+      if (use.layers < r.layers && cube) {
+        if (r.layers > 6) text += spanText("layer", use.layer / 6, std::max(1, use.layers / 6));
+        if (use.layers < 6) text += spanText("face", use.layer % 6, use.layers);
+      }
+      if (planesOf(r) == 2 && use.planes == 2) text += ".stencil";
+    }
+    if (use.history > 0) text += fmt::format("@-{}", use.history);
+    return text;
+  }
+
+  std::string presentText() const {
+    FlatUse shown = graph_.present;
+    const FlatResource& r = graph_.resources[shown.resource];
+    const bool first = shown.mip == 0 && shown.mips == 1 && r.mips > 1;
+    std::string text = elementName(graph_.resourceNames[shown.resource]).array;
+    if (const std::string& index = elementName(graph_.resourceNames[shown.resource]).index; !index.empty())
+      text += "[" + index + "]";
+    if (!first && shown.mips < r.mips) text += spanText("mip", shown.mip, shown.mips);
+    return text;
+  }
+
+  // A folded expression, with names and values for its keys.
+  std::string expressionText(const Expr& expr) const {
+    std::string text = expr.text();
+    const auto replaceKeys = [&](std::string_view before, std::string_view kept, const auto& wordFor) {
+      for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
+        const std::size_t digits = at + before.size();
+        std::size_t end = digits;
+        while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
+        const auto key = static_cast<std::uint32_t>(std::stoul(text.substr(digits, end - digits)));
+        const std::string word = std::string(kept) + wordFor(key);
+        text.replace(at, end - at, word);
+        at += word.size();
+      }
+    };
+    replaceKeys("age(#", "age(", [&](std::uint32_t r) {
+      const std::uint32_t import = graph_.resources[r].import;
+      return import == kNone ? elementName(graph_.resourceNames[r]).array : importName(import);
+    });
+    replaceKeys("$#", "", [&](std::uint32_t index) { return graph::toText(graph_.parameters[index].value); });
+    return text;
+  }
+
+  // ---- resources ----
+
+  Json resourcesJson() {
+    Json all = Json::object();
+    for (std::uint32_t import = 0; import < graph_.imports.size(); ++import) {
+      const ImportSpec& spec = graph_.imports[import];
+      if (elementOf(spec.request) > 0) continue;
+      Json json{{"import", spec.request.type}};
+      for (const auto& [name, value] : spec.request.arguments) {
+        if (name == "element" || value.type == Value::Type::none) continue;
+        const bool path = name.ends_with("file") && !value.symbol.empty();
+        json[name] =
+            path ? Json(std::filesystem::absolute(value.symbol).lexically_normal().string()) : jsonOf(value);
+      }
+      all[importName(import)] = std::move(json);
+    }
+    for (std::uint32_t r = 0; r < graph_.resources.size(); ++r) {
+      if (used_[r] == 0 || isImported(graph_.resources[r])) continue;
+      const ElementName name = elementName(graph_.resourceNames[r]);
+      if (!all.contains(name.array)) all[name.array] = resourceJson(r);
+      if (name.index.empty()) continue;
+      Json& array = all[name.array]["array"];
+      const int count = std::stoi(name.index) + 1;
+      array = array.is_number() ? std::max(array.get<int>(), count) : count;
+    }
+    return all;
+  }
+
+  Json resourceJson(std::uint32_t index) const {
+    const FlatResource& r = graph_.resources[index];
+    Json json;
+    if (isBuffer(r)) {
+      json["buffer"] = r.bytes;
+    } else {
+      const bool cube = r.target == Target::texture_cube || r.target == Target::texture_cube_array;
+      json["texture"] = infoOf(r.format).name;
+      json["size"] =
+          r.target == Target::texture_3d ? Json{r.width, r.height, r.depth} : Json{r.width, r.height};
+      if (r.mips > 1) json["mips"] = r.mips;
+      if (r.samples > 1) json["samples"] = r.samples;
+      if (r.target != Target::texture_2d && r.target != Target::texture_2d_multisample)
+        json["view"] = nameOf(r.target);
+      const std::uint32_t layers = cube ? r.layers / 6 : r.layers;
+      if (r.target == Target::texture_2d_array || r.target == Target::texture_cube_array)
+        json["layers"] = layers;
+    }
+    for (const ClearSpec& clear : graph_.clears)
+      if (clear.resource == index) json["clear"] = jsonOf(clear.value);
+    for (const HistorySpec& history : graph_.histories) {
+      if (history.resource != index) continue;
+      json["history"] = r.history;
+      json["first"] = jsonOf(history.first);
+      Json reset = Json::array();
+      for (const std::uint32_t import : history.resetImports) reset.push_back("@" + importName(import));
+      for (const std::uint32_t other : history.resetResources)
+        reset.push_back(elementName(graph_.resourceNames[other]).array);
+      if (!reset.empty()) json["reset"] = std::move(reset);
+    }
+    return json;
+  }
+
+  // ---- passes ----
+
+  Json passJson(std::uint32_t pass) {
+    const PassSpec& spec = graph_.specs[pass];
+    const FlatPass& flat = graph_.passes[pass];
+    Json json{{"name", plainName(spec.name)}, {"type", spec.type}};
+    if (!spec.vertexShader.empty())
+      json["shader"] = {{"vertex", spec.vertexShader}, {"fragment", spec.shader}};
+    else if (!spec.shader.empty())
+      json["shader"] = spec.shader;
+    addUniforms(spec, json);
+    addSlots(spec, json);
+    addDrawing(spec, json);
+    addState(spec, json);
+    if (flat.cadence != Cadence::always) json["update"] = nameOf(flat.cadence);
+    if (flat.group != kNone) json["group"] = plainName(graph_.groupNames[flat.group]);
+    if (flat.slices != 1) json["slices"] = flat.slices;
+    if (flat.sideEffect) json["side_effect"] = true;
+    for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
+      use(graph_.uses[u].resource);
+      if (graph_.uses[u].feedback) json["feedback"] = true;
+    }
+    return json;
+  }
+
+  void addUniforms(const PassSpec& spec, Json& json) const {
+    Json parameters, defines;
+    for (const DefineSpec& define : spec.defines)
+      defines[define.name] = Json::parse(define.text, nullptr, false);
+    for (const UniformSpec& uniform : spec.uniforms) {
+      const bool timed = uniform.dynamic.present() && uniform.dynamic.dynamic();
+      Json value = timed ? Json(expressionText(uniform.dynamic)) : jsonOf(uniform.value);
+      if (uniform.role == UniformSpec::Role::enabled)
+        json["enabled"] = std::move(value);
+      else
+        (uniform.role == UniformSpec::Role::define ? defines : parameters)[uniform.name] = std::move(value);
+    }
+    if (!parameters.is_null()) json["parameters"] = std::move(parameters);
+    if (!defines.is_null()) json["defines"] = std::move(defines);
+  }
+
+  void addSlots(const PassSpec& spec, Json& json) const {
+    for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
+      const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
+      if (slot.useCount == 0) continue;
+      std::string text = textOf(graph_.uses[slot.firstUse], slot.array) + " as " + nameOf(slot.kind);
+      if (slot.sampler.compare)
+        text += " compare";
+      else if (slot.sampler.linear)
+        text += " linear";
+      if (slot.sampler.wrap) text += " wrap";
+      json[nameOf(slot.access)][slot.name] = text;
+    }
+  }
+
+  void addDrawing(const PassSpec& spec, Json& json) const {
+    if (spec.threadsPlace.line > 0) json["threads"] = {spec.threads[0], spec.threads[1], spec.threads[2]};
+    if (!spec.list.empty()) json["list"] = spec.list;
+    if (!spec.geometry.empty()) {
+      std::string arguments;
+      for (const double argument : spec.geometryArguments)
+        arguments += fmt::format("{}{}", arguments.empty() ? "" : ", ", argument);
+      json["geometry"] = arguments.empty() ? spec.geometry : fmt::format("{}({})", spec.geometry, arguments);
+      if (spec.list.empty()) json["instances"] = spec.instances;
+    }
+    if (spec.view == kNone) return;
+    std::string view = importName(spec.view);
+    if (spec.viewLayer > 0 || spec.viewFace > 0)
+      view += fmt::format("[{}].face[{}]", spec.viewLayer, spec.viewFace);
+    json["view"] = view;
+  }
+
+  static void addState(const PassSpec& spec, Json& json) {
+    constexpr const char* kBlends[] = {"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
+    constexpr const char* kCompares[] = {"never",   "less",      "equal",         "less_equal",
+                                         "greater", "not_equal", "greater_equal", "always"};
+    constexpr const char* kCulls[] = {"none", "front", "back"};
+    const StateSpec& state = spec.state;
+    Json out;
+    for (const auto& [slot, blend] : state.blend)
+      out["blend"][slot] = kBlends[static_cast<std::size_t>(blend)];
+    if (state.depthTest) out["depth_test"] = kCompares[static_cast<std::size_t>(state.depthCompare)];
+    if (!state.depthWrite) out["depth_write"] = false;
+    if (state.cull != Cull::none) out["cull"] = kCulls[static_cast<std::size_t>(state.cull)];
+    if (state.lines) out["polygon"] = "line";
+    if (state.scissor) out["scissor"] = true;
+    if (state.offsetFactor != 0 || state.offsetUnits != 0)
+      out["offset"] = {state.offsetFactor, state.offsetUnits};
+    if (!out.is_null()) json["state"] = std::move(out);
+  }
+
+  const Plan& plan_;
+  const FlatGraph& graph_;
+  std::unordered_map<std::uint32_t, std::uint32_t> importResource_;  // by import
+  std::vector<std::uint8_t> used_;                                   // per resource
+};
+
+}  // namespace
+
+std::string graphFileOf(const Plan& plan) {
+  return FileWriter(plan).write();
+}
+
+}  // namespace weft::graph

@@ -1,0 +1,117 @@
+#include "engine/graph/survey/matrix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "engine/graph/language/value.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::Code;
+
+// Codes by which a read says that what it needs was switched off, with its name and the ways out.
+bool namesDisabled(const base::Diagnostic& d) {
+  return d.code == Code::disabledWriter || d.code == Code::madeAtTimes ||
+         d.code == Code::conditionLeavesSlotEmpty || d.code == Code::nothingPresented;
+}
+
+class Trial {
+ public:
+  Trial(const GraphDesc& desc, const Registry& registry, const Settings& settings,
+        const MatrixOptions& options)
+      : desc_(desc), registry_(registry), settings_(settings), options_(options) {}
+
+  Matrix run() {
+    const std::shared_ptr<const FlatGraph> base = expand({});
+    if (!base) return std::move(matrix_);
+    const std::vector<std::string> passes = passesOf(*base);
+    matrix_.passes = passes.size();
+    std::vector<std::string> dispensable;
+    for (const std::string& pass : passes)
+      if (tryDisables({pass})) dispensable.push_back(pass);
+    for (std::size_t i = 0; options_.pairs && i < dispensable.size(); ++i)
+      for (std::size_t k = i + 1; k < dispensable.size(); ++k) {
+        ++matrix_.pairs;
+        tryDisables({dispensable[i], dispensable[k]});
+      }
+    for (const ParameterSpec& parameter : base->parameters)
+      for (const std::string& value : valuesOf(parameter.desc)) {
+        ++matrix_.values;
+        Variation variation{.disables = {}, .parameter = parameter.path, .value = value};
+        if (!expand(variation)) matrix_.broken.push_back({std::move(variation), std::move(said_)});
+      }
+    return std::move(matrix_);
+  }
+
+ private:
+  static std::vector<std::string> passesOf(const FlatGraph& graph) {
+    std::vector<std::string> names;
+    std::set<std::string_view> seen;
+    for (const PassSpec& spec : graph.specs)
+      if (seen.insert(spec.declared).second) names.push_back(spec.declared);
+    return names;
+  }
+
+  // What a person can choose: words and switches, and the ends of a range.
+  static std::vector<std::string> valuesOf(const ParameterDesc& desc) {
+    using Type = ParameterDesc::Type;
+    if (desc.type == Type::choice) return desc.choices;
+    if (desc.type == Type::boolean) return {"false", "true"};
+    std::vector<std::string> values;
+    if (desc.type != Type::number && desc.type != Type::integer) return values;
+    for (const std::optional<double>& end : {desc.min, desc.max})
+      if (end) values.push_back(toText(Value::number(*end)));
+    return values;
+  }
+
+  std::shared_ptr<const FlatGraph> expand(const Variation& variation) {
+    Settings settings = settings_;
+    for (const std::string& pass : variation.disables) settings.disables.emplace_back(pass);
+    if (!variation.parameter.empty()) settings.sets.emplace_back(variation.parameter, variation.value);
+    base::Diagnostics said;
+    auto graph = expandGraph(desc_, registry_, settings, said);
+    said_.clear();
+    for (const base::Diagnostic& d : said.items())
+      if (d.severity == base::Severity::error) said_.add(d);
+    if (graph && options_.visit) options_.visit(variation, graph);
+    return graph;
+  }
+
+  // Whether the graph does without the passes.
+  bool tryDisables(std::vector<std::string> passes) {
+    Variation variation{.disables = std::move(passes), .parameter = {}, .value = {}};
+    if (expand(variation)) return true;
+    const bool told = std::ranges::all_of(said_.items(), namesDisabled);
+    (told ? matrix_.needed : matrix_.broken).push_back({std::move(variation), std::move(said_)});
+    return false;
+  }
+
+  const GraphDesc& desc_;
+  const Registry& registry_;
+  const Settings& settings_;
+  const MatrixOptions& options_;
+  Matrix matrix_;
+  base::Diagnostics said_;
+};
+
+}  // namespace
+
+std::string Variation::text() const {
+  std::string text;
+  for (const std::string& pass : disables) text += (text.empty() ? "" : " ") + ("--disable " + pass);
+  if (!parameter.empty()) text += fmt::format("--set {}={}", parameter, value);
+  return text.empty() ? "as it is" : text;
+}
+
+Matrix tryMatrix(const GraphDesc& desc, const Registry& registry, const Settings& settings,
+                 const MatrixOptions& options) {
+  return Trial(desc, registry, settings, options).run();
+}
+
+}  // namespace weft::graph

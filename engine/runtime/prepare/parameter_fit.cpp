@@ -1,0 +1,145 @@
+#include "engine/runtime/prepare/parameter_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/nearest.h"
+#include "engine/runtime/prepare/program_request.h"
+#include "engine/runtime/prepare/shader_advice.h"
+#include "engine/runtime/storage/block_writer.h"
+
+namespace weft::runtime {
+
+using base::Code;
+
+namespace {
+
+class ParameterCheck {
+ public:
+  ParameterCheck(const graph::FlatGraph& graph, const graph::PassSpec& spec, const gl::Variant& variant,
+                 const std::string& shaders, base::Diagnostics& diagnostics)
+      : graph_(graph),
+        spec_(spec),
+        variant_(variant),
+        reflection_(variant.program.reflection()),
+        shaders_(shaders),
+        diagnostics_(diagnostics) {}
+
+  bool run() {
+    const gl::Block* block = reflection_.findUniformBlock("Parameters");
+    for (const graph::UniformSpec& uniform : spec_.uniforms) {
+      if (uniform.choosesVariant()) continue;
+      const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
+      if (!member) {
+        if (variant_.mentions(uniform.name)) continue;
+        parameterMissing_ = true;
+        fail(Code::parameterNotInShader, uniform.place,
+             fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, shaders_))
+            .hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`{}",
+                                memberTypeFor(uniform.value), uniform.name, withNearest(uniform.name));
+        continue;
+      }
+      std::string expected;
+      if (!memberTakes(*member, uniform.value, expected)) {
+        base::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place,
+                                   fmt::format("parameter '{}' does not fit the shader's {}", uniform.name,
+                                               gl::glslTypeName(member->type)));
+        d.expected = expected;
+        d.found = graph::toText(uniform.value);
+        d.hint = fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
+                             uniform.name, expected);
+        continue;
+      }
+      checkWhole(uniform, *member);
+    }
+    checkUnset(block);
+    return good_;
+  }
+
+ private:
+  base::Diagnostic& fail(Code code, const base::Place& place, std::string message) {
+    good_ = false;
+    base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
+    d.pass = spec_.name;
+    return d;
+  }
+
+  std::string withNearest(const std::string& name) const {
+    const std::string nearest = base::nearestName(name, declaredNames(variant_));
+    return nearest.empty() ? "" : fmt::format(", or did you mean '{}'?", nearest);
+  }
+
+  // Numbers that are written, and sliders, keep their fractions; what an expression computes is cut.
+  void checkWhole(const graph::UniformSpec& uniform, const gl::BlockMember& member) {
+    const auto shape = gl::shapeOf(member.type);
+    if (!shape || (shape->base != GL_INT && shape->base != GL_UNSIGNED_INT)) return;
+    const auto parameter = std::ranges::find(graph_.parameters, uniform.path, &graph::ParameterSpec::path);
+    const bool slider = !uniform.path.empty() && parameter != graph_.parameters.end() &&
+                        parameter->desc.type == graph::ParameterDesc::Type::number;
+    bool whole = true;
+    for (std::size_t i = 0; i < uniform.value.count; ++i)
+      whole = whole && uniform.value.v[i] == std::floor(uniform.value.v[i]) &&
+              (uniform.value.v[i] >= 0 || shape->base == GL_INT);
+    if (!slider && (!uniform.constant || whole)) return;
+    const std::string type = gl::glslTypeName(member.type);
+    base::Diagnostic& d =
+        fail(Code::parameterTypeMismatch, uniform.place,
+             slider ? fmt::format("parameter '{}' is a float, and the shader's {} would lose its fraction",
+                                  uniform.name, type)
+                    : fmt::format("parameter '{}' does not fit the shader's {}", uniform.name, type));
+    d.expected =
+        fmt::format("{} for {}", shape->base == GL_INT ? "whole numbers" : "whole numbers from 0 on", type);
+    d.found = graph::toText(uniform.value);
+    d.hint = slider
+                 ? fmt::format("give the parameter \"type\": \"int\", or declare `float {};` in the shader",
+                               uniform.name)
+                 : fmt::format("write whole numbers, or declare `{} {};` in the shader",
+                               memberTypeFor(uniform.value), uniform.name);
+  }
+
+  // A member that nobody sets is 0, which is mostly a black picture. Silent when a name was not found: one misspelling is
+  // one mistake.
+  void checkUnset(const gl::Block* block) {
+    if (!block || parameterMissing_) return;
+    for (const gl::BlockMember& member : block->members) {
+      if (std::ranges::find(spec_.uniforms, member.name, &graph::UniformSpec::name) != spec_.uniforms.end())
+        continue;
+      base::Diagnostic& d =
+          fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+               fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
+                           member.name, spec_.name));
+      d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name,
+                               gl::glslTypeName(member.type));
+      d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
+                           presenceDefineOf(member.name));
+    }
+  }
+
+  const graph::FlatGraph& graph_;
+  const graph::PassSpec& spec_;
+  const gl::Variant& variant_;
+  const gl::Reflection& reflection_;
+  const std::string& shaders_;
+  base::Diagnostics& diagnostics_;
+  bool good_ = true, parameterMissing_ = false;
+};
+
+}  // namespace
+
+bool checkParameters(const graph::FlatGraph& graph, const graph::PassSpec& spec, const gl::Variant& variant,
+                     const std::string& shaders, base::Diagnostics& diagnostics) {
+  return ParameterCheck(graph, spec, variant, shaders, diagnostics).run();
+}
+
+std::vector<std::string> declaredNames(const gl::Variant& variant) {
+  std::vector<std::string> names;
+  for (const gl::StageSource& stage : variant.stages)
+    names.insert(names.end(), stage.source->declared.begin(), stage.source->declared.end());
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,111 @@
+// One mistake is reported once: what is only missing because a pass was left out for its mistakes is no second one.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <map>
+
+#include "tests/graph/expand/support.h"
+
+using namespace weft;
+using namespace weft::graph;
+using namespace weft::graph::test;
+
+namespace {
+
+base::Diagnostics diagnose(const std::string& text) {
+  base::Diagnostics diagnostics;
+  const auto desc = readGraphText(text, "followers.json", diagnostics);
+  REQUIRE_MESSAGE(desc, diagnostics.text());
+  expandGraph(*desc, testRegistry(), {}, diagnostics);
+  return diagnostics;
+}
+
+// A chain: pass i reads what pass i-1 wrote. Every tenth has a mistake, of five kinds in turn.
+std::string chain(int count) {
+  std::string resources = R"("ldr": { "texture": "rgba8", "size": 8 })", passes;
+  for (int i = 0; i < count; ++i) {
+    const int mistake = i % 10 == 5 ? i / 10 % 5 : -1;
+    resources += fmt::format(", \"r{}\": {{ \"texture\": \"{}\", \"size\": 8 }}", i,
+                             mistake == 0 ? "rgba9x" : "rgba8");
+    const std::string read = mistake == 1 ? fmt::format("\"read\": {{ \"source\": \"nowhere{}\" }}, ", i)
+                             : i > 0      ? fmt::format("\"read\": {{ \"source\": \"r{}\" }}, ", i - 1)
+                                          : "";
+    const char* const extra = mistake == 2   ? ", \"enabled\": \"$absent\""
+                              : mistake == 3 ? ", \"enabled\": \"soft\""
+                              : mistake == 4 ? ", \"repeat\": { \"k\": [0, 0, 0] }"
+                                             : "";
+    passes += fmt::format(
+        "{}{{ \"name\": \"p{}\", \"type\": \"fullscreen\", \"shader\": \"a.frag.glsl\", {}\"write\": {{ "
+        "\"result\": \"r{}\" }}{} }}",
+        i ? ",\n" : "", i, read, i, extra);
+  }
+  passes += fmt::format(
+      ",\n{{ \"name\": \"show\", \"type\": \"fullscreen\", \"shader\": \"a.frag.glsl\", \"read\": {{ "
+      "\"source\": \"r{}\" }}, "
+      "\"write\": {{ \"result\": \"ldr\" }} }}",
+      count - 1);
+  return fmt::format("{{ \"resources\": {{ {} }}, \"passes\": [\n{} ], \"present\": \"ldr\" }}", resources,
+                     passes);
+}
+
+}  // namespace
+
+TEST_CASE("of 1,000 passes with 100 mistakes each mistake is named, and nothing follows from them") {
+  const base::Diagnostics said = diagnose(chain(1000));
+  std::map<std::string, int> codes;
+  for (const base::Diagnostic& d : said.items()) ++codes[base::nameOf(d.code)];
+  INFO(said.text().substr(0, 4000));
+  CHECK(said.errorCount() == 100);
+  CHECK(said.size() == 100);
+  const std::map<std::string, int> expected = {
+      {"W042", 20}, {"W040", 20}, {"W022", 20}, {"W051", 20}, {"W048", 20}};
+  CHECK(codes == expected);
+}
+
+TEST_CASE("a chain without mistakes says nothing") {
+  std::string text = chain(5);
+  CHECK_MESSAGE(diagnose(text).empty(), diagnose(text).text());
+}
+
+TEST_CASE("what an overlay removed, and what a range leaves out, is named where it is missing") {
+  const std::string passes =
+      R"({ "resources": { "ldr": { "texture": "rgba8", "size": 8 }, "a": { "texture": "rgba8", "size": 8 } },
+    "passes": [
+      { "name": "fill", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [3, 1] }, "write": { "result": "a" } },
+      { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "a" }, "write": { "result": "ldr" } } ],
+    "present": "ldr" })";
+  const base::Diagnostics said = diagnose(passes);
+  REQUIRE(said.size() == 1);
+  CHECK(said.items()[0].code == base::Code::disabledWriter);
+  CHECK(said.items()[0].message.find("'fill'") != std::string::npos);
+  CHECK(said.items()[0].hint.find("[3, 1, -1]") != std::string::npos);
+}
+
+TEST_CASE("a value of the program's own is told from a parameter") {
+  const base::Diagnostics said =
+      diagnose(R"({ "resources": { "a": { "texture": "rgba8", "size": "$screen/2" } }, "passes": [] })");
+  REQUIRE(said.errorCount() == 1);
+  CHECK(said.items()[0].code == base::Code::unknownVariable);
+  CHECK(said.items()[0].hint == "write 'screen', without the '$'");
+}
+
+TEST_CASE("levels that nobody reads are told of, unless the chain is read in part") {
+  const auto chainRead = [](const char* read) {
+    return diagnose(fmt::format(
+        R"({{ "resources": {{ "ldr": {{ "texture": "rgba8", "size": 8 }}, "glow": {{ "texture": "rgba8", "size": 8, "mips": 4 }} }},
+      "passes": [
+        {{ "name": "first", "type": "fullscreen", "shader": "a.frag.glsl", "write": {{ "result": "glow.mip[0]" }} }},
+        {{ "name": "down", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": {{ "i": [1, 3] }},
+           "read": {{ "source": "glow.mip[i-1]" }}, "write": {{ "result": "glow.mip[i]" }} }},
+        {{ "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": {{ "source": "{}" }}, "write": {{ "result": "ldr" }} }} ],
+      "present": "ldr" }})",
+        read));
+  };
+  CHECK(chainRead("glow").empty());
+  CHECK(chainRead("glow.mip[3]").empty());
+  CHECK(chainRead("glow.mip[1]").empty());
+  const base::Diagnostics said = chainRead("glow.mip[0]");
+  REQUIRE_MESSAGE(said.size() == 1, said.text());
+  CHECK(said.items()[0].code == base::Code::culledUnread);
+  CHECK(said.items()[0].message == "pass 'down[3]' is culled: nobody reads level 3 of 'glow', only others");
+}
