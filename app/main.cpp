@@ -17,9 +17,10 @@ int main(int argc, char** argv) {
   if (!options) return finishStreams(exitCode);
 
   static constexpr std::pair<const char*, int (*)(const Options&)> kCommands[] = {
-      {"render", runRender},   {"view", runView},   {"check", runCheck},   {"params", runParams},
-      {"presets", runPresets}, {"dot", runDot},     {"plan", runPlan},     {"bench", runBench},
-      {"schema", runSchema},   {"types", runTypes}, {"format", runFormat},
+      {"render", runRender}, {"view", runView},     {"check", runCheck},   {"explain", runExplain},
+      {"expand", runExpand}, {"diff", runDiff},     {"params", runParams}, {"presets", runPresets},
+      {"dot", runDot},       {"plan", runPlan},     {"bench", runBench},   {"schema", runSchema},
+      {"types", runTypes},   {"format", runFormat},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));

@@ -1,4 +1,4 @@
-// The commands that print: check, dot, plan, bench, schema, types.
+// The commands that print: dot, plan, bench, schema, types.
 #include "app/commands/commands.h"
 
 #include <fmt/format.h>
@@ -8,19 +8,13 @@
 #include "app/bench/frame_bench.h"
 #include "app/bench/task_bench.h"
 #include "app/bench/workload_bench.h"
-#include "app/session/device_session.h"
 #include "app/session/session.h"
 #include "app/session/standard_streams.h"
-#include "engine/base/printable.h"
-#include "engine/graph/language/enough.h"
 #include "engine/graph/language/schema.h"
 #include "engine/graph/print/dot.h"
 #include "engine/graph/print/json.h"
 #include "engine/graph/print/text.h"
-#include "engine/graph/read/read.h"
 #include "engine/runtime/imports/registry.h"
-#include "engine/runtime/prepare/program_check.h"
-#include "engine/runtime/prepare/program_request.h"
 
 namespace weft::app {
 
@@ -31,71 +25,7 @@ std::shared_ptr<const graph::Plan> planFor(const Options& options, base::Diagnos
   return makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
 }
 
-// Compiles the variant of every live pass and holds it against its slots and parameters.
-void checkShaders(const Options& options, const graph::Plan& plan, base::Diagnostics& diagnostics) {
-  base::Diagnostics environment;
-  Options headless = options;
-  headless.backend = "auto";
-  auto session = openDevice(headless, environment);
-  if (!session) {
-    diagnostics.append(environment);
-    return;
-  }
-  runtime::Device& device = session->renderer.device();
-  for (const graph::Step& step : plan.steps) {
-    const graph::PassType type = device.passTypes.find(plan.graph->specs[step.pass].type)->reflect();
-    if (type.shader == graph::ShaderShape::none) continue;
-    const std::uint32_t combinations = 1u << runtime::conditionCount(plan.graph->specs[step.pass]);
-    for (std::uint32_t conditions = 0; conditions < combinations; ++conditions) {
-      const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
-      const auto variant = device.programs.get(request, diagnostics);
-      if (!variant ||
-          !runtime::checkProgram(plan, step.pass, *variant, session->context->device().limits, diagnostics))
-        break;
-    }
-  }
-}
-
-// A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
-// path or include is reported together with the graph's own mistakes. Needs no OpenGL.
-void checkShaderFiles(const Options& options, const graph::GraphDesc& desc, gl::SourceLoader& sources,
-                      base::Diagnostics& diagnostics) {
-  const passes::PassRegistry types = passes::PassRegistry::builtin();
-  for (const graph::PassDesc& pass : desc.passes) {
-    if (graph::enoughErrors(diagnostics)) return;
-    if (pass.include && pass.include->graph)
-      checkShaderFiles(options, *pass.include->graph, sources, diagnostics);
-    const passes::PassType* type = pass.shader.empty() ? nullptr : types.find(pass.type);
-    if (!type) continue;
-    std::vector<std::string> files = {pass.shader};
-    if (!pass.vertexShader.empty())
-      files.push_back(pass.vertexShader);
-    else if (type->reflect().shader == graph::ShaderShape::draw)
-      files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
-    for (const std::string& file : files) sources.load(file, diagnostics, pass.shaderPlace);
-  }
-}
-
 }  // namespace
-
-int runCheck(const Options& options) {
-  base::Diagnostics diagnostics;
-  const auto plan = planFor(options, diagnostics);
-  if (plan && options.shaders) checkShaders(options, *plan, diagnostics);
-  base::Diagnostics again;
-  // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
-  const bool over = diagnostics.contains(base::Code::limitExceeded);
-  if (const auto desc = plan || over ? nullptr : graph::readGraph(options.graph, options.presets, again)) {
-    gl::SourceLoader sources(runtime::shaderRootsOf(options.graph, dataFolder()));
-    checkShaderFiles(options, *desc, sources, diagnostics);
-  }
-  const int code = report(diagnostics);
-  if (code == 0)
-    print(fmt::format("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n",
-                      base::printable(options.graph), plan->graph->passes.size(), plan->steps.size(),
-                      plan->storages.size(), plan->bytesAllocated, plan->bytesDeclared));
-  return code;
-}
 
 int runDot(const Options& options) {
   if (options.tasks) return runTaskDot(options);

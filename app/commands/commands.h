@@ -8,6 +8,9 @@ namespace weft::app {
 
 int runRender(const Options& options);
 int runCheck(const Options& options);
+int runExplain(const Options& options);
+int runExpand(const Options& options);
+int runDiff(const Options& options);  // 0: no difference, 1: some, 2: a graph cannot be compiled
 int runParams(const Options& options);
 int runPresets(const Options& options);
 int runDot(const Options& options);

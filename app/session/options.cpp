@@ -78,8 +78,8 @@ std::string takeConfinement(const std::string& folder) {
 
 // What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
 void chooseFiles(const Options& options) {
-  for (const std::string* file :
-       {&options.graph, &options.scene, &options.environment, &options.materials, &options.frameGraph})
+  for (const std::string* file : {&options.graph, &options.otherGraph, &options.scene, &options.environment,
+                                  &options.materials, &options.frameGraph})
     base::chooseFile(*file);
   for (const std::string& preset : options.presets) base::chooseFile(preset);
   for (const std::string& workload : options.workloads) base::chooseFile(workload);
@@ -183,7 +183,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   CLI::App app("Weft: a frame is a JSON file", "weft");
   app.require_subcommand(1);
   const auto asJson = [&options] { options.format = "json"; };
-  app.set_version_flag("--version", "weft 0.1.0");
+  app.set_version_flag("--version", fmt::format("weft {}", kVersion));
 
   CLI::App* render =
       app.add_subcommand("render", "render frames of a graph to image files, without a display");
@@ -232,6 +232,28 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");
   addGraphOptions(*check, options, raw);
   check->add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
+  check->add_option("--format", options.format, "text, json, or sarif for code hosts and editors")
+      ->check(CLI::IsMember({"text", "json", "sarif"}));
+  check->add_flag(
+      "--matrix", options.matrix,
+      "also with each pass disabled, each pair of passes, and each value that a parameter offers");
+  check->add_flag("--all", options.allVariants,
+                  "compile every shader variant that disabling a pass or setting a parameter reaches");
+  check->add_flag("--watch", options.watch, "check again whenever a file that was read changes, until ended");
+
+  CLI::App* explain = app.add_subcommand(
+      "explain", "say what is known of one pass, resource or parameter: order, storage, barriers, readers");
+  addGraphOptions(*explain, options, raw);
+  explain->add_option("name", options.name, "any unique suffix of its name")->required();
+
+  CLI::App* expand =
+      app.add_subcommand("expand", "print the expanded graph as a graph file that gives the same plan");
+  addGraphOptions(*expand, options, raw);
+
+  CLI::App* diff = app.add_subcommand(
+      "diff", "say how the plan of another graph differs: passes, barriers, bytes; exit 1 when it does");
+  addGraphOptions(*diff, options, raw);
+  diff->add_option("other", options.otherGraph, "the other graph file")->required();
 
   CLI::App* params =
       app.add_subcommand("params", "list the parameters of a graph: name, type, value, range, label");

@@ -11,6 +11,8 @@
 
 namespace weft::app {
 
+constexpr const char* kVersion = "0.1.0";
+
 struct Options {
   std::string command;  // "render", "view", "check", "dot", "plan", "params", "presets", "bench", …
   std::string graph;    // path of the graph file
@@ -27,7 +29,12 @@ struct Options {
   std::string cacheFolder;  // program binaries; empty: the user's cache folder, "none": none
   bool stats = false, profile = false, quiet = false;
   bool shaders = true;                 // check: compile every shader too
-  std::string format = "text";         // plan, params, presets: text or json
+  bool matrix = false;                 // check: try every variation
+  bool allVariants = false;            // check: compile what the variations reach
+  bool watch = false;                  // check: again after every save
+  std::string name;                    // explain: of a pass, a resource or a parameter
+  std::string otherGraph;              // diff: the second graph
+  std::string format = "text";         // check, plan, params, presets: text, json or (check) sarif
   std::vector<std::string> files;      // format
   bool checkOnly = false;              // format: say what differs, write nothing
   bool explain = false;                // plan: say why

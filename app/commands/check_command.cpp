@@ -1,0 +1,187 @@
+// weft check: everything wrong with a graph, as text, JSON or SARIF; once, or again after every save.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <poll.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/commands/commands.h"
+#include "app/commands/shader_check.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "engine/base/files/file_watcher.h"
+#include "engine/base/printable.h"
+#include "engine/base/report.h"
+#include "engine/graph/compile/compile.h"
+#include "engine/graph/read/read.h"
+#include "engine/graph/survey/matrix.h"
+#include "engine/runtime/imports/registry.h"
+
+namespace weft::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Checked {
+  base::Diagnostics diagnostics;
+  std::shared_ptr<const graph::Plan> plan;  // null after errors of the graph
+  std::optional<graph::Matrix> matrix;
+  std::size_t variants = 0;        // of shaders that were compiled
+  std::vector<std::string> files;  // that were read
+};
+
+// The variations of the graph: what they refuse, and with --all the shader variants that they reach.
+graph::Matrix tryVariations(const Options& options, const graph::GraphDesc& desc,
+                            const runtime::WorldFacts& facts, ShaderCheck& shaders,
+                            base::Diagnostics& diagnostics) {
+  const graph::Registry registry = runtime::makeRegistry({}, facts);
+  graph::MatrixOptions wanted{.pairs = options.matrix};
+  if (options.allVariants && options.shaders)
+    wanted.visit = [&](const graph::Variation& variation, std::shared_ptr<const graph::FlatGraph> flat) {
+      const bool changed = !variation.disables.empty() || !variation.parameter.empty();
+      shaders.check(graph::compile(std::move(flat)), changed ? variation.text() : "", diagnostics);
+    };
+  return graph::tryMatrix(desc, registry, settingsOf(options, true), wanted);
+}
+
+Checked checkOnce(const Options& options) {
+  Checked checked;
+  base::Diagnostics& diagnostics = checked.diagnostics;
+  const auto world = loadWorld(options, diagnostics);
+  const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
+  checked.plan = makePlan(options, facts, true, diagnostics);
+  ShaderCheck shaders(options);
+  if (checked.plan && options.shaders) shaders.check(*checked.plan, "", diagnostics);
+  // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
+  const bool over = diagnostics.contains(base::Code::limitExceeded);
+  const bool vary = checked.plan && !diagnostics.hasErrors() && (options.matrix || options.allVariants);
+  base::Diagnostics again;
+  if (const auto desc = over || (checked.plan && !vary)
+                            ? nullptr
+                            : graph::readGraph(options.graph, options.presets, again)) {
+    if (!checked.plan) shaders.checkFiles(*desc, diagnostics);
+    if (vary) checked.matrix = tryVariations(options, *desc, facts, shaders, diagnostics);
+    checked.files = desc->files;
+  }
+  if (checked.plan) checked.files = checked.plan->graph->files;
+  if (checked.files.empty()) checked.files = {options.graph};
+  for (std::string& file : shaders.files()) checked.files.push_back(std::move(file));
+  checked.variants = shaders.variants();
+  if (checked.matrix && options.matrix)
+    for (const graph::RefusedVariation& refused : checked.matrix->broken)
+      for (base::Diagnostic each : refused.said.items()) {
+        each.message += fmt::format(" (with {})", refused.variation.text());
+        diagnostics.add(std::move(each));
+      }
+  diagnostics.sortByPlace();
+  return checked;
+}
+
+// ---- told as text ----
+
+std::string matrixText(const Options& options, const Checked& checked) {
+  const graph::Matrix& matrix = *checked.matrix;
+  std::string text;
+  if (options.matrix) {
+    text = fmt::format("matrix: {} passes and {} pairs disabled, {} values set\n", matrix.passes,
+                       matrix.pairs, matrix.values);
+    for (const graph::RefusedVariation& needed : matrix.needed)
+      text += fmt::format("  needed: {}: {}\n",
+                          base::printable(fmt::format("{}", fmt::join(needed.variation.disables, " or "))),
+                          base::printable(needed.said.items()[0].message));
+    text += matrix.broken.empty()
+                ? "  nothing else is refused\n"
+                : fmt::format("  {} of these are refused without saying so\n", matrix.broken.size());
+  }
+  if (options.allVariants && options.shaders)
+    text += fmt::format("shaders: {} variants compiled\n", checked.variants);
+  return text;
+}
+
+int tellText(const Options& options, Checked& checked) {
+  const int code = report(checked.diagnostics);
+  if (checked.matrix) print(matrixText(options, checked));
+  if (code == 0)
+    print(fmt::format("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n",
+                      base::printable(options.graph), checked.plan->graph->passes.size(),
+                      checked.plan->steps.size(), checked.plan->storages.size(), checked.plan->bytesAllocated,
+                      checked.plan->bytesDeclared));
+  return code;
+}
+
+// ---- told as data ----
+
+Json refusedJson(const std::vector<graph::RefusedVariation>& refused) {
+  Json all = Json::array();
+  for (const graph::RefusedVariation& each : refused)
+    all.push_back({{"with", each.variation.text()},
+                   {"diagnostics", Json::parse(base::diagnosticsJson(each.said, -1))}});
+  return all;
+}
+
+Json documentOf(const Options& options, const Checked& checked) {
+  Json out{{"graph", options.graph},
+           {"errors", checked.diagnostics.errorCount()},
+           {"diagnostics", Json::parse(base::diagnosticsJson(checked.diagnostics, -1))}};
+  if (checked.plan)
+    out["plan"] = {{"passes", checked.plan->graph->passes.size()},
+                   {"run", checked.plan->steps.size()},
+                   {"textures", checked.plan->storages.size()},
+                   {"bytes_declared", checked.plan->bytesDeclared},
+                   {"bytes_allocated", checked.plan->bytesAllocated}};
+  if (options.shaders) out["shader_variants"] = checked.variants;
+  if (checked.matrix && options.matrix)
+    out["matrix"] = {{"passes", checked.matrix->passes},
+                     {"pairs", checked.matrix->pairs},
+                     {"values", checked.matrix->values},
+                     {"needed", refusedJson(checked.matrix->needed)},
+                     {"broken", refusedJson(checked.matrix->broken)}};
+  return out;
+}
+
+int tell(const Options& options, Checked& checked) {
+  if (options.format == "text") return tellText(options, checked);
+  if (options.format == "sarif")
+    print(base::diagnosticsSarif(checked.diagnostics, kVersion) + "\n");
+  else if (options.watch)  // a line for each time
+    print(base::printableJson(
+              documentOf(options, checked).dump(-1, ' ', false, Json::error_handler_t::replace)) +
+          "\n");
+  else
+    print(dumpJson(documentOf(options, checked)) + "\n");
+  return checked.diagnostics.hasErrors() ? 1 : 0;
+}
+
+// Returns when some of the files changed and then nothing did for a moment: a save may be several writes.
+std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
+  constexpr int kQuiet = 50, kLook = 500;  // milliseconds
+  std::vector<std::string> changed;
+  while (true) {
+    pollfd waiting{watcher.descriptor(), POLLIN, 0};
+    poll(&waiting, watcher.works() ? 1 : 0, changed.empty() ? kLook : kQuiet);
+    watcher.poller().look();
+    const std::vector<std::string> more = watcher.poll();
+    if (more.empty() && !changed.empty()) return changed;
+    changed.insert(changed.end(), more.begin(), more.end());
+  }
+}
+
+}  // namespace
+
+int runCheck(const Options& options) {
+  base::FileWatcher watcher;
+  while (true) {
+    Checked checked = checkOnce(options);
+    if (options.watch) watcher.watch(checked.files);
+    const int code = tell(options, checked);
+    if (!options.watch) return code;
+    if (options.format == "text") print(fmt::format("watching {} files\n", checked.files.size()));
+    flushPrinted();
+    const std::vector<std::string> changed = waitForChange(watcher);
+    if (options.format == "text") print(fmt::format("\nchanged: {}\n", base::printable(changed[0])));
+  }
+}
+
+}  // namespace weft::app

@@ -1,0 +1,87 @@
+#include "app/commands/shader_check.h"
+
+#include <fmt/format.h>
+
+#include "app/session/session.h"
+#include "engine/graph/language/enough.h"
+#include "engine/passes/pass_registry.h"
+#include "engine/runtime/prepare/program_check.h"
+#include "engine/runtime/prepare/program_request.h"
+
+namespace weft::app {
+
+namespace {
+
+// What tells the variants of a plan's passes apart, and which slots and parameters a pass holds against them.
+std::string keyOf(const gl::ProgramRequest& request) {
+  std::string key = request.pass;
+  for (const gl::ProgramRequest::Stage& stage : request.stages) key += "|" + stage.file;
+  for (const gl::Define& define : request.defines) key += "|" + define.name + "=" + define.value;
+  for (const std::string& output : request.outputs) key += "|" + output;
+  return key;
+}
+
+}  // namespace
+
+void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics) {
+  if (failed_) return;
+  if (!session_) {
+    Options headless = options_;
+    headless.backend = "auto";
+    base::Diagnostics environment;
+    session_ = openDevice(headless, environment);
+    failed_ = !session_;
+    if (failed_) diagnostics.append(environment);
+    if (failed_) return;
+  }
+  runtime::Device& device = session_->renderer.device();
+  base::Diagnostics said;
+  for (const graph::Step& step : plan.steps) {
+    const graph::PassSpec& spec = plan.graph->specs[step.pass];
+    const graph::PassType type = device.passTypes.find(spec.type)->reflect();
+    if (type.shader == graph::ShaderShape::none) continue;
+    const std::uint32_t combinations = 1u << runtime::conditionCount(spec);
+    for (std::uint32_t conditions = 0; conditions < combinations; ++conditions) {
+      const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
+      if (!known_.insert(keyOf(request)).second) continue;
+      const auto variant = device.programs.get(request, said);
+      if (!variant ||
+          !runtime::checkProgram(plan, step.pass, *variant, session_->context->device().limits, said))
+        break;
+    }
+  }
+  for (base::Diagnostic each : said.items()) {
+    if (!with.empty()) each.message += fmt::format(" (with {})", with);
+    diagnostics.add(std::move(each));
+  }
+  read_.insert(device.sources.touched().begin(), device.sources.touched().end());
+}
+
+void ShaderCheck::checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics) {
+  gl::SourceLoader sources(runtime::shaderRootsOf(options_.graph, dataFolder()));
+  checkFiles(desc, sources, diagnostics);
+  read_.insert(sources.touched().begin(), sources.touched().end());
+}
+
+void ShaderCheck::checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sources,
+                             base::Diagnostics& diagnostics) {
+  const passes::PassRegistry types = passes::PassRegistry::builtin();
+  for (const graph::PassDesc& pass : desc.passes) {
+    if (graph::enoughErrors(diagnostics)) return;
+    if (pass.include && pass.include->graph) checkFiles(*pass.include->graph, sources, diagnostics);
+    const passes::PassType* type = pass.shader.empty() ? nullptr : types.find(pass.type);
+    if (!type) continue;
+    std::vector<std::string> files = {pass.shader};
+    if (!pass.vertexShader.empty())
+      files.push_back(pass.vertexShader);
+    else if (type->reflect().shader == graph::ShaderShape::draw)
+      files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+    for (const std::string& file : files) sources.load(file, diagnostics, pass.shaderPlace);
+  }
+}
+
+std::vector<std::string> ShaderCheck::files() const {
+  return {read_.begin(), read_.end()};
+}
+
+}  // namespace weft::app

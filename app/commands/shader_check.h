@@ -1,0 +1,42 @@
+// The shaders of plans, compiled and held against their passes, each variant once: for `weft check`. Opens a context when
+// the first plan comes. Does not: run a frame.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/session/device_session.h"
+#include "app/session/options.h"
+#include "engine/graph/desc.h"
+#include "engine/graph/plan.h"
+
+namespace weft::app {
+
+class ShaderCheck {
+ public:
+  explicit ShaderCheck(const Options& options) : options_(options) {}
+
+  // All variants of the live passes. `with`: how the plan differs from the graph as it is, for messages; or "". Nothing
+  // more is compiled once a context could not be opened, which is reported.
+  void check(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics);
+  // A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
+  // path or include is reported together with the graph's own mistakes. Needs no OpenGL.
+  void checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics);
+
+  std::size_t variants() const { return known_.size(); }
+  // Every file that was read or looked for.
+  std::vector<std::string> files() const;
+
+ private:
+  void checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sources, base::Diagnostics& diagnostics);
+
+  const Options options_;
+  std::unique_ptr<DeviceSession> session_;
+  bool failed_ = false;
+  std::set<std::string> known_;  // variants, by what they are made of
+  std::set<std::string> read_;
+};
+
+}  // namespace weft::app

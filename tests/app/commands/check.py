@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""`weft check` beyond text: JSON and SARIF say what the text says, --matrix and --all try the variations, --watch checks again after a save.
+
+    check.py WEFT
+"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from program import TOP, Report, count_run, run, temporary_folder
+
+BROKEN = "tests/bad_graphs/w040_unknown_resource.json"
+GLOW = "graphs/glow.json"
+
+
+def fields(diagnostic):
+    return tuple(diagnostic.get(key) for key in ("file", "line", "column", "severity", "code", "message"))
+
+
+def check_formats(weft, report):
+    for graph in sorted((TOP / "tests/bad_graphs").glob("w0[0-9]*.json"))[::7] + [TOP / GLOW]:
+        graph = str(graph.relative_to(TOP))
+        text = run(weft, "check", "--no-shaders", graph)
+        document = run(weft, "check", "--no-shaders", graph, "--format", "json")
+        report.check(document.code == text.code and not document.err, f"{graph}: {document.code}\n{document.err}")
+        data = json.loads(document.out)
+        said = [(d["place"], int(d["line"] or 0), int(d["column"] or 0), d["severity"], d["code"]) for d in text.diagnostics]
+        listed = [(d.get("file"), d.get("line", 0), d.get("column", 0), d["severity"], d["code"]) for d in data["diagnostics"]]
+        report.check(said == listed, f"{graph}: text and JSON differ\n{said}\n{listed}")
+        report.check(data["errors"] == sum(d["severity"] == "error" for d in text.diagnostics), f"{graph}: {data['errors']} errors")
+        report.check(("plan" in data) == (text.code == 0), f"{graph}: {data.keys()}")
+
+        sarif = json.loads(run(weft, "check", "--no-shaders", graph, "--format", "sarif").out)
+        report.check(sarif["version"] == "2.1.0" and len(sarif["runs"]) == 1, f"{graph}: {sarif}")
+        sarif_run = sarif["runs"][0]
+        rules = [rule["id"] for rule in sarif_run["tool"]["driver"]["rules"]]
+        report.check(rules == sorted(set(rules)), f"{graph}: rules {rules}")
+        report.check([r["ruleId"] for r in sarif_run["results"]] == [d["code"] for d in data["diagnostics"]], f"{graph}: {sarif}")
+        for result, diagnostic in zip(sarif_run["results"], data["diagnostics"]):
+            report.check(rules[result["ruleIndex"]] == result["ruleId"], f"{graph}: {result}")
+            report.check(result["level"] == diagnostic["severity"], f"{graph}: {result}")
+            report.check(result["message"]["text"].startswith(diagnostic["message"]), f"{graph}: {result}")
+            report.check("fix" not in diagnostic or diagnostic["fix"] in result["message"]["text"], f"{graph}: {result}")
+            if "line" in diagnostic:
+                place = result["locations"][0]["physicalLocation"]
+                region = place["region"]
+                report.check(region["startLine"] == diagnostic["line"] and region.get("startColumn") == diagnostic.get("column"), f"{graph}: {result}")
+                report.check(place["artifactLocation"]["uri"] == diagnostic["file"], f"{graph}: {result}")
+
+
+def check_matrix(weft, report):
+    result = run(weft, "check", "--no-shaders", GLOW, "--matrix", "--format", "json")
+    matrix = json.loads(result.out)["matrix"]
+    singles = [d for d in matrix["needed"] if d["with"].count("--disable") == 1]
+    names = {d["with"] for d in singles}
+    report.check(result.code == 0 and not matrix["broken"], f"matrix of {GLOW}: {matrix['broken']}")
+    report.check(matrix["passes"] == 5 and "--disable composite" in names, f"{matrix}")
+    free = matrix["passes"] - len(singles)
+    report.check(matrix["pairs"] == free * (free - 1) // 2, f"{matrix}")
+    report.check(matrix["values"] == 4, f"{matrix}")  # a switch, and the ends of a range
+    # What it says of single passes is what --disable says.
+    for needed in matrix["needed"]:
+        alone = json.loads(run(weft, "check", "--no-shaders", GLOW, *needed["with"].split(), "--format", "json").out)
+        report.check([fields(d) for d in alone["diagnostics"] if d["severity"] == "error"] == [fields(d) for d in needed["diagnostics"]], f"{needed}\n{alone}")
+
+    with temporary_folder() as folder:
+        graph = pathlib.Path(folder, "two_sources.json")
+        graph.write_text(json.dumps({
+            "parameters": {"part": {"type": "int", "default": 2, "min": 0, "max": 4}},
+            "resources": {"a": {"texture": "rgba8", "size": 8}, "b": {"texture": "rgba8", "size": "8/$part"}, "hdr": ["a", "b"], "ldr": {"texture": "rgba8", "size": 8}},
+            "passes": [{"name": name, "type": "fullscreen", "shader": "a.frag.glsl", "write": {"result": name}} for name in "ab"]
+            + [{"name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": {"source": "hdr"}, "write": {"result": "ldr"}}],
+            "present": "ldr"}))
+        broken = run(weft, "check", "--no-shaders", graph, "--matrix")
+        report.check(broken.code == 1 and "W024" in broken.codes(), f"a value that the file offers divides by zero: {broken.err}")
+        report.check("with --set part=0" in broken.err and "needed: a or b: " in broken.out, broken.err + broken.out)
+    studio = run(weft, "check", "--no-shaders", "graphs/studio.json", "--matrix")
+    report.check(studio.code == 0 and "nothing else is refused" in studio.out, f"the matrix of the studio: {studio.err}")
+
+
+def check_all(weft, report):
+    few = json.loads(run(weft, "check", GLOW, "--format", "json").out)["shader_variants"]
+    result = run(weft, "check", GLOW, "--all", "--format", "json")
+    many = json.loads(result.out)
+    report.check(result.code == 0 and many["shader_variants"] > few, f"--all compiles {many['shader_variants']} variants, without {few}")
+    # A variant that only a parameter chooses: silent without --all.
+    with temporary_folder() as folder:
+        top = pathlib.Path(folder)
+        (top / "shaders").mkdir()
+        (top / "shaders/a.frag.glsl").write_text("out vec4 result;\nvoid main() {\n#if CURVE == CURVE_HARD\n  result = missing;\n#else\n  result = vec4(1.0);\n#endif\n}\n")
+        graph = top / "curve.json"
+        graph.write_text(json.dumps({
+            "parameters": {"curve": {"type": "choice", "choices": ["soft", "hard"], "default": "soft"}},
+            "resources": {"ldr": {"texture": "rgba8", "size": 8}},
+            "passes": [{"name": "paint", "type": "fullscreen", "shader": "a.frag.glsl", "defines": {"CURVE": "$curve"}, "write": {"result": "ldr"}}],
+            "present": "ldr"}))
+        report.check(run(weft, "check", graph).code == 0, "the chosen variant is sound")
+        found = run(weft, "check", graph, "--all")
+        report.check(found.code == 1 and found.codes() == ["W104"] and "with --set curve=hard" in found.err, found.err)
+
+
+def check_watch(weft, report):
+    with temporary_folder() as folder:
+        graph = pathlib.Path(folder, "graph.json")
+        shutil.copy(TOP / BROKEN, graph)
+        count_run()
+        process = subprocess.Popen([weft, "check", "--no-shaders", graph, "--watch", "--format", "json"], cwd=TOP, stdout=subprocess.PIPE, text=True)
+        try:
+            first = json.loads(process.stdout.readline())
+            report.check("W040" in [d["code"] for d in first["diagnostics"]], f"{first}")
+            sound = TOP / "tests/bad_graphs/w091_never_read.json"
+            graph.write_text(sound.read_text())
+            second = json.loads(process.stdout.readline())
+            report.check(second["errors"] == 0 and [d["code"] for d in second["diagnostics"]] == ["W091"], f"{second}")
+            # By renaming, as editors save.
+            other = pathlib.Path(folder, "other.json")
+            shutil.copy(TOP / BROKEN, other)
+            other.rename(graph)
+            third = json.loads(process.stdout.readline())
+            report.check("W040" in [d["code"] for d in third["diagnostics"]], f"{third}")
+        finally:
+            process.terminate()
+            process.wait()
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    if "--gl" in sys.argv:
+        check_all(weft, report)
+    else:
+        check_formats(weft, report)
+        check_matrix(weft, report)
+        check_watch(weft, report)
+    report.end()
+
+
+main()
