@@ -6,24 +6,23 @@
 
 const float kPi = 3.14159265358979;
 
-// atan(y, x) with an error below 1.1e-5 rad (a sixth of a percent of a texel of a 1024 map); x and y not both zero.
-// Odd polynomial of degree 11 on [0, 1]: Hastings, "Approximations for Digital Computers", 1955, sheet 11.
-float fastAtan(float y, float x) {
-  float ax = abs(x), ay = abs(y);
-  float t = min(ax, ay) / max(max(ax, ay), 1e-30);
-  float s = t * t;
-  float r = ((((-0.01172120 * s + 0.05265332) * s - 0.11643287) * s + 0.19354346) * s - 0.33262347) * s + 0.99997726;
+// atan(y, x) of two angles at once, with an error below 1.1e-5 rad (a sixth of a percent of a texel of a 1024 map); x and y not both
+// zero. Odd polynomial of degree 11 on [0, 1]: Hastings, "Approximations for Digital Computers", 1955, sheet 11.
+vec2 fastAtan(vec2 y, vec2 x) {
+  vec2 ax = abs(x), ay = abs(y);
+  vec2 t = min(ax, ay) / max(max(ax, ay), 1e-30);
+  vec2 s = t * t;
+  vec2 r = ((((-0.01172120 * s + 0.05265332) * s - 0.11643287) * s + 0.19354346) * s - 0.33262347) * s + 0.99997726;
   r *= t;
-  r = ay > ax ? 0.5 * kPi - r : r;
-  r = x < 0.0 ? kPi - r : r;
-  return y < 0.0 ? -r : r;
+  r = mix(r, 0.5 * kPi - r, greaterThan(ay, ax));
+  r = mix(r, kPi - r, lessThan(x, vec2(0.0)));
+  return mix(r, -r, lessThan(y, vec2(0.0)));
 }
 
 // The direction need not be normalised.
 vec2 equirectUv(vec3 direction) {
-  float u = fastAtan(direction.z, direction.x) * (0.5 / kPi) + 0.5;
-  float v = 0.5 - fastAtan(direction.y, length(direction.xz)) * (1.0 / kPi);
-  return vec2(u, v);
+  vec2 angles = fastAtan(direction.zy, vec2(direction.x, length(direction.xz)));
+  return vec2(0.5 + angles.x * (0.5 / kPi), 0.5 - angles.y * (1.0 / kPi));
 }
 
 // Level at which a texel of the map at the equator is as wide as `angle` radians; 0 when the map is magnified.

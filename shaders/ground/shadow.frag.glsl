@@ -10,7 +10,8 @@ out vec2 lights;
 void main() {
   vec3 to = sphere.xyz - at;
   float distance_to = length(to), sine = min(sphere.w / distance_to, 1.0);
-  float apart = fastAtan(length(cross(to, light.xyz)), dot(to, light.xyz));
-  float seen = 1.0 - discOverlap(fastAtan(sine, sqrt(1.0 - sine * sine)), light.w, apart);
+  // How far the two are apart, and how wide the sphere is.
+  vec2 angles = fastAtan(vec2(length(cross(to, light.xyz)), sine), vec2(dot(to, light.xyz), sqrt(1.0 - sine * sine)));
+  float seen = 1.0 - discOverlap(angles.y, light.w, angles.x);
   lights = SPOT == 1 ? vec2(1.0, seen) : vec2(seen, 1.0);
 }

@@ -21,7 +21,7 @@ float capShare(float ratio, float facing) {
   if (height <= -1.0) return 0.0;
   float tangent = sqrt(max(r2 - 1.0, 1e-12)), rim = sqrt(max(1.0 - height * height, 0.0)), slant = sqrt(max(1.0 - facing * facing, 1e-12));
   float above = facing * arcCosine(clamp(-facing * tangent / slant, -1.0, 1.0)) - rim * tangent;
-  return max((above / r2 + fastAtan(rim, tangent)) / kPi, 0.0);
+  return max((above / r2 + fastAtan(vec2(rim), vec2(tangent)).x) / kPi, 0.0);
 }
 
 // Share of a disc of radius `wide` around a ray that a sphere of radius `over` covers: a smooth step between touching and covering (Oat and

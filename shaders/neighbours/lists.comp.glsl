@@ -78,7 +78,7 @@ void main() {
     x[i] = to.x / distance_to;
     y[i] = to.y / distance_to;
     z[i] = to.z / distance_to;
-    angles[i] = fastAtan(sines[i], sqrt(max(1.0 - sines[i] * sines[i], 0.0)));
+    angles[i] = fastAtan(vec2(sines[i]), vec2(sqrt(max(1.0 - sines[i] * sines[i], 0.0)))).x;
   }
   int listed = 0;
 #ifdef HAS_GROUND
@@ -96,7 +96,7 @@ void main() {
     for (int j = 0; j < found && left >= kHidden; ++j) {
       if (distances[j] >= distances[i] * 0.999999) continue;
       vec3 other = vec3(x[j], y[j], z[j]);
-      float apart = fastAtan(length(cross(axis, other)), dot(axis, other));
+      float apart = fastAtan(vec2(length(cross(axis, other))), vec2(dot(axis, other))).x;
       left *= 1.0 - capOverlap(angles[j], angles[i], apart);
     }
     if (left < kHidden) continue;

@@ -46,6 +46,8 @@ struct Lobe {
 // `bend`: radians the normals of a sphere span in a pixel where they face the eye. In the plane of incidence the cone of reflected
 // directions is 2 bend / nv wide, across it 2 bend nv; half of their product, which is constant on the sphere, counts, since the
 // sampler's filter is two texels wide (that half is also what differs least from supersampling, measured).
+// Not for fragments that have the lobe from the vertex shader (LOBE_IS_FLAT, see shading/light.glsl): a function counts, called or not.
+#if !defined LOBE_IS_FLAT || LOBE_IS_FLAT == 0
 #ifdef HAS_SPECULAR
 Lobe lobeOf(float roughness, float bend) {
   Lobe lobe = Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0));
@@ -91,6 +93,7 @@ Lobe lobeOf(float roughness, float bend) {
 }
 #else
 Lobe lobeOf(float roughness, float bend) { return Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0)); }
+#endif
 #endif
 
 #endif

@@ -91,7 +91,9 @@ class FileWriter {
     const auto resource = importResource_.find(import);
     const ImportSpec& spec = graph_.imports[import];
     // A view under the name of its type would be the view of all passes.
-    if (spec.kind == ImportKind::view) return plainName(spec.name) + "_view";
+    if (spec.kind == ImportKind::view && spec.name == spec.request.type)
+      return plainName(spec.name) + "_view";
+    if (spec.kind == ImportKind::view) return plainName(spec.name);
     return elementName(resource == importResource_.end() ? spec.name : graph_.resourceNames[resource->second])
         .array;
   }
@@ -160,7 +162,10 @@ class FileWriter {
       if (elementOf(spec.request) > 0) continue;
       Json json{{"import", spec.request.type}};
       for (const auto& [name, value] : spec.request.arguments) {
-        if (name == "element" || value.type == Value::Type::none) continue;
+        // An empty word is what an argument is when nothing is given; written, it would be an empty expression.
+        const bool given =
+            value.type == Value::Type::symbol ? !value.symbol.empty() : value.type != Value::Type::none;
+        if (name == "element" || !given) continue;
         const bool path = name.ends_with("file") && !value.symbol.empty();
         json[name] =
             path ? Json(std::filesystem::absolute(value.symbol).lexically_normal().string()) : jsonOf(value);

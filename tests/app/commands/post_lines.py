@@ -12,7 +12,7 @@ import sys
 from program import Report, TOP, run, temporary_folder
 
 LINE = re.compile(r'^    \{ "include": "effects/(\w+)\.json".*$', re.M)
-SWITCHES = {"depth_of_field": "dof", "motion_blur": "motion_blur", "bloom": "bloom", "exposure": "auto_exposure", "fxaa": "fxaa"}
+SWITCHES = {"depth_of_field": "dof", "taa": "taa", "motion_blur": "motion_blur", "bloom": "bloom", "exposure": "auto_exposure", "fxaa": "fxaa"}
 
 
 def with_lines(text, lines):

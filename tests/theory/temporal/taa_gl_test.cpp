@@ -125,9 +125,7 @@ TEST_CASE("temporal anti-aliasing: a still picture comes to rest, to the bit") {
   }
 }
 
-TEST_CASE(
-    "temporal anti-aliasing: a still picture is nearer to 64 samples a pixel than with FXAA, or with "
-    "nothing") {
+TEST_CASE("temporal anti-aliasing: a still picture is nearer to 64 samples a pixel than with FXAA") {
   for (const char* draw : {"billboard", "icosphere"}) {
     const Setup setup = with(busy(), {{"draw", draw}, {"subdivision", "5"}});
     const Encoded truth = supersampled(setup, 0);
