@@ -24,7 +24,7 @@ layout(std140) uniform Parameters {
 };
 
 void main() {
-  light = vec4(fog_color, fog_density * exp(min(-fog_falloff * (eye.y - fog_base), 60.0)));
-  // Without fog nothing is to overflow.
-  shape = vec4(fog_density > 0.0 ? fog_falloff : 0.0, fog_layer, fog_sky, 0.0);
+  float at_eye = fog_density > 0.0 ? log(fog_density) - fog_falloff * (eye.y - fog_base) : -1e30;
+  light = vec4(fog_color, exp(min(at_eye, 60.0)));
+  shape = vec4(fog_falloff, fog_layer, fog_sky, at_eye);
 }

@@ -8,14 +8,15 @@
 #ifdef HAS_AIR
 layout(std140) uniform air {
   vec4 fog_light;  // radiance of endless fog, extinction per world unit at the height of the eye
-  vec4 fog_shape;  // falloff, layer, sky: see air.comp.glsl
+  vec4 fog_shape;  // falloff, layer, sky: see air.comp.glsl; w: logarithm of the extinction at the eye
 };
 
 // Share of the light that comes through over the world vector `ray` from the eye on.
 float throughFog(vec3 ray) {
   float climb = fog_shape.x * ray.y;
-  // (1 - e^-x) / x; for small x, where the difference would lose its digits, by its series.
-  return exp(fog_light.w * length(ray) * (abs(climb) < 2e-3 ? 0.5 * climb - 1.0 : (exp(-climb) - 1.0) / climb));
+  // The mean of e^(w - x) for x from 0 to `climb`; for small ones, where the difference would lose its digits, by its series. Exponents are
+  // added first: high above the fog there is none at the eye that a float can tell, and below there is.
+  return exp(length(ray) * (abs(climb) < 2e-3 ? fog_light.w * (0.5 * climb - 1.0) : (exp(min(fog_shape.w - climb, 60.0)) - fog_light.w) / climb));
 }
 #endif
 

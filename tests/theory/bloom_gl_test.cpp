@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "tests/theory/lab.h"
 
@@ -195,25 +196,31 @@ TEST_CASE("fog before the sky: a layer around the eye, thickest at the horizon, 
 }
 
 TEST_CASE("fog that thins out with height: the optical depth is the integral of the density along the ray") {
-  const double density = 0.05, falloff = 0.2, base = -3, distance = 40;
-  const Radiance picture = render({{"plane.background", "2"},
-                                   {"plane.value", "2"},
-                                   {"plane.distance", "40"},
-                                   {"fog", "true"},
-                                   {"fog_density", "0.05"},
-                                   {"fog_falloff", "0.2"},
-                                   {"fog_base", "-3"},
-                                   {"fog_color", "[0, 0, 0]"}},
-                                  96, 64);
-  for (const std::uint32_t y : {0u, 10u, 31u, 32u, 50u, 63u}) {
-    const double half = std::tan(M_PI / 6), u = (48.5 / 96 * 2 - 1) * half * 1.5,
-                 v = ((y + 0.5) / 64 * 2 - 1) * half;
-    const double length = distance * std::sqrt(1 + u * u + v * v);
-    double depth = 0;
-    constexpr int kSteps = 2000;
-    for (int i = 0; i < kSteps; ++i)  // the eye is at height 0
-      depth += density * std::exp(-falloff * ((i + 0.5) / kSteps * distance * v - base)) * length / kSteps;
-    CAPTURE(y);
-    CHECK(picture.at(48, y) == doctest::Approx(2 * std::exp(-depth)).epsilon(3e-3));
+  const double density = 0.05, distance = 40;
+  // The last two: so high above the fog that at the eye there is none that a float can tell.
+  for (const auto& [falloff, base] :
+       {std::pair{0.2, -3.0}, std::pair{0.2, 3.0}, std::pair{5.0, -25.0}, std::pair{1.0, -150.0}}) {
+    CAPTURE(falloff);
+    CAPTURE(base);
+    const Radiance picture = render({{"plane.background", "2"},
+                                     {"plane.value", "2"},
+                                     {"plane.distance", "40"},
+                                     {"fog", "true"},
+                                     {"fog_density", "0.05"},
+                                     {"fog_falloff", std::to_string(falloff)},
+                                     {"fog_base", std::to_string(base)},
+                                     {"fog_color", "[0, 0, 0]"}},
+                                    96, 64);
+    for (const std::uint32_t y : {0u, 10u, 31u, 32u, 50u, 63u}) {
+      const double half = std::tan(M_PI / 6), u = (48.5 / 96 * 2 - 1) * half * 1.5,
+                   v = ((y + 0.5) / 64 * 2 - 1) * half;
+      const double length = distance * std::sqrt(1 + u * u + v * v);
+      double depth = 0;
+      constexpr int kSteps = 2000;
+      for (int i = 0; i < kSteps; ++i)  // the eye is at height 0
+        depth += density * std::exp(-falloff * ((i + 0.5) / kSteps * distance * v - base)) * length / kSteps;
+      CAPTURE(y);
+      CHECK(picture.at(48, y) == doctest::Approx(2 * std::exp(-depth)).epsilon(3e-3));
+    }
   }
 }

@@ -97,7 +97,7 @@ std::string JsonFields::nameOfMember(std::string_view key) const {
 }
 
 const JsonValue* JsonFields::find(std::string_view key) {
-  known_.emplace_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return object_.find(key);
 }
 
