@@ -39,7 +39,7 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
 void WindowInput::capture(bool on) {
   if (on == captured_) return;
   captured_ = on;
-  turning_ = panning_ = undecided_ = false;
+  turning_ = panning_ = undecided_ = moved_ = false;
   waiting_ = {};
   fresh_ = true;  // the cursor is put elsewhere: that is no movement
   glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
@@ -54,8 +54,12 @@ void WindowInput::onKey(int key, int action, int mods) {
   if (!name.empty()) actions_.push_back(name);
 }
 
+void WindowInput::waitIfUnknown() {
+  if (!captured_ && (moved_ || !actions_.empty())) undecided_ = true;
+}
+
 void WindowInput::onButton(int button, int action) {
-  if (action == GLFW_PRESS && !captured_ && !actions_.empty()) undecided_ = true;
+  if (action == GLFW_PRESS) waitIfUnknown();
   const bool panels = !undecided_ && overlay_ && overlay_->wantsMouse();
   const bool down = action == GLFW_PRESS && !captured_ && !panels;
   if (button == GLFW_MOUSE_BUTTON_LEFT) turning_ = down;
@@ -72,10 +76,11 @@ void WindowInput::onMove(double x, double y) {
       input.pan += at - last_;
   }
   last_ = at;
+  moved_ = !captured_;
 }
 
 void WindowInput::onScroll(double steps) {
-  if (!captured_ && !actions_.empty()) undecided_ = true;
+  waitIfUnknown();
   if (undecided_)
     waiting_.wheel += steps;
   else if (captured_ || !(overlay_ && overlay_->wantsMouse()))
@@ -92,6 +97,7 @@ bool WindowInput::held(std::string_view action) const {
 }
 
 void WindowInput::panelsDrawn() {
+  moved_ = false;
   if (!std::exchange(undecided_, false)) return;
   const CameraInput input = std::exchange(waiting_, {});
   if (overlay_ && overlay_->wantsMouse()) {

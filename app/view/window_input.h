@@ -36,8 +36,8 @@ class WindowInput {
   CameraInput takeCamera();
   // Whether there is any of it, the mouse's.
   bool movesCamera() const;
-  // To be called when panels were drawn. A button or wheel that came behind a key waits until then: what the
-  // key does may show or hide the panel under the mouse.
+  // To be called when panels were drawn. A button or wheel that came behind a key or a movement waits until
+  // then: the key may show or hide the panel under the mouse, and the movement may end over another.
   void panelsDrawn();
   std::vector<std::string_view> takeActions();
   // Whether a key bound as `held` to this action is down.
@@ -50,6 +50,8 @@ class WindowInput {
   void onKey(int key, int action, int mods);
   void onButton(int button, int action);
   void onMove(double x, double y);
+  // A button or wheel comes: notes when the panels do not know yet whether it is theirs.
+  void waitIfUnknown();
   void onScroll(double steps);
 
   GLFWwindow* window_;
@@ -59,6 +61,7 @@ class WindowInput {
   CameraInput waiting_;     // what the mouse did since `undecided_`
   bool undecided_ = false;  // whether a panel or the picture has the mouse
   glm::dvec2 last_{0};
+  bool moved_ = false;  // since panels were drawn
   bool turning_ = false, panning_ = false, captured_ = false, fresh_ = true;
   std::uint64_t events_ = 0;
 };

@@ -2,7 +2,8 @@
 """The viewer's panels in a window of a virtual display: each opens, at content scales 1 and 2, and the picture under them
 stays the same to the bit; a trace of the session holds its frames; a value and a pass changed on the command line are
 written into the files with F8, comments and all, and what was changed is the file's from then on. A drag that comes with the key
-that hides the panels is the picture's, one with the key that shows them is theirs; at rest in idle mode a drag turns the picture."""
+that hides the panels is the picture's, one with the key that shows them is theirs; whose a drag is, is judged where it begins, however fast
+the mouse got there; at rest in idle mode a drag turns the picture."""
 import json
 import os
 import pathlib
@@ -65,13 +66,23 @@ def write_back(weft, folder, report):
         path.write_text(text)
 
 
-def drag(live):
-    """Along the bar at the top, which does nothing where no menu stands."""
-    live.tool("mousemove", "--window", live.window, 280, 5)
+def drag(live, start=(280, 5)):
+    """To the left; by default along the bar at the top, which does nothing where no menu stands."""
+    live.tool("mousemove", "--window", live.window, *start)
     live.tool("mousedown", 1)
-    for x in (260, 240, 220):
-        live.tool("mousemove", "--window", live.window, x, 5)
+    for x in (20, 40, 60):
+        live.tool("mousemove", "--window", live.window, start[0] - x, start[1])
     live.tool("mouseup", 1)
+
+
+def at_once(live, rest, start):
+    """The mouse rests; then a movement to `start` and a drag from there come at once: the program sleeps meanwhile."""
+    live.tool("mousemove", "--window", live.window, *rest)
+    live.shot()  # a frame has seen where the mouse is
+    live.process.send_signal(signal.SIGSTOP)
+    drag(live, start)
+    live.process.send_signal(signal.SIGCONT)
+    return live.shot()
 
 
 def with_a_key(live, key):
@@ -99,6 +110,11 @@ def hidden(weft, folder, report):
         drag(live)
         live.shot()
         report.check(same(), "a drag that begins in the panels turns the picture")
+        for _ in range(8):
+            report.check(at_once(live, (160, 150), (280, 5)) and same(), "a drag that comes with the movement into the panels turns the picture")
+            report.check(at_once(live, (280, 5), (160, 150)) and turns(), "a drag that comes with the movement out of the panels is lost")
+            live.act("r", "reset_camera")
+            report.check(live.until(same), "the camera does not come back")
         for _ in range(3):
             report.check(with_a_key(live, "space") and turns(), "a drag behind the key that hides the panels is lost")
             live.act("r", "reset_camera")
