@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 #include <poll.h>
 
+#include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -168,18 +170,33 @@ std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
   }
 }
 
+using FileClock = std::chrono::file_clock;
+
+// The files that were saved since `began`: while they were checked, nobody watched them. A time to come is no save.
+std::vector<std::string> savedSince(const std::vector<std::string>& files, FileClock::time_point began) {
+  std::vector<std::string> saved;
+  for (const std::string& file : files) {
+    std::error_code ec;
+    const auto at = std::filesystem::last_write_time(file, ec);
+    if (!ec && at >= began && at <= FileClock::now()) saved.push_back(file);
+  }
+  return saved;
+}
+
 }  // namespace
 
 int runCheck(const Options& options) {
   base::FileWatcher watcher;
   while (true) {
+    const FileClock::time_point began = FileClock::now();
     Checked checked = checkOnce(options);
     if (options.watch) watcher.watch(checked.files);
     const int code = tell(options, checked);
     if (!options.watch) return code;
     if (options.format == "text") print(fmt::format("watching {} files\n", checked.files.size()));
     flushPrinted();
-    const std::vector<std::string> changed = waitForChange(watcher);
+    std::vector<std::string> changed = savedSince(checked.files, began);
+    if (changed.empty()) changed = waitForChange(watcher);
     if (options.format == "text") print(fmt::format("\nchanged: {}\n", base::printable(changed[0])));
   }
 }

@@ -6,8 +6,10 @@
 import json
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
+import time
 
 from program import TOP, Report, count_run, run, temporary_folder
 
@@ -125,6 +127,28 @@ def check_watch(weft, report):
             process.wait()
 
 
+def check_watch_from_the_start(weft, report):
+    """A save while the first check runs is seen, wherever in that check it comes: the program is held up there."""
+    for phase in range(30):
+        with temporary_folder() as folder:
+            graph = pathlib.Path(folder, "graph.json")
+            shutil.copy(TOP / BROKEN, graph)
+            count_run()
+            process = subprocess.Popen([weft, "check", "--no-shaders", graph, "--watch", "--format", "json"], cwd=TOP, stdout=subprocess.PIPE, text=True)
+            try:
+                time.sleep(0.002 * phase)  # sweeps through the check; nothing is asked of when it comes
+                process.send_signal(signal.SIGSTOP)
+                graph.write_text((TOP / "tests/bad_graphs/w091_never_read.json").read_text())
+                process.send_signal(signal.SIGCONT)
+                codes = []
+                while codes != ["W091"] and (line := process.stdout.readline()):
+                    codes = [d["code"] for d in json.loads(line)["diagnostics"]]
+                report.check(codes == ["W091"], f"{codes}")
+            finally:
+                process.terminate()
+                process.wait()
+
+
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     if "--gl" in sys.argv:
@@ -133,6 +157,7 @@ def main():
         check_formats(weft, report)
         check_matrix(weft, report)
         check_watch(weft, report)
+        check_watch_from_the_start(weft, report)
     report.end()
 
 
