@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/nearest.h"
+#include "engine/runtime/prepare/pass_errors.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/shader_advice.h"
 #include "engine/runtime/storage/block_writer.h"
@@ -16,16 +17,16 @@ using base::Code;
 
 namespace {
 
-class ParameterCheck {
+class ParameterCheck : PassErrors {
  public:
   ParameterCheck(const graph::FlatGraph& graph, const graph::PassSpec& spec, const gl::Variant& variant,
                  const std::string& shaders, base::Diagnostics& diagnostics)
-      : graph_(graph),
+      : PassErrors(spec.name, diagnostics),
+        graph_(graph),
         spec_(spec),
         variant_(variant),
         reflection_(variant.program.reflection()),
-        shaders_(shaders),
-        diagnostics_(diagnostics) {}
+        shaders_(shaders) {}
 
   bool run() {
     const gl::Block* block = reflection_.findUniformBlock("Parameters");
@@ -55,17 +56,10 @@ class ParameterCheck {
       checkWhole(uniform, *member);
     }
     checkUnset(block);
-    return good_;
+    return !any();
   }
 
  private:
-  base::Diagnostic& fail(Code code, const base::Place& place, std::string message) {
-    good_ = false;
-    base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
-    d.pass = spec_.name;
-    return d;
-  }
-
   std::string withNearest(const std::string& name) const {
     const std::string nearest = base::nearestName(name, declaredNames(variant_));
     return nearest.empty() ? "" : fmt::format(", or did you mean '{}'?", nearest);
@@ -122,8 +116,7 @@ class ParameterCheck {
   const gl::Variant& variant_;
   const gl::Reflection& reflection_;
   const std::string& shaders_;
-  base::Diagnostics& diagnostics_;
-  bool good_ = true, parameterMissing_ = false;
+  bool parameterMissing_ = false;
 };
 
 }  // namespace

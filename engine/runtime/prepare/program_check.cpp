@@ -11,6 +11,7 @@
 #include "engine/imports/row_layout.h"
 #include "engine/passes/compute/work_groups.h"
 #include "engine/runtime/prepare/parameter_fit.h"
+#include "engine/runtime/prepare/pass_errors.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/sampler_types.h"
 #include "engine/runtime/prepare/shader_advice.h"
@@ -31,11 +32,12 @@ using graph::SlotSpec;
 
 namespace {
 
-class Checker {
+class Checker : PassErrors {
  public:
   Checker(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
           base::Diagnostics& diagnostics)
-      : plan_(plan),
+      : PassErrors(plan.graph->specs[pass].name, diagnostics),
+        plan_(plan),
         graph_(*plan.graph),
         spec_(graph_.specs[pass]),
         pass_(pass),
@@ -46,21 +48,14 @@ class Checker {
 
   bool run() {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
-    good_ = checkParameters(graph_, spec_, variant_, shaders_, diagnostics_) && good_;
+    const bool parametersFit = checkParameters(graph_, spec_, variant_, shaders_, diagnostics_);
     checkRest();
     checkSlices(graph_.passes[pass_]);
     checkGroups();
-    return good_;
+    return parametersFit && !any();
   }
 
  private:
-  base::Diagnostic& fail(Code code, const base::Place& place, std::string message) {
-    good_ = false;
-    base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));
-    d.pass = spec_.name;
-    return d;
-  }
-
   void missing(const SlotSpec& slot, const char* what, const std::string& other, const FlatUse& use) {
     slotMissing_ = true;
     base::Diagnostic& d = fail(Code::slotNotInShader, slot.place,
@@ -380,7 +375,7 @@ class Checker {
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
-  bool good_ = true, slotMissing_ = false;
+  bool slotMissing_ = false;
 };
 
 }  // namespace
