@@ -19,7 +19,7 @@ using graph::ParameterDesc;
 using graph::Value;
 using Type = ParameterDesc::Type;
 
-constexpr int kRounds = 9;
+constexpr int kEditRounds = 9;
 constexpr double kShort = 200;  // us: what takes less is repeated within one timing
 constexpr int kRepeats = 64;    // an even number: afterwards the value is what it was
 
@@ -36,7 +36,7 @@ double median(std::vector<double> all) {
   return *middle;
 }
 
-struct Cost {
+struct EditCost {
   double us = 0;
   std::size_t allocations = 0;
   std::uint64_t plans = 0;
@@ -59,7 +59,7 @@ class EditBench {
       : live_(live), renderer_(renderer), diagnostics_(diagnostics) {}
 
   // The cost of one change, there and back again.
-  Cost measureChange(const std::string& path, const Value& now, const Value& other) {
+  EditCost measureChange(const std::string& path, const Value& now, const Value& other) {
     const auto there = [&] { set(path, other); };
     const auto back = [&] { set(path, now); };
     there();  // compiles what neither side has compiled yet
@@ -67,7 +67,7 @@ class EditBench {
     const double once = time(there) + time(back);
     const int repeats = once < 2 * kShort ? kRepeats : 1;
     std::vector<double> times;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kEditRounds; ++round) {
       const auto repeat = [&](const auto& one, const auto& two) {
         return time([&] {
                  for (int i = 0; i < repeats; ++i) i % 2 == 0 ? one() : two();
@@ -77,19 +77,19 @@ class EditBench {
       times.push_back(repeat(there, back));
       if (repeats == 1) times.push_back(repeat(back, there));
     }
-    Cost cost;
+    EditCost cost;
     cost.us = median(std::move(times));
     count(cost, there);
     back();
     return cost;
   }
 
-  Cost measureSave() {
+  EditCost measureSave() {
     const auto save = [this] { live_.load(diagnostics_); };
     save();
     std::vector<double> times;
-    for (int round = 0; round < kRounds; ++round) times.push_back(time(save));
-    Cost cost;
+    for (int round = 0; round < kEditRounds; ++round) times.push_back(time(save));
+    EditCost cost;
     cost.us = median(std::move(times));
     count(cost, save);
     return cost;
@@ -107,7 +107,7 @@ class EditBench {
   }
 
   template <class Work>
-  void count(Cost& cost, const Work& work) {
+  void count(EditCost& cost, const Work& work) {
     const std::uint64_t before = renderer_.plansBuilt();
     startCountingAllocations();
     work();
@@ -141,12 +141,12 @@ std::optional<std::string> benchEdits(const Options& options, base::Diagnostics&
   EditBench bench(live, renderer, diagnostics);
   const std::vector<graph::ParameterSpec> parameters = renderer.execution()->plan().graph->parameters;
   std::vector<double> liveTimes, toggleTimes, toggleAllocations;
-  Cost worstLive, worstToggle;
+  EditCost worstLive, worstToggle;
   std::string worst;
   for (const graph::ParameterSpec& parameter : parameters) {
     const auto other = neighbourOf(parameter.desc, parameter.value);
     if (!other || (parameter.structural && parameter.desc.type != Type::boolean)) continue;
-    const Cost cost = bench.measureChange(parameter.path, parameter.value, *other);
+    const EditCost cost = bench.measureChange(parameter.path, parameter.value, *other);
     if (diagnostics.hasErrors()) return std::nullopt;
     if (parameter.structural) {
       toggleTimes.push_back(cost.us);
@@ -160,7 +160,7 @@ std::optional<std::string> benchEdits(const Options& options, base::Diagnostics&
       worstLive.plans = std::max(worstLive.plans, cost.plans);
     }
   }
-  const Cost save = bench.measureSave();
+  const EditCost save = bench.measureSave();
   if (diagnostics.hasErrors()) return std::nullopt;
 
   nlohmann::ordered_json out;

@@ -11,8 +11,8 @@ namespace weft::app {
 
 namespace {
 
-constexpr std::uint32_t kChannel = 1;  // a request replaces the one before
-constexpr float kLoadingShare = 0.8f;  // of the bar; the rest is sending
+constexpr std::uint32_t kEnvironmentChannel = 1;  // a request replaces the one before
+constexpr float kLoadingShare = 0.8f;             // of the bar; the rest is sending
 
 std::vector<std::string> listEnvironments(const std::filesystem::path& folder) {
   std::vector<std::string> files;
@@ -43,7 +43,7 @@ void LiveEnvironment::request(std::string path) {
   wanted_ = std::move(path);
   incoming_ = nullptr;
   sent_ = 0;
-  ticket_ = loader_.request(wanted_, kChannel);
+  ticket_ = loader_.request(wanted_, kEnvironmentChannel);
 }
 
 bool LiveEnvironment::step(int by) {

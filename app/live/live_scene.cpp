@@ -7,7 +7,7 @@ namespace weft::app {
 
 namespace {
 
-constexpr std::uint32_t kChannel = 1;  // a request replaces the one before
+constexpr std::uint32_t kSceneChannel = 1;  // a request replaces the one before
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void LiveScene::readNow() {
 bool LiveScene::arrived() {
   if (arrived_) return true;
   if (ticket_ == 0) {
-    ticket_ = loader_.request(path_, kChannel);
+    ticket_ = loader_.request(path_, kSceneChannel);
     ++reads_;
   }
   while (auto result = loader_.poll()) {

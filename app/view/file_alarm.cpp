@@ -16,11 +16,11 @@ namespace {
 // Milliseconds between rings that nobody answers by reading: the first, and at most.
 constexpr int kPause = 20, kLongestPause = 1000;
 
-constexpr std::chrono::milliseconds kBetweenLooks{500};
+constexpr std::chrono::milliseconds kAlarmInterval{500};
 
 void listen(int descriptor, int stop, const std::function<bool()>& look, const std::function<void()>& ring) {
   using Clock = std::chrono::steady_clock;
-  Clock::time_point next = Clock::now() + kBetweenLooks;
+  Clock::time_point next = Clock::now() + kAlarmInterval;
   for (int pause = kPause;;) {
     pollfd both[] = {{stop, POLLIN, 0}, {descriptor, POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
@@ -28,7 +28,7 @@ void listen(int descriptor, int stop, const std::function<bool()>& look, const s
     if (both[0].revents) return;
     if (Clock::now() >= next) {
       if (look()) ring();
-      next = Clock::now() + kBetweenLooks;
+      next = Clock::now() + kAlarmInterval;
     }
     if (both[1].revents & ~POLLIN) descriptor = -1;  // closed: it will never be readable
     if (!(both[1].revents & POLLIN)) continue;

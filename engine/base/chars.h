@@ -1,6 +1,10 @@
 // ASCII character classes, independent of the locale.
 #pragma once
 
+#include <algorithm>
+#include <string>
+#include <string_view>
+
 namespace weft::base {
 
 constexpr bool isSpace(char c) {
@@ -14,6 +18,14 @@ constexpr bool isIdentStart(char c) {
 }
 constexpr bool isIdentChar(char c) {
   return isIdentStart(c) || isDigit(c);
+}
+constexpr char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+inline std::string lowered(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(), lower);
+  return out;
 }
 
 }  // namespace weft::base

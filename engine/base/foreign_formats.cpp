@@ -5,15 +5,11 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/chars.h"
+
 namespace weft::base {
 
 namespace {
-
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
 
 // "r16g16b16a16" and "rgba16" to channels and bits; nothing for anything else.
 struct Channels {

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <span>
 #include <utility>
+
+#include "engine/base/chars.h"
 
 namespace weft::base {
 
@@ -242,12 +243,6 @@ constexpr Word kShaderNames[] = {
     {"fragCoord", "GLSL says 'gl_FragCoord.xy'"},
     {"fragColor", "declare an output with the name of the slot: 'out vec4 result;'"},
 };
-
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
 
 std::span<const Word> wordsOf(Foreign where) {
   switch (where) {

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cctype>
 #include <limits>
 #include <optional>
+
+#include "engine/base/chars.h"
 
 namespace weft::base {
 
@@ -20,16 +21,6 @@ constexpr std::uint64_t kPerCandidate = 4;
 
 std::atomic<std::uint64_t> spent{0};
 std::atomic<std::size_t> uncompared{0};
-
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), lower);
-  return out;
-}
 
 // Which characters a name has, in 64 classes: each edit brings in at most one that was not there.
 std::uint64_t classesOf(std::string_view text) {

@@ -26,7 +26,7 @@ MaterialLibrary loadOurs() {
   return *library;
 }
 
-base::Diagnostic failureOf(std::string_view text) {
+base::Diagnostic libraryFailureOf(std::string_view text) {
   base::Diagnostics diagnostics;
   CHECK_FALSE(readMaterialLibrary(text, "m.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
@@ -115,17 +115,17 @@ TEST_CASE("every mistake is reported with its place") {
   const auto with = [](const char* rest) {
     return std::string("[\n  {\"name\": \"a\", \"metallic\": 0, \"roughness\": 0, ") + rest + "}\n]";
   };
-  CHECK(failureOf("[").code == base::Code::notJson);
-  CHECK(failureOf("{}").code == base::Code::wrongType);
-  CHECK(failureOf("[3]").code == base::Code::wrongType);
-  const base::Diagnostic range = failureOf(with("\"albedo\": [0, 1.5, 0]"));
+  CHECK(libraryFailureOf("[").code == base::Code::notJson);
+  CHECK(libraryFailureOf("{}").code == base::Code::wrongType);
+  CHECK(libraryFailureOf("[3]").code == base::Code::wrongType);
+  const base::Diagnostic range = libraryFailureOf(with("\"albedo\": [0, 1.5, 0]"));
   CHECK(range.code == base::Code::badMaterialValue);
   CHECK(range.place.line == 2);
   CHECK(range.place.column > 50);
   CHECK(range.pointer == "/0/albedo/1");
-  CHECK(failureOf(with("\"albedo\": [0, 1]")).code == base::Code::wrongType);
-  CHECK(failureOf(with("\"albedo\": [0, 1, \"x\"]")).code == base::Code::wrongType);
-  const base::Diagnostic unknown = failureOf(with("\"albedo\": [0, 0, 0], \"sorce\": \"x\""));
+  CHECK(libraryFailureOf(with("\"albedo\": [0, 1]")).code == base::Code::wrongType);
+  CHECK(libraryFailureOf(with("\"albedo\": [0, 1, \"x\"]")).code == base::Code::wrongType);
+  const base::Diagnostic unknown = libraryFailureOf(with("\"albedo\": [0, 0, 0], \"sorce\": \"x\""));
   CHECK(unknown.code == base::Code::unknownKey);
   CHECK(unknown.hint == "did you mean 'source'?");
 }

@@ -12,8 +12,8 @@ using namespace weft::runtime::test;
 
 namespace {
 
-constexpr std::uint32_t kWidth = 64, kHeight = 48;
-constexpr float kViewHeight = 8;  // of the graph's camera
+constexpr std::uint32_t kOrderWidth = 64, kOrderHeight = 48;
+constexpr float kOrderViewHeight = 8;  // of the graph's camera
 
 struct Pane {
   std::uint32_t mesh;  // of kHalves
@@ -62,9 +62,9 @@ scene::Scene sceneOf(const std::vector<std::size_t>& order) {
 
 // From below, left and right are exchanged.
 glm::vec4 colorAt(std::uint32_t x, std::uint32_t y, bool below) {
-  const float pixel = kViewHeight / kHeight;
-  glm::vec2 point{(static_cast<float>(x) + 0.5f - kWidth / 2.0f) * pixel,
-                  (static_cast<float>(y) + 0.5f - kHeight / 2.0f) * pixel};
+  const float pixel = kOrderViewHeight / kOrderHeight;
+  glm::vec2 point{(static_cast<float>(x) + 0.5f - kOrderWidth / 2.0f) * pixel,
+                  (static_cast<float>(y) + 0.5f - kOrderHeight / 2.0f) * pixel};
   if (below) point.x = -point.x;
   glm::vec4 color(0);
   for (std::size_t i = 0; i < kPanes.size(); ++i) {
@@ -78,9 +78,9 @@ glm::vec4 colorAt(std::uint32_t x, std::uint32_t y, bool below) {
 
 int countWrong(const std::vector<float>& picture, bool below) {
   int wrong = 0;
-  for (std::uint32_t y = 0; y < kHeight; ++y)
-    for (std::uint32_t x = 0; x < kWidth; ++x) {
-      const float* seen = &picture[(y * kWidth + x) * 4];
+  for (std::uint32_t y = 0; y < kOrderHeight; ++y)
+    for (std::uint32_t x = 0; x < kOrderWidth; ++x) {
+      const float* seen = &picture[(y * kOrderWidth + x) * 4];
       wrong += glm::vec4(seen[0], seen[1], seen[2], seen[3]) != colorAt(x, y, below);
     }
   return wrong;
@@ -91,7 +91,7 @@ int countWrong(const std::vector<float>& picture, bool below) {
 TEST_CASE("panes in every order of the scene give the same, right picture, from above and from below") {
   context();
   const CleanScope scope;
-  Stage stage("tests/imports/graphs/panes.json", kWidth, kHeight);
+  Stage stage("tests/imports/graphs/panes.json", kOrderWidth, kOrderHeight);
   std::vector<std::size_t> order = {0, 1, 2, 3, 4};
   stage.world.setScene(sceneOf(order));
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
@@ -117,7 +117,7 @@ TEST_CASE("a frame of many moving meshes is the same picture on one thread and o
   const CleanScope scope;
   std::vector<std::uint8_t> pictures[2];
   for (int threads = 1; threads <= 2; ++threads) {
-    Stage stage("tests/imports/graphs/mesh.json", kWidth, kHeight, "scenes/crowd.json");
+    Stage stage("tests/imports/graphs/mesh.json", kOrderWidth, kOrderHeight, "scenes/crowd.json");
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
     stage.renderer().device().imports.tables().setThreads(threads);
     for (const std::uint32_t frame : {0u, 30u, 31u}) stage.run(frame);

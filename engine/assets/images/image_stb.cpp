@@ -20,10 +20,10 @@ namespace {
 template <class T>
 using StbMemory = std::unique_ptr<T, decltype(&stbi_image_free)>;
 
-const stbi_uc* dataOf(std::string_view bytes) {
+const stbi_uc* stbData(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
-int sizeOf(std::string_view bytes) {
+int stbSize(std::string_view bytes) {
   return static_cast<int>(bytes.size());
 }
 
@@ -38,7 +38,8 @@ std::optional<Header> readHeader(std::string_view bytes, const std::string& name
     return {};
   }
   Header header;
-  if (!stbi_info_from_memory(dataOf(bytes), sizeOf(bytes), &header.width, &header.height, &header.channels)) {
+  if (!stbi_info_from_memory(stbData(bytes), stbSize(bytes), &header.width, &header.height,
+                             &header.channels)) {
     reportUnreadable(diagnostics, name, fmt::format("its header is not valid ({})", stbi_failure_reason()));
     return {};
   }
@@ -49,7 +50,7 @@ std::optional<Header> readHeader(std::string_view bytes, const std::string& name
 // A header for the kinds that decodeLinear and decodeBytes take, of a file that is complete.
 std::optional<Header> readPictureHeader(std::string_view bytes, const std::string& name,
                                         Diagnostics& diagnostics) {
-  if (stbi_is_hdr_from_memory(dataOf(bytes), sizeOf(bytes))) {
+  if (stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes))) {
     reportUnreadable(diagnostics, name, "it holds a Radiance picture; rename it to .hdr");
     return {};
   }
@@ -117,7 +118,7 @@ void appendBytes(void* out, void* bytes, int count) {
 }  // namespace
 
 std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  if (bytes.size() <= 0x7fffffffu && !stbi_is_hdr_from_memory(dataOf(bytes), sizeOf(bytes))) {
+  if (bytes.size() <= 0x7fffffffu && !stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes))) {
     reportUnreadable(diagnostics, name, "it does not begin as a Radiance picture (#?RADIANCE)");
     return {};
   }
@@ -128,7 +129,7 @@ std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
     return {};
   }
   int width = 0, height = 0, channels = 0;
-  float* texels = stbi_loadf_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, 3);
+  float* texels = stbi_loadf_from_memory(stbData(bytes), stbSize(bytes), &width, &height, &channels, 3);
   auto values = take(texels, componentCount(header->width, header->height, 3), name, diagnostics);
   if (!values) return {};
   return ImageF{header->width, header->height, 3, std::move(*values)};
@@ -140,15 +141,15 @@ std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& na
   if (!header) return {};
   const std::size_t count = componentCount(header->width, header->height, header->channels);
   int width = 0, height = 0, channels = 0;
-  if (stbi_is_16_bit_from_memory(dataOf(bytes), sizeOf(bytes))) {
-    stbi_us* texels =
-        stbi_load_16_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, header->channels);
+  if (stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes))) {
+    stbi_us* texels = stbi_load_16_from_memory(stbData(bytes), stbSize(bytes), &width, &height, &channels,
+                                               header->channels);
     const auto values = take(texels, count, name, diagnostics);
     if (!values) return {};
     return linearize<16>(*header, *values);
   }
   stbi_uc* texels =
-      stbi_load_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &channels, header->channels);
+      stbi_load_from_memory(stbData(bytes), stbSize(bytes), &width, &height, &channels, header->channels);
   const auto values = take(texels, count, name, diagnostics);
   if (!values) return {};
   return linearize<8>(*header, *values);
@@ -168,7 +169,7 @@ std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const st
   if (!header) return {};
   const int wanted = channels == 0 ? header->channels : channels;
   int width = 0, height = 0, stored = 0;
-  stbi_uc* texels = stbi_load_from_memory(dataOf(bytes), sizeOf(bytes), &width, &height, &stored, wanted);
+  stbi_uc* texels = stbi_load_from_memory(stbData(bytes), stbSize(bytes), &width, &height, &stored, wanted);
   auto values = take(texels, componentCount(header->width, header->height, wanted), name, diagnostics);
   if (!values) return {};
   return Image8{header->width, header->height, wanted, std::move(*values)};

@@ -15,7 +15,7 @@ namespace weft::assets {
 
 namespace {
 
-std::string extensionOf(const std::string& name) {
+std::string lowerExtension(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -23,14 +23,14 @@ std::string extensionOf(const std::string& name) {
 }
 
 bool isGltfName(const std::string& name) {
-  const std::string extension = extensionOf(name);
+  const std::string extension = lowerExtension(name);
   return extension == ".gltf" || extension == ".glb";
 }
 
 }  // namespace
 
 bool isModelName(const std::string& name) {
-  const std::string extension = extensionOf(name);
+  const std::string extension = lowerExtension(name);
   return isGltfName(name) || extension == ".obj" || extension == ".fbx";
 }
 
@@ -45,7 +45,7 @@ std::optional<Model> loadModel(const std::string& path, base::Diagnostics& diagn
     base::Diagnostic& d = diagnostics.error(base::Code::unreadableModel, mine.place(),
                                             fmt::format("'{}' is no kind of model that is known", path));
     d.expected = ".gltf, .glb, .obj or .fbx";
-    d.found = extensionOf(path).empty() ? "no extension" : extensionOf(path);
+    d.found = lowerExtension(path).empty() ? "no extension" : lowerExtension(path);
   } else if (auto bytes = mine.readModel()) {
     good = isGltfName(path) ? readGltf(std::move(*bytes), mine, observer, decode, diagnostics, model)
                             : readWithAssimp(std::move(*bytes), mine, observer, decode, diagnostics, model);

@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE | IN_MOVED_FROM |
                                   IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
 
-std::string absoluteOf(const std::string& path) {
+std::string watchedPath(const std::string& path) {
   std::error_code ec;
   const fs::path absolute = fs::absolute(path, ec);
   return (ec ? fs::path(path) : absolute).lexically_normal().string();
@@ -93,7 +93,7 @@ void FileWatcher::arm() {
   awaited_.clear();
   std::map<Reason, std::vector<std::string>> looked;
   for (const std::string& file : files_) {
-    const std::string absolute = absoluteOf(file);
+    const std::string absolute = watchedPath(file);
     Reason reason = armFile(absolute, file);
     std::error_code ec;
     if (const fs::path real = fs::canonical(absolute, ec); !ec && real.string() != absolute) {
@@ -159,7 +159,7 @@ void FileWatcher::tell(Reason reason, const std::vector<std::string>& files) {
       break;
     case Reason::network:
       d.found = fmt::format("it lies on a mount ({}) that others write to without inotify's knowledge",
-                            networkOf(absoluteOf(first)));
+                            networkOf(watchedPath(first)));
       break;
   }
   notices_.add(std::move(d));

@@ -131,7 +131,7 @@ std::string putBehind(std::string_view text, const std::vector<ByteRange>& eleme
   return out;
 }
 
-std::optional<JsonValue> parse(std::string_view text) {
+std::optional<JsonValue> parseText(std::string_view text) {
   Diagnostics ignored;
   auto root = parseJson(text, nullptr, ignored);
   return ignored.hasErrors() ? std::nullopt : std::move(root);
@@ -159,7 +159,7 @@ ByteRange rangeOf(std::string_view text, const JsonValue& value) {
 
 std::optional<std::string> replaceValue(std::string_view text, std::string_view pointer,
                                         std::string_view json) {
-  const auto root = parse(text);
+  const auto root = parseText(text);
   const JsonValue* value = root ? findPointer(*root, pointer) : nullptr;
   if (!value) return std::nullopt;
   const ByteRange range = rangeOf(text, *value);
@@ -168,7 +168,7 @@ std::optional<std::string> replaceValue(std::string_view text, std::string_view 
 
 std::optional<std::string> insertMember(std::string_view text, std::string_view pointer, std::string_view key,
                                         std::string_view json, std::string_view after) {
-  const auto root = parse(text);
+  const auto root = parseText(text);
   const JsonValue* object = root ? findPointer(*root, pointer) : nullptr;
   if (!object || !object->is(JsonValue::Type::object) || object->find(key)) return std::nullopt;
   const std::string added = fmt::format("{}: {}", quoteJson(key), json);
@@ -189,7 +189,7 @@ std::optional<std::string> insertMember(std::string_view text, std::string_view 
 
 std::optional<std::string> appendItem(std::string_view text, std::string_view pointer,
                                       std::string_view json) {
-  const auto root = parse(text);
+  const auto root = parseText(text);
   const JsonValue* array = root ? findPointer(*root, pointer) : nullptr;
   if (!array || !array->is(JsonValue::Type::array)) return std::nullopt;
   if (array->items.empty()) {

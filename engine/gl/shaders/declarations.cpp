@@ -7,7 +7,7 @@ namespace weft::gl {
 
 namespace {
 
-constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMostElements = std::uint64_t{1} << 40;
 constexpr std::uint32_t kDeepest = 64;  // brackets in the size of an array
 
 // Stand before a type.
@@ -19,9 +19,9 @@ constexpr std::array<std::string_view, 24> kQualifiers{
 constexpr std::array<std::string_view, 7> kStatements{"return",   "case",    "default",  "break",
                                                       "continue", "discard", "precision"};
 
-// Or kMost.
+// Or kMostElements.
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
-  return b != 0 && a > kMost / b ? kMost : a * b;
+  return b != 0 && a > kMostElements / b ? kMostElements : a * b;
 }
 
 template <class List>
@@ -93,14 +93,14 @@ std::optional<std::uint64_t> DeclarationCount::dimensions(std::span<const Token>
 }
 
 void DeclarationCount::note(std::uint64_t elements, const Token& at, std::string_view name) {
-  if (elements > 1) size_.allElements = std::min(kMost, size_.allElements + elements);
+  if (elements > 1) size_.allElements = std::min(kMostElements, size_.allElements + elements);
   if (elements <= size_.array.count) return;
   size_.array = {.count = elements, .line = at.line, .column = at.column, .name = std::string(name)};
 }
 
 void DeclarationCount::take(std::uint64_t elements, const Token& name) {
   if (body_ == Body::members)
-    structs_[struct_] = std::min(kMost, structs_[struct_] + elements);
+    structs_[struct_] = std::min(kMostElements, structs_[struct_] + elements);
   else if (body_ == Body::none)
     note(elements, name, name.text);
 }

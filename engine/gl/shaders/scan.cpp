@@ -1,27 +1,22 @@
 #include "engine/gl/shaders/scan.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 #include <vector>
+
+#include "engine/base/chars.h"
 
 namespace weft::gl {
 
 namespace {
 
-bool isSpace(char c) {
+bool isLineSpace(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
-bool isStart(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-bool isPart(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
 
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isLineSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isLineSpace(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -36,12 +31,12 @@ bool LineScanner::next() {
   ++number_;
   strip();
   directive_ = {};
-  const std::string_view code = trim(code_);
+  const std::string_view code = trimmed(code_);
   if (!code.starts_with('#')) return true;
-  std::string_view body = trim(code.substr(1));
+  std::string_view body = trimmed(code.substr(1));
   std::size_t length = 0;
-  while (length < body.size() && isPart(body[length])) ++length;
-  directive_ = {body.substr(0, length), trim(body.substr(length)),
+  while (length < body.size() && base::isIdentChar(body[length])) ++length;
+  directive_ = {body.substr(0, length), trimmed(body.substr(length)),
                 static_cast<std::uint32_t>(code_.find('#') + 1)};
   if (directive_.name == "endif") depth_ = std::max(0, depth_ - 1);
   return true;
@@ -110,7 +105,7 @@ class DeclarationScan {
     return storage;
   }
   void openBlock() {
-    inBlock_ = isInterface() && !statement_.empty() && isStart(statement_.back()[0]);
+    inBlock_ = isInterface() && !statement_.empty() && base::isIdentStart(statement_.back()[0]);
     if (inBlock_) declared_.insert(block_ = statement_.back());
     members_.clear();
     closed_ = false;
@@ -122,7 +117,7 @@ class DeclarationScan {
       const std::string& token = statement_[i];
       if (token == "(" || token == "[") ++nested;
       if (token == ")" || token == "]") --nested;
-      if (nested > 0 || !isStart(token[0]) || i == 0) continue;
+      if (nested > 0 || !base::isIdentStart(token[0]) || i == 0) continue;
       const bool last = i + 1 == statement_.size();
       if (last || statement_[i + 1] == "," || statement_[i + 1] == "[" || statement_[i + 1] == "=") {
         const bool keyword = token == "in" || token == "out" || token == "uniform" || token == "buffer";
@@ -136,7 +131,7 @@ class DeclarationScan {
 
   // What stands between a block's '}' and its ';'.
   void addInstance() {
-    if (statement_.empty() || !isStart(statement_[0][0])) return;
+    if (statement_.empty() || !base::isIdentStart(statement_[0][0])) return;
     parts_.instanceOf[block_] = statement_[0];
     for (const std::string& member : members_) parts_.blockOf[member] = block_;
   }
@@ -149,7 +144,7 @@ class DeclarationScan {
     if (!image || layout == statement_.end()) return;
     std::vector<std::string>& formats = parts_.imageFormats[name];
     for (auto at = layout; at != statement_.end() && *at != ")"; ++at)
-      if (at != layout && isStart((*at)[0])) formats.push_back(*at);
+      if (at != layout && base::isIdentStart((*at)[0])) formats.push_back(*at);
   }
 
   NameSet& declared_;
@@ -179,13 +174,13 @@ void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared, D
       if (!continued) directive = false;
       lineStart = true;
       ++i;
-    } else if (isSpace(c)) {
+    } else if (isLineSpace(c)) {
       ++i;
-    } else if (isStart(c) || std::isdigit(static_cast<unsigned char>(c)) != 0) {
+    } else if (base::isIdentStart(c) || base::isDigit(c)) {
       const std::size_t begin = i;
-      while (i < text.size() && isPart(text[i])) ++i;
+      while (i < text.size() && base::isIdentChar(text[i])) ++i;
       const std::string_view word = text.substr(begin, i - begin);
-      if (isStart(c) && !directiveName) identifiers.emplace(word);
+      if (base::isIdentStart(c) && !directiveName) identifiers.emplace(word);
       directiveName = false;
       if (!directive) declarations.feed(word);
       lineStart = false;

@@ -6,19 +6,11 @@
 #include <charconv>
 #include <utility>
 
+#include "engine/base/chars.h"
+
 namespace weft::gl {
 
 namespace {
-
-bool isStart(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-bool isDigit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-bool isPart(char c) {
-  return isStart(c) || isDigit(c);
-}
 
 constexpr std::array<std::string_view, 23> kSigns{
     "<<=", ">>=", "##", "++", "--", "<<", ">>", "<=", ">=", "==", "!=", "&&",
@@ -66,18 +58,19 @@ std::vector<Token> splitTokens(std::string_view text) {
     } else {
       Token token{.text = {}, .line = line, .column = static_cast<std::uint32_t>(i - lineStart + 1)};
       token.first = std::exchange(first, false);
-      const bool number = isDigit(text[i]) || (text[i] == '.' && i + 1 < text.size() && isDigit(text[i + 1]));
+      const bool number =
+          base::isDigit(text[i]) || (text[i] == '.' && i + 1 < text.size() && base::isDigit(text[i + 1]));
       std::size_t end = i + 1;
       if (number) {
         token.kind = TokenKind::number;
         while (end < text.size() &&
-               (isPart(text[end]) || text[end] == '.' ||
+               (base::isIdentChar(text[end]) || text[end] == '.' ||
                 ((text[end] == '+' || text[end] == '-') && (text[end - 1] == 'e' || text[end - 1] == 'E') &&
                  !text.substr(i).starts_with("0x"))))
           ++end;
-      } else if (isStart(text[i])) {
+      } else if (base::isIdentStart(text[i])) {
         token.kind = TokenKind::word;
-        while (end < text.size() && isPart(text[end])) ++end;
+        while (end < text.size() && base::isIdentChar(text[end])) ++end;
       } else {
         for (const std::string_view sign : kSigns)
           if (text.substr(i).starts_with(sign)) {

@@ -18,7 +18,7 @@ std::string span(const char* what, std::uint32_t first, std::uint32_t count) {
   return text + "]";
 }
 
-std::string steps(const Plan& plan, std::uint32_t resource) {
+std::string stepsRange(const Plan& plan, std::uint32_t resource) {
   const std::uint32_t first = plan.firstStep[resource], last = plan.lastStep[resource];
   const std::string end = last == plan.steps.size() ? "end" : std::to_string(last);
   return first == last ? "step " + end : "steps " + std::to_string(first) + ".." + end;
@@ -145,9 +145,10 @@ std::string Explainer::whyStorage(std::uint32_t resource) const {
       shares = plan_.bufferOffsetOf[q] < plan_.bufferOffsetOf[resource] + r.bytes &&
                plan_.bufferOffsetOf[resource] < plan_.bufferOffsetOf[q] + graph_.resources[q].bytes;
     if (shares)
-      others += (others.empty() ? "" : ", ") + quoted(graph_.resourceNames[q]) + " (" + steps(plan_, q) + ")";
+      others +=
+          (others.empty() ? "" : ", ") + quoted(graph_.resourceNames[q]) + " (" + stepsRange(plan_, q) + ")";
   }
-  const std::string alive = "alive in " + steps(plan_, resource);
+  const std::string alive = "alive in " + stepsRange(plan_, resource);
   if (others.empty()) return "its own: " + alive + ", and nothing else of its class fits before or after";
   return "shared with " + others + ", none of which lives while it does (" + alive + ")";
 }

@@ -14,22 +14,26 @@ namespace weft::graph {
 namespace {
 
 using base::Code;
-using Type = ParameterDesc::Type;
+using ParameterType = ParameterDesc::Type;
 
 // In the order of kParameterTypes.
-constexpr std::array kTypes = {Type::boolean, Type::integer, Type::number, Type::vec2,
-                               Type::vec3,    Type::vec4,    Type::choice, Type::file};
+constexpr std::array kTypes = {ParameterType::boolean, ParameterType::integer, ParameterType::number,
+                               ParameterType::vec2,    ParameterType::vec3,    ParameterType::vec4,
+                               ParameterType::choice,  ParameterType::file};
 
-std::string_view nameOf(Type type) {
+std::string_view nameOf(ParameterType type) {
   return kParameterTypes[static_cast<std::size_t>(std::find(kTypes.begin(), kTypes.end(), type) -
                                                   kTypes.begin())];
 }
 
-bool isNumeric(Type type) {
-  return type != Type::boolean && type != Type::choice && type != Type::file;
+bool isNumeric(ParameterType type) {
+  return type != ParameterType::boolean && type != ParameterType::choice && type != ParameterType::file;
 }
-std::size_t componentsOf(Type type) {
-  return type == Type::vec2 ? 2 : type == Type::vec3 ? 3 : type == Type::vec4 ? 4 : 1;
+std::size_t componentCount(ParameterType type) {
+  return type == ParameterType::vec2   ? 2
+         : type == ParameterType::vec3 ? 3
+         : type == ParameterType::vec4 ? 4
+                                       : 1;
 }
 
 class ParameterReader {
@@ -64,7 +68,7 @@ class ParameterReader {
     if (!initial) return std::nullopt;
     out_.initialPlace = initial->place;
     out_.initialPointer = initial->pointer;
-    const std::optional<Type> type = typeOf(*initial);
+    const std::optional<ParameterType> type = typeOf(*initial);
     if (!type) return std::nullopt;
     out_.type = *type;
     if (!readDefault(*initial)) return std::nullopt;
@@ -99,7 +103,7 @@ class ParameterReader {
   }
 
   // The type that is written, else the one the default shows.
-  std::optional<Type> typeOf(const JsonValue& initial) {
+  std::optional<ParameterType> typeOf(const JsonValue& initial) {
     if (const JsonValue* written = object_.find("type")) {
       const std::optional<std::string> word = context_.word(written, kParameterTypes, "\"type\"");
       if (!word) return std::nullopt;
@@ -108,16 +112,16 @@ class ParameterReader {
     }
     switch (initial.type) {
       case JsonValue::Type::boolean:
-        return Type::boolean;
+        return ParameterType::boolean;
       case JsonValue::Type::number:
-        return allWhole() ? Type::integer : Type::number;
+        return allWhole() ? ParameterType::integer : ParameterType::number;
       case JsonValue::Type::array:
-        if (initial.items.size() == 2) return Type::vec2;
-        if (initial.items.size() == 3) return Type::vec3;
-        if (initial.items.size() == 4) return Type::vec4;
+        if (initial.items.size() == 2) return ParameterType::vec2;
+        if (initial.items.size() == 3) return ParameterType::vec3;
+        if (initial.items.size() == 4) return ParameterType::vec4;
         break;
       case JsonValue::Type::string: {
-        if (object_.find("choices")) return Type::choice;
+        if (object_.find("choices")) return ParameterType::choice;
         auto& d = context_.error(Code::missingKey, object_,
                                  fmt::format("{} has a string as its default, but no \"choices\"", what_));
         d.hint = "list the \"choices\", or say \"type\": \"file\"";
@@ -146,24 +150,24 @@ class ParameterReader {
 
   bool readDefault(const JsonValue& initial) {
     switch (out_.type) {
-      case Type::boolean:
+      case ParameterType::boolean:
         if (!initial.is(JsonValue::Type::boolean)) return wrongDefault(initial, "true or false");
         out_.initial = Value::boolean(initial.flag);
         return true;
-      case Type::integer:
+      case ParameterType::integer:
         if (!initial.is(JsonValue::Type::number) || initial.number != std::floor(initial.number))
           return wrongDefault(initial, "a whole number");
         out_.initial = Value::number(initial.number);
         return true;
-      case Type::number:
+      case ParameterType::number:
         if (!initial.is(JsonValue::Type::number)) return wrongDefault(initial, "a number");
         out_.initial = Value::number(initial.number);
         return true;
-      case Type::file:
+      case ParameterType::file:
         if (!initial.is(JsonValue::Type::string)) return wrongDefault(initial, "a path in a string, or \"\"");
         out_.initial = Value::text(base::besideFile(initial.textPlace(), initial.text));
         return true;
-      case Type::choice: {
+      case ParameterType::choice: {
         if (!initial.is(JsonValue::Type::string)) return wrongDefault(initial, "one of the \"choices\"");
         out_.initial = Value::text(initial.text);
         if (!object_.find("choices")) {
@@ -185,7 +189,7 @@ class ParameterReader {
       default:
         break;
     }
-    const std::size_t count = componentsOf(out_.type);
+    const std::size_t count = componentCount(out_.type);
     if (!initial.is(JsonValue::Type::array) || initial.items.size() != count)
       return wrongDefault(initial, fmt::format("a list of {} numbers", count));
     out_.initial.type = Value::Type::list;
@@ -212,7 +216,7 @@ class ParameterReader {
           .error(Code::outOfRange, *object_.find("step"),
                  fmt::format("the step of {} is not above zero", what_))
           .found = fmt::format("{}", *out_.step);
-    if (out_.type == Type::integer)
+    if (out_.type == ParameterType::integer)
       for (const char* key : {"min", "max", "step"})
         if (const JsonValue* bound = object_.find(key);
             bound && bound->is(JsonValue::Type::number) && bound->number != std::floor(bound->number))
@@ -245,7 +249,7 @@ class ParameterReader {
     };
     if (!isNumeric(out_.type))
       for (const char* key : {"min", "max", "step"}) reject(key);
-    if (out_.type != Type::choice) reject("choices");
+    if (out_.type != ParameterType::choice) reject("choices");
   }
 
   ReadContext& context_;

@@ -60,11 +60,11 @@ class Trial {
 
   // What a person can choose: words and switches, and the ends of a range.
   static std::vector<std::string> valuesOf(const ParameterDesc& desc) {
-    using Type = ParameterDesc::Type;
-    if (desc.type == Type::choice) return desc.choices;
-    if (desc.type == Type::boolean) return {"false", "true"};
+    using Kind = ParameterDesc::Type;
+    if (desc.type == Kind::choice) return desc.choices;
+    if (desc.type == Kind::boolean) return {"false", "true"};
     std::vector<std::string> values;
-    if (desc.type != Type::number && desc.type != Type::integer) return values;
+    if (desc.type != Kind::number && desc.type != Kind::integer) return values;
     for (const std::optional<double>& end : {desc.min, desc.max})
       if (end) values.push_back(toText(Value::number(*end)));
     return values;

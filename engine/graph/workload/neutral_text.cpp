@@ -7,9 +7,9 @@ namespace weft::graph {
 
 namespace {
 
-class Writer {
+class NeutralWriter {
  public:
-  Writer(std::size_t passes, std::uint64_t seed) : passes_(passes), seed_(seed) {}
+  NeutralWriter(std::size_t passes, std::uint64_t seed) : passes_(passes), seed_(seed) {}
 
   std::string make(NeutralShape shape) {
     for (std::size_t p = 0; p < passes_; ++p) {
@@ -95,7 +95,7 @@ class Writer {
 }  // namespace
 
 std::string neutralText(NeutralShape shape, std::size_t passes, std::uint64_t seed) {
-  return Writer(passes, seed).make(shape);
+  return NeutralWriter(passes, seed).make(shape);
 }
 
 }  // namespace weft::graph

@@ -16,7 +16,7 @@ namespace {
 using graph::Value;
 
 // In the order of reflect().
-const std::string& listOf(const graph::ImportRequest& request) {
+const std::string& orderedList(const graph::ImportRequest& request) {
   return request.arguments[0].second.symbol;
 }
 const std::string& methodOf(const graph::ImportRequest& request) {
@@ -26,7 +26,7 @@ const std::string& methodOf(const graph::ImportRequest& request) {
 class DrawOrderProvider : public Provider {
  public:
   explicit DrawOrderProvider(const graph::ImportRequest& request)
-      : list_(scene::findDrawList(listOf(request))), method_(scene::findSortMethod(methodOf(request))) {}
+      : list_(scene::findDrawList(orderedList(request))), method_(scene::findSortMethod(methodOf(request))) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
     if (!list_ || !method_) return {};
@@ -75,7 +75,7 @@ graph::ImportType DrawOrder::reflect() const {
 
 graph::ImportFacts DrawOrder::facts(const graph::ImportRequest& request, const WorldFacts& world,
                                     Files&) const {
-  const double count = world.countOf(listOf(request));
+  const double count = world.countOf(orderedList(request));
   return {.exists = true,
           .bytes = static_cast<std::uint64_t>(std::max(count, 1.0)) * sizeof(scene::SortElement),
           .count = count};

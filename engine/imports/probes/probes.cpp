@@ -28,7 +28,7 @@ struct Header {
 };
 
 // In the order of reflect().
-const std::string& listOf(const graph::ImportRequest& request) {
+const std::string& litList(const graph::ImportRequest& request) {
   return request.arguments[0].second.symbol;
 }
 const Value& gridOf(const graph::ImportRequest& request) {
@@ -69,7 +69,7 @@ bool lightAlike(const scene::Instance& a, const scene::Instance& b) {
 class ProbesProvider : public Provider {
  public:
   explicit ProbesProvider(const graph::ImportRequest& request)
-      : list_(scene::findDrawList(listOf(request))),
+      : list_(scene::findDrawList(litList(request))),
         rules_(rulesOf(request)),
         count_(countOf(gridOf(request))) {}
 

@@ -6,9 +6,9 @@ namespace weft::scene {
 
 namespace {
 
-constexpr std::uint32_t kPart = 2048;      // rows that are culled together
-constexpr std::size_t kLeastKeys = 4096;   // that are worth a task
-constexpr std::size_t kLittleWork = 8192;  // rows of all views: below, threads cost more than they bring
+constexpr std::uint32_t kPart = 2048;          // rows that are culled together
+constexpr std::size_t kLeastKeys = 4096;       // that are worth a task
+constexpr std::size_t kLittleViewWork = 8192;  // rows of all views: below, threads cost more than they bring
 
 }  // namespace
 
@@ -119,7 +119,7 @@ void MeshViews::update(const Scene& scene, const MeshFrame& frame, std::span<Mes
     job_->due.push_back(view);
     work += count;
   }
-  if (!job_->due.empty()) tasks_.run(work < kLittleWork ? 1 : threads_);
+  if (!job_->due.empty()) tasks_.run(work < kLittleViewWork ? 1 : threads_);
 }
 
 }  // namespace weft::scene

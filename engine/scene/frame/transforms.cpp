@@ -11,13 +11,13 @@ namespace weft::scene {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoNode = 0xffffffffu;
 constexpr std::size_t kLeastPart = 512;      // nodes that are worth a task
 constexpr std::size_t kLeastAnimations = 4;  // the same of animations
 
 std::uint32_t rowOf(const Table<Node>& nodes, NodeId id) {
   const Node* node = nodes.find(id);
-  return node ? static_cast<std::uint32_t>(node - nodes.rows().data()) : kNone;
+  return node ? static_cast<std::uint32_t>(node - nodes.rows().data()) : kNoNode;
 }
 
 Transform moved(const Node& node, Transform local, double time) {
@@ -40,15 +40,15 @@ void WorldTransforms::rebuild(const Scene& scene) {
   now_.locals.resize(nodes.size());
   animatedRows_.clear();
   animationsApart_ = true;
-  std::vector<std::uint32_t> movers(nodes.size(), kNone);  // the last animation of each node
+  std::vector<std::uint32_t> movers(nodes.size(), kNoNode);  // the last animation of each node
   for (const Animation& animation : scene.animations.rows()) {
     std::vector<std::uint32_t>& rows = animatedRows_.emplace_back();
     for (const NodeId id : animation.nodes) {
       rows.push_back(rowOf(scene.nodes, id));
-      assert(rows.back() != kNone && "an animation moves nodes of its scene");
+      assert(rows.back() != kNoNode && "an animation moves nodes of its scene");
       const auto mine = static_cast<std::uint32_t>(animatedRows_.size());
       std::uint32_t& mover = movers[rows.back()];
-      animationsApart_ = animationsApart_ && (mover == kNone || mover == mine);
+      animationsApart_ = animationsApart_ && (mover == kNoNode || mover == mine);
       mover = mine;
       moves_[rows.back()] = 1;
     }
@@ -57,10 +57,10 @@ void WorldTransforms::rebuild(const Scene& scene) {
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     const Node& node = nodes[row];
     parents_[row] = rowOf(scene.nodes, node.parent);
-    assert((parents_[row] == kNone || parents_[row] < row) && "parents stand before their children");
+    assert((parents_[row] == kNoNode || parents_[row] < row) && "parents stand before their children");
     now_.locals[row] = node.local;
     if (node.spin != glm::vec3(0) || node.velocity != glm::vec3(0)) moves_[row] = 1;
-    if (parents_[row] != kNone && moves_[parents_[row]] != 0) moves_[row] = 1;
+    if (parents_[row] != kNoNode && moves_[parents_[row]] != 0) moves_[row] = 1;
     if (moves_[row] != 0) moving_.push_back(static_cast<std::uint32_t>(row));
   }
   previous_.locals = now_.locals;
@@ -68,10 +68,10 @@ void WorldTransforms::rebuild(const Scene& scene) {
 
   // A part may begin where no later row has a moving parent before it.
   parts_ = {moving_.size()};
-  std::uint32_t leastParent = kNone;
+  std::uint32_t leastParent = kNoNode;
   for (std::size_t i = moving_.size(); i-- > 0;) {
     const std::uint32_t parent = parents_[moving_[i]];
-    if (parent != kNone && moves_[parent] != 0) leastParent = std::min(leastParent, parent);
+    if (parent != kNoNode && moves_[parent] != 0) leastParent = std::min(leastParent, parent);
     if (leastParent >= moving_[i] && parts_.back() - i >= kLeastPart) parts_.push_back(i);
   }
   if (parts_.back() != 0) parts_.push_back(0);
@@ -89,7 +89,7 @@ void WorldTransforms::animateAt(const Scene& scene, At& at) const {
 
 void WorldTransforms::placeRow(const Scene& scene, At& at, std::uint32_t row) const {
   const glm::mat4 local = matrixOf(moved(scene.nodes.rows()[row], at.locals[row], at.time));
-  at.world[row] = parents_[row] == kNone ? local : at.world[parents_[row]] * local;
+  at.world[row] = parents_[row] == kNoNode ? local : at.world[parents_[row]] * local;
 }
 
 void WorldTransforms::prepare(const Scene& scene, std::uint64_t sceneGeneration, double time,

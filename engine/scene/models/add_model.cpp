@@ -13,7 +13,7 @@ namespace {
 
 using assets::kNoRow;
 
-glm::vec3 toVec3(const assets::Float3& v) {
+glm::vec3 vec3Of(const assets::Float3& v) {
   return {v[0], v[1], v[2]};
 }
 
@@ -41,17 +41,17 @@ Material toMaterial(const assets::ModelMaterial& from, const std::vector<Texture
   const auto map = [&](std::uint32_t row) { return row == kNoRow ? TextureId{} : textures[row]; };
   Material to;
   to.name = from.name;
-  to.albedo = toVec3(from.baseColor);
+  to.albedo = vec3Of(from.baseColor);
   to.metallic = from.metallic;
   to.roughness = from.roughness;
-  to.emissive = toVec3(from.emissive);
+  to.emissive = vec3Of(from.emissive);
   to.alpha = from.alpha;
   to.alphaCutoff = from.alphaCutoff;
   to.blend = from.blend;
   to.normalScale = from.normalScale;
   to.occlusionStrength = from.occlusionStrength;
   to.blinnPhong = from.blinnPhong;
-  to.specular = toVec3(from.specular);
+  to.specular = vec3Of(from.specular);
   to.shininess = from.shininess;
   to.doubleSided = from.doubleSided;
   to.albedoMap = map(from.baseColorMap);
@@ -72,7 +72,7 @@ Mesh toMesh(const assets::Model& model, const assets::ModelMesh& from, std::uint
   to.indexCount = from.indexCount;
   to.skinned = from.skinned;
   for (std::uint32_t v = from.firstVertex; v < from.firstVertex + from.vertexCount; ++v) {
-    const glm::vec3 position = toVec3(model.vertices[v].position);
+    const glm::vec3 position = vec3Of(model.vertices[v].position);
     to.bounds.add(position);
     if (!from.skinned) continue;
     const assets::ModelSkinVertex& skin = model.skinVertices[v];
@@ -88,14 +88,14 @@ Mesh toMesh(const assets::Model& model, const assets::ModelMesh& from, std::uint
 Node toNode(const assets::ModelNode& from) {
   Node to;
   to.name = from.name;
-  to.local.translation = toVec3(from.translation);
+  to.local.translation = vec3Of(from.translation);
   to.local.rotation = glm::quat(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
-  to.local.scale = toVec3(from.scale);
+  to.local.scale = vec3Of(from.scale);
   return to;
 }
 
 glm::vec3 toUnits(const Scene& scene, const assets::ModelLight& light) {
-  return toVec3(light.color) * (light.intensity / scene.nits);
+  return vec3Of(light.color) * (light.intensity / scene.nits);
 }
 
 Lamp toLamp(const Scene& scene, const assets::ModelLight& from, NodeId node, bool shadow) {

@@ -20,7 +20,7 @@ constexpr int bandOf(std::size_t i) {
 struct Range {
   std::uint32_t first = 0, end = 0;
 };
-Range rangeOf(float low, float high, std::uint32_t count, float center, float reach) {
+Range cellsWithin(float low, float high, std::uint32_t count, float center, float reach) {
   const float extent = high - low;
   if (count < 2 || !(extent > 0)) return {0, count};
   const float per = static_cast<float>(count - 1) / extent, last = static_cast<float>(count);
@@ -35,9 +35,9 @@ void addSphere(const ProbeGrid& grid, const ProbeRules& rules, const Instance& s
                std::size_t to, std::span<Probe> out) {
   const glm::vec3 color = sphere.albedo * (1.0f - sphere.metallic), c = sphere.center;
   const float reach = rules.far * sphere.radius;
-  const Range x = rangeOf(grid.low.x, grid.high.x, grid.count.x, c.x, reach);
-  const Range y = rangeOf(grid.low.y, grid.high.y, grid.count.y, c.y, reach);
-  const Range z = rangeOf(grid.low.z, grid.high.z, grid.count.z, c.z, reach);
+  const Range x = cellsWithin(grid.low.x, grid.high.x, grid.count.x, c.x, reach);
+  const Range y = cellsWithin(grid.low.y, grid.high.y, grid.count.y, c.y, reach);
+  const Range z = cellsWithin(grid.low.z, grid.high.z, grid.count.z, c.z, reach);
   for (std::uint32_t k = z.first; k < z.end; ++k)
     for (std::uint32_t j = y.first; j < y.end; ++j) {
       const std::size_t line = j + std::size_t{grid.count.y} * k;

@@ -23,7 +23,7 @@ json& primitive(GltfMaker& maker) {
   return maker.document["meshes"][0]["primitives"][0];
 }
 
-GltfMaker square() {
+GltfMaker squareModel() {
   GltfMaker maker;
   maker.square();
   return maker;
@@ -38,7 +38,7 @@ GltfMaker colored(GltfMaker maker, int accessor, bool normalized = false) {
 
 // The square, of which target 0 moves corner 2 by (0, 0, 1) and turns its normal, and target 1 all by (1, 0, 0).
 GltfMaker morphed() {
-  GltfMaker maker = square();
+  GltfMaker maker = squareModel();
   const int up = maker.floats({0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, 3);
   const int turned = maker.floats({0, 0, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0}, 3);
   const int aside = maker.floats({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}, 3);
@@ -55,13 +55,13 @@ base::Diagnostic failureOf(const GltfMaker& maker) {
 
 TEST_CASE(
     "vertex colours: floats, bytes and shorts, of three and four channels; white where a mesh has none") {
-  CHECK(make(square()).colors.empty());
-  GltfMaker maker = square();
+  CHECK(make(squareModel()).colors.empty());
+  GltfMaker maker = squareModel();
   // Floats are clamped, as glTF 2.0, 3.7.2.1 says.
   const Model floats = make(colored(maker, maker.floats({1, 0, 0, 0, 0.5, 0, 2, -1, 0.25f, 1, 1, 1}, 3)));
   CHECK(floats.colors == std::vector<Float4>{{1, 0, 0, 1}, {0, 0.5f, 0, 1}, {1, 0, 0.25f, 1}, {1, 1, 1, 1}});
 
-  maker = square();
+  maker = squareModel();
   const std::vector<std::uint8_t> bytes = {255, 0, 51, 255, 0, 255, 0, 0, 102, 102, 102, 153, 0, 0, 0, 255};
   const int four = maker.accessor(bytes, 4, "VEC4", 5121);
   const Model small = make(colored(maker, four, true));
@@ -70,7 +70,7 @@ TEST_CASE(
     for (std::size_t c = 0; c < 4; ++c)
       CHECK(small.colors[v][c] == doctest::Approx(bytes[4 * v + c] / 255.0));
 
-  maker = square();
+  maker = squareModel();
   const std::vector<std::uint16_t> shorts = {65535, 0, 13107, 0, 65535, 0, 26214, 26214, 26214, 0, 0, 1};
   const int three = maker.accessor(shorts, 3, "VEC3", 5123);
   const Model wide = make(colored(maker, three, true));
@@ -82,7 +82,7 @@ TEST_CASE(
   }
 
   // A second mesh before and after has none of its own.
-  maker = colored(square(), 0);
+  maker = colored(squareModel(), 0);
   json plain = maker.document["meshes"][0];
   plain["primitives"][0]["attributes"].erase("COLOR_0");
   maker.document["meshes"] = {plain, maker.document["meshes"][0], plain};
@@ -98,7 +98,7 @@ TEST_CASE(
 }
 
 TEST_CASE("vertex colours are those that Assimp reads, also where vertices are taken apart") {
-  GltfMaker maker = square();
+  GltfMaker maker = squareModel();
   const int colors = maker.floats({1, 0, 0, 1, 0, 1, 0, 0.5, 0, 0, 1, 0.25, 0.5, 0.5, 0.5, 0}, 4);
   maker = colored(maker, colors);
   for (const bool flat : {false, true}) {
@@ -123,17 +123,17 @@ TEST_CASE("vertex colours are those that Assimp reads, also where vertices are t
 }
 
 TEST_CASE("vertex colours that lie") {
-  GltfMaker maker = square();
+  GltfMaker maker = squareModel();
   CHECK(failureOf(colored(maker, maker.floats({1, 0, 0, 0, kNan, 0, 1, 0, 0, 1, 1, 1}, 3))).message ==
         "'COLOR_0' of vertex 1 is no number that can be used");
-  maker = square();
+  maker = squareModel();
   CHECK(failureOf(colored(maker, maker.floats({1, 0, 0}, 3))).found == "1");
-  maker = square();
+  maker = squareModel();
   CHECK(failureOf(colored(maker, maker.floats({1, 0, 0, 0}, 1))).code == Code::badModelValue);
-  CHECK(failureOf(colored(square(), 99)).code == Code::badModelValue);
-  CHECK(failureOf(colored(square(), -1)).code == Code::badModelValue);
+  CHECK(failureOf(colored(squareModel(), 99)).code == Code::badModelValue);
+  CHECK(failureOf(colored(squareModel(), -1)).code == Code::badModelValue);
   // Bytes that are not normalised say nothing: left out, with a warning.
-  maker = square();
+  maker = squareModel();
   const int bytes = maker.accessor(std::vector<std::uint8_t>(16, 200), 4, "VEC4", 5121);
   CHECK(make(colored(maker, bytes), 1).colors.empty());
 }

@@ -27,7 +27,7 @@ base::Diagnostic failureWith(const std::function<void(GltfMaker&)>& change) {
   return failureOf(folder, "m.gltf", maker.gltf());
 }
 
-json& primitive(GltfMaker& maker) {
+json& firstPrimitive(GltfMaker& maker) {
   return maker.document["meshes"][0]["primitives"][0];
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("every byte of a .glb's header and JSON may be another") {
 }
 
 TEST_CASE("indices that name nothing") {
-  CHECK(failureWith([](GltfMaker& m) { primitive(m)["indices"] = m.shorts({0, 1, 4}); }).found == "4");
+  CHECK(failureWith([](GltfMaker& m) { firstPrimitive(m)["indices"] = m.shorts({0, 1, 4}); }).found == "4");
   for (const auto& [pointer, value] :
        std::initializer_list<std::pair<const char*, json>>{{"/scenes/0/nodes/0", 7},
                                                            {"/scene", 3},
@@ -121,10 +121,10 @@ TEST_CASE("accessors and views that reach beyond what they stand in") {
         }).code == Code::badModelValue);
   // Attributes that do not fit each other.
   CHECK(failureWith([](GltfMaker& m) {
-          primitive(m)["attributes"]["NORMAL"] = m.floats({0, 0, 1}, 3);
+          firstPrimitive(m)["attributes"]["NORMAL"] = m.floats({0, 0, 1}, 3);
         }).code == Code::badModelValue);
   CHECK(failureWith([](GltfMaker& m) {
-          primitive(m)["attributes"]["POSITION"] = primitive(m)["indices"];
+          firstPrimitive(m)["attributes"]["POSITION"] = firstPrimitive(m)["indices"];
         }).code == Code::badModelValue);
 }
 
@@ -141,8 +141,8 @@ TEST_CASE("a thousand million vertices are claimed") {
   // Few vertices, used again and again.
   const base::Diagnostic many = failureWith([](GltfMaker& m) {
     std::vector<std::uint16_t> indices(30000, 0);
-    primitive(m)["indices"] = m.shorts(indices);
-    for (int i = 0; i < 1000; ++i) m.document["meshes"][0]["primitives"].push_back(primitive(m));
+    firstPrimitive(m)["indices"] = m.shorts(indices);
+    for (int i = 0; i < 1000; ++i) m.document["meshes"][0]["primitives"].push_back(firstPrimitive(m));
   });
   CHECK(many.code == Code::limitExceeded);
 }
@@ -153,12 +153,12 @@ TEST_CASE("numbers that are none, or too large") {
   for (const float bad : {kNan, kInf, -kInf, 1e30f}) {
     CAPTURE(bad);
     const base::Diagnostic d = failureWith([&](GltfMaker& m) {
-      primitive(m)["attributes"]["POSITION"] = m.floats({0, 0, 0, 1, bad, 0, 1, 1, 0, 0, 1, 0}, 3);
+      firstPrimitive(m)["attributes"]["POSITION"] = m.floats({0, 0, 0, 1, bad, 0, 1, 1, 0, 0, 1, 0}, 3);
     });
     CHECK(d.code == Code::badModelValue);
     CHECK(d.message == "'POSITION' of vertex 1 is no number that can be used");
     CHECK(failureWith([&](GltfMaker& m) {
-            primitive(m)["attributes"]["TEXCOORD_0"] = m.floats({0, 1, 1, bad, 1, 0, 0, 0}, 2);
+            firstPrimitive(m)["attributes"]["TEXCOORD_0"] = m.floats({0, 1, 1, bad, 1, 0, 0, 0}, 2);
           }).code == Code::badModelValue);
   }
   CHECK(failureWith([](GltfMaker& m) {
@@ -171,7 +171,7 @@ TEST_CASE("numbers that are none, or too large") {
   const TemporaryFolder folder;
   GltfMaker maker;
   maker.square();
-  primitive(maker)["attributes"]["NORMAL"] = maker.floats({kNan, 0, 1, 0, 0, 0, kInf, 0, 1, 0, 0, 2}, 3);
+  firstPrimitive(maker)["attributes"]["NORMAL"] = maker.floats({kNan, 0, 1, 0, 0, 0, kInf, 0, 1, 0, 0, 2}, 3);
   base::Diagnostics diagnostics;
   const auto model = loadModel(folder.write("m.gltf", maker.gltf()), diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
@@ -200,8 +200,8 @@ TEST_CASE("skins and animations that do not fit") {
   const auto skinned = [](GltfMaker& m, std::uint16_t joint, float weight) {
     std::vector<std::uint16_t> joints(16, joint);
     std::vector<float> weights(16, weight);
-    primitive(m)["attributes"]["JOINTS_0"] = m.shorts(joints, 4);
-    primitive(m)["attributes"]["WEIGHTS_0"] = m.floats(weights, 4);
+    firstPrimitive(m)["attributes"]["JOINTS_0"] = m.shorts(joints, 4);
+    firstPrimitive(m)["attributes"]["WEIGHTS_0"] = m.floats(weights, 4);
     m.document["skins"] = {{{"joints", {0}}}};
     m.document["nodes"][0]["skin"] = 0;
   };

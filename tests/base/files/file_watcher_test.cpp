@@ -14,34 +14,34 @@ using Names = std::vector<std::string>;
 
 namespace {
 
-struct Folder {
+struct WatchedFolder {
   fs::path path = fs::temp_directory_path() / ("weft_watch_" + std::to_string(::getpid()));
-  Folder() { fs::remove_all(path), fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
+  WatchedFolder() { fs::remove_all(path), fs::create_directories(path); }
+  ~WatchedFolder() { fs::remove_all(path); }
   std::string operator/(const char* name) const { return (path / name).string(); }
 };
 
-void write(const std::string& path, const char* text = "text") {
+void save(const std::string& path, const char* text = "text") {
   std::ofstream(path) << text;
 }
 
 }  // namespace
 
 TEST_CASE("a write and a replacement by rename are seen once, neighbours are not") {
-  const Folder folder;
+  const WatchedFolder folder;
   const std::string a = folder / "a.json", b = folder / "b.glsl";
-  write(a), write(b);
+  save(a), save(b);
   FileWatcher watcher;
   REQUIRE(watcher.works());
   watcher.watch({a, b});
   CHECK(watcher.poll().empty());
-  write(a);
+  save(a);
   CHECK(watcher.poll() == Names{a});
   CHECK(watcher.poll().empty());
-  write(folder / "a.json.tmp");
+  save(folder / "a.json.tmp");
   CHECK(watcher.poll().empty());
   for (int i = 0; i < 3; ++i) {
-    write(folder / "b.glsl~");
+    save(folder / "b.glsl~");
     fs::rename(folder / "b.glsl~", b);
     CHECK(watcher.poll() == Names{b});
   }
@@ -49,75 +49,75 @@ TEST_CASE("a write and a replacement by rename are seen once, neighbours are not
   CHECK(watcher.poll() == Names{a});
   fs::rename(b, folder / "c.glsl");
   CHECK(watcher.poll() == Names{b});
-  write(a), write(b);
+  save(a), save(b);
   CHECK(watcher.poll() == Names{a, b});
 }
 
 TEST_CASE("files and folders that do not exist yet") {
-  const Folder folder;
+  const WatchedFolder folder;
   const std::string direct = folder / "late.json", deep = folder / "x/y/late.glsl";
   FileWatcher watcher;
   watcher.watch({direct, deep});
   CHECK(watcher.poll().empty());
-  write(direct);
+  save(direct);
   CHECK(watcher.poll() == Names{direct});
   fs::create_directories(folder.path / "x" / "y");
   CHECK(watcher.poll().empty());
-  write(deep);
+  save(deep);
   CHECK(watcher.poll() == Names{deep});
 
   SUBCASE("a folder replaced as a whole") {
     fs::create_directories(folder.path / "new");
-    write(folder / "new/late.glsl");
+    save(folder / "new/late.glsl");
     fs::rename(folder.path / "x" / "y", folder.path / "old");
     watcher.poll();
     fs::rename(folder.path / "new", folder.path / "x" / "y");
     CHECK(watcher.poll() == Names{deep});
-    write(deep);
+    save(deep);
     CHECK(watcher.poll() == Names{deep});
   }
   SUBCASE("a folder made together with its file") {
     fs::remove_all(folder.path / "x");
     watcher.poll();
     fs::create_directories(folder.path / "x" / "y");
-    write(deep);
+    save(deep);
     CHECK(watcher.poll() == Names{deep});
   }
 }
 
 TEST_CASE("names stay as given, links are followed, another set takes over") {
-  const Folder folder;
+  const WatchedFolder folder;
   fs::create_directories(folder.path / "real");
   const std::string real = folder / "real/a.json", link = folder / "a.json", other = folder / "other.json";
-  write(real), write(other);
+  save(real), save(other);
   fs::create_symlink(real, link);
   const std::string odd = folder / "real/../other.json";
   FileWatcher watcher;
   watcher.watch({link, odd});
-  write(real);
+  save(real);
   CHECK(watcher.poll() == Names{link});
-  write(other);
+  save(other);
   CHECK(watcher.poll() == Names{odd});
-  write(other);
+  save(other);
   watcher.watch({odd, real});
   CHECK(watcher.poll() == Names{odd});
-  write(real);
+  save(real);
   CHECK(watcher.poll() == Names{real});
   watcher.watch({odd});
-  write(real);
+  save(real);
   CHECK(watcher.poll().empty());
 }
 
 namespace {
 
 // What a watcher without inotify has to do.
-void checkLooking(FileWatcher& watcher, const Folder& folder) {
+void checkLooking(FileWatcher& watcher, const WatchedFolder& folder) {
   const std::string a = folder / "a.json", late = folder / "x/late.glsl";
-  write(a);
+  save(a);
   watcher.watch({a, late});
   CHECK_FALSE(watcher.poller().look());
   CHECK(watcher.poll().empty());
-  write(a, "longer text");
+  save(a, "longer text");
   CHECK(watcher.poll().empty());  // nobody looked
   CHECK(watcher.poller().look());
   CHECK(watcher.poll() == Names{a});
@@ -130,16 +130,16 @@ void checkLooking(FileWatcher& watcher, const Folder& folder) {
   CHECK(watcher.poller().look());
   CHECK(watcher.poll() == Names{a});
   fs::create_directories(folder.path / "x");
-  write(late);
+  save(late);
   fs::remove(a);
   CHECK(watcher.poller().look());
   CHECK(watcher.poll() == Names{a, late});
   // An empty file is about to be written, or stays empty.
-  write(a, "");
+  save(a, "");
   CHECK_FALSE(watcher.poller().look());
   CHECK(watcher.poller().look());
   CHECK(watcher.poll() == Names{a});
-  write(late, "changed, and then given up");
+  save(late, "changed, and then given up");
   watcher.poller().look();
   watcher.watch({a});
   CHECK(watcher.poll().empty());
@@ -156,14 +156,14 @@ void checkLooking(FileWatcher& watcher, const Folder& folder) {
 }  // namespace
 
 TEST_CASE("without inotify files are looked at, which is said once") {
-  const Folder folder;
+  const WatchedFolder folder;
   FileWatcher watcher(FileWatcher::Means::looking);
   CHECK_FALSE(watcher.works());
   checkLooking(watcher, folder);
 }
 
 TEST_CASE("the same when the system has nothing left to give") {
-  const Folder folder;
+  const WatchedFolder folder;
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
   const int next = ::open("/dev/null", O_RDONLY);  // the lowest that is free

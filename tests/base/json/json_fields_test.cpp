@@ -4,7 +4,7 @@
 
 using namespace weft::base;
 
-static JsonValue parse(std::string_view text) {
+static JsonValue parseGood(std::string_view text) {
   Diagnostics diagnostics;
   auto value = parseJson(text, std::make_shared<const std::string>("f.json"), diagnostics);
   REQUIRE_MESSAGE(value, diagnostics.text());
@@ -12,7 +12,7 @@ static JsonValue parse(std::string_view text) {
 }
 
 TEST_CASE("present members are read, absent ones are nothing, and neither is an error") {
-  const JsonValue value = parse(R"({"n": 2.5, "b": true, "t": "x", "v": [1, 2, 3], "o": {}, "a": []})");
+  const JsonValue value = parseGood(R"({"n": 2.5, "b": true, "t": "x", "v": [1, 2, 3], "o": {}, "a": []})");
   Diagnostics diagnostics;
   JsonFields fields(value, "the thing", Code::badSceneValue, diagnostics);
   CHECK(fields.number("n") == 2.5);
@@ -29,7 +29,7 @@ TEST_CASE("present members are read, absent ones are nothing, and neither is an 
 
 TEST_CASE("wrong types, ranges, unknown and missing keys") {
   const JsonValue value =
-      parse("{\"n\": \"x\",\n \"m\": 3, \"v\": [1, 2], \"w\": [1, null, 9], \"lenght\": 1}");
+      parseGood("{\"n\": \"x\",\n \"m\": 3, \"v\": [1, 2], \"w\": [1, null, 9], \"lenght\": 1}");
   Diagnostics diagnostics;
   JsonFields fields(value, "the thing", Code::badSceneValue, diagnostics);
   fields.require({"n", "absent"});
@@ -52,7 +52,7 @@ TEST_CASE("wrong types, ranges, unknown and missing keys") {
 }
 
 TEST_CASE("whole numbers and open ends") {
-  const JsonValue value = parse(R"({"a": 1.5, "b": 0, "c": 3})");
+  const JsonValue value = parseGood(R"({"a": 1.5, "b": 0, "c": 3})");
   Diagnostics diagnostics;
   JsonFields fields(value, "the thing", Code::badSceneValue, diagnostics);
   CHECK_FALSE(fields.number("a", {.whole = true}));
@@ -62,7 +62,7 @@ TEST_CASE("whole numbers and open ends") {
 }
 
 TEST_CASE("something that is no object is one error") {
-  const JsonValue value = parse("[1]");
+  const JsonValue value = parseGood("[1]");
   Diagnostics diagnostics;
   JsonFields fields(value, "the thing", Code::badSceneValue, diagnostics);
   fields.require({"a"});

@@ -10,7 +10,7 @@ using namespace weft::graph;
 
 namespace {
 
-constexpr std::uint64_t kGraphs = 2500;
+constexpr std::uint64_t kPropertyGraphs = 2500;
 
 // The corners in which a bit may be there for a cadence alone: a history that does not turn in each frame,
 // and a group that publishes now and then.
@@ -61,13 +61,13 @@ struct Coverage {
 
 TEST_CASE("the random graphs reach every kind of case") {
   Coverage c;
-  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) c.add(randomGraph(seed).compiled());
+  for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) c.add(randomGraph(seed).compiled());
   MESSAGE("sliced " << c.sliced << ", shared " << c.shared << ", overlapping arenas " << c.overlapping
                     << ", histories " << c.histories << ", persistent " << c.persistent << ", split clears "
                     << c.splitClears << ", feedback " << c.feedback << ", parts " << c.parts);
   for (const std::size_t n :
        {c.sliced, c.shared, c.overlapping, c.histories, c.persistent, c.splitClears, c.feedback, c.parts})
-    CHECK(n > kGraphs / 25);
+    CHECK(n > kPropertyGraphs / 25);
 }
 
 TEST_CASE("no hazard is left under any cadence, and there are no redundant barrier bits") {
@@ -81,17 +81,17 @@ TEST_CASE("no hazard is left under any cadence, and there are no redundant barri
     if ((!verdict.complaint.empty() || !excused) && ++failures < 10)
       FAIL_CHECK("graph " << seed << how << ": " << verdict.complaint);
   };
-  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) {
     const FlatBuilder b = randomGraph(seed);
     judge(b.compiled(), seed, 24, "");
     judge(b.compiled({.share = true, .orderSeed = seed}), seed, 6, " reordered");
     if (seed % 4 == 0) judge(b.compiled({.share = false}), seed, 6, " unshared");
   }
   CHECK(failures == 0);
-  MESSAGE(kGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly
-                  << " by cadence only, " << ofSliced
-                  << " by frames in which a time-sliced group does not publish");
-  CHECK(bits > kGraphs * 8);  // the graphs do need barriers
+  MESSAGE(kPropertyGraphs << " graphs, " << steps << " steps, " << bits << " bits, " << byCadenceOnly
+                          << " by cadence only, " << ofSliced
+                          << " by frames in which a time-sliced group does not publish");
+  CHECK(bits > kPropertyGraphs * 8);  // the graphs do need barriers
   CHECK(byCadenceOnly * 1000 < bits);
   CHECK(ofSliced * 500 < bits);
 }
@@ -101,7 +101,7 @@ TEST_CASE("liveness, order and storage agree with slow second opinions") {
   const auto check = [&](const std::string& complaint, std::uint64_t seed) {
     if (!complaint.empty() && ++failures < 10) FAIL_CHECK("graph " << seed << ": " << complaint);
   };
-  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) {
     const FlatBuilder b = randomGraph(seed);
     const Plan plan = b.compiled(), other = b.compiled({.share = true, .orderSeed = seed});
     check(checks::checkLiveness(plan), seed);
@@ -115,7 +115,7 @@ TEST_CASE("liveness, order and storage agree with slow second opinions") {
 
 TEST_CASE("any legal order, shared or not, shows what the graph means") {
   std::size_t failures = 0;
-  for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) {
     const FlatBuilder b = randomGraph(seed);
     for (const CompileOptions options :
          {CompileOptions{true, 0}, CompileOptions{true, seed}, CompileOptions{true, ~seed},

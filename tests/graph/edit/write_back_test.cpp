@@ -27,9 +27,9 @@ std::string contents(const std::string& path) {
   return out.str();
 }
 
-class Folder : public TestFolder {
+class OverlayFolder : public TestFolder {
  public:
-  Folder() : TestFolder("write_back_test_files") {}
+  OverlayFolder() : TestFolder("write_back_test_files") {}
   std::string copy(const std::string& name) const {
     return write(name, contents(std::string(WEFT_SOURCE_DIR) + "/graphs/" + name));
   }
@@ -88,7 +88,7 @@ std::string around(const std::string& text, const std::vector<std::string>& poin
 }
 
 // A value a person could choose with the parameter's widget.
-Value randomValue(const ParameterDesc& desc, std::mt19937& random) {
+Value randomSetting(const ParameterDesc& desc, std::mt19937& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -154,7 +154,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }  // namespace
 
 TEST_CASE("a value is written over the default and nothing else changes") {
-  const Folder folder;
+  const OverlayFolder folder;
   const std::string path = folder.write("small.json", kSmall);
   const auto written = writeBack(path, {.sets = {{"gain", "2"},
                                                  {"steps", "5"},
@@ -177,7 +177,7 @@ TEST_CASE("a value is written over the default and nothing else changes") {
 }
 
 TEST_CASE("tweaks that the files say already leave them alone") {
-  const Folder folder;
+  const OverlayFolder folder;
   const std::string path = folder.write("small.json", kSmall);
   const auto written = writeBack(path, {.sets = {{"gain", "1"}, {"curve", "filmic"}}});
   REQUIRE(written.plan);
@@ -186,7 +186,7 @@ TEST_CASE("tweaks that the files say already leave them alone") {
 }
 
 TEST_CASE("disabled passes: \"enabled\" beside the others, a condition is kept") {
-  const Folder folder;
+  const OverlayFolder folder;
   const std::string path = folder.write("small.json", kSmall);
   const auto written = writeBack(path, {.disables = {"extra", "blur"}});
   INFO(written.diagnostics.text());
@@ -208,7 +208,7 @@ TEST_CASE("disabled passes: \"enabled\" beside the others, a condition is kept")
 }
 
 TEST_CASE("a disabled include: \"enabled\" in its line, a condition is kept") {
-  const Folder folder;
+  const OverlayFolder folder;
   folder.write("small.json", kSmall);
   const std::string top = R"({
   "parameters": { "on": { "default": true } },
@@ -235,7 +235,7 @@ TEST_CASE("a disabled include: \"enabled\" in its line, a condition is kept") {
 }
 
 TEST_CASE("CRLF, tabs and a byte order mark stay") {
-  const Folder folder;
+  const OverlayFolder folder;
   for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
     const std::string text = mark + replaced(replaced(kSmall, "\n", "\r\n"), "  ", "\t");
     const std::string path = folder.write("crlf.json", text);
@@ -246,7 +246,7 @@ TEST_CASE("CRLF, tabs and a byte order mark stay") {
 }
 
 TEST_CASE("what decides a value is what changes: a set, a preset, an overlay, a file included twice") {
-  const Folder folder;
+  const OverlayFolder folder;
   const std::string small = folder.write("small.json", kSmall);
   const std::string over = folder.write("over.json", R"({
 	"extends": "small.json",
@@ -290,7 +290,7 @@ TEST_CASE("what decides a value is what changes: a set, a preset, an overlay, a 
 }
 
 TEST_CASE("a file that changed meanwhile is left as it is: W195") {
-  const Folder folder;
+  const OverlayFolder folder;
   const std::string path = folder.write("small.json", kSmall);
   base::Diagnostics diagnostics;
   const auto desc = readGraph(path, diagnostics);
@@ -303,7 +303,7 @@ TEST_CASE("a file that changed meanwhile is left as it is: W195") {
 }
 
 TEST_CASE("what has no place in the files is refused whole: W196") {
-  const Folder folder;
+  const OverlayFolder folder;
   folder.write("part.json", R"({ "resources": { "c": { "texture": "rgba8", "size": 4 } },
     "passes": [ { "name": "p", "type": "fullscreen", "shader": "p.frag.glsl", "write": { "result": "c" } },
       { "name": "fix", "type": "fullscreen", "shader": "r.frag.glsl", "read": { "s": "c" }, "write": { "result": "c" } } ] })");
@@ -334,7 +334,7 @@ TEST_CASE("what has no place in the files is refused whole: W196") {
 TEST_CASE("random tweaks of the bundled graph come back from its files, and only values moved") {
   std::mt19937 random(7);
   for (int round = 0; round < 12; ++round) {
-    const Folder folder;
+    const OverlayFolder folder;
     for (const char* name :
          {"ibl.json", "daylight.json", "lit.json", "neighbours.json", "fade.json", "post.json",
           "effects/fog.json", "effects/depth_of_field.json", "effects/motion_blur.json", "effects/bloom.json",
@@ -345,7 +345,7 @@ TEST_CASE("random tweaks of the bundled graph come back from its files, and only
     const auto start = load(path, {});
     Settings settings;
     for (const ParameterSpec& each : start->parameters)
-      if (random() % 4 == 0) settings.sets.emplace_back(each.path, toText(randomValue(each.desc, random)));
+      if (random() % 4 == 0) settings.sets.emplace_back(each.path, toText(randomSetting(each.desc, random)));
     const auto wanted = load(path, settings);
     const auto written = writeBack(path, settings);
     INFO(written.diagnostics.text());

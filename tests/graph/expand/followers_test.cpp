@@ -12,7 +12,7 @@ using namespace weft::graph::test;
 
 namespace {
 
-base::Diagnostics diagnose(const std::string& text) {
+base::Diagnostics diagnoseText(const std::string& text) {
   base::Diagnostics diagnostics;
   const auto desc = readGraphText(text, "followers.json", diagnostics);
   REQUIRE_MESSAGE(desc, diagnostics.text());
@@ -20,8 +20,8 @@ base::Diagnostics diagnose(const std::string& text) {
   return diagnostics;
 }
 
-// A chain: pass i reads what pass i-1 wrote. Every tenth has a mistake, of five kinds in turn.
-std::string chain(int count) {
+// A brokenChain: pass i reads what pass i-1 wrote. Every tenth has a mistake, of five kinds in turn.
+std::string brokenChain(int count) {
   std::string resources = R"("ldr": { "texture": "rgba8", "size": 8 })", passes;
   for (int i = 0; i < count; ++i) {
     const int mistake = i % 10 == 5 ? i / 10 % 5 : -1;
@@ -51,7 +51,7 @@ std::string chain(int count) {
 }  // namespace
 
 TEST_CASE("of 1,000 passes with 100 mistakes each mistake is named, and nothing follows from them") {
-  const base::Diagnostics said = diagnose(chain(1000));
+  const base::Diagnostics said = diagnoseText(brokenChain(1000));
   std::map<std::string, int> codes;
   for (const base::Diagnostic& d : said.items()) ++codes[base::nameOf(d.code)];
   INFO(said.text().substr(0, 4000));
@@ -62,9 +62,9 @@ TEST_CASE("of 1,000 passes with 100 mistakes each mistake is named, and nothing 
   CHECK(codes == expected);
 }
 
-TEST_CASE("a chain without mistakes says nothing") {
-  std::string text = chain(5);
-  CHECK_MESSAGE(diagnose(text).empty(), diagnose(text).text());
+TEST_CASE("a brokenChain without mistakes says nothing") {
+  std::string text = brokenChain(5);
+  CHECK_MESSAGE(diagnoseText(text).empty(), diagnoseText(text).text());
 }
 
 TEST_CASE("what an overlay removed, and what a range leaves out, is named where it is missing") {
@@ -74,7 +74,7 @@ TEST_CASE("what an overlay removed, and what a range leaves out, is named where 
       { "name": "fill", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [3, 1] }, "write": { "result": "a" } },
       { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "a" }, "write": { "result": "ldr" } } ],
     "present": "ldr" })";
-  const base::Diagnostics said = diagnose(passes);
+  const base::Diagnostics said = diagnoseText(passes);
   REQUIRE(said.size() == 1);
   CHECK(said.items()[0].code == base::Code::disabledWriter);
   CHECK(said.items()[0].message.find("'fill'") != std::string::npos);
@@ -83,15 +83,15 @@ TEST_CASE("what an overlay removed, and what a range leaves out, is named where 
 
 TEST_CASE("a value of the program's own is told from a parameter") {
   const base::Diagnostics said =
-      diagnose(R"({ "resources": { "a": { "texture": "rgba8", "size": "$screen/2" } }, "passes": [] })");
+      diagnoseText(R"({ "resources": { "a": { "texture": "rgba8", "size": "$screen/2" } }, "passes": [] })");
   REQUIRE(said.errorCount() == 1);
   CHECK(said.items()[0].code == base::Code::unknownVariable);
   CHECK(said.items()[0].hint == "write 'screen', without the '$'");
 }
 
-TEST_CASE("levels that nobody reads are told of, unless the chain is read in part") {
+TEST_CASE("levels that nobody reads are told of, unless the brokenChain is read in part") {
   const auto chainRead = [](const char* read) {
-    return diagnose(fmt::format(
+    return diagnoseText(fmt::format(
         R"({{ "resources": {{ "ldr": {{ "texture": "rgba8", "size": 8 }}, "glow": {{ "texture": "rgba8", "size": 8, "mips": 4 }} }},
       "passes": [
         {{ "name": "first", "type": "fullscreen", "shader": "a.frag.glsl", "write": {{ "result": "glow.mip[0]" }} }},

@@ -8,7 +8,7 @@ using weft::base::Diagnostics;
 
 namespace {
 
-Place placeAt(std::uint32_t column) {
+Place refPlaceAt(std::uint32_t column) {
   return {std::make_shared<const std::string>("t.json"), 3, column};
 }
 
@@ -20,7 +20,7 @@ JsonPointer pointerTo(std::string_view key) {
 
 RefDesc parse(std::string_view text) {
   Diagnostics diagnostics;
-  auto ref = parseRef(text, placeAt(1), pointerTo("p"), diagnostics);
+  auto ref = parseRef(text, refPlaceAt(1), pointerTo("p"), diagnostics);
   REQUIRE_MESSAGE(ref, diagnostics.text());
   CHECK(diagnostics.empty());
   CHECK(ref->text == text);
@@ -28,15 +28,15 @@ RefDesc parse(std::string_view text) {
   return *std::move(ref);
 }
 
-struct Failure {
+struct RefFailure {
   Code code{};
   std::uint32_t column = 0;
   std::string message, hint;
 };
 
-Failure failure(std::string_view text) {
+RefFailure refFailure(std::string_view text) {
   Diagnostics diagnostics;
-  CHECK_MESSAGE(!parseRef(text, placeAt(1), pointerTo("p"), diagnostics), text);
+  CHECK_MESSAGE(!parseRef(text, refPlaceAt(1), pointerTo("p"), diagnostics), text);
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   const auto& d = diagnostics.items()[0];
   return {d.code, d.place.column, d.message, d.hint};
@@ -112,45 +112,45 @@ TEST_CASE("history, words, conditions, optional") {
 }
 
 TEST_CASE("errors carry column and fix") {
-  CHECK(failure("").column == 1);
-  CHECK(failure("  ?").code == Code::badReference);
-  CHECK(failure("mip[0]").message == "'mip' may not stand in a name");
-  CHECK(failure("a.x").column == 2);
-  CHECK(failure("a.b.").column == 5);
-  CHECK(failure("a..b").column == 3);
-  CHECK(failure("9lives").column == 1);
-  CHECK(failure("\xC3\xA9t\xC3\xA9").message == "'\xC3\xA9' where a name is expected");
-  CHECK(failure("a[0].b[1]").hint == "known: mip, layer, face, stencil");
-  CHECK(failure("a[0].mips[1]").hint == "did you mean 'mip'?");
-  CHECK(failure("glow.mip").column == 9);
-  CHECK(failure("glow.mip[0").column == 9);
-  CHECK(failure("glow.mip[]").column == 10);
-  CHECK(failure("glow.mip[0].mip[1]").column == 12);
-  CHECK(failure("a[0][1]").column == 5);
-  CHECK(failure("glow.mip[1 +]").code == Code::badExpression);
-  CHECK(failure("glow.mip[1 +]").column == 13);
-  CHECK(failure("glow.mip[(0]").column == 9);
-  CHECK(failure("hdr@1").column == 4);
-  CHECK(failure("hdr@-").column == 4);
-  CHECK(failure("hdr@-0").column == 4);
-  CHECK(failure("hdr@--1").column == 4);
-  CHECK(failure("hdr@").column == 4);
-  CHECK(failure("hdr@-99999999999").column == 4);
-  CHECK(failure("hdr as").column == 7);
-  CHECK(failure("hdr as if $x").column == 8);
-  CHECK(failure("hdr as liner").hint == "did you mean 'linear'?");
-  CHECK(failure("hdr as liner").column == 8);
-  CHECK(failure("hdr as linear nearest").column == 15);
-  CHECK(failure("hdr as wrap clamp").column == 13);
-  CHECK(failure("hdr as depth color").column == 14);
-  CHECK(failure("hdr as depth linear").column == 14);
-  CHECK(failure("hdr linear").hint == "did you mean 'as linear' or 'if linear'?");
-  CHECK(failure("hdr if").column == 7);
-  CHECK(failure("hdr if $").code == Code::badExpression);
-  CHECK(failure("hdr if $").column == 8);
-  CHECK(failure("hdr? if $x").hint == "'?' stands at the very end");
-  CHECK(failure("hdr as linear .mip[0]").hint == "selectors stand right behind the name");
-  CHECK(failure("a b c").code == Code::badReference);
+  CHECK(refFailure("").column == 1);
+  CHECK(refFailure("  ?").code == Code::badReference);
+  CHECK(refFailure("mip[0]").message == "'mip' may not stand in a name");
+  CHECK(refFailure("a.x").column == 2);
+  CHECK(refFailure("a.b.").column == 5);
+  CHECK(refFailure("a..b").column == 3);
+  CHECK(refFailure("9lives").column == 1);
+  CHECK(refFailure("\xC3\xA9t\xC3\xA9").message == "'\xC3\xA9' where a name is expected");
+  CHECK(refFailure("a[0].b[1]").hint == "known: mip, layer, face, stencil");
+  CHECK(refFailure("a[0].mips[1]").hint == "did you mean 'mip'?");
+  CHECK(refFailure("glow.mip").column == 9);
+  CHECK(refFailure("glow.mip[0").column == 9);
+  CHECK(refFailure("glow.mip[]").column == 10);
+  CHECK(refFailure("glow.mip[0].mip[1]").column == 12);
+  CHECK(refFailure("a[0][1]").column == 5);
+  CHECK(refFailure("glow.mip[1 +]").code == Code::badExpression);
+  CHECK(refFailure("glow.mip[1 +]").column == 13);
+  CHECK(refFailure("glow.mip[(0]").column == 9);
+  CHECK(refFailure("hdr@1").column == 4);
+  CHECK(refFailure("hdr@-").column == 4);
+  CHECK(refFailure("hdr@-0").column == 4);
+  CHECK(refFailure("hdr@--1").column == 4);
+  CHECK(refFailure("hdr@").column == 4);
+  CHECK(refFailure("hdr@-99999999999").column == 4);
+  CHECK(refFailure("hdr as").column == 7);
+  CHECK(refFailure("hdr as if $x").column == 8);
+  CHECK(refFailure("hdr as liner").hint == "did you mean 'linear'?");
+  CHECK(refFailure("hdr as liner").column == 8);
+  CHECK(refFailure("hdr as linear nearest").column == 15);
+  CHECK(refFailure("hdr as wrap clamp").column == 13);
+  CHECK(refFailure("hdr as depth color").column == 14);
+  CHECK(refFailure("hdr as depth linear").column == 14);
+  CHECK(refFailure("hdr linear").hint == "did you mean 'as linear' or 'if linear'?");
+  CHECK(refFailure("hdr if").column == 7);
+  CHECK(refFailure("hdr if $").code == Code::badExpression);
+  CHECK(refFailure("hdr if $").column == 8);
+  CHECK(refFailure("hdr? if $x").hint == "'?' stands at the very end");
+  CHECK(refFailure("hdr as linear .mip[0]").hint == "selectors stand right behind the name");
+  CHECK(refFailure("a b c").code == Code::badReference);
 }
 
 TEST_CASE("references and values are told apart where both may stand") {
@@ -168,17 +168,17 @@ TEST_CASE("references and values are told apart where both may stand") {
 
 TEST_CASE("words with arguments") {
   Diagnostics diagnostics;
-  CHECK(parseCallText("quad", placeAt(1), diagnostics)->name == "quad");
-  const auto ball = parseCallText("icosphere($subdivision)", placeAt(1), diagnostics);
+  CHECK(parseCallText("quad", refPlaceAt(1), diagnostics)->name == "quad");
+  const auto ball = parseCallText("icosphere($subdivision)", refPlaceAt(1), diagnostics);
   REQUIRE(ball);
   CHECK(ball->name == "icosphere");
   REQUIRE(ball->arguments.size() == 1);
   CHECK(ball->arguments[0].text() == "$subdivision");
   CHECK(ball->arguments[0].place().column == 11);
-  CHECK(parseCallText("box(1, min(2, 3))", placeAt(1), diagnostics)->arguments.size() == 2);
+  CHECK(parseCallText("box(1, min(2, 3))", refPlaceAt(1), diagnostics)->arguments.size() == 2);
   CHECK(diagnostics.empty());
   for (const char* text : {"", "2", "quad x", "icosphere(2", "icosphere(2) x", "icosphere()", "icosphere(1,)",
                            "a)(", "a(1))", "a(]"})
-    CHECK_MESSAGE(!parseCallText(text, placeAt(1), diagnostics), text);
+    CHECK_MESSAGE(!parseCallText(text, refPlaceAt(1), diagnostics), text);
   CHECK(diagnostics.size() == 10);
 }

@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string fullscreen(const std::string& name, const std::string& rest) {
+std::string linkedPass(const std::string& name, const std::string& rest) {
   return R"J({ "name": ")J" + name + R"J(", "type": "fullscreen", "shader": "a.frag.glsl", )J" + rest + "}";
 }
-std::string graphOf(const std::string& resources, const std::string& passes) {
+std::string linkedGraph(const std::string& resources, const std::string& passes) {
   return R"J({ "resources": { "out": { "texture": "rgba8", "size": "screen" }, )J" + resources +
          R"J( }, "passes": [)J" + passes + R"J(], "present": "out" })J";
 }
@@ -77,8 +77,8 @@ TEST_CASE(
   const Expanded e = expandText(R"J({
     "resources": { "a": { "texture": "rgba8", "size": "screen", "mips": 2 },
                    "unwritten": { "texture": "rgba8", "size": "screen" } },
-    "passes": [ )J" + fullscreen("near", R"J("write": { "result": "a.mip[0]" })J") +
-                                "," + fullscreen("far", R"J("read": { "source": "unwritten" },
+    "passes": [ )J" + linkedPass("near", R"J("write": { "result": "a.mip[0]" })J") +
+                                "," + linkedPass("far", R"J("read": { "source": "unwritten" },
                                                       "write": { "result": "a.mip[1]" })J") +
                                 R"J( ], "present": "a" })J");
   REQUIRE_MESSAGE(e.graph, e.text());
@@ -89,11 +89,11 @@ TEST_CASE(
 }
 
 TEST_CASE("with feedback, a read slot behind the modify slot sees the version before the pass") {
-  const Expanded e = expandText(graphOf(
+  const Expanded e = expandText(linkedGraph(
       R"J("a": { "texture": "rgba8", "size": "screen" })J",
-      fullscreen("first", R"J("write": { "result": "a" })J") + "," +
-          fullscreen("own", R"J("feedback": true, "modify": { "into": "a" }, "read": { "from": "a" })J") +
-          "," + fullscreen("last", R"J("read": { "source": "a" }, "write": { "result": "out" })J")));
+      linkedPass("first", R"J("write": { "result": "a" })J") + "," +
+          linkedPass("own", R"J("feedback": true, "modify": { "into": "a" }, "read": { "from": "a" })J") +
+          "," + linkedPass("last", R"J("read": { "source": "a" }, "write": { "result": "out" })J")));
   REQUIRE_MESSAGE(e.graph, e.text());
   checks::LinkCount count;
   CHECK(checks::checkLinks(*e.graph, count) == "");
@@ -105,17 +105,17 @@ TEST_CASE("a texture that is rewritten whole and in part again and again has its
   std::string passes;
   for (int i = 0; i < 3; ++i) {
     const std::string n = std::to_string(i);
-    passes += fullscreen("part" + n, R"J("write": { "result": "a.mip[0]" })J") + "," +
-              fullscreen("rest" + n, R"J("write": { "result": "a.mip[1]" })J") + "," +
-              fullscreen("use" + n, R"J("read": { "source": "a" }, "write": { "result": "b" })J") + "," +
-              fullscreen("whole" + n, R"J("read": { "source": "b" }, "write": { "result": "c" })J") + "," +
-              fullscreen("clear" + n, R"J("read": { "source": "c" }, "modify": { "result": "out" })J") + ",";
+    passes += linkedPass("part" + n, R"J("write": { "result": "a.mip[0]" })J") + "," +
+              linkedPass("rest" + n, R"J("write": { "result": "a.mip[1]" })J") + "," +
+              linkedPass("use" + n, R"J("read": { "source": "a" }, "write": { "result": "b" })J") + "," +
+              linkedPass("whole" + n, R"J("read": { "source": "b" }, "write": { "result": "c" })J") + "," +
+              linkedPass("clear" + n, R"J("read": { "source": "c" }, "modify": { "result": "out" })J") + ",";
   }
-  const Expanded e = expandText(graphOf(
+  const Expanded e = expandText(linkedGraph(
       R"J("a": { "texture": "rgba8", "size": "screen", "mips": 2, "clear": 0 },
           "b": { "texture": "rgba8", "size": "screen" }, "c": { "texture": "rgba8", "size": "screen" })J",
-      fullscreen("start", R"J("write": { "result": "out" })J") + "," + passes +
-          fullscreen("end", R"J("modify": { "result": "out" })J")));
+      linkedPass("start", R"J("write": { "result": "out" })J") + "," + passes +
+          linkedPass("end", R"J("modify": { "result": "out" })J")));
   REQUIRE_MESSAGE(e.graph, e.text());
   checks::LinkCount count;
   check(*e.graph, e.diagnostics, "rewritten", count);

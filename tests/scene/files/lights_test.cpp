@@ -20,7 +20,7 @@ Scene readGood(std::string_view text) {
   return std::move(*scene);
 }
 
-base::Diagnostic failureOf(std::string_view text) {
+base::Diagnostic lightsFailureOf(std::string_view text) {
   base::Diagnostics diagnostics;
   CHECK_FALSE(readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
@@ -85,26 +85,25 @@ TEST_CASE("a grid of lamps takes its colors in turn") {
 
 TEST_CASE("lights that cannot be are errors with a place") {
   using base::Code;
-  CHECK(failureOf(R"({"sun": {"direction": [0, 0, 0], "lux": 1}})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0]}})").code == Code::missingKey);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "lux": -1}})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "lux": 1, "irradiance": [1, 1, 1]}})").code ==
+  CHECK(lightsFailureOf(R"({"sun": {"direction": [0, 0, 0], "lux": 1}})").code == Code::badSceneValue);
+  CHECK(lightsFailureOf(R"({"sun": {"direction": [0, 1, 0]}})").code == Code::missingKey);
+  CHECK(lightsFailureOf(R"({"sun": {"direction": [0, 1, 0], "lux": -1}})").code == Code::badSceneValue);
+  CHECK(lightsFailureOf(R"({"sun": {"direction": [0, 1, 0], "lux": 1, "irradiance": [1, 1, 1]}})").code ==
         Code::unknownKey);
-  CHECK(failureOf(R"({"nits": 0})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"lamps": {"a": {"candela": 1}}})").code == Code::missingKey);
-  CHECK(failureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "color": [2, 0, 0]}}})").code ==
-        Code::badSceneValue);
-  CHECK(failureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "outer": 30}}})")
+  CHECK(lightsFailureOf(R"({"nits": 0})").code == Code::badSceneValue);
+  CHECK(lightsFailureOf(R"({"lamps": {"a": {"candela": 1}}})").code == Code::missingKey);
+  CHECK(lightsFailureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "color": [2, 0, 0]}}})")
+            .code == Code::badSceneValue);
+  CHECK(lightsFailureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "outer": 30}}})")
             .hint.find("direction") != std::string::npos);
   CHECK(
-      failureOf(
+      lightsFailureOf(
           R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 1, 0], "inner": 50, "outer": 30}}})")
           .found == "50");
-  CHECK(
-      failureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 0, 0]}}})").code ==
-      Code::badSceneValue);
+  CHECK(lightsFailureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 0, 0]}}})")
+            .code == Code::badSceneValue);
   const base::Diagnostic many =
-      failureOf(R"({"lamp_grids": {"g": {"count": [65536, 65536, 2], "candela": 1}}})");
+      lightsFailureOf(R"({"lamp_grids": {"g": {"count": [65536, 65536, 2], "candela": 1}}})");
   CHECK(many.expected == fmt::format("at most {} in all", kMaxLamps));
-  CHECK(failureOf(R"({"point_lights": {}})").code == Code::unknownKey);
+  CHECK(lightsFailureOf(R"({"point_lights": {}})").code == Code::unknownKey);
 }

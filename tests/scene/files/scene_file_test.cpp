@@ -13,7 +13,7 @@ using namespace weft::scene;
 
 namespace {
 
-Scene loadGood(const std::string& path) {
+Scene loadedScene(const std::string& path) {
   base::Diagnostics diagnostics;
   auto scene = loadScene(path, diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
@@ -21,14 +21,14 @@ Scene loadGood(const std::string& path) {
   return std::move(*scene);
 }
 
-Scene readGood(std::string_view text) {
+Scene readGoodScene(std::string_view text) {
   base::Diagnostics diagnostics;
   auto scene = readScene(text, "s.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   return std::move(*scene);
 }
 
-base::Diagnostic failureOf(std::string_view text) {
+base::Diagnostic sceneFailureOf(std::string_view text) {
   base::Diagnostics diagnostics;
   CHECK_FALSE(readScene(text, "s.json", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 1, text << "\n" << diagnostics.text());
@@ -45,7 +45,7 @@ std::string withMaterials(const std::string& rest) {
 }  // namespace
 
 TEST_CASE("spheres.json: 10 x 10 in the XY plane, first material top left, going right then down") {
-  const Scene scene = loadGood(WEFT_SOURCE_DIR "/scenes/spheres.json");
+  const Scene scene = loadedScene(WEFT_SOURCE_DIR "/scenes/spheres.json");
   REQUIRE(scene.spheres.size() == 100);
   const auto spheres = scene.spheres.rows();
   CHECK(spheres[0].center == glm::vec3(-11.25f, 11.25f, 0));
@@ -74,7 +74,7 @@ TEST_CASE("every scene of the folder loads") {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(WEFT_SOURCE_DIR "/scenes")) {
     if (entry.path().extension() != ".json") continue;  // beside them: environments
-    loadGood(entry.path().string());
+    loadedScene(entry.path().string());
     ++count;
   }
   CHECK(count >= 3);
@@ -93,7 +93,7 @@ TEST_CASE("the example of docs/scenes.md loads") {
 }
 
 TEST_CASE("a grid of any shape is centred; materials repeat; layers go away from the viewer") {
-  const Scene scene = readGood(withMaterials(
+  const Scene scene = readGoodScene(withMaterials(
       R"("grid": {"count": [3, 2, 4], "spacing": 2, "radius": 0.5, "center": [10, 0, 0], "velocity": [0, 1, 0], "materials": ["a", "b"], "lists": ["spheres", "shadow_casters"]})"));
   REQUIRE(scene.spheres.size() == 24);
   const auto spheres = scene.spheres.rows();
@@ -109,7 +109,7 @@ TEST_CASE("a grid of any shape is centred; materials repeat; layers go away from
 
 TEST_CASE("a million spheres") {
   const Scene scene =
-      readGood(withMaterials(R"("grid": {"count": [100, 100, 100], "materials": ["a", "b"]})"));
+      readGoodScene(withMaterials(R"("grid": {"count": [100, 100, 100], "materials": ["a", "b"]})"));
   CHECK(scene.spheres.size() == 1000000);
   CHECK(sizeof(Sphere) <= 40);
   std::vector<Instance> instances;
@@ -119,7 +119,7 @@ TEST_CASE("a million spheres") {
 }
 
 TEST_CASE("spheres, cameras, lights and the sun, with comments") {
-  const Scene scene = readGood(withMaterials(R"(
+  const Scene scene = readGoodScene(withMaterials(R"(
     // three ways to say a material
     "spheres": [
       {"center": [1, 2, 3], "radius": 2, "material": "b"},
@@ -154,7 +154,7 @@ TEST_CASE("a library names materials too, and is read once") {
   folder.write(
       "m.json",
       R"([{"name": "x", "albedo": [1, 1, 1], "metallic": 0, "roughness": 0}, {"name": "y", "albedo": [0, 0, 0], "metallic": 0, "roughness": 0}])");
-  const Scene scene = loadGood(folder.write("s.json", R"({"library": "m.json",
+  const Scene scene = loadedScene(folder.write("s.json", R"({"library": "m.json",
     "grid": {"count": [2, 1, 1], "materials": "./m.json"}, "spheres": [{"center": [0, 0, 0], "material": "y"}]})"));
   CHECK(scene.materials.size() == 2);
   CHECK(scene.spheres.rows()[2].material == scene.spheres.rows()[1].material);
@@ -162,7 +162,7 @@ TEST_CASE("a library names materials too, and is read once") {
 }
 
 TEST_CASE("an empty scene has the default camera and its file's name") {
-  const Scene scene = readGood("{}");
+  const Scene scene = readGoodScene("{}");
   CHECK(scene.name == "s");
   CHECK(findCamera(scene, "")->pose.position == glm::dvec3(0, 0, 20));
   CHECK(scene.spheres.size() == 0);
@@ -170,56 +170,61 @@ TEST_CASE("an empty scene has the default camera and its file's name") {
 
 TEST_CASE("every mistake has its code and place") {
   using base::Code;
-  CHECK(failureOf("").code == Code::notJson);
-  CHECK(failureOf("[]").code == Code::wrongType);
-  const base::Diagnostic key = failureOf("{\n  \"sphere\": []\n}");
+  CHECK(sceneFailureOf("").code == Code::notJson);
+  CHECK(sceneFailureOf("[]").code == Code::wrongType);
+  const base::Diagnostic key = sceneFailureOf("{\n  \"sphere\": []\n}");
   CHECK(key.code == Code::unknownKey);
   CHECK(key.place.line == 2);
   CHECK(key.place.column == 3);
   CHECK(key.hint == "did you mean 'spheres'?");
-  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fovv": 3}}})").hint == "did you mean 'fov'?");
-  CHECK(failureOf(R"({"cameras": {"a": {}}})").code == Code::missingKey);
-  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 0]}}})").message.find("target") !=
+  CHECK(sceneFailureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fovv": 3}}})").hint ==
+        "did you mean 'fov'?");
+  CHECK(sceneFailureOf(R"({"cameras": {"a": {}}})").code == Code::missingKey);
+  CHECK(sceneFailureOf(R"({"cameras": {"a": {"position": [0, 0, 0]}}})").message.find("target") !=
         std::string::npos);
-  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fov": 180}}})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "near": 0}}})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"cameras": {"a": {"path": []}}})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"cameras": {"a": {"orbit": 1, "path": [{"time": 0, "position": [0, 0, 1]}]}}})").code ==
+  CHECK(sceneFailureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "fov": 180}}})").code ==
         Code::badSceneValue);
+  CHECK(sceneFailureOf(R"({"cameras": {"a": {"position": [0, 0, 1], "near": 0}}})").code ==
+        Code::badSceneValue);
+  CHECK(sceneFailureOf(R"({"cameras": {"a": {"path": []}}})").code == Code::badSceneValue);
+  CHECK(sceneFailureOf(R"({"cameras": {"a": {"orbit": 1, "path": [{"time": 0, "position": [0, 0, 1]}]}}})")
+            .code == Code::badSceneValue);
   CHECK(
-      failureOf(
+      sceneFailureOf(
           R"({"cameras": {"a": {"path": [{"time": 1, "position": [0, 0, 1]}, {"time": 1, "position": [0, 0, 2]}]}}})")
           .code == Code::badSceneValue);
-  CHECK(failureOf(R"({"materials": {"a": {"albedo": [0, 0, 2]}}})").code == Code::badMaterialValue);
-  CHECK(failureOf(R"({"grid": {"count": [1, 1, 1], "materials": "nowhere.json"}})").code ==
+  CHECK(sceneFailureOf(R"({"materials": {"a": {"albedo": [0, 0, 2]}}})").code == Code::badMaterialValue);
+  CHECK(sceneFailureOf(R"({"grid": {"count": [1, 1, 1], "materials": "nowhere.json"}})").code ==
         Code::unreadableFile);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1]})")).code == Code::missingKey);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [0, 1, 1], "materials": ["a"]})")).code ==
+  CHECK(sceneFailureOf(withMaterials(R"("grid": {"count": [1, 1, 1]})")).code == Code::missingKey);
+  CHECK(sceneFailureOf(withMaterials(R"("grid": {"count": [0, 1, 1], "materials": ["a"]})")).code ==
         Code::badSceneValue);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1.5, 1, 1], "materials": ["a"]})")).code ==
+  CHECK(sceneFailureOf(withMaterials(R"("grid": {"count": [1.5, 1, 1], "materials": ["a"]})")).code ==
         Code::badSceneValue);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [60000, 60000, 60000], "materials": ["a"]})")).code ==
-        Code::badSceneValue);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "radius": -1, "materials": ["a"]})")).code ==
-        Code::badSceneValue);
-  CHECK(failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": []})")).code ==
+  CHECK(
+      sceneFailureOf(withMaterials(R"("grid": {"count": [60000, 60000, 60000], "materials": ["a"]})")).code ==
+      Code::badSceneValue);
+  CHECK(sceneFailureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "radius": -1, "materials": ["a"]})"))
+            .code == Code::badSceneValue);
+  CHECK(sceneFailureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": []})")).code ==
         Code::unknownMaterial);
   const base::Diagnostic material =
-      failureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": ["c"]})"));
+      sceneFailureOf(withMaterials(R"("grid": {"count": [1, 1, 1], "materials": ["c"]})"));
   CHECK(material.code == Code::unknownMaterial);
   CHECK(material.hint.find("a, b") != std::string::npos);
-  CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": "gold"}]})").code ==
+  CHECK(sceneFailureOf(R"({"spheres": [{"center": [0, 0, 0], "material": "gold"}]})").code ==
         Code::unknownMaterial);
-  CHECK(failureOf(R"({"spheres": [{"center": [0, 0, 0], "material": 3}]})").code == Code::wrongType);
-  CHECK(failureOf(R"({"spheres": [3]})").code == Code::wrongType);
-  const base::Diagnostic list = failureOf(
+  CHECK(sceneFailureOf(R"({"spheres": [{"center": [0, 0, 0], "material": 3}]})").code == Code::wrongType);
+  CHECK(sceneFailureOf(R"({"spheres": [3]})").code == Code::wrongType);
+  const base::Diagnostic list = sceneFailureOf(
       R"({"spheres": [{"center": [0, 0, 0], "material": {"albedo": [1, 1, 1]}, "lists": ["sphere"]}]})");
   CHECK(list.code == Code::unknownSceneList);
   CHECK(list.hint == "did you mean 'spheres'?");
-  CHECK(failureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": -1}}})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 0, 0], "lux": 1}})").code == Code::badSceneValue);
-  CHECK(failureOf(R"({"sun": 3})").code == Code::wrongType);
-  CHECK(failureOf(R"({"sun": {"direction": [0, 1, 0], "direction": [0, 1, 0], "lux": 1}})").code ==
+  CHECK(sceneFailureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": -1}}})").code ==
+        Code::badSceneValue);
+  CHECK(sceneFailureOf(R"({"sun": {"direction": [0, 0, 0], "lux": 1}})").code == Code::badSceneValue);
+  CHECK(sceneFailureOf(R"({"sun": 3})").code == Code::wrongType);
+  CHECK(sceneFailureOf(R"({"sun": {"direction": [0, 1, 0], "direction": [0, 1, 0], "lux": 1}})").code ==
         Code::duplicateKey);
 }
 

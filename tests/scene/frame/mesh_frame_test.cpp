@@ -19,7 +19,7 @@ using namespace weft::scene;
 
 namespace {
 
-const std::string kTop = WEFT_SOURCE_DIR "/";
+const std::string kSource = WEFT_SOURCE_DIR "/";
 
 // A tree of nodes, some of which turn or move, with a box at each.
 Scene randomTree(int count, unsigned seed) {
@@ -188,7 +188,7 @@ TEST_CASE("boxes hold their meshes, and the scene's box everything") {
 
 TEST_CASE("the fox walks: joints by their definition, every vertex in its box, the loop closes") {
   base::Diagnostics diagnostics;
-  const auto scene = loadScene(kTop + "scenes/fox.json", diagnostics);
+  const auto scene = loadScene(kSource + "scenes/fox.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   const Skin& skin = scene->skins.rows()[0];
   const Animation& walk = scene->animations.rows()[0];
@@ -253,7 +253,7 @@ TEST_CASE("the fox walks: joints by their definition, every vertex in its box, t
 
 TEST_CASE("a hundred thousand moving instances") {
   base::Diagnostics diagnostics;
-  const auto scene = loadScene(kTop + "scenes/crowd.json", diagnostics);
+  const auto scene = loadScene(kSource + "scenes/crowd.json", diagnostics);
   REQUIRE_MESSAGE(scene, diagnostics.text());
   MeshFrame frame;
   frame.update(*scene, 1, 1, 0.9);

@@ -20,7 +20,7 @@ using base::Diagnostics;
 
 namespace {
 
-constexpr double kFarthest = 1e9;
+constexpr double kFarthestVertex = 1e9;
 
 Float3 toFloat3(const aiVector3D& v) {
   return {v.x, v.y, v.z};
@@ -240,10 +240,10 @@ class AssimpReader {
       const Float3 position = toFloat3(from.mVertices[v]);
       const aiVector3D uv = from.HasTextureCoords(0) ? from.mTextureCoords[0][v] : aiVector3D();
       for (const float c : {position[0], position[1], position[2], uv.x, uv.y})
-        if (!(std::abs(c) <= kFarthest)) {
+        if (!(std::abs(c) <= kFarthestVertex)) {
           base::Diagnostic& d =
               fail(fmt::format("vertex {} of mesh '{}' is no number that can be used", v, mesh.name));
-          d.expected = fmt::format("finite numbers within {}", kFarthest);
+          d.expected = fmt::format("finite numbers within {}", kFarthestVertex);
           d.found = fmt::format("{}", c);
           d.hint = "repair the mesh and export it again";
           return {};

@@ -1,0 +1,1 @@
+// Nothing but the precompiled headers of weft_test_headers (CMakeLists.txt).
