@@ -5,7 +5,7 @@ Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [--referenc
 
 A fence says its language, then, where needed, what it is: ```json fragment or ```glsl shaders/x/y.frag.glsl.
   sh            part run: run with `bash -eu` in a copy of the tree. `./run X` is the built weft there, `view` under xvfb-run with
-                --max-frames 3. Not run, and only these: `./run` alone, `./run --setup-only`, git, cmake, ctest and ninja,
+                --max-frames 3. Not run, and only these: `./run` alone, `./run --setup-only` and `--install-only`, git, cmake, ctest and ninja,
                 whose presets must be there; `./test ARGS` must select at least one test. `--frames 0:59` is shortened to 0:2.
                 Part view instead where a line is `./run view`.
   sh references part references: the same, with FOLDER in the variable `references`
@@ -50,7 +50,7 @@ DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests")
 
 RUN = """#!/usr/bin/env bash
 case "${{1:-}}" in
-  "" | --setup-only) echo "not run: ./run $*" ;;
+  "" | --setup-only | --install-only) echo "not run: ./run $*" ;;
   view) exec xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" {weft} "$@" --max-frames 3 ;;
   *) exec {weft} "$@" ;;
 esac
