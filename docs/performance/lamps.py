@@ -5,12 +5,10 @@
 
 A floor with rocks fills the picture. `near`: lamps over the same floor that reach 0.35 each, so more of them are denser; `everywhere`: each lamp
 reaches every pixel, clusters have nothing to rule out. `touched` is how many lamps a pixel goes through, on average, read from a picture
-with show_lamps. With --spheres, ray-traced spheres fill the picture instead, whose pass is lit.spheres; `touched` is counted here then, by a ray
-through every tenth pixel each way and the distance of what it hits from every lamp.
+with show_lamps. With --spheres, ray-traced spheres fill the picture instead, whose pass is lit.spheres.
 """
 import argparse
 import json
-import math
 import pathlib
 import subprocess
 import sys
@@ -58,44 +56,6 @@ def touched_in(path):
     return total / pixels
 
 
-def grid_points(grid):
-    counts, center = grid["count"], grid.get("center", [0, 0, 0])
-    axes = [[c + (i - (n - 1) / 2) * grid["spacing"] for i in range(n)] for n, c in zip(counts, center)]
-    return [(x, y, z) for z in axes[2] for y in axes[1] for x in axes[0]]
-
-
-def touched_by_rays(scene, size):
-    """The mean number of lamps within their range, over points of spheres that every tenth pixel sees."""
-    width, height = map(int, size.split("x"))
-    camera, lamps = scene["cameras"]["above"], scene["lamp_grids"]["lamps"]
-    eye = camera["position"]
-    back = [e - t for e, t in zip(eye, camera["target"])]
-    back = [v / math.hypot(*back) for v in back]
-    right = [back[2] / math.hypot(back[0], back[2]), 0, -back[0] / math.hypot(back[0], back[2])]
-    up = [back[1] * right[2], back[2] * right[0] - back[0] * right[2], -back[1] * right[0]]
-    slope = math.tan(math.radians(camera["fov"]) / 2)
-    spheres, radius = grid_points(scene["grid"]), scene["grid"]["radius"]
-    positions = grid_points(lamps)
-    hits = total = 0
-    for y in range(5, height, 10):
-        for x in range(5, width, 10):
-            a, b = (2 * x / width - 1) * slope * width / height, (1 - 2 * y / height) * slope
-            ray = [a * r + b * u - w for r, u, w in zip(right, up, back)]
-            ray = [v / math.hypot(*ray) for v in ray]
-            nearest = None
-            for center in spheres:
-                to = [c - e for c, e in zip(center, eye)]
-                along = sum(t * r for t, r in zip(to, ray))
-                inside = radius * radius - (sum(t * t for t in to) - along * along)
-                if inside > 0 and (nearest is None or along - math.sqrt(inside) < nearest):
-                    nearest = along - math.sqrt(inside)
-            if nearest is not None:
-                point = [e + nearest * r for e, r in zip(eye, ray)]
-                hits += 1
-                total += sum(math.dist(point, p) < lamps["range"] for p in positions)
-    return total / max(hits, 1)
-
-
 def run_weft(weft, *line):
     done = subprocess.run([*weft, *map(str, line)], cwd=TOP, capture_output=True, text=True)
     if done.returncode:
@@ -107,12 +67,10 @@ def measure(weft, size, lamps, everywhere, spheres, folder):
     scene, picture = folder / "scene.json", folder / "touched.png"
     scene.write_text(json.dumps(scene_of(lamps, everywhere, spheres)))
     touched = lamps if everywhere else None
-    if not everywhere and not spheres:
+    if not everywhere:
         sets = ["show_lamps=true", "bloom=false", "fxaa=false", "dither=false", "curve=linear", "composite.white=1"]
         run_weft(weft, "render", GRAPH, "--scene", scene, "--size", size, "--quiet", "-o", picture, *(w for s in sets for w in ("--set", s)))
         touched = touched_in(picture)
-    if not everywhere and spheres:
-        touched = touched_by_rays(json.loads(scene.read_text()), size)
     bench = json.loads(run_weft(weft, "bench", "--frame", GRAPH, "--scene", scene, "--size", size))
     plain = next(each for each in bench["variants"] if each["name"] == "plain")
     row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": touched and round(touched, 2),

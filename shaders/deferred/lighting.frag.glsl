@@ -13,6 +13,9 @@
 #ifndef SHOW_LAMPS
 #define SHOW_LAMPS 0
 #endif
+#if SHOW_LAMPS
+#include "shading/show_lamps.glsl"
+#endif
 
 uniform sampler2D normal, base, mro, depth;
 #ifdef HAS_EMISSIVE
@@ -57,8 +60,7 @@ void findPoint(out Point point) {
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
   vec3 light = from_around + emitted + from_lights;
 #if SHOW_LAMPS
-  float heat = log2(max(float(lamps_tried), 1.0)) / 3.0;
-  light = lamps_tried == 0 ? vec3(0.02) : clamp(vec3(heat - 1.0, 1.0 - abs(heat - 1.0), 1.0 - heat), 0.0, 1.0);
+  light = colorOfLamps(lamps_tried);
 #endif
 #ifdef HAS_RADIANCE
   radiance = vec4(light, 1.0);

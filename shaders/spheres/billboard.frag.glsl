@@ -4,6 +4,7 @@
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)
 // params, defines    see shading/light.glsl
+//         SHOW_LAMPS    instead of light, how many lamps each pixel goes through, see shading/show_lamps.glsl
 //
 // Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
 // its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
@@ -11,6 +12,12 @@
 #include "fog/fog.glsl"
 #define LOBE_IS_FLAT 1
 #include "shading.glsl"
+#ifndef SHOW_LAMPS
+#define SHOW_LAMPS 0
+#endif
+#if SHOW_LAMPS
+#include "shading/show_lamps.glsl"
+#endif
 
 flat in vec4 sphere;
 flat in vec3 anchor;
@@ -110,6 +117,9 @@ void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) 
   vec3 light = from_around + from_lights;
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(from_eye));
+#endif
+#if SHOW_LAMPS
+  light = colorOfLamps(lamps_tried);
 #endif
   radiance = vec4(light * coverage, coverage);
 #endif
