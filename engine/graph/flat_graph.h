@@ -204,6 +204,17 @@ struct ImportSpec {
   std::vector<TableColumn> columns;   // as ImportType::columns
   bool before = false;                // as ImportType::before
   std::vector<std::string> standIns;  // names of own textures that a list of alternatives offers in its place
+  double count = 0;                   // rows of a list or buffer, as ImportFacts::count
+  Place place{};                      // of its declaration; without a file for one that is named only as @x
+};
+
+// A name of the files that has no resource of its own: a list of alternatives, an input, an import that is declared again
+// under another name. For people; nothing runs by it.
+struct AliasSpec {
+  std::string name;  // "post.luminance"
+  Place place;
+  std::vector<std::string> texts;    // the alternatives as written, conditions included; empty for the others
+  std::vector<std::string> targets;  // the names they stand for: resources, imports or other aliases
 };
 
 struct ParameterSpec {
@@ -255,6 +266,7 @@ struct FlatGraph {
   std::vector<ClearSpec> clears;         // values of version zero
   std::vector<std::string> outputNames;  // parallel to outputs
   std::vector<DisabledPass> disabled;
+  std::vector<AliasSpec> aliases;
   std::vector<std::string> groupNames;
   std::vector<std::string> files;  // to watch
   std::string name;

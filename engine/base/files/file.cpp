@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/files/file_access.h"
+#include "engine/base/files/file_overlay.h"
 #include "engine/base/files/folder_names.h"
 #include "engine/base/nearest.h"
 
@@ -72,6 +73,14 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
     diagnostics.error(code, where, fmt::format("cannot read '{}': {}", path, reason)).hint = hint;
     return std::nullopt;
   };
+  if (const std::optional<Overlay> unsaved = overlayOf(path)) {
+    if (!mayRead(path)) {
+      reportOutside(path, diagnostics, place);
+      return std::nullopt;
+    }
+    if (goOn && !goOn(unsaved->text->size(), unsaved->text->size())) return std::nullopt;
+    return *unsaved->text;
+  }
   const OpenedFile opened = openFile(path);
   switch (opened.state) {
     case OpenedFile::State::open:

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/chars.h"
+#include "engine/base/files/file_kind.h"
 
 namespace weft::base {
 
@@ -238,6 +239,13 @@ bool reportUnreadable(const JsonText& text, Diagnostics& diagnostics) {
   if (std::all_of(all.begin(), all.end(), isSpace)) {
     auto& d = diagnostics.error(Code::notJson, text.placeOf(0), "the file is empty");
     d.expected = "an object: { … }";
+    return false;
+  }
+  if (const std::optional<FileKind> kind = kindOfFile(all)) {
+    auto& d =
+        diagnostics.error(Code::notJson, text.placeOf(0), fmt::format("this is {}, not JSON", kind->what));
+    d.expected = "a JSON document in UTF-8";
+    d.hint = kind->hint;
     return false;
   }
   if (const std::size_t zero = all.find('\0'); zero != std::string_view::npos) {

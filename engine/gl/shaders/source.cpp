@@ -9,6 +9,7 @@
 
 #include "engine/base/files/file.h"
 #include "engine/base/files/file_access.h"
+#include "engine/base/files/file_overlay.h"
 #include "engine/base/hash.h"
 #include "engine/base/nearest.h"
 #include "engine/gl/shaders/bounds.h"
@@ -26,13 +27,16 @@ namespace {
 constexpr std::size_t kMostText = std::size_t{16}
                                   << 20;  // of one stage; a guarded include may repeat its text
 
+// Of an unsaved text another number for each, which is no time of a file.
 std::int64_t timeOf(const std::string& path) {
+  if (const auto unsaved = base::overlayOf(path)) return -1 - static_cast<std::int64_t>(unsaved->generation);
   std::error_code ec;
   const auto time = fs::last_write_time(path, ec);
   return ec ? -1 : static_cast<std::int64_t>(time.time_since_epoch().count());
 }
 
 std::uint64_t bytesOf(const std::string& path) {
+  if (const auto unsaved = base::overlayOf(path)) return unsaved->text->size();
   std::error_code ec;
   const auto size = fs::file_size(path, ec);
   return ec ? ~0ull : size;
@@ -56,7 +60,7 @@ std::optional<std::string> readWithin(const std::string& path, std::uint64_t mos
 // A file that may be read, and is one of those that readFile() reads.
 bool isReadable(const fs::path& path) {
   std::error_code ec;
-  return base::mayRead(path.string()) && fs::is_regular_file(path, ec);
+  return base::mayRead(path.string()) && (base::overlayOf(path.string()) || fs::is_regular_file(path, ec));
 }
 
 // The first that may not be read, where nothing is said of whether it is there.
@@ -286,7 +290,7 @@ std::optional<std::string> SourceLoader::locate(const std::string& path) const {
   for (const fs::path& candidate : candidatesOf(path)) {
     std::error_code ec;
     const std::string normal = candidate.lexically_normal().string();
-    if (base::mayRead(normal) && fs::exists(normal, ec)) return normal;
+    if (base::mayRead(normal) && (base::overlayOf(normal) || fs::exists(normal, ec))) return normal;
   }
   return std::nullopt;
 }

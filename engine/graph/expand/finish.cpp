@@ -149,6 +149,27 @@ void nameStandIns(Model& model) {
     }
 }
 
+// Names that are no resources and no imports of their own.
+void nameAliases(Model& model) {
+  for (const Entity& entity : model.entities) {
+    if (!entity.desc) continue;
+    AliasSpec alias{.name = entity.name, .place = entity.desc->place};
+    if (entity.kind == ResourceDesc::Kind::alternatives) {
+      for (std::size_t i = 0; i < entity.candidates.size(); ++i) {
+        if (entity.candidates[i] == kNone) continue;
+        alias.texts.push_back(entity.desc->alternatives[i].text);
+        alias.targets.push_back(model.entities[entity.candidates[i]].name);
+      }
+    } else if (entity.kind == ResourceDesc::Kind::input && entity.bound != kNone) {
+      alias.targets.push_back(model.entities[entity.bound].name);
+    } else if (entity.kind == ResourceDesc::Kind::import && entity.import != kNone) {
+      const std::string& first = model.graph.imports[entity.import].name;
+      if (first != entity.name) alias.targets.push_back(first);
+    }
+    if (!alias.targets.empty()) model.graph.aliases.push_back(std::move(alias));
+  }
+}
+
 // What contains age().
 void foldTimed(Model& model, const std::vector<DeferredUniform>& deferred) {
   const auto ageless = [](std::uint32_t) { return 0.0; };
@@ -203,6 +224,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   resolveHistories(model);
   model.versions.finish();
   nameStandIns(model);
+  nameAliases(model);
   if (!model.diagnostics.hasErrors()) {
     const base::Diagnostics said = model.diagnostics;
     foldLive(model, deferred);

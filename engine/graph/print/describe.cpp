@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/base/printable.h"
@@ -36,13 +38,29 @@ class Describer {
       all.push_back(declaredName(name));
       all.push_back(name);
     }
+    for (const ImportSpec& import : graph_.imports) all.push_back(import.name);
+    for (const AliasSpec& alias : graph_.aliases) all.push_back(alias.name);
     for (const ParameterSpec& parameter : graph_.parameters) all.push_back(parameter.path);
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 
+  // "@sun" where the graph declares one under a name of its own: that name.
+  std::optional<std::string> declaredImport(std::string_view name) const {
+    if (!name.starts_with('@')) return std::nullopt;
+    const auto is = [&](const ImportSpec& import) { return import.request.type == name.substr(1); };
+    const auto found = std::ranges::find_if(graph_.imports, is);
+    return found == graph_.imports.end() ? std::nullopt : std::optional(found->name);
+  }
+
   std::string describe(const std::string& name) {
+    add(name);
+    return std::move(text_);
+  }
+
+ private:
+  void add(const std::string& name) {
     for (std::uint32_t pass = 0; pass < graph_.passes.size(); ++pass)
       if (graph_.specs[pass].name == name || graph_.specs[pass].declared == name) addPass(pass);
     for (const DisabledPass& disabled : graph_.disabled)
@@ -50,12 +68,68 @@ class Describer {
         line(0, fmt::format("pass {}: disabled, {}", disabled.name, disabled.why));
     for (std::uint32_t r = 0; r < graph_.resources.size(); ++r)
       if (graph_.resourceNames[r] == name || declaredName(graph_.resourceNames[r]) == name) addResource(r);
+    addImports(name);
+    addAliases(name);
     for (const ParameterSpec& parameter : graph_.parameters)
       if (parameter.path == name) addParameter(parameter);
-    return std::move(text_);
   }
 
- private:
+  // Imports that no pass reads as a resource: views, events, lists that only expressions ask of.
+  void addImports(const std::string& name) {
+    for (std::uint32_t i = 0; i < graph_.imports.size(); ++i) {
+      const ImportSpec& import = graph_.imports[i];
+      const auto isResource = [&](const FlatResource& r) { return r.import == i; };
+      if (import.name != name || elementOf(import.request) > 0 ||
+          std::ranges::any_of(graph_.resources, isResource))
+        continue;
+      line(0, fmt::format("import {}: {}{}", import.name, whatIs(import), textOf(import.place)));
+      addArguments(import);
+      for (const PassSpec& spec : graph_.specs)
+        if (spec.view == i) line(1, fmt::format("is the view of '{}'", spec.name));
+    }
+  }
+
+  // What they stand for follows, each once.
+  void addAliases(const std::string& name) {
+    for (const AliasSpec& alias : graph_.aliases) {
+      if (alias.name != name || !told_.insert(name).second) continue;
+      std::string text;
+      for (std::size_t i = 0; i < alias.targets.size(); ++i) {
+        const bool written = i < alias.texts.size();
+        text += fmt::format("{}'{}'", text.empty() ? "" : ", ", written ? alias.texts[i] : alias.targets[i]);
+      }
+      line(0, fmt::format("name {}: {}{}{}", alias.name,
+                          alias.targets.size() > 1 ? "the first that is there of " : "stands for ", text,
+                          textOf(alias.place)));
+      for (const std::string& target : alias.targets)
+        if (!told_.contains(target)) {
+          add(target);
+          told_.insert(target);
+        }
+    }
+  }
+
+  static std::string whatIs(const ImportSpec& import) {
+    constexpr const char* kKinds[] = {"texture", "buffer", "view", "list", "event"};
+    std::string what =
+        fmt::format("{} @{}", kKinds[static_cast<std::size_t>(import.kind)], import.request.type);
+    if (!import.columns.empty()) {
+      what = fmt::format("table @{}, {} row{} of", import.request.type, import.count,
+                         import.count == 1 ? "" : "s");
+      for (const TableColumn& column : import.columns)
+        what +=
+            fmt::format("{} {} {}", &column == import.columns.data() ? "" : ",", column.type, column.name);
+    } else if (import.kind == ImportKind::list) {
+      what += fmt::format(", {} entries", import.count);
+    }
+    return what;
+  }
+
+  void addArguments(const ImportSpec& import) {
+    for (const auto& [argument, value] : import.request.arguments)
+      line(1, fmt::format("argument {} = {}", argument, toText(value)));
+  }
+
   void line(int depth, const std::string& text) {
     text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + base::printable(text) + "\n";
   }
@@ -135,7 +209,10 @@ class Describer {
     const FlatResource& resource = graph_.resources[r];
     const Place place = r < graph_.resourcePlaces.size() ? graph_.resourcePlaces[r] : Place{};
     std::string what;
-    if (isBuffer(resource)) {
+    if (resource.import != kNone && isBuffer(resource)) {
+      what = whatIs(graph_.imports[resource.import]);
+      if (resource.bytes > 0) what += fmt::format(", {} bytes", resource.bytes);
+    } else if (isBuffer(resource)) {
       what = fmt::format("buffer of {} bytes", resource.bytes);
     } else {
       what = fmt::format("texture {} {}x{}", infoOf(resource.format).name, resource.width, resource.height);
@@ -147,6 +224,7 @@ class Describer {
       if (!isImported(resource)) what += fmt::format(", {} bytes", resource.bytes);
     }
     line(0, fmt::format("resource {}: {}{}", graph_.resourceNames[r], what, textOf(place)));
+    if (resource.import != kNone) addArguments(graph_.imports[resource.import]);
     if (resource.history > 0) line(1, fmt::format("history of {}", resource.history));
     if (resource.hasClear) line(1, "has a \"clear\": a version before the first write");
     line(1, "storage " + explainer_.whyStorage(r));
@@ -190,6 +268,7 @@ class Describer {
   Explainer explainer_;
   const std::vector<BarrierReason> reasons_;
   std::string text_;
+  std::set<std::string> told_;  // aliases and what they stand for
 };
 
 }  // namespace
@@ -199,6 +278,8 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, bas
   const std::vector<std::string> names = describer.names();
   const std::vector<std::size_t> matches = suffixMatches(names, name);
   if (matches.size() == 1) return describer.describe(names[matches[0]]);
+  if (const auto declared = matches.empty() ? describer.declaredImport(name) : std::nullopt)
+    return describer.describe(*declared);
   const base::Place place{std::make_shared<const std::string>("command line"), 0, 0};
   if (matches.empty()) {
     base::Diagnostic& d = diagnostics.error(

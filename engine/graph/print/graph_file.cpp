@@ -212,6 +212,8 @@ class FileWriter {
       for (const std::uint32_t import : history.resetImports) reset.push_back("@" + importName(import));
       for (const std::uint32_t other : history.resetResources)
         reset.push_back(elementName(graph_.resourceNames[other]).array);
+      for (const Value& value : history.resetValues)  // a word resets nothing
+        if (value.isNumeric() || value.type == Value::Type::list) reset.push_back(graph::toText(value));
       if (!reset.empty()) json["reset"] = std::move(reset);
     }
     return json;

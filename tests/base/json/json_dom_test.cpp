@@ -180,3 +180,26 @@ TEST_CASE("accepts exactly what nlohmann's own parser accepts") {
   CHECK(accepted > 100);
   CHECK(refused > 100);
 }
+
+TEST_CASE("a file of another kind is called by its kind, with the option that takes it") {
+  const auto hintOf = [](std::string_view bytes) {
+    Diagnostics diagnostics;
+    CHECK(!parseJson(bytes, kFile, diagnostics));
+    REQUIRE(diagnostics.size() == 1);
+    return diagnostics.items()[0].message + "; " + diagnostics.items()[0].hint;
+  };
+  using std::string_view_literals::operator""sv;
+  CHECK(broken("\x89PNG\r\n\x1a\n\0\0\0\rIHDR"sv) == "1:1 this is a PNG picture, not JSON");
+  CHECK(broken("\xff\xd8\xff\xe0\0\x10JFIF"sv) == "1:1 this is a JPEG picture, not JSON");
+  CHECK(hintOf("\x76\x2f\x31\x01\x02\0\0\0"sv) ==
+        "this is an OpenEXR picture, not JSON; the option --environment takes it: weft check GRAPH "
+        "--environment FILE");
+  CHECK(hintOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n"sv).find("--environment") != std::string::npos);
+  CHECK(hintOf("glTF\x02\0\0\0"sv) ==
+        "this is a binary glTF model, not JSON; the option --scene takes it: weft check GRAPH --scene FILE");
+  CHECK(broken("RIFF\x10\0\0\0WEBPVP8 "sv) == "1:1 this is a WebP picture, not JSON");
+  CHECK(hintOf("\xff\xfe{\0}\0"sv) == "this is UTF-16 text, not JSON; save the file as UTF-8");
+  // The beginning of one is none.
+  CHECK(broken("\x89PN") != "1:1 this is a PNG picture, not JSON");
+  CHECK(broken("RIFF").find("WebP") == std::string::npos);
+}

@@ -137,3 +137,64 @@ TEST_CASE("a plan as a graph file gives the same plan") {
   // The file is its own expansion.
   CHECK(graphFileOf(*again) == file);
 }
+
+TEST_CASE("lists of alternatives, imports under names of their own and tables are explained") {
+  const auto plan = planOf(R"({
+    "name": "names",
+    "parameters": { "sunny": { "default": true } },
+    "resources": {
+      "eye": { "import": "camera", "jitter": 8 }, "again": { "import": "spheres" }, "hdr": { "texture": "rgba8", "size": 8 },
+      "sky": ["@environment if $sunny", "hdr"]
+    },
+    "passes": [
+      { "name": "fill", "type": "fullscreen", "shader": "a.frag.glsl", "view": "eye",
+        "read": { "table": "@spheres", "same": "again", "back": "sky" }, "write": { "result": "hdr" } }
+    ],
+    "present": "hdr"
+  })");
+  const std::string eye = described(*plan, "eye");
+  INFO(eye);
+  CHECK(has(eye, "import eye: view @camera at chain.json:5:7\n"));
+  CHECK(has(eye, "argument jitter = 8\n"));
+  CHECK(has(eye, "is the view of 'fill'\n"));
+  // An import is known by its type, too, and by each name that the files give it.
+  CHECK(described(*plan, "@camera") == eye);
+  const std::string table = described(*plan, "@spheres");
+  INFO(table);
+  CHECK(has(table, "resource "));
+  CHECK(has(table, "buffer @spheres, 4800 bytes"));
+  CHECK_FALSE(has(table, " 0 bytes"));
+  CHECK(has(described(*plan, "again"), "read by 'fill' as storage"));
+  // What a list stands for follows it.
+  const std::string sky = described(*plan, "sky");
+  INFO(sky);
+  CHECK(has(sky, "name sky: the first that is there of '@environment if $sunny', 'hdr' at chain.json:6:7\n"));
+  CHECK(has(sky, "resource @environment: texture rgba16f 2048x1024"));
+  CHECK(has(sky, "resource hdr: texture rgba8 8x8"));
+}
+
+TEST_CASE("an expanded graph keeps the values that reset a history") {
+  const auto plan = planOf(R"({
+    "parameters": { "scale": { "default": 2 } },
+    "resources": {
+      "old": { "texture": "rgba8", "size": 8, "history": 1, "reset": ["@cut", "size(ldr)", "$scale"] },
+      "ldr": {
+  "texture" : "rgba8", "size" : [ 8, 4 ]
+}
+}
+, "passes" : [ {
+  "name" : "mix",
+  "type" : "fullscreen",
+  "shader" : "a.frag.glsl",
+  "read" : {"before" : "old@-1"},
+  "write" : {"result" : "ldr", "keep" : "old"}
+} ],
+             "present" : "ldr"
+})");
+  REQUIRE(plan->graph->histories.size() == 1);
+CHECK(plan->graph->histories[0].resetValues.size() == 2);
+const auto again = planOf(graphFileOf(*plan));
+REQUIRE(again->graph->histories.size() == 1);
+CHECK(again->graph->histories[0].resetValues == plan->graph->histories[0].resetValues);
+CHECK(again->graph->histories[0].resetImports.size() == 1);
+}

@@ -144,6 +144,9 @@ bool evaluateImport(Model& model, Entity& entity) {
     const std::uint32_t import = internImport(model, std::move(one), type->kind, entity.name);
     if (element == 0) entity.import = import;
     assert(import == entity.import + element);
+    ImportSpec& spec = model.graph.imports[import];
+    spec.count = facts.count;
+    if (!spec.place.file && entity.desc) spec.place = entity.desc->place;
   }
   shape.import = entity.import;
   return true;
