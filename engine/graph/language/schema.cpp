@@ -138,7 +138,8 @@ Json like() {
 // What holds for a file that is no overlay and no preset.
 Json plainGraph() {
   const auto map = [](const char* shape) {
-    return Json{{"type", "object"}, {"additionalProperties", reference(shape)}};
+    return Json{
+        {"type", "object"}, {"propertyNames", reference("name")}, {"additionalProperties", reference(shape)}};
   };
   const Json stanza = {{"anyOf", {reference("pass"), reference("like"), reference("include")}}};
   return {{"required", {"passes"}},

@@ -74,14 +74,18 @@ class Describer {
       if (parameter.path == name) addParameter(parameter);
   }
 
-  // Imports that no pass reads as a resource: views, events, lists that only expressions ask of.
+  // Imports that no pass reads as a resource (views, events, lists that only expressions ask of), and those that the first
+  // pass to read them calls otherwise.
   void addImports(const std::string& name) {
     for (std::uint32_t i = 0; i < graph_.imports.size(); ++i) {
       const ImportSpec& import = graph_.imports[i];
-      const auto isResource = [&](const FlatResource& r) { return r.import == i; };
-      if (import.name != name || elementOf(import.request) > 0 ||
-          std::ranges::any_of(graph_.resources, isResource))
+      if (import.name != name || elementOf(import.request) > 0) continue;
+      const auto resource = std::ranges::find(graph_.resources, i, &FlatResource::import);
+      if (resource != graph_.resources.end()) {
+        const auto r = static_cast<std::uint32_t>(resource - graph_.resources.begin());
+        if (declaredName(graph_.resourceNames[r]) != name) addResource(r);
         continue;
+      }
       line(0, fmt::format("import {}: {}{}", import.name, whatIs(import), textOf(import.place)));
       addArguments(import);
       for (const PassSpec& spec : graph_.specs)

@@ -174,27 +174,23 @@ TEST_CASE("lists of alternatives, imports under names of their own and tables ar
 }
 
 TEST_CASE("an expanded graph keeps the values that reset a history") {
-  const auto plan = planOf(R"({
+  const auto plan = planOf(R"J({
     "parameters": { "scale": { "default": 2 } },
     "resources": {
       "old": { "texture": "rgba8", "size": 8, "history": 1, "reset": ["@cut", "size(ldr)", "$scale"] },
-      "ldr": {
-  "texture" : "rgba8", "size" : [ 8, 4 ]
-}
-}
-, "passes" : [ {
-  "name" : "mix",
-  "type" : "fullscreen",
-  "shader" : "a.frag.glsl",
-  "read" : {"before" : "old@-1"},
-  "write" : {"result" : "ldr", "keep" : "old"}
-} ],
-             "present" : "ldr"
-})");
+      "ldr": { "texture": "rgba8", "size": [8, 4] }
+    },
+    "passes": [
+      { "name": "mix", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "before": "old@-1" },
+        "write": { "result": "ldr" } },
+      { "name": "keep", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "old" } }
+    ],
+    "present": "ldr"
+  })J");
   REQUIRE(plan->graph->histories.size() == 1);
-CHECK(plan->graph->histories[0].resetValues.size() == 2);
-const auto again = planOf(graphFileOf(*plan));
-REQUIRE(again->graph->histories.size() == 1);
-CHECK(again->graph->histories[0].resetValues == plan->graph->histories[0].resetValues);
-CHECK(again->graph->histories[0].resetImports.size() == 1);
+  CHECK(plan->graph->histories[0].resetValues.size() == 2);
+  const auto again = planOf(graphFileOf(*plan));
+  REQUIRE(again->graph->histories.size() == 1);
+  CHECK(again->graph->histories[0].resetValues == plan->graph->histories[0].resetValues);
+  CHECK(again->graph->histories[0].resetImports.size() == 1);
 }
