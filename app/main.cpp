@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/commands/commands.h"
+#include "app/lsp/lsp.h"
 #include "app/session/options.h"
 #include "app/session/standard_streams.h"
 #include "app/view/view.h"
@@ -20,7 +21,8 @@ int main(int argc, char** argv) {
       {"render", runRender}, {"view", runView},     {"check", runCheck},   {"explain", runExplain},
       {"expand", runExpand}, {"diff", runDiff},     {"params", runParams}, {"presets", runPresets},
       {"dot", runDot},       {"plan", runPlan},     {"bench", runBench},   {"schema", runSchema},
-      {"types", runTypes},   {"format", runFormat},
+      {"types", runTypes},   {"format", runFormat}, {"lsp", runLsp},       {"completion", runCompletion},
+      {"man", runMan},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));

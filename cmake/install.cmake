@@ -1,5 +1,5 @@
 # What `cmake --install` puts where: bin/weft, static libraries, headers under include/weft, data under share/weft, and
-# the package config for find_package(weft).
+# the package config for find_package(weft), and .pc files for pkg-config: weft-graph, and weft for all of it.
 include(CMakePackageConfigHelpers)
 
 install(DIRECTORY engine DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft FILES_MATCHING PATTERN "*.h")
@@ -10,6 +10,29 @@ if(WEFT_GL)
   install(TARGETS weft RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY ${CMAKE_BINARY_DIR}/glad/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft)
   install(EXPORT weft_gl NAMESPACE weft:: FILE weftGl.cmake DESTINATION ${weft_package})
+endif()
+# As seen from the folder of the .pc files, so that the prefix may be chosen when it is installed.
+file(RELATIVE_PATH WEFT_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+foreach(package weft-graph weft)
+  if(package STREQUAL weft-graph OR WEFT_GL)
+    configure_file(${CMAKE_CURRENT_LIST_DIR}/${package}.pc.in ${CMAKE_BINARY_DIR}/${package}.pc @ONLY)
+    install(FILES ${CMAKE_BINARY_DIR}/${package}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  endif()
+endforeach()
+if(WEFT_GL)
+  # The program says them itself, of what it takes.
+  foreach(text "man|weft.1|${CMAKE_INSTALL_MANDIR}/man1" "completion bash|weft|${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+          "completion zsh|_weft|${CMAKE_INSTALL_DATADIR}/zsh/site-functions" "completion fish|weft.fish|${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+    string(REPLACE "|" ";" text "${text}")
+    list(GET text 0 words)
+    list(GET text 1 file)
+    list(GET text 2 folder)
+    string(REPLACE " " "\" \"" words "${words}")
+    install(CODE "
+      execute_process(COMMAND \"$<TARGET_FILE:weft>\" \"${words}\" OUTPUT_FILE \"${CMAKE_BINARY_DIR}/texts/${file}\" COMMAND_ERROR_IS_FATAL ANY)
+      file(INSTALL \"${CMAKE_BINARY_DIR}/texts/${file}\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${folder}\")")
+  endforeach()
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/texts)
 endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/weftConfig.cmake.in ${CMAKE_BINARY_DIR}/weftConfig.cmake
   INSTALL_DESTINATION ${weft_package} PATH_VARS CMAKE_INSTALL_DATADIR)

@@ -11,10 +11,11 @@ PROVIDED = {
     "fmt": "libfmt-dev", "nlohmann_json": "nlohmann-json3-dev", "doctest": "doctest-dev", "CLI11": "libcli11-dev",
     "glfw3": "libglfw3-dev", "imgui": "libimgui-dev", "libstb": "libstb-dev", "glm": "libglm-dev", "tinyexr": "libtinyexr-dev", "assimp": "libassimp-dev", "TBB": "libtbb-dev", "glad": "python3-glad",
     "OSMesa": "libosmesa6-dev", "EGL": "libegl-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
-    "glslangValidator": "glslang-tools", "clang-format": "clang-format", "ccache": None, "git": None, "weft": None,
+    "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema",
+    "ccache": None, "git": None, "weft": None,
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.
-IMPLIED = {"g++", "cmake", "ninja-build", "python3", "xauth", "libegl-mesa0", "libgl1-mesa-dri", "libstb-dev", "graphviz"}
+IMPLIED = {"g++", "cmake", "ninja-build", "python3", "xauth", "libegl-mesa0", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config"}
 
 
 def sought(top: pathlib.Path) -> dict:
@@ -27,7 +28,7 @@ def sought(top: pathlib.Path) -> dict:
         names = re.findall(r"find_package\((\w+)", text) + re.findall(r"find_(?:program|library)\(\w+ ([\w-]+)", text)
         for modules in re.findall(r"pkg_(?:check|search)_module[s]?\(\w+([^)]*)\)", text):
             names += ["pkg-config", *(m for m in modules.split() if m.islower())]
-        names += re.findall(r'which\("([\w-]+)"\)', text)
+        names += re.findall(r'which\("([\w-]+)"\)', text) + re.findall(r'find_spec\("(\w+)"\)', text)
         found.update({name: path.relative_to(top) for name in names})
     return found
 

@@ -68,8 +68,12 @@ SUB_ROOMS = {
         "ui": {"session", "live"},
         "view": {"session", "live", "ui"},
         "bench": {"session", "live"},
+        "lsp/text": {"session"},
+        "lsp/files": {"session", "lsp/text"},
+        "lsp/answers": {"session", "lsp/text", "lsp/files"},
+        "lsp": {"session", "lsp/text", "lsp/files", "lsp/answers"},
         "commands": {"session", "bench"},
-        ".": {"session", "commands", "view", "bench"},
+        ".": {"session", "commands", "view", "bench", "lsp"},
     },
 }
 MOST_FILES = 25

@@ -20,5 +20,7 @@ int runBench(const Options& options);
 int runFormat(const Options& options);
 int runSchema(const Options& options);
 int runTypes(const Options& options);
+int runCompletion(const Options& options);
+int runMan(const Options& options);
 
 }  // namespace weft::app

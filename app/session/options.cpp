@@ -314,6 +314,21 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   format->add_flag("--check", options.checkOnly,
                    "write nothing; exit 1 and name the first line that differs");
 
+  CLI::App* lsp = app.add_subcommand(
+      "lsp", "language server for editors, on standard input and output (docs/editors.md); needs no OpenGL");
+  lsp->add_option("--scene", options.scene, "scene that graphs are checked with (default: the bundled one)");
+  lsp->add_option("--size", raw.size, "size of the screen")->check(CLI::Validator(checkSize, "WxH"));
+  lsp->add_flag("--stdio", options.stdio, "as editors say it; there is no other way");
+  lsp->footer("Example, for Neovim: vim.lsp.start({ name = 'weft', cmd = { 'weft', 'lsp' } })");
+
+  CLI::App* completion =
+      app.add_subcommand("completion", "print a script by which a shell completes commands and options");
+  completion->add_option("shell", options.shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  completion->footer("Example: source <(weft completion bash)");
+  app.add_subcommand("man", "print the manual page")->footer("Example: weft man | man -l -");
+
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 
@@ -349,6 +364,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     return std::nullopt;
   }
   options.command = app.get_subcommands().front()->get_name();
+  if (options.command == "completion" || options.command == "man")
+    options.commandLine = describeCommands(app);
   parsePair(raw.size, 'x', options.width, options.height);
   if (!parsePair(raw.frames, ':', options.firstFrame, options.lastFrame)) {
     parseNumber(raw.frames, options.firstFrame);

@@ -13,6 +13,15 @@ grep -q '^passes\|^plan sky' "$folder/plan"
 grep -q 'framebuffer 1280x720 color ldr' "$folder/plan"
 # The core is the core: no OpenGL, no window library.
 ! ldd "$folder/build/embed" | grep -Ei 'libGL|EGL|OSMesa|glfw'
+# The same by pkg-config: the program says the same.
+pc_folder=$(dirname "$(find "$folder/prefix" -name weft-graph.pc)")
+by_pkg_config() {
+  # shellcheck disable=SC2046 # flags are words
+  g++ -std=c++20 "$source/tests/docs/embed/$1.cpp" -o "$folder/$1_pc" $(PKG_CONFIG_PATH=$pc_folder pkg-config --cflags --libs "$2")
+}
+by_pkg_config embed weft-graph
+"$folder/embed_pc" >"$folder/plan_pc"
+cmp "$folder/plan" "$folder/plan_pc"
 # With the runtime: an import and a pass type of the program's own.
 if [ -x "$folder/build/extend" ]; then
   graph=$source/tests/docs/embed/extend.json
@@ -20,10 +29,17 @@ if [ -x "$folder/build/extend" ]; then
   "$folder/build/extend" "$graph" "$folder/again.png" 0
   "$folder/build/extend" "$graph" "$folder/1.png" 1
   python3 "$source/tests/docs/embed_picture.py" "$folder/0.png" "$folder/again.png" "$folder/1.png"
+  by_pkg_config extend weft
+  "$folder/extend_pc" "$graph" "$folder/pc.png" 0
+  cmp "$folder/0.png" "$folder/pc.png"
 elif [ -x "$folder/prefix/bin/weft" ]; then
   echo "the runtime was installed, but find_package(weft OPTIONAL_COMPONENTS runtime) gave no weft::runtime" >&2
   exit 1
 fi
 if [ -x "$folder/prefix/bin/weft" ]; then
+  grep -q '^\.TH WEFT 1' "$folder/prefix/share/man/man1/weft.1"
+  grep -q '^complete -F _weft weft' "$folder/prefix/share/bash-completion/completions/weft"
+  grep -q '^#compdef weft' "$folder/prefix/share/zsh/site-functions/_weft"
+  grep -q '^complete -c weft' "$folder/prefix/share/fish/vendor_completions.d/weft.fish"
   WEFT_DATA="$folder/prefix/share/weft" "$folder/prefix/bin/weft" check "$folder/prefix/share/weft/graphs/studio.json"
 fi

@@ -1,0 +1,386 @@
+// What may stand at the cursor: keys by the object they are in, words and names by their key.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "app/lsp/answers/features.h"
+#include "app/lsp/answers/items.h"
+#include "app/lsp/answers/key_tables.h"
+#include "engine/gl/shaders/names.h"
+#include "engine/graph/language/format.h"
+#include "engine/graph/language/keys.h"
+#include "engine/graph/language/names.h"
+
+namespace weft::app::lsp {
+
+namespace {
+
+using Type = Node::Type;
+namespace fs = std::filesystem;
+
+struct Item {
+  std::string label;
+  ItemKind kind = ItemKind::value;
+  std::string detail{};
+};
+
+bool isSlotGroup(std::string_view key) {
+  return key == "read" || key == "write" || key == "modify";
+}
+
+class Completer {
+ public:
+  Completer(const Context& context, const Text& text, std::size_t offset)
+      : context_(context),
+        text_(text),
+        offset_(offset),
+        registry_(context.analysis.registry()),
+        file_(context.project.index(text.path())) {}
+
+  Json run() {
+    const JsonOutline::Spot spot = text_.json().at(offset_);
+    if (!file_ || spot.inComment) return nullptr;
+    if (spot.inKey) {
+      keys(*spot.node->parent, spot.node);
+      return finish(spot.node->keyRange, "");
+    }
+    if (spot.atKey) {
+      keys(*spot.node, nullptr);
+      return finish({offset_, offset_}, "\"");
+    }
+    const Node& node = *spot.node;
+    const std::vector<std::string_view> way = wayTo(node);
+    if (node.type == Type::array) {  // an item may be begun
+      value(node, way);
+      return finish({offset_, offset_}, "\"");
+    }
+    value(node, way);
+    if (node.type == Type::string) return finish(fragment_.value_or(node.inside()), "");
+    return finish(node.type == Type::word ? node.range : Range{offset_, offset_}, "\"");
+  }
+
+ private:
+  void add(std::string label, ItemKind kind, std::string detail = {}) {
+    if (std::ranges::find(items_, label, &Item::label) == items_.end())
+      items_.push_back({std::move(label), kind, std::move(detail)});
+  }
+  template <class Words>
+  void addWords(const Words& words, ItemKind kind = ItemKind::value) {
+    for (const auto& word : words) add(std::string(word), kind);
+  }
+
+  Json finish(const Range& range, const char* quote) const {
+    Json list = Json::array();
+    for (const Item& item : items_) {
+      Json json{{"label", item.label}, {"kind", static_cast<int>(item.kind)}};
+      if (!item.detail.empty()) json["detail"] = item.detail;
+      json["textEdit"] = {{"range", toJson(text_.map(), range)}, {"newText", quote + item.label + quote}};
+      list.push_back(std::move(json));
+    }
+    return {{"isIncomplete", false}, {"items", std::move(list)}};
+  }
+
+  // ---- keys ----
+
+  static const Node* stanzaOf(const Node& node) {
+    for (const Node* at = &node; at && at->parent; at = at->parent)
+      if (at->parent->type == Type::array && at->parent->key == "passes" && at->type == Type::object)
+        return at;
+    return nullptr;
+  }
+
+  void keys(const Node& object, const Node* typed) {
+    const std::vector<std::string_view> way = wayTo(object);
+    const Node* const stanza = stanzaOf(object);
+    for (KeyDoc& key : keysOf(registry_, object))
+      add(std::move(key.key), ItemKind::property, std::move(key.doc));
+    if (stanza && way.size() == 3 && isSlotGroup(way[2])) slotKeys(*stanza, way[2]);
+    if (stanza && way.size() == 3 && way[2] == "parameters") shaderNames(*stanza, {GlslName::Kind::member});
+    if (stanza && way.size() == 3 && way[2] == "bind") inputs(*stanza);
+    if (stanza && way.size() == 4 && way[3] == "blend")
+      for (const char* group : {"write", "modify"})
+        if (const Node* slots = stanza->find(group))
+          for (const auto& slot : slots->children) add(std::string(slot->key), ItemKind::field);
+    if (way.size() == 1 && way[0] == "set")
+      for (const std::string& path : context_.project.closure(text_.path()))
+        if (const auto file = context_.project.index(path))
+          for (const auto& [name, range] : file->variables) add(name, ItemKind::variable);
+    for (const auto& child : object.children)
+      if (child.get() != typed)
+        std::erase_if(items_, [&](const Item& item) { return item.label == child->key; });
+  }
+
+  void slotKeys(const Node& stanza, std::string_view group) {
+    for (const graph::PassType& type : registry_.passTypes)
+      if (type.name == stanza.textOf("type"))
+        for (const graph::FixedSlot& slot : type.fixedSlots)
+          if ((slot.access == graph::Access::read) == (group == "read"))
+            add(slot.name, ItemKind::field, slot.doc);
+    using enum GlslName::Kind;
+    if (group == "read")
+      shaderNames(stanza, {sampler, image, uniform_block, storage_block});
+    else
+      shaderNames(stanza, {output, image, storage_block});
+    for (const char* other : {"read", "write", "modify"})
+      if (const Node* slots = stanza.find(other); slots && other != group)
+        for (const auto& slot : slots->children)
+          std::erase_if(items_, [&](const Item& item) { return item.label == slot->key; });
+  }
+
+  // What the program of a pass declares, of these kinds.
+  void shaderNames(const Node& stanza, std::initializer_list<GlslName::Kind> kinds) {
+    // What the engine itself gives to shaders.
+    constexpr std::string_view kOwn[] = {"View", "Parameters", "Slice", "instances"};
+    const Project::Program program = context_.project.programOf(file_, stanza);
+    for (const std::string& path : program.files) {
+      const auto text = context_.texts.of(path);
+      if (!text) continue;
+      for (const GlslName& name : text->glsl().names()) {
+        const bool wanted = std::ranges::find(kinds, name.kind) != kinds.end();
+        if (!wanted || std::ranges::find(kOwn, name.name) != std::end(kOwn)) continue;
+        if (name.kind == GlslName::Kind::member && name.block != "Parameters") continue;
+        const auto statement = std::string_view(text->bytes())
+                                   .substr(name.statement.begin, name.statement.end - name.statement.begin);
+        add(std::string(name.name), ItemKind::field, std::string(statement));
+      }
+    }
+  }
+
+  void inputs(const Node& stanza) {
+    const auto include = file_->includes.find(prefixOf(stanza));
+    const auto below = include == file_->includes.end() ? nullptr : context_.project.index(include->second);
+    if (!below) return;
+    if (const Node* resources = below->text->json().root().find("resources"))
+      for (const auto& resource : resources->children)
+        if (resource->find("input")) add(std::string(resource->key), ItemKind::variable);
+  }
+
+  // ---- values ----
+
+  void value(const Node& node, const std::vector<std::string_view>& way) {
+    if (way.empty()) return;
+    const std::string_view last = way.back();
+    const bool item = last == "[]";
+    const std::string_view key = item && way.size() > 1 ? way[way.size() - 2] : last;
+    if (way[0] == "extends") return files();
+    if (way[0] == "present" || way[0] == "outputs") return reference(node);
+    if (way[0] == "let") return expression(node);
+    if (way[0] == "parameters" && way.size() == 3) return parameterValue(key);
+    if (way[0] == "resources") return resourceValue(node, way, key);
+    if (way[0] == "passes" && way.size() > 2) return stanzaValue(node, way, key);
+  }
+
+  void parameterValue(std::string_view key) {
+    if (key == "type") addWords(graph::kParameterTypes);
+  }
+
+  void resourceValue(const Node& node, const std::vector<std::string_view>& way, std::string_view key) {
+    if (way.size() == 2 || (way.size() == 3 && way[2] == "[]")) return reference(node);
+    if (key == "texture") {
+      for (const std::string& name : graph::formatNames()) {
+        const graph::FormatInfo& info = graph::infoOf(*graph::findFormat(name));
+        add(name, ItemKind::value, fmt::format("{} bytes per texel, {} channels", info.bytes, info.channels));
+      }
+    } else if (key == "import") {
+      for (const graph::ImportType& type : registry_.imports) add(type.name, ItemKind::module, type.doc);
+    } else if (key == "view") {
+      addWords(graph::kViewWords);
+    } else if (key == "input") {
+      addWords(graph::kInputWords);
+    } else if (key == "reset") {
+      reference(node);
+    } else if (key == "list") {
+      addWords(registry_.drawLists);
+    } else {
+      if (key == "mips") add("full", ItemKind::keyword, "down to one texel");
+      importChoices(node, key);
+      expression(node);
+    }
+  }
+
+  void importChoices(const Node& node, std::string_view key) {
+    const std::string_view import = node.parent ? node.parent->textOf("import") : "";
+    for (const graph::ImportType& type : registry_.imports)
+      if (type.name == import)
+        for (const graph::ImportArgument& argument : type.arguments)
+          if (argument.name == key) addWords(argument.choices);
+  }
+
+  void stanzaValue(const Node& node, const std::vector<std::string_view>& way, std::string_view key) {
+    const std::string_view group = way[2];
+    if (isSlotGroup(group) || group == "bind" || (group == "view" && way.size() == 3)) return reference(node);
+    if (group == "type") {
+      for (const graph::PassType& type : registry_.passTypes) add(type.name, ItemKind::module, type.doc);
+    } else if (group == "update") {
+      addWords(graph::kUpdateWords);
+    } else if (group == "include") {
+      files();
+    } else if (group == "shader") {
+      shaders(node);
+    } else if (group == "list") {
+      addWords(registry_.drawLists);
+    } else if (group == "geometry") {
+      for (const graph::GeometryType& type : registry_.geometries) add(type.name, ItemKind::value);
+    } else if (group == "like" || group == "before" || group == "after") {
+      for (const std::string& path : context_.project.closure(text_.path()))
+        if (const auto file = context_.project.index(path); file && (group != "like" || path == text_.path()))
+          for (const auto& [name, range] : file->passes) add(name, ItemKind::function);
+    } else if (group == "group") {
+      for (const Node* other : file_->stanzas)
+        if (const std::string_view name = other->textOf("group"); !name.empty() && other != node.parent)
+          add(std::string(name), ItemKind::value);
+    } else if (group == "state") {
+      stateValue(node, way, key);
+    } else if (group == "parameters" && way.size() == 5 && key == "type") {
+      addWords(graph::kParameterTypes);
+    } else if (group != "name" && group != "as") {
+      expression(node);
+    }
+  }
+
+  void stateValue(const Node& node, const std::vector<std::string_view>& way, std::string_view key) {
+    const auto words = wordsOfState(way.size() > 3 ? way[3] : key);
+    addWords(words);
+    if (words.empty()) expression(node);
+  }
+
+  // ---- names inside strings ----
+
+  // The bytes of the name at the cursor, up to it; its sign is in front of it.
+  std::string_view typed(const Node& node) {
+    const std::string_view all = text_.bytes();
+    std::size_t begin = offset_;
+    while (begin > node.inside().begin && (graph::isIdentChar(all[begin - 1]) || all[begin - 1] == '.'))
+      --begin;
+    sign_ = begin > node.inside().begin ? all[begin - 1] : '\0';
+    std::size_t end = offset_;
+    while (end < node.inside().end && graph::isIdentChar(all[end])) ++end;
+    if (sign_ == '@') --begin;
+    fragment_ = Range{begin, end};
+    return all.substr(node.inside().begin, begin - node.inside().begin);
+  }
+
+  void reference(const Node& node) {
+    const std::string_view before = node.type == Type::string ? typed(node) : std::string_view();
+    if (sign_ == '$') return variables();
+    const std::size_t as = before.rfind(" as "), condition = before.rfind(" if ");
+    if (condition != std::string_view::npos && (as == std::string_view::npos || as < condition))
+      return expression(node);
+    if (as != std::string_view::npos) {
+      addWords(std::initializer_list<const char*>{"sampled", "image", "uniform", "storage", "color", "depth",
+                                                  "copy", "linear", "nearest", "wrap", "clamp", "compare"},
+               ItemKind::keyword);
+      return;
+    }
+    resources();
+  }
+
+  void expression(const Node& node) {
+    if (node.type != Type::string) return;
+    const std::string_view before = typed(node);
+    if (sign_ == '$') return variables();
+    const std::size_t open = before.rfind('(');
+    if (open != std::string_view::npos && open + 1 >= before.size())
+      for (const char* fact : {"size", "mips", "count", "has", "age"})
+        if (before.substr(0, open).ends_with(fact)) return resources();
+    for (const char* function : {"size", "mips", "count", "has", "age", "min", "max", "floor", "ceil", "abs",
+                                 "pow2ceil", "log2ceil"})
+      add(function, ItemKind::function);
+    addWords(std::initializer_list<const char*>{"screen", "device.software", "true", "false"},
+             ItemKind::keyword);
+    if (const Node* stanza = stanzaOf(node))
+      if (const Node* repeat = stanza->find("repeat"))
+        for (const auto& index : repeat->children) {
+          if (!index->key.empty()) add(std::string(index->key), ItemKind::variable, "index of the repeat");
+          for (const auto& inner : index->children)
+            if (!inner->key.empty()) add(std::string(inner->key), ItemKind::variable, "index of the repeat");
+        }
+  }
+
+  void resources() {
+    const auto addOf = [&](const FileIndex& file, const std::string& prefix) {
+      for (const auto& [name, range] : file.resources)
+        add(prefix + name, ItemKind::variable, fs::path(file.text->path()).filename().string());
+    };
+    addOf(*file_, "");
+    for (const std::string& path : context_.project.closure(text_.path()))
+      if (const auto prefix =
+              path == text_.path() ? std::nullopt : context_.project.prefixIn(text_.path(), path))
+        if (const auto file = context_.project.index(path)) addOf(*file, *prefix);
+    for (const graph::ImportType& type : registry_.imports) add("@" + type.name, ItemKind::module, type.doc);
+  }
+
+  void variables() {
+    for (const std::string& path : context_.project.closure(text_.path()))
+      if (const auto prefix = context_.project.prefixIn(text_.path(), path))
+        if (const auto file = context_.project.index(path))
+          for (const auto& [name, range] : file->variables)
+            add(*prefix + name, ItemKind::variable,
+                path == text_.path() ? "" : fs::path(path).filename().string());
+    for (const std::string& includer : context_.project.includersOf(text_.path()))
+      if (const auto file = context_.project.index(includer))
+        for (const auto& [name, range] : file->variables)
+          add(name, ItemKind::variable, fs::path(includer).filename().string());
+  }
+
+  // ---- files ----
+
+  void files() {
+    constexpr int kMost = 1000;
+    const fs::path folder = fs::path(text_.path()).parent_path();
+    std::error_code ec;
+    int looked = 0;
+    for (auto entry =
+             fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ec);
+         !ec && entry != fs::recursive_directory_iterator() && ++looked < kMost; entry.increment(ec)) {
+      const std::string path = entry->path().string();
+      if (entry.depth() > 2) entry.disable_recursion_pending();
+      if (path.ends_with(".json") && path != text_.path() && entry->is_regular_file(ec))
+        add(fs::path(path).lexically_relative(folder).string(), ItemKind::file);
+    }
+  }
+
+  void shaders(const Node& node) {
+    const Node* const stanza = stanzaOf(node);
+    const auto type =
+        std::ranges::find(registry_.passTypes, stanza ? stanza->textOf("type") : "", &graph::PassType::name);
+    const graph::ShaderShape shape =
+        type == registry_.passTypes.end() ? graph::ShaderShape::none : type->shader;
+    std::string ending = shape == graph::ShaderShape::compute    ? ".comp.glsl"
+                         : shape == graph::ShaderShape::fragment ? ".frag.glsl"
+                                                                 : ".glsl";
+    bool stem = shape == graph::ShaderShape::draw;
+    if (node.key == "vertex" || node.key == "fragment") {
+      ending = node.key == "vertex" ? ".vert.glsl" : ".frag.glsl";
+      stem = false;
+    }
+    gl::ShaderNames names;
+    const std::vector<std::string>& all = names.below(context_.project.shaderFolders(text_.path()));
+    for (const std::string& path : all) {
+      if (!stem && path.ends_with(".json")) add(path, ItemKind::file);
+      if (stem && path.ends_with(".vert.glsl")) {
+        const std::string both = path.substr(0, path.size() - 10);
+        if (std::ranges::binary_search(all, both + ".frag.glsl")) add(both, ItemKind::file);
+      }
+    }
+  }
+
+  const Context& context_;
+  const Text& text_;
+  const std::size_t offset_;
+  const graph::Registry& registry_;
+  const std::shared_ptr<const FileIndex> file_;
+  std::vector<Item> items_;
+  std::optional<Range> fragment_;  // of a string: what the choice replaces
+  char sign_ = '\0';
+};
+
+}  // namespace
+
+Json completionAt(const Context& context, const Text& text, std::size_t offset) {
+  return text.isJson() ? Completer(context, text, offset).run() : completionInGlsl(context, text, offset);
+}
+
+}  // namespace weft::app::lsp

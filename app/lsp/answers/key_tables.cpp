@@ -1,0 +1,117 @@
+#include "app/lsp/answers/key_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/graph/language/keys.h"
+
+namespace weft::app::lsp {
+
+namespace {
+
+void append(std::vector<KeyDoc>& out, std::span<const graph::KeySpec> specs) {
+  for (const graph::KeySpec& spec : specs)
+    if (std::ranges::find(out, spec.key, &KeyDoc::key) == out.end())
+      out.push_back({std::string(spec.key), std::string(spec.doc)});
+}
+
+std::vector<KeyDoc> keysOfResource(const graph::Registry& registry, const Node& object) {
+  std::vector<KeyDoc> keys;
+  if (const Node* import = object.find("import")) {
+    append(keys, graph::kImportKeys);
+    for (const graph::ImportType& type : registry.imports)
+      if (type.name == import->text)
+        for (const graph::ImportArgument& argument : type.arguments)
+          keys.push_back({argument.name, argument.doc});
+    return keys;
+  }
+  const bool texture = object.find("texture"), buffer = object.find("buffer"), input = object.find("input");
+  const bool any = texture || buffer || input;
+  if (texture || !any) append(keys, graph::kTextureKeys);
+  if (buffer || !any) append(keys, graph::kBufferKeys);
+  if (!any) append(keys, graph::kImportKeys);
+  if (input || !any) append(keys, graph::kInputKeys);
+  return keys;
+}
+
+// Without the keys that only other types of passes take.
+std::vector<KeyDoc> keysOfStanza(const graph::Registry& registry, const Node& object, const Node& root) {
+  std::vector<KeyDoc> keys;
+  if (object.find("include")) {
+    append(keys, graph::kIncludeKeys);
+  } else {
+    append(keys, graph::kPassKeys);
+    const auto type = std::ranges::find(registry.passTypes, object.textOf("type"), &graph::PassType::name);
+    if (type != registry.passTypes.end())
+      std::erase_if(keys, [&](const KeyDoc& key) {
+        if (std::ranges::find(type->keys, key.key) != type->keys.end()) return false;
+        if (key.key == "shader") return type->shader == graph::ShaderShape::none;
+        return std::ranges::any_of(registry.passTypes, [&](const graph::PassType& other) {
+          return std::ranges::find(other.keys, key.key) != other.keys.end();
+        });
+      });
+    else if (object.children.size() <= 1)
+      append(keys, graph::kIncludeKeys);
+  }
+  if (root.find("extends")) append(keys, graph::kPlaceKeys);
+  return keys;
+}
+
+}  // namespace
+
+std::vector<std::string_view> wayTo(const Node& node) {
+  std::vector<std::string_view> way;
+  for (const Node* at = &node; at->parent; at = at->parent)
+    way.push_back(at->parent->type == Node::Type::array ? std::string_view("[]") : at->key);
+  std::ranges::reverse(way);
+  return way;
+}
+
+std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Node& object) {
+  const std::vector<std::string_view> way = wayTo(object);
+  const Node* root = &object;
+  while (root->parent) root = root->parent;
+  std::vector<KeyDoc> keys;
+  if (way.empty()) {
+    append(keys, graph::kGraphKeys);
+  } else if (way[0] == "parameters" && way.size() == 2) {
+    append(keys, graph::kParameterKeys);
+  } else if (way[0] == "resources" && way.size() == 2) {
+    return keysOfResource(registry, object);
+  } else if (way[0] == "passes" && way.size() == 2) {
+    return keysOfStanza(registry, object, *root);
+  } else if (way[0] == "passes" && way.size() == 3 && way[2] == "state") {
+    append(keys, graph::kStateKeys);
+  } else if (way[0] == "passes" && way.size() == 3 && way[2] == "shader") {
+    append(keys, graph::kShaderKeys);
+  } else if (way[0] == "passes" && way.size() == 4 && way[2] == "parameters") {
+    append(keys, graph::kParameterKeys);
+  }
+  return keys;
+}
+
+std::vector<std::string_view> wordsOfState(std::string_view key) {
+  if (key == "blend") return {"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
+  if (key == "depth_test")
+    return {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
+  if (key == "cull") return {"none", "front", "back"};
+  if (key == "polygon") return {"fill", "line"};
+  return {};
+}
+
+std::string docOfImport(const graph::Registry& registry, std::string_view name) {
+  for (const graph::ImportType& type : registry.imports) {
+    if (type.name != name) continue;
+    std::string text = fmt::format("**@{}**: {}\n", type.name, type.doc);
+    for (const graph::ImportArgument& argument : type.arguments)
+      text += fmt::format("- `{}` (default {}): {}\n", argument.name, graph::toText(argument.initial),
+                          argument.doc);
+    for (const graph::TableColumn& column : type.columns)
+      text += fmt::format("- `.{}` {}: {}\n", column.name, column.type, column.doc);
+    return text;
+  }
+  return "";
+}
+
+}  // namespace weft::app::lsp

@@ -1,0 +1,209 @@
+#include "app/lsp/files/analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/session/session.h"
+#include "engine/base/json/dom.h"
+#include "engine/base/nearest.h"
+#include "engine/graph/compile/compile.h"
+#include "engine/graph/compile/plan_memory.h"
+#include "engine/graph/read/read.h"
+#include "engine/runtime/frame/renderer.h"
+#include "engine/runtime/imports/registry.h"
+#include "engine/runtime/prepare/shader_advice.h"
+
+namespace weft::app::lsp {
+
+namespace {
+
+// A scene that cannot be read leaves a graph to be checked all the same.
+runtime::WorldFacts factsOf(const Options& options) {
+  base::Diagnostics ignored;
+  const auto world = loadWorld(options, ignored);
+  return world ? world->facts() : factsWithoutWorld();
+}
+
+std::string pathOf(const base::Diagnostic& diagnostic, const std::string& root) {
+  return diagnostic.place.file && diagnostic.place.line > 0 ? pathKey(*diagnostic.place.file) : root;
+}
+
+}  // namespace
+
+Analysis::Analysis(const Options& options, const Texts& texts, const Project& project)
+    : options_(options),
+      texts_(texts),
+      project_(project),
+      registry_(runtime::makeRegistry({}, factsOf(options))) {}
+
+// Graphs that are open and that no other open one includes or extends.
+std::set<std::string> Analysis::roots() const {
+  std::set<std::string> roots, below;
+  for (const auto& [path, opened] : texts_.opened()) {
+    const auto file = project_.index(path);
+    if (!file || !file->isGraph) continue;
+    roots.insert(path);
+    for (const std::string& each : project_.closure(path))
+      if (each != path) below.insert(each);
+  }
+  // Files that include each other in a circle are all looked at.
+  std::set<std::string> outer;
+  std::ranges::set_difference(roots, below, std::inserter(outer, outer.end()));
+  return outer.empty() ? roots : outer;
+}
+
+std::set<std::string> Analysis::refresh(const std::set<std::string>& changed) {
+  std::set<std::string> touched = changed;
+  const std::set<std::string> wanted = roots();
+  std::erase_if(graphs_, [&](const auto& known) {
+    if (wanted.contains(known.first)) return false;
+    touched.insert(known.second.files.begin(), known.second.files.end());
+    return true;
+  });
+  for (const std::string& path : wanted) {
+    const auto known = graphs_.find(path);
+    const bool same = known != graphs_.end() && std::ranges::none_of(changed, [&](const std::string& each) {
+                        return known->second.files.contains(each);
+                      });
+    if (same) continue;
+    Graph& graph = graphs_[path];
+    touched.insert(graph.files.begin(), graph.files.end());
+    look(path, graph);
+    touched.insert(graph.files.begin(), graph.files.end());
+  }
+  return touched;
+}
+
+void Analysis::look(const std::string& path, Graph& graph) {
+  graph.said.clear();
+  graph.files = {path};
+  graph.current = false;
+  loaded_.clear();
+  const auto file = project_.index(path);
+  if (file && file->isPreset) {
+    base::parseJson(file->text->bytes(), std::make_shared<const std::string>(path), graph.said);
+    return;
+  }
+  const auto desc = graph::readGraph(path, graph.said);
+  if (desc)
+    for (const std::string& each : desc->files) graph.files.insert(pathKey(each));
+  for (std::string& each : project_.closure(path)) graph.files.insert(std::move(each));
+  if (!desc) return;
+  if (!graph.sources)
+    graph.sources = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(path, dataFolder()));
+  graph.sources->forgetTouched();
+  const auto flat = graph::expandGraph(*desc, registry_, settingsOf(options_, true), graph.said);
+  if (flat && !graph.said.hasErrors()) {
+    auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+    graph.current = graph::checkMemory(*plan, graph.said);
+    checkShaders(graph, *plan);
+    graph.plan = std::move(plan);
+  } else {
+    checkFiles(graph, *desc);
+  }
+  for (const std::string& each : graph.sources->touched()) graph.files.insert(pathKey(each));
+  graph.said.sortByPlace();
+}
+
+std::shared_ptr<const gl::ShaderSource> Analysis::source(Graph& graph, const std::string& shader,
+                                                         const base::Place& place) {
+  const auto [known, fresh] = loaded_.try_emplace(shader);
+  if (fresh) known->second = graph.sources->load(shader, graph.said, place);
+  return known->second;
+}
+
+// As the check of a linked program does (engine/runtime/prepare/program_check.h), as far as words tell.
+void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
+  const graph::FlatGraph& flat = *plan.graph;
+  for (const graph::Step& step : plan.steps) {
+    const graph::PassSpec& spec = flat.specs[step.pass];
+    const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
+    if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
+    std::vector<std::string> files{spec.shader};
+    if (!spec.vertexShader.empty())
+      files.push_back(spec.vertexShader);
+    else if (type->shader == graph::ShaderShape::draw)
+      files = {spec.shader + ".vert.glsl", spec.shader + ".frag.glsl"};
+    std::vector<std::shared_ptr<const gl::ShaderSource>> stages;
+    for (const std::string& each : files) stages.push_back(source(graph, each, spec.shaderPlace));
+    if (std::ranges::find(stages, nullptr) != stages.end()) continue;
+    const auto mentions = [&](const std::string& name) {
+      return std::ranges::any_of(stages, [&](const auto& stage) { return stage->mentions(name); });
+    };
+    std::vector<std::string> declared;
+    const auto nearest = [&](const std::string& name) {
+      if (declared.empty())
+        for (const auto& stage : stages)
+          declared.insert(declared.end(), stage->declared.begin(), stage->declared.end());
+      return base::nearestName(name, declared);
+    };
+    const auto say = [&](base::Code code, const base::Place& place, const char* what, const std::string& name,
+                         const std::string& declaration) {
+      base::Diagnostic& d = graph.said.error(
+          code, place, fmt::format("{} '{}' is not in the shader '{}'", what, name, spec.shader));
+      d.pass = spec.name;
+      const std::string near = nearest(name);
+      d.hint =
+          near.empty() ? fmt::format("declare `{}`", declaration) : fmt::format("did you mean '{}'?", near);
+    };
+    for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
+      const graph::SlotSpec& slot = flat.slots[spec.firstSlot + i];
+      using enum graph::Kind;
+      const bool inShader = slot.kind == sampled || slot.kind == image || slot.kind == uniform ||
+                            slot.kind == storage || slot.kind == color;
+      if (slot.useCount == 0 || !inShader ||
+          (slot.access != graph::Access::read && !plan.attached[slot.firstUse]) || mentions(slot.name))
+        continue;
+      const graph::FlatUse& use = flat.uses[slot.firstUse];
+      say(base::Code::slotNotInShader, slot.place, "slot", slot.name,
+          runtime::declarationFor(slot, slot.kind, use, flat.resources[use.resource]));
+    }
+    for (const graph::UniformSpec& uniform : spec.uniforms)
+      if (!uniform.choosesVariant() && !mentions(uniform.name))
+        say(base::Code::parameterNotInShader, uniform.place, "parameter", uniform.name,
+            fmt::format("layout(std140) uniform Parameters {{ {} {}; }};",
+                        runtime::memberTypeFor(uniform.value), uniform.name));
+  }
+}
+
+// Of a graph without a plan: whether its shaders are there.
+void Analysis::checkFiles(Graph& graph, const graph::GraphDesc& desc) {
+  for (const graph::PassDesc& pass : desc.passes) {
+    if (pass.include && pass.include->graph) checkFiles(graph, *pass.include->graph);
+    const auto type = std::ranges::find(registry_.passTypes, pass.type, &graph::PassType::name);
+    if (pass.shader.empty() || type == registry_.passTypes.end()) continue;
+    std::vector<std::string> files{pass.shader};
+    if (!pass.vertexShader.empty())
+      files.push_back(pass.vertexShader);
+    else if (type->shader == graph::ShaderShape::draw)
+      files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+    for (const std::string& each : files) source(graph, each, pass.shaderPlace);
+  }
+}
+
+std::vector<base::Diagnostic> Analysis::diagnosticsOf(const std::string& path) const {
+  std::vector<base::Diagnostic> found;
+  for (const auto& [root, graph] : graphs_)
+    for (const base::Diagnostic& each : graph.said.items()) {
+      if (pathOf(each, root) != path) continue;
+      const bool known = std::ranges::any_of(found, [&](const base::Diagnostic& other) {
+        return other.code == each.code && other.message == each.message &&
+               other.place.line == each.place.line && other.place.column == each.place.column;
+      });
+      if (!known) found.push_back(each);
+    }
+  return found;
+}
+
+Analysis::Found Analysis::graphWith(const std::string& path) const {
+  for (const bool itself : {true, false})
+    for (const auto& [root, graph] : graphs_) {
+      if (!graph.plan || (root == path) != itself) continue;
+      if (itself) return {&graph, ""};
+      if (const auto prefix = project_.prefixIn(root, path)) return {&graph, *prefix};
+    }
+  return {};
+}
+
+}  // namespace weft::app::lsp

@@ -1,0 +1,60 @@
+// What Weft says of the graphs that are open: read, expanded, compiled, and their shaders held against them by their words.
+// Opens no context. Keeps the last plan of each graph that had one. Does not: compile shaders.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/lsp/files/project.h"
+#include "app/session/options.h"
+#include "engine/gl/shaders/source.h"
+#include "engine/graph/plan.h"
+#include "engine/graph/registry.h"
+
+namespace weft::app::lsp {
+
+class Analysis {
+ public:
+  Analysis(const Options& options, const Texts& texts, const Project& project);
+
+  // Looks again at the graphs that have one of these files. Then the files whose messages may have changed.
+  std::set<std::string> refresh(const std::set<std::string>& changed);
+  // The messages of a file, each once.
+  std::vector<base::Diagnostic> diagnosticsOf(const std::string& path) const;
+
+  struct Graph {
+    std::shared_ptr<const graph::Plan> plan;  // the last one that there was; may be older than the text
+    bool current = false;                     // it is of the text as it is
+    base::Diagnostics said;
+    std::set<std::string> files;
+    std::unique_ptr<gl::SourceLoader> sources;
+  };
+  const std::map<std::string, Graph>& graphs() const { return graphs_; }
+  // The graph whose plan knows of `path`: itself when it is one, else one that includes it; and the prefix there.
+  struct Found {
+    const Graph* graph = nullptr;
+    std::string prefix;
+  };
+  Found graphWith(const std::string& path) const;
+  const graph::Registry& registry() const { return registry_; }
+
+ private:
+  std::set<std::string> roots() const;
+  void look(const std::string& path, Graph& graph);
+  void checkShaders(Graph& graph, const graph::Plan& plan);
+  void checkFiles(Graph& graph, const graph::GraphDesc& desc);
+  std::shared_ptr<const gl::ShaderSource> source(Graph& graph, const std::string& shader,
+                                                 const base::Place& place);
+
+  const Options& options_;
+  const Texts& texts_;
+  const Project& project_;
+  graph::Registry registry_;
+  std::map<std::string, Graph> graphs_;
+  std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;  // in one look
+};
+
+}  // namespace weft::app::lsp

@@ -1,0 +1,56 @@
+// What one graph file declares and which names it mentions, each with the bytes where it stands: from the outline, so also of
+// a file that is being typed. Knows which key holds what; does not: look into other files (project.h does).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/lsp/text/texts.h"
+
+namespace weft::app::lsp {
+
+struct Mention {
+  enum class Kind : std::uint8_t {
+    resource,   // also of an include: "post.glow"
+    import,     // @name
+    variable,   // $name: a parameter, a let, a parameter of a pass
+    pass,       // also the prefix of an include
+    slot,       // a key of read, write, modify, or of blend
+    parameter,  // a key of a pass's parameters
+    define,     // a key of a pass's defines
+    file,       // of include or extends
+    shader
+  };
+  Kind kind = Kind::resource;
+  Range range;                 // of the last part of the name
+  std::string name;            // whole up to that part, without @ and $
+  const Node* pass = nullptr;  // the stanza it stands in
+  bool declares = false;
+};
+
+struct FileIndex {
+  std::shared_ptr<const Text> text;
+  bool isGraph = false;   // has a key that only graphs, overlays and presets have
+  bool isPreset = false;  // has no passes of its own and extends nothing
+  std::string extends;    // absolute, or ""
+  std::map<std::string, std::string, std::less<>> includes;  // absolute paths by prefix
+  std::map<std::string, Range, std::less<>> resources, variables, passes;
+  std::vector<const Node*> stanzas;  // passes and includes
+  std::vector<Mention> mentions;     // in the order of the text
+
+  const Mention* at(std::size_t offset) const;
+  const Node* stanza(std::string_view name) const;
+};
+
+std::shared_ptr<const FileIndex> indexOf(std::shared_ptr<const Text> text);
+
+// "as", else the file's name; "" of a pass.
+std::string prefixOf(const Node& stanza);
+// Where the name of a stanza stands: the text of "name", "as" or "include".
+const Node* nameNode(const Node& stanza);
+// The shaders that a stanza names, with what "like" takes over: paths as written, of a draw both.
+std::vector<std::string> shadersOf(const FileIndex& index, const Node& stanza);
+
+}  // namespace weft::app::lsp

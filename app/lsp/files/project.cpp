@@ -1,0 +1,308 @@
+#include "app/lsp/files/project.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "app/session/session.h"
+#include "engine/base/files/file_access.h"
+#include "engine/runtime/frame/renderer.h"
+
+namespace weft::app::lsp {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Kind = Mention::Kind;
+
+constexpr int kMostSteps = 32;
+constexpr int kMostFiles = 20000;  // looked at in a folder
+
+using Names = std::map<std::string, Range, std::less<>>;
+
+const Names& namesOf(const FileIndex& index, Kind kind) {
+  return kind == Kind::pass ? index.passes : kind == Kind::variable ? index.variables : index.resources;
+}
+
+void listGraphs(const std::string& folder, std::set<std::string>& out) {
+  std::error_code ec;
+  int looked = 0;
+  for (auto entry =
+           fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ec);
+       !ec && entry != fs::recursive_directory_iterator() && ++looked < kMostFiles; entry.increment(ec)) {
+    const std::string name = entry->path().filename().string();
+    if (entry->is_directory(ec) &&
+        (name.starts_with('.') || name == "build" || name == "out" || name == "node_modules"))
+      entry.disable_recursion_pending();
+    else if (name.ends_with(".json") && entry->is_regular_file(ec) && base::mayRead(entry->path().string()))
+      out.insert(pathKey(entry->path().string()));
+  }
+}
+
+}  // namespace
+
+bool Project::isInFolders(const std::string& path) const {
+  return std::ranges::any_of(folders_,
+                             [&](const std::string& folder) { return path.starts_with(folder + "/"); });
+}
+
+std::shared_ptr<const FileIndex> Project::index(const std::string& path) const {
+  if (!path.ends_with(".json") || !base::mayRead(path)) return nullptr;
+  std::shared_ptr<const Text> text = texts_.of(path);
+  if (!text) return nullptr;
+  std::shared_ptr<const FileIndex>& known = indices_[path];
+  if (!known || known->text != text) known = indexOf(std::move(text));
+  return known;
+}
+
+std::vector<std::string> Project::closure(const std::string& path) const {
+  std::vector<std::string> all{path};
+  for (std::size_t i = 0; i < all.size() && all.size() < 1000; ++i) {
+    const auto file = index(all[i]);
+    if (!file) continue;
+    std::vector<std::string> next;
+    if (!file->extends.empty()) next.push_back(file->extends);
+    for (const auto& [prefix, included] : file->includes) next.push_back(included);
+    for (std::string& each : next)
+      if (std::ranges::find(all, each) == all.end()) all.push_back(std::move(each));
+  }
+  return all;
+}
+
+std::vector<std::string> Project::graphFiles() const {
+  std::set<std::string> found;
+  for (const std::string& folder : folders_) listGraphs(folder, found);
+  for (const auto& [path, opened] : texts_.opened())
+    for (std::string& each : closure(path)) found.insert(std::move(each));
+  std::vector<std::string> graphs;
+  for (const std::string& path : found)
+    if (const auto file = index(path); file && file->isGraph) graphs.push_back(path);
+  return graphs;
+}
+
+std::vector<std::string> Project::includersOf(const std::string& path) const {
+  std::vector<std::string> found;
+  for (const std::string& each : graphFiles()) {
+    const auto file = index(each);
+    const auto is = [&](const auto& include) { return include.second == path; };
+    if (file && (file->extends == path || std::ranges::any_of(file->includes, is))) found.push_back(each);
+  }
+  return found;
+}
+
+std::optional<std::string> Project::prefixIn(const std::string& root, const std::string& path) const {
+  std::vector<std::pair<std::string, std::string>> work{{root, ""}};
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    const auto [at, prefix] = work[i];
+    if (at == path) return prefix;
+    if (!seen.insert(at).second) continue;
+    const auto file = index(at);
+    if (!file) continue;
+    if (!file->extends.empty()) work.emplace_back(file->extends, prefix);
+    for (const auto& [name, included] : file->includes) work.emplace_back(included, prefix + name + ".");
+  }
+  return std::nullopt;
+}
+
+// ---- names ----
+
+std::optional<Definition> Project::findBelow(const FileIndex& from, const std::string& name,
+                                             Kind kind) const {
+  const std::string leaf = name.substr(name.rfind('.') + 1);
+  std::vector<Definition> found;
+  for (const std::string& path : closure(from.text->path())) {
+    const auto file = index(path);
+    if (!file) continue;
+    for (const std::string& wanted : {name, leaf})
+      if (const auto at = namesOf(*file, kind).find(wanted); at != namesOf(*file, kind).end()) {
+        found.push_back({kind, path, at->second, at->first});
+        break;
+      }
+  }
+  return found.size() == 1 ? std::optional(found[0]) : std::nullopt;
+}
+
+std::optional<Definition> Project::findResource(const FileIndex& from, const std::string& name, bool import,
+                                                int depth) const {
+  if (depth > kMostSteps) return std::nullopt;
+  const auto base = from.extends.empty() ? nullptr : index(from.extends);
+  if (base)  // what an overlay changes is declared below
+    if (auto found = findResource(*base, name, import, depth + 1)) return found;
+  if (const auto own = from.resources.find(name); own != from.resources.end())
+    if (!base || own->first.find('.') == std::string::npos)
+      return Definition{Kind::resource, from.text->path(), own->second, name};
+  const std::size_t dot = name.find('.');
+  if (dot != std::string::npos)
+    if (const auto include = from.includes.find(name.substr(0, dot)); include != from.includes.end())
+      if (const auto file = index(include->second))
+        return findResource(*file, name.substr(dot + 1), import, depth + 1);
+  if (import)
+    for (const std::string& includer : includersOf(from.text->path()))
+      if (const auto file = index(includer); file && file->extends != from.text->path())
+        if (auto found = findResource(*file, name, true, depth + 8)) return found;
+  return base ? findBelow(from, name, Kind::resource) : std::nullopt;
+}
+
+std::optional<Definition> Project::findVariable(const FileIndex& from, const std::string& name, bool up,
+                                                int depth) const {
+  if (depth > kMostSteps) return std::nullopt;
+  if (const auto own = from.variables.find(name); own != from.variables.end())
+    return Definition{Kind::variable, from.text->path(), own->second, name};
+  if (const auto base = from.extends.empty() ? nullptr : index(from.extends))
+    if (auto found = findVariable(*base, name, false, depth + 1)) return found;
+  const std::size_t dot = name.find('.');
+  if (dot != std::string::npos)
+    if (const auto include = from.includes.find(name.substr(0, dot)); include != from.includes.end())
+      if (const auto file = index(include->second))
+        if (auto found = findVariable(*file, name.substr(dot + 1), false, depth + 1)) return found;
+  if (up)
+    for (const std::string& includer : includersOf(from.text->path()))
+      if (const auto file = index(includer); file && file->extends != from.text->path())
+        if (auto found = findVariable(*file, name, true, depth + 8)) return found;
+  return depth == 0 ? findBelow(from, name, Kind::variable) : std::nullopt;
+}
+
+std::optional<Definition> Project::findPass(const FileIndex& from, const std::string& name, int depth) const {
+  if (depth > kMostSteps) return std::nullopt;
+  if (const auto own = from.passes.find(name); own != from.passes.end())
+    return Definition{Kind::pass, from.text->path(), own->second, name};
+  if (const auto base = from.extends.empty() ? nullptr : index(from.extends))
+    if (auto found = findPass(*base, name, depth + 1)) return found;
+  const std::size_t dot = name.find('.');
+  if (dot != std::string::npos)
+    if (const auto include = from.includes.find(name.substr(0, dot)); include != from.includes.end())
+      if (const auto file = index(include->second)) return findPass(*file, name.substr(dot + 1), depth + 1);
+  return depth == 0 ? findBelow(from, name, Kind::pass) : std::nullopt;
+}
+
+std::optional<Definition> Project::resolve(const FileIndex& from, const Mention& mention) const {
+  switch (mention.kind) {
+    case Kind::resource:
+    case Kind::import:
+      return findResource(from, mention.name, mention.kind == Kind::import, 0);
+    case Kind::variable:
+      return findVariable(from, mention.name, true, 0);
+    case Kind::pass:
+      return findPass(from, mention.name, 0);
+    case Kind::slot:
+    case Kind::parameter:
+    case Kind::define: {
+      const auto graph = index(from.text->path());
+      if (!graph || !mention.pass) return std::nullopt;
+      // The node may be of an older outline of the same text.
+      const Node* const name = nameNode(*mention.pass);
+      const Node* const stanza = name ? graph->stanza(name->text) : nullptr;
+      return stanza ? findInShaders(programOf(graph, *stanza), mention.name) : std::nullopt;
+    }
+    case Kind::file: {
+      const std::string path = pathKey((fs::path(from.text->path()).parent_path() / mention.name).string());
+      return texts_.of(path) ? std::optional(Definition{Kind::file, path, {}, mention.name}) : std::nullopt;
+    }
+    case Kind::shader: {
+      std::optional<std::string> path = locateShader(from.text->path(), mention.name);
+      if (!path) path = locateShader(from.text->path(), mention.name + ".frag.glsl");
+      return path ? std::optional(Definition{Kind::shader, *path, {}, mention.name}) : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+// ---- shaders ----
+
+std::vector<std::string> Project::shaderFolders(const std::string& path) const {
+  std::vector<std::string> folders;
+  const auto add = [&](const std::string& graph) {
+    for (const std::string& each : runtime::shaderRootsOf(graph, dataFolder()))
+      if (const std::string key = pathKey(each); std::ranges::find(folders, key) == folders.end())
+        folders.push_back(key);
+  };
+  const bool graph = path.ends_with(".json");
+  for (const auto& [open, opened] : texts_.opened())
+    if (open != path && open.ends_with(".json") && (!graph || prefixIn(open, path))) add(open);
+  if (graph) add(path);
+  // A shader's own: the nearest folder of that name around it.
+  for (fs::path at = fs::path(path).parent_path(); !graph && at.has_relative_path(); at = at.parent_path())
+    if (at.filename() == "shaders") {
+      if (std::ranges::find(folders, at.string()) == folders.end()) folders.push_back(at.string());
+      break;
+    }
+  return folders;
+}
+
+std::optional<std::string> Project::locateShader(const std::string& graph, const std::string& shader) const {
+  if (shader.empty()) return std::nullopt;
+  for (const std::string& folder : shaderFolders(graph)) {
+    const std::string path = pathKey(folder + "/" + shader);
+    if (base::mayRead(path) && texts_.of(path)) return path;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Project::locateInclude(const std::string& from, std::string_view path,
+                                                  const std::vector<std::string>& folders) const {
+  const std::string beside = pathKey((fs::path(from).parent_path() / path).string());
+  if (base::mayRead(beside) && texts_.of(beside)) return beside;
+  for (const std::string& folder : folders) {
+    const std::string found = pathKey((fs::path(folder) / path).string());
+    if (base::mayRead(found) && texts_.of(found)) return found;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> Project::shaderClosure(const std::string& path,
+                                                const std::vector<std::string>& folders) const {
+  std::vector<std::string> all{path};
+  for (std::size_t i = 0; i < all.size() && all.size() < 1000; ++i) {
+    const auto text = texts_.of(all[i]);
+    if (!text) continue;
+    for (const GlslInclude& include : text->glsl().includes())
+      if (auto found = locateInclude(all[i], include.path, folders);
+          found && std::ranges::find(all, *found) == all.end())
+        all.push_back(*std::move(found));
+  }
+  return all;
+}
+
+Project::Program Project::programOf(const std::shared_ptr<const FileIndex>& graph, const Node& stanza) const {
+  Program program{graph, &stanza, {}};
+  const std::vector<std::string> folders = shaderFolders(graph->text->path());
+  for (const std::string& shader : shadersOf(*graph, stanza))
+    if (const auto path = locateShader(graph->text->path(), shader))
+      for (std::string& each : shaderClosure(*path, folders))
+        if (std::ranges::find(program.files, each) == program.files.end())
+          program.files.push_back(std::move(each));
+  return program;
+}
+
+std::vector<Project::Program> Project::programsWith(const std::set<std::string>& files) const {
+  std::vector<Program> found;
+  for (const std::string& path : graphFiles()) {
+    const auto graph = index(path);
+    for (const Node* stanza : graph->stanzas) {
+      Program program = programOf(graph, *stanza);
+      if (std::ranges::any_of(program.files, [&](const std::string& each) { return files.contains(each); }))
+        found.push_back(std::move(program));
+    }
+  }
+  return found;
+}
+
+std::optional<Definition> Project::findInShaders(const Program& program, std::string_view name) const {
+  for (const bool declared : {true, false})
+    for (const std::string& path : program.files) {
+      const auto text = texts_.of(path);
+      if (!text) continue;
+      if (const GlslName* found = text->glsl().find(name);
+          declared && found && found->kind != GlslName::Kind::define)
+        return Definition{Kind::slot, path, found->range, std::string(name)};
+      if (!declared)
+        for (const GlslWord& word : text->glsl().words())
+          if (word.text == name && !word.member)
+            return Definition{Kind::slot, path, word.range, std::string(name)};
+    }
+  return std::nullopt;
+}
+
+}  // namespace weft::app::lsp

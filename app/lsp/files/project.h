@@ -1,0 +1,93 @@
+// The files that belong together: which include, extend or use which, and what a name in one of them means in another. Looks
+// at outlines, so that it works while a file is broken. Does not: check anything (analysis.h does).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/lsp/files/file_index.h"
+
+namespace weft::app::lsp {
+
+struct Definition {
+  Mention::Kind kind = Mention::Kind::resource;
+  std::string path;
+  Range range;
+  std::string name;  // as it is declared there
+  friend bool operator==(const Definition& a, const Definition& b) {
+    return a.path == b.path && a.range.begin == b.range.begin;
+  }
+};
+
+struct Location {
+  std::string path;
+  Range range;
+  friend auto operator<=>(const Location& a, const Location& b) {
+    return std::tie(a.path, a.range.begin) <=> std::tie(b.path, b.range.begin);
+  }
+  friend bool operator==(const Location& a, const Location& b) {
+    return a.path == b.path && a.range.begin == b.range.begin;
+  }
+};
+
+class Project {
+ public:
+  explicit Project(const Texts& texts) : texts_(texts) {}
+
+  // The folders that the editor shows: graphs in them count when all uses of a name are wanted.
+  void setFolders(std::vector<std::string> folders) { folders_ = std::move(folders); }
+  bool isInFolders(const std::string& path) const;
+
+  // Null for what is no JSON file, or is not there.
+  std::shared_ptr<const FileIndex> index(const std::string& path) const;
+  // `path` with all that it includes and extends.
+  std::vector<std::string> closure(const std::string& path) const;
+  // All graph files: those that are open, those of the folders, with their closures.
+  std::vector<std::string> graphFiles() const;
+  std::vector<std::string> includersOf(const std::string& path) const;
+  // "post." for graphs/post.json in graphs/studio.json; nothing when `path` is not in it.
+  std::optional<std::string> prefixIn(const std::string& root, const std::string& path) const;
+
+  std::optional<Definition> resolve(const FileIndex& from, const Mention& mention) const;
+
+  // ---- shaders ----
+  // Where shaders of the passes in the graph `path` are looked for.
+  std::vector<std::string> shaderFolders(const std::string& path) const;
+  std::optional<std::string> locateShader(const std::string& graph, const std::string& shader) const;
+  // A GLSL file with all that it includes.
+  std::vector<std::string> shaderClosure(const std::string& path,
+                                         const std::vector<std::string>& folders) const;
+  std::optional<std::string> locateInclude(const std::string& from, std::string_view path,
+                                           const std::vector<std::string>& folders) const;
+
+  // A pass and the GLSL files of its program.
+  struct Program {
+    std::shared_ptr<const FileIndex> graph;
+    const Node* stanza = nullptr;
+    std::vector<std::string> files;
+  };
+  Program programOf(const std::shared_ptr<const FileIndex>& graph, const Node& stanza) const;
+  // All whose files have one of these.
+  std::vector<Program> programsWith(const std::set<std::string>& files) const;
+  std::optional<Definition> findInShaders(const Program& program, std::string_view name) const;
+
+ private:
+  std::optional<Definition> findResource(const FileIndex& from, const std::string& name, bool import,
+                                         int depth) const;
+  std::optional<Definition> findVariable(const FileIndex& from, const std::string& name, bool up,
+                                         int depth) const;
+  std::optional<Definition> findPass(const FileIndex& from, const std::string& name, int depth) const;
+  // The only one below `from` whose dotted name ends in `name`.
+  std::optional<Definition> findBelow(const FileIndex& from, const std::string& name,
+                                      Mention::Kind kind) const;
+
+  const Texts& texts_;
+  std::vector<std::string> folders_;
+  mutable std::map<std::string, std::shared_ptr<const FileIndex>> indices_;
+};
+
+}  // namespace weft::app::lsp

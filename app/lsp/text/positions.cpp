@@ -1,0 +1,126 @@
+#include "app/lsp/text/positions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+
+namespace weft::app::lsp {
+
+namespace {
+
+// Bytes of the character at `at` of UTF-8; of what is none, 1.
+std::size_t bytesAt(std::string_view text, std::size_t at) {
+  const auto byte = static_cast<unsigned char>(text[at]);
+  const std::size_t wanted = byte < 0x80                   ? 1
+                             : byte >= 0xF0 && byte < 0xF8 ? 4
+                             : byte >= 0xE0                ? 3
+                             : byte >= 0xC2                ? 2
+                                                           : 1;
+  if (at + wanted > text.size()) return 1;
+  for (std::size_t i = 1; i < wanted; ++i)
+    if ((static_cast<unsigned char>(text[at + i]) & 0xC0) != 0x80) return 1;
+  return wanted;
+}
+
+}  // namespace
+
+LineMap::LineMap(std::string_view text) : text_(text) {
+  lines_.push_back(0);
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')))
+      lines_.push_back(i + 1);
+}
+
+std::size_t LineMap::endOfLine(std::size_t line) const {
+  if (line + 1 == lines_.size()) return text_.size();
+  std::size_t end = lines_[line + 1] - 1;
+  if (end > lines_[line] && text_[end] == '\n' && text_[end - 1] == '\r') --end;
+  return end;
+}
+
+std::size_t LineMap::offsetOf(const Position& position) const {
+  if (position.line >= lines_.size()) return text_.size();
+  const std::size_t end = endOfLine(position.line);
+  std::size_t at = lines_[position.line];
+  for (std::uint32_t units = 0; at < end && units < position.character;) {
+    const std::size_t bytes = bytesAt(text_, at);
+    units += bytes == 4 ? 2 : 1;
+    if (units > position.character) break;  // in the middle of a pair
+    at += bytes;
+  }
+  return std::min(at, end);
+}
+
+Position LineMap::positionOf(std::size_t offset) const {
+  offset = std::min(offset, text_.size());
+  const auto after = std::upper_bound(lines_.begin(), lines_.end(), offset);
+  const auto line = static_cast<std::size_t>(after - lines_.begin()) - 1;
+  std::uint32_t units = 0;
+  for (std::size_t at = lines_[line]; at < offset;) {
+    const std::size_t bytes = bytesAt(text_, at);
+    units += bytes == 4 ? 2 : 1;
+    at += bytes;
+  }
+  return {static_cast<std::uint32_t>(line), units};
+}
+
+std::size_t LineMap::offsetOf(const base::Place& place) const {
+  if (place.line == 0) return 0;
+  std::size_t at = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (std::uint32_t line = 1; line < place.line; ++line) {
+    const std::size_t end = text_.find('\n', at);
+    if (end == std::string_view::npos) return text_.size();
+    at = end + 1;
+  }
+  return std::min(at + (place.column > 0 ? place.column - 1 : 0), text_.size());
+}
+
+Json toJson(const Position& position) {
+  return {{"line", position.line}, {"character", position.character}};
+}
+
+Json toJson(const LineMap& map, const Range& range) {
+  return {{"start", toJson(map.positionOf(range.begin))}, {"end", toJson(map.positionOf(range.end))}};
+}
+
+std::string pathOfUri(std::string_view uri) {
+  if (!uri.starts_with("file://")) return "";
+  uri.remove_prefix(7);
+  const std::size_t slash = uri.find('/');  // behind a host, which is this one
+  if (slash == std::string_view::npos) return "";
+  uri.remove_prefix(slash);
+  std::string path;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned value = 0;
+    if (uri[i] == '%' && i + 2 < uri.size()) {
+      const auto [end, error] = std::from_chars(uri.data() + i + 1, uri.data() + i + 3, value, 16);
+      if (error == std::errc{} && end == uri.data() + i + 3) {
+        path += static_cast<char>(value);
+        i += 2;
+        continue;
+      }
+    }
+    path += uri[i];
+  }
+  if (path.find('\0') != std::string::npos) return "";
+  return std::filesystem::path(path).lexically_normal().string();
+}
+
+std::string uriOfPath(std::string_view path) {
+  std::error_code ec;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, ec);
+  const std::string text = (ec ? std::filesystem::path(path) : absolute).lexically_normal().string();
+  std::string uri = "file://";
+  for (const char c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) ||
+                       std::string_view("/._-~").find(c) != std::string_view::npos;
+    uri += plain ? std::string(1, c)
+                 : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+  return uri;
+}
+
+}  // namespace weft::app::lsp

@@ -1,0 +1,71 @@
+// The texts that the server works on: those that the editor has open, as they are there (overlays of
+// engine/base/files/file_overlay.h, so that all of Weft reads them), and files on disk; with their outlines, made when they
+// are asked for. Paths are absolute.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/lsp/text/glsl_outline.h"
+#include "app/lsp/text/json_outline.h"
+#include "app/lsp/text/positions.h"
+
+namespace weft::app::lsp {
+
+// An absolute path without "." and "..".
+std::string pathKey(const std::string& path);
+
+class Text {
+ public:
+  Text(std::string path, std::shared_ptr<const std::string> bytes)
+      : path_(std::move(path)), bytes_(std::move(bytes)), map_(*bytes_) {}
+  const std::string& path() const { return path_; }
+  const std::string& bytes() const { return *bytes_; }
+  const LineMap& map() const { return map_; }
+  const JsonOutline& json() const;
+  const GlslOutline& glsl() const;
+  bool isJson() const { return path_.ends_with(".json"); }
+
+ private:
+  std::string path_;
+  std::shared_ptr<const std::string> bytes_;
+  LineMap map_;
+  mutable std::unique_ptr<JsonOutline> json_;
+  mutable std::unique_ptr<GlslOutline> glsl_;
+};
+
+class Texts {
+ public:
+  ~Texts();
+  void open(const std::string& path, std::string text, std::int64_t version);
+  // The whole text, or one change in it. False: it is not open, or the range ends before it begins.
+  bool replace(const std::string& path, std::string text);
+  bool change(const std::string& path, const Position& start, const Position& end, const std::string& text);
+  void setVersion(const std::string& path, std::int64_t version);
+  void close(const std::string& path);
+
+  struct Opened {
+    std::int64_t version = 0;
+  };
+  const std::map<std::string, Opened>& opened() const { return opened_; }
+  bool isOpen(const std::string& path) const { return opened_.contains(path); }
+
+  // Null when there is no such file. What was given stays what it is when the file changes.
+  std::shared_ptr<const Text> of(const std::string& path) const;
+
+ private:
+  struct Known {
+    std::shared_ptr<const Text> text;
+    std::int64_t time = 0;
+    std::uint64_t bytes = 0;
+  };
+  std::map<std::string, Opened> opened_;
+  std::map<std::string, std::shared_ptr<const Text>> texts_;  // of those
+  mutable std::map<std::string, Known> onDisk_;
+};
+
+}  // namespace weft::app::lsp

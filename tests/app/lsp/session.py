@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""`weft lsp` by a scripted session: each line of session.jsonl is a step, with the places that are asked about and what is expected
+there. Then messages that no editor sends, and how fast a change of a large graph is answered is printed by --bench.
+
+    session.py WEFT [--bench]
+
+A place is LINE:CHARACTER, both from 0, characters in UTF-16; a range is FROM-TO. Steps:
+    open FILE [text T]; change FILE with edits [[RANGE, TEXT]...]; close FILE
+    said FILE is ["RANGE severity CODE"...]: what is published for it after the steps before
+    complete FILE at PLACE has [...] lacks [...] replaces RANGE; hover FILE at PLACE has [...] at RANGE
+    definition, references FILE at PLACE is ["FILE RANGE"...]; rename FILE at PLACE to NAME is {FILE: ["RANGE NEW"...]}, or refused TEXT
+    symbols FILE is ["  NAME RANGE"...], two spaces for each level
+"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+import urllib.parse
+
+from program import TOP, Report, count_run, temporary_folder
+
+HERE = pathlib.Path(__file__).resolve().parent
+SEVERITIES = {1: "error", 2: "warning", 3: "note"}
+
+
+def range_text(r):
+    return f"{r['start']['line']}:{r['start']['character']}-{r['end']['line']}:{r['end']['character']}"
+
+
+def place(text):
+    line, character = text.split(":")
+    return {"line": int(line), "character": int(character)}
+
+
+def range_of(text):
+    start, end = text.split("-")
+    return {"start": place(start), "end": place(end)}
+
+
+class Editor:
+    """The other side: asks, and keeps what is published."""
+
+    def __init__(self, weft, folder):
+        count_run()
+        self.folder, self.number, self.versions, self.published = folder, 0, {}, {}
+        self.process = subprocess.Popen([weft, "lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder)
+
+    def uri(self, name):
+        return "file://" + urllib.parse.quote(str(self.folder / name))
+
+    def name(self, uri):
+        path = pathlib.Path(urllib.parse.unquote(uri.removeprefix("file://")))
+        return str(path.relative_to(self.folder)) if path.is_relative_to(self.folder) else str(path)
+
+    def send_bytes(self, data):
+        self.process.stdin.write(data)
+        self.process.stdin.flush()
+
+    def send(self, message):
+        data = json.dumps({"jsonrpc": "2.0", **message}).encode()
+        self.send_bytes(b"Content-Length: %d\r\n\r\n" % len(data) + data)
+
+    def receive(self):
+        length = 0
+        while (line := self.process.stdout.readline().strip()):
+            length = int(line.split(b":")[1])
+        assert length, "the server ended"
+        message = json.loads(self.process.stdout.read(length))
+        if message.get("method") == "textDocument/publishDiagnostics":
+            self.published[self.name(message["params"]["uri"])] = message["params"]
+        return message
+
+    def ask(self, method, params):
+        self.number += 1
+        self.send({"id": self.number, "method": method, "params": params})
+        while (message := self.receive()).get("id") != self.number:
+            pass
+        return message
+
+    def tell(self, method, params):
+        self.send({"method": method, "params": params})
+
+    def at(self, name, where):
+        return {"textDocument": {"uri": self.uri(name)}, "position": place(where)}
+
+    def open(self, name, text=None):
+        self.versions[name] = 1
+        text = (self.folder / name).read_text() if text is None else text
+        self.tell("textDocument/didOpen", {"textDocument": {"uri": self.uri(name), "languageId": "json", "version": 1, "text": text}})
+
+    def change(self, name, edits):
+        self.versions[name] += 1
+        self.tell("textDocument/didChange", {"textDocument": {"uri": self.uri(name), "version": self.versions[name]},
+                                             "contentChanges": [{"range": range_of(r), "text": t} if r else {"text": t} for r, t in edits]})
+
+    def settle(self, name):
+        """Answers come after what was published before."""
+        self.ask("textDocument/documentSymbol", {"textDocument": {"uri": self.uri(name)}})
+
+    def end(self):
+        self.ask("shutdown", None)
+        self.tell("exit", None)
+        self.process.stdin.close()
+        return self.process.wait(timeout=60)
+
+
+def flatten(symbols, depth=0):
+    for symbol in symbols:
+        yield "  " * depth + symbol["name"] + " " + range_text(symbol["selectionRange"])
+        yield from flatten(symbol.get("children", []), depth + 1)
+
+
+def locations(editor, result):
+    return sorted(f"{editor.name(each['uri'])} {range_text(each['range'])}" for each in result or [])
+
+
+def run_step(editor, step):
+    """What is wrong, or nothing."""
+    kind = next(iter(step))
+    name = step[kind]
+    if kind == "open":
+        editor.open(name, step.get("text"))
+    elif kind == "change":
+        editor.change(name, step["edits"])
+    elif kind == "close":
+        editor.tell("textDocument/didClose", {"textDocument": {"uri": editor.uri(name)}})
+    elif kind == "said":
+        editor.settle(name)
+        found = [f"{range_text(d['range'])} {SEVERITIES[d['severity']]} {d['code']}" for d in editor.published.get(name, {}).get("diagnostics", [])]
+        return None if found == step["is"] else json.dumps(editor.published.get(name), indent=1)
+    elif kind == "complete":
+        items = {item["label"]: item for item in (editor.ask("textDocument/completion", editor.at(name, step["at"]))["result"] or {}).get("items", [])}
+        wrong = [w for w in step.get("has", []) if w not in items] + [w for w in step.get("lacks", []) if w in items]
+        ranges = {range_text(item["textEdit"]["range"]) for item in items.values()}
+        return None if not wrong and ("replaces" not in step or ranges == {step["replaces"]}) else f"{wrong} {ranges} {sorted(items)}"
+    elif kind == "hover":
+        result = editor.ask("textDocument/hover", editor.at(name, step["at"]))["result"]
+        if not step["has"]:
+            return None if result is None else str(result)
+        text = result["contents"]["value"] if result else ""
+        good = all(part in text for part in step["has"]) and ("range" not in step or range_text(result["range"]) == step["range"])
+        return None if good else json.dumps(result)
+    elif kind in ("definition", "references"):
+        params = editor.at(name, step["at"])
+        found = locations(editor, editor.ask(f"textDocument/{kind}", params | {"context": {"includeDeclaration": True}})["result"])
+        return None if found == sorted(step["is"]) else str(found)
+    elif kind == "rename":
+        message = editor.ask("textDocument/rename", editor.at(name, step["at"]) | {"newName": step["to"]})
+        if "refused" in step:
+            return None if step["refused"] in message.get("error", {}).get("message", "") else str(message)
+        changes = {editor.name(uri): sorted(f"{range_text(e['range'])} {e['newText']}" for e in edits)
+                   for uri, edits in message.get("result", {}).get("changes", {}).items()}
+        return None if changes == {file: sorted(edits) for file, edits in step["is"].items()} else json.dumps(message)
+    elif kind == "symbols":
+        found = list(flatten(editor.ask("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri(name)}})["result"]))
+        return None if found == step["is"] else json.dumps(found)
+    else:
+        return "no such step"
+    return None
+
+
+def check_session(weft, report, folder):
+    shutil.copytree(HERE / "workspace", folder / "workspace")
+    editor = Editor(weft, folder / "workspace")
+    answer = editor.ask("textDocument/hover", editor.at("main.json", "0:0"))
+    report.check(answer["error"]["code"] == -32002, f"before initialize: {answer}")
+    capabilities = editor.ask("initialize", {"capabilities": {}, "rootUri": editor.uri("")})["result"]["capabilities"]
+    report.check(capabilities["positionEncoding"] == "utf-16" and capabilities["textDocumentSync"]["change"] == 2, f"{capabilities}")
+    editor.tell("initialized", {})
+    for number, line in enumerate((HERE / "session.jsonl").read_text().splitlines(), 1):
+        if line.strip():
+            problem = run_step(editor, json.loads(line))
+            report.check(problem is None, f"session.jsonl:{number}: {line}\n    {problem}")
+    report.check(editor.end() == 0, "the exit code after shutdown")
+
+
+def framed(text):
+    data = text if isinstance(text, bytes) else text.encode()
+    return b"Content-Length: %d\r\n\r\n" % len(data) + data
+
+
+HOSTILE = [  # bytes, the code of the error that answers
+    (b"Content-Length: seven\r\n\r\n", -32700),
+    (b"Content-Length: -5\r\n\r\n", -32700),
+    (b"Content-Length: 99999999999999999999999\r\n\r\n", -32700),
+    (b"No header at all\r\n\r\n", -32700),
+    (b"X: " + b"y" * 100_000 + b"\r\n\r\n", -32700),
+    (b"Content-Type: text\r\n\r\n", -32700),
+    (framed("{"), -32700),
+    (framed(""), -32700),
+    (framed(b"\xff\xfe\x00{}"), -32700),
+    (framed("[" * 100_000), -32700),
+    (framed("[]"), -32600),
+    (framed("17"), -32600),
+    (framed("{}"), -32600),
+    (framed('{"jsonrpc":"2.0","id":{"a":1},"method":"shutdown"}'), -32600),
+    (framed('{"jsonrpc":"2.0","id":1,"method":17}'), -32600),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":{}}'), -32601),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover"}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover","params":[1,2]}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover","params":{"textDocument":{"uri":"http://x/y"},"position":{"line":0,"character":0}}}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/rename","params":{"textDocument":{"uri":"file:///x.json"},"position":{"line":-1,"character":0},"newName":"a"}}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/completion","params":{"textDocument":{"uri":"file:///x.json"},"position":{"line":1e99,"character":0}}}'), -32602),
+    (b"Content-Length: 68000000\r\n\r\n" + b" " * 68_000_000, -32700),
+    (framed('{"jsonrpc":"2.0","id":"again","method":"initialize","params":{}}'), -32600),
+]
+IGNORED = [  # notifications have no answer
+    framed('{"jsonrpc":"2.0","method":"textDocument/didOpen","params":{}}'),
+    framed('{"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///never/opened.json"},"contentChanges":[{"text":"{}"}]}}'),
+    framed('{"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///never/opened.json"},"contentChanges":17}}'),
+    framed('{"jsonrpc":"2.0","method":"no/such","params":null}'),
+    framed('{"jsonrpc":"2.0","method":"$/cancelRequest","params":{"id":7}}'),
+    framed('{"jsonrpc":"2.0","id":3,"result":null}'),
+]
+TEXTS = ["", "{", '{"passes": [{"name": "', "[" * 50_000, '{"a":' * 50_000, "\0\0\0", '{"passes": [' + '{"name": "a", "type": "fullscreen", "shader": "a", "read": {"x": "@@[[", "y": ".", "z": "a.."}},' * 50,
+         '{"resources": {"a": ["a", "b"], "b": "a"}, "passes": [], "present": "a.b.c.mip[$"}', '{"extends": "odd.json"}', '{"passes": [{"include": "odd.json"}]}',
+         '{"passes": [{"name": "a", "like": "b", "read": {"s": "x"}}, {"name": "b", "like": "a"}]}', '"\\', '{"passes": 7, "resources": 7, "let": []}', "é😀" * 1000]
+
+
+def check_hostile(weft, report, folder):
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    for data, code in HOSTILE:
+        editor.send_bytes(data)
+        answer = editor.receive()
+        report.check(answer.get("error", {}).get("code") == code and answer["error"]["message"], f"{data[:120]}: {answer}")
+    for data in IGNORED:
+        editor.send_bytes(data)
+    # Whatever a file holds, everything can be asked of every place of it.
+    for text in TEXTS:
+        editor.open("odd.json", text)
+        for where in ("0:0", "0:1", "0:7", "0:24", "0:60", "0:200", "3:0"):
+            for method in ("completion", "hover", "definition", "references", "prepareRename"):
+                answer = editor.ask(f"textDocument/{method}", editor.at("odd.json", where))
+                report.check("result" in answer, f"{method} of {text[:60]!r} at {where}: {answer}")
+            answer = editor.ask("textDocument/rename", editor.at("odd.json", where) | {"newName": "new name"})
+            report.check("error" in answer, f"{answer}")
+        editor.tell("textDocument/didClose", {"textDocument": {"uri": editor.uri("odd.json")}})
+    editor.open("odd.json", "{}")
+    editor.change("odd.json", [("5:0-2:0", "x"), ("0:1-0:1", "\"passes\": []")])
+    editor.settle("odd.json")
+    report.check(editor.published["odd.json"]["version"] == 2 and editor.end() == 0, f"{editor.published}")
+    # Without shutdown the end of the input is an error.
+    editor = Editor(weft, folder)
+    editor.process.stdin.close()
+    report.check(editor.process.wait(timeout=60) == 1, "the input ended without shutdown")
+
+
+def large_graph(count):
+    passes = ",\n".join(f'    {{ "name": "p{i}", "type": "fullscreen", "shader": "lsp/show.frag.glsl", "read": {{ "source": "t{i - 1}" }}, "write": {{ "result": "t{i}" }} }}'
+                        for i in range(1, count + 1))
+    resources = ",\n".join(f'    "t{i}": {{ "texture": "rgba8", "size": 64{", " + chr(34) + "clear" + chr(34) + ": 0" if i == 0 else ""} }}' for i in range(count + 1))
+    return f'{{\n  "resources": {{\n{resources}\n  }},\n  "passes": [\n{passes}\n  ],\n  "present": "t{count}"\n}}\n'
+
+
+def cpu_seconds(editor):
+    """What the server has used: on a busy machine the clock says little."""
+    fields = pathlib.Path(f"/proc/{editor.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def bench(weft, folder):
+    """A letter typed into a slot and taken back, at 1,000 passes: from the message to the diagnostics."""
+    shutil.copytree(HERE / "workspace/shaders", folder / "shaders")
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": editor.uri("")})
+    text = large_graph(1000)
+    editor.open("large.json", text)
+    editor.settle("large.json")
+    lines = text.splitlines()
+    line = next(i for i, t in enumerate(lines) if '"name": "p500"' in t)
+    column = lines[line].index('"t499"') + 5
+    times, before = [], cpu_seconds(editor)
+    for i in range(40):
+        began = time.perf_counter()
+        editor.change("large.json", [(f"{line}:{column}-{line}:{column}", "x") if i % 2 == 0 else (f"{line}:{column}-{line}:{column + 1}", "")])
+        while (message := editor.receive()).get("params", {}).get("version") != i + 2:
+            pass
+        times.append((time.perf_counter() - began) * 1000)
+        assert bool(message["params"]["diagnostics"]) == (i % 2 == 0), message
+    print(json.dumps({"passes": 1000, "bytes": len(text), "changes": len(times), "median_ms": round(sorted(times)[len(times) // 2], 1), "max_ms": round(max(times), 1),
+                      "mean_cpu_ms": round((cpu_seconds(editor) - before) * 1000 / len(times), 1)}))
+    editor.end()
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    with temporary_folder() as folder:
+        if "--bench" in sys.argv:
+            return bench(weft, pathlib.Path(folder).resolve())
+        check_session(weft, report, pathlib.Path(folder).resolve())
+        pathlib.Path(folder, "odd").mkdir()
+        check_hostile(weft, report, pathlib.Path(folder, "odd").resolve())
+    report.end()
+
+
+main()
