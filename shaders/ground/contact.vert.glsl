@@ -1,23 +1,34 @@
-// The part of the ground from which a sphere takes light of the sky: a square around the point below it.
+// The part of the ground from which a sphere takes light of the sky: an octagon around the point below it.
 // read    ground   see scene/ground.glsl
 // params  extent   in radii: how far away a sphere hides anything
+// defines CUT      1: spheres that reach below the ground, 0: all others
 #include "common/view.glsl"
 #include "scene/ground.glsl"
 #include "scene/instances.glsl"
 
 layout(std140) uniform Parameters { float extent; };
 
-out vec3 at;  // world
-flat out vec4 sphere;
-flat out vec4 albedo_reach;
+out vec3 to_center;           // from the ground, in radii
+flat out vec2 window;         // how it ends with the distance, see contact.frag.glsl
+flat out vec3 albedo;
+flat out vec3 shared_albedo;  // times the ground's own
+
+const float kOctagon = 0.41421356;  // tan(pi / 8)
 
 void main() {
   Instance self = instance[gl_InstanceID];
   float height = ground_row[0].height, above = self.center.y - height, far = extent * self.radius;
-  vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  at = vec3(self.center.x, height, self.center.z) + vec3(side.x, 0.0, side.y) * sqrt(max(far * far - above * above, 0.0));
-  sphere = vec4(self.center, self.radius);
-  albedo_reach = vec4(self.albedo, extent);
-  bool visible = abs(above) < far && above > -self.radius;
+  // Vertices in pairs from left to right, the lower one first.
+  int pair = gl_VertexID >> 1;
+  float upper = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
+  vec2 side = pair == 0 || pair == 3 ? vec2(1.0, upper * kOctagon) : vec2(kOctagon, upper);
+  if (pair < 2) side.x = -side.x;
+  vec2 offset = side * sqrt(max(far * far - above * above, 0.0));
+  to_center = vec3(-offset.x, above, -offset.y) / self.radius;
+  window = vec2(1.0 / (0.25 * extent), -3.0);  // 0 at three quarters of the extent, 1 at its end
+  albedo = self.albedo;
+  shared_albedo = self.albedo * groundAlbedo(ground_row[0]);
+  bool visible = abs(above) < far && (CUT == 1 ? abs(above) < self.radius * 0.9999 : above >= self.radius * 0.9999);
+  vec3 at = vec3(self.center.x + offset.x, height, self.center.z + offset.y);
   gl_Position = visible ? view_projection * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

@@ -11,4 +11,7 @@ vec2 streakOf(vec2 velocity, vec2 size, float shutter, int tile) {
   return span > longest ? streak * (longest / span) : streak;
 }
 
+// Whether anything in a tile, or in those around it, moves half a pixel while the shutter is open.
+bool tileMoves(vec2 longest, vec2 size, float shutter, int tile) { return length(streakOf(longest, size, shutter, tile)) >= 0.25; }
+
 #endif

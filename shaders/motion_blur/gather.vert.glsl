@@ -13,6 +13,5 @@ layout(std140) uniform Parameters {
 
 void main() {
   ivec2 grid = textureSize(tiles, 0), at = tileOf(grid);
-  bool moves = length(streakOf(texelFetch(tiles, at, 0).rg, viewport, shutter, tile)) >= 0.25;
-  gl_Position = tileCorner(at, grid, tile, moves);
+  gl_Position = tileCorner(at, grid, tile, tileMoves(texelFetch(tiles, at, 0).rg, viewport, shutter, tile));
 }
