@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 
 #include "app/lsp/answers/features.h"
 #include "app/session/options.h"
@@ -15,7 +16,8 @@ namespace {
 
 // Of the protocol.
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kUnknownMethod = -32601,
-              kInvalidParameters = -32602, kNotInitialized = -32002, kRequestFailed = -32803;
+              kInvalidParameters = -32602, kInternalError = -32603, kNotInitialized = -32002,
+              kRequestFailed = -32803;
 
 // What a message has wrong; caught where it is answered.
 struct WrongParameters {
@@ -91,6 +93,8 @@ void Server::take(std::string_view text) {
     if (asks)
       fail(*id, kInvalidParameters,
            fmt::format("{}: {}", base::printable(base::shortened(name)), wrong.what));
+  } catch (const std::exception& thrown) {  // by a library: it ends an answer, not the server
+    if (asks) fail(*id, kInternalError, thrown.what());
   }
 }
 
@@ -117,6 +121,7 @@ Json Server::answer(const std::string& method, const Json& parameters) {
                     method == "textDocument/prepareRename";
   if (!here && method != "textDocument/documentSymbol") return Json(Json::value_t::discarded);
   settle();  // answers are about the text as it is
+  project_.forget();
   const std::shared_ptr<const Text> text = texts_.of(pathOf(parameters));
   const Position position = here ? positionOf(member(parameters, "position")) : Position{};
   if (!text) return nullptr;
@@ -173,6 +178,7 @@ Json Server::initialize(const Json& parameters) {
 
 void Server::rename(const Json& id, const Json& parameters) {
   settle();
+  project_.forget();
   const std::shared_ptr<const Text> text = texts_.of(pathOf(parameters));
   const Position position = positionOf(member(parameters, "position"));
   const std::string& name = textOf(parameters, "newName");
@@ -228,6 +234,7 @@ void Server::change(const Json& parameters) {
 
 void Server::settle() {
   if (changed_.empty()) return;
+  project_.forget();
   const std::set<std::string> touched = analysis_.refresh(std::exchange(changed_, {}));
   for (const std::string& path : touched) publish(path);
 }

@@ -70,25 +70,39 @@ std::vector<std::string> Project::closure(const std::string& path) const {
   return all;
 }
 
-std::vector<std::string> Project::graphFiles() const {
+void Project::forget() {
+  graphFiles_.reset();
+  includers_.reset();
+  shaderFolders_.clear();
+}
+
+const std::vector<std::string>& Project::graphFiles() const {
+  if (graphFiles_) return *graphFiles_;
   std::set<std::string> found;
   for (const std::string& folder : folders_) listGraphs(folder, found);
   for (const auto& [path, opened] : texts_.opened())
     for (std::string& each : closure(path)) found.insert(std::move(each));
-  std::vector<std::string> graphs;
+  graphFiles_.emplace();
   for (const std::string& path : found)
-    if (const auto file = index(path); file && file->isGraph) graphs.push_back(path);
-  return graphs;
+    if (const auto file = index(path); file && file->isGraph) graphFiles_->push_back(path);
+  return *graphFiles_;
 }
 
-std::vector<std::string> Project::includersOf(const std::string& path) const {
-  std::vector<std::string> found;
-  for (const std::string& each : graphFiles()) {
-    const auto file = index(each);
-    const auto is = [&](const auto& include) { return include.second == path; };
-    if (file && (file->extends == path || std::ranges::any_of(file->includes, is))) found.push_back(each);
+const std::vector<std::string>& Project::includersOf(const std::string& path) const {
+  static const std::vector<std::string> none;
+  if (!includers_) {
+    includers_.emplace();
+    for (const std::string& each : graphFiles()) {
+      const auto file = index(each);
+      if (!file) continue;
+      std::set<std::string> below;
+      if (!file->extends.empty()) below.insert(file->extends);
+      for (const auto& [prefix, included] : file->includes) below.insert(included);
+      for (const std::string& one : below) (*includers_)[one].push_back(each);
+    }
   }
-  return found;
+  const auto found = includers_->find(path);
+  return found == includers_->end() ? none : found->second;
 }
 
 std::optional<std::string> Project::prefixIn(const std::string& root, const std::string& path) const {
@@ -211,23 +225,39 @@ std::optional<Definition> Project::resolve(const FileIndex& from, const Mention&
 
 // ---- shaders ----
 
-std::vector<std::string> Project::shaderFolders(const std::string& path) const {
-  std::vector<std::string> folders;
-  const auto add = [&](const std::string& graph) {
-    for (const std::string& each : runtime::shaderRootsOf(graph, dataFolder()))
-      if (const std::string key = pathKey(each); std::ranges::find(folders, key) == folders.end())
-        folders.push_back(key);
+const std::vector<std::string>& Project::shaderFolders(const std::string& path) const {
+  const auto [known, fresh] = shaderFolders_.try_emplace(path);
+  std::vector<std::string>& folders = known->second;
+  if (!fresh) return folders;
+  const auto add = [&](std::string folder) {
+    if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(std::move(folder));
   };
-  const bool graph = path.ends_with(".json");
-  for (const auto& [open, opened] : texts_.opened())
-    if (open != path && open.ends_with(".json") && (!graph || prefixIn(open, path))) add(open);
-  if (graph) add(path);
-  // A shader's own: the nearest folder of that name around it.
-  for (fs::path at = fs::path(path).parent_path(); !graph && at.has_relative_path(); at = at.parent_path())
-    if (at.filename() == "shaders") {
-      if (std::ranges::find(folders, at.string()) == folders.end()) folders.push_back(at.string());
-      break;
-    }
+  std::vector<std::string> around{path};
+  if (!path.ends_with(".json")) {
+    // A shader's own: the nearest folder of that name around it; then those of all graphs that are open.
+    around.clear();
+    for (fs::path at = fs::path(path).parent_path(); at.has_relative_path(); at = at.parent_path())
+      if (at.filename() == "shaders") {
+        add(at.string());
+        break;
+      }
+    for (const auto& [open, opened] : texts_.opened())
+      if (open.ends_with(".json")) around.push_back(open);
+  }
+  // Whoever includes it, directly or not, from the outermost in: those say where the shaders lie.
+  for (std::size_t i = 0; i < around.size(); ++i)
+    for (const std::string& includer : includersOf(around[i]))
+      if (std::ranges::find(around, includer) == around.end()) around.push_back(includer);
+  std::ranges::reverse(around);
+  const auto addOf = [&](const std::string& graph) {
+    for (const std::string& each : runtime::shaderRootsOf(graph, dataFolder())) add(pathKey(each));
+  };
+  const auto isOpen = [&](const std::string& each) { return texts_.isOpen(each); };
+  std::ranges::stable_partition(around, isOpen);
+  for (const std::string& each : around) addOf(each);
+  // Weft's own come last, whoever named them first.
+  const std::string own = pathKey(dataFolder() + "/shaders");
+  std::ranges::stable_partition(folders, [&](const std::string& each) { return each != own; });
   return folders;
 }
 

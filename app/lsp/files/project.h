@@ -41,22 +41,25 @@ class Project {
   // The folders that the editor shows: graphs in them count when all uses of a name are wanted.
   void setFolders(std::vector<std::string> folders) { folders_ = std::move(folders); }
   bool isInFolders(const std::string& path) const;
+  // Files may have changed: what was gathered from many of them is gathered anew. To be called before each question.
+  void forget();
 
   // Null for what is no JSON file, or is not there.
   std::shared_ptr<const FileIndex> index(const std::string& path) const;
   // `path` with all that it includes and extends.
   std::vector<std::string> closure(const std::string& path) const;
   // All graph files: those that are open, those of the folders, with their closures.
-  std::vector<std::string> graphFiles() const;
-  std::vector<std::string> includersOf(const std::string& path) const;
+  const std::vector<std::string>& graphFiles() const;
+  // Those that include or extend `path`.
+  const std::vector<std::string>& includersOf(const std::string& path) const;
   // "post." for graphs/post.json in graphs/studio.json; nothing when `path` is not in it.
   std::optional<std::string> prefixIn(const std::string& root, const std::string& path) const;
 
   std::optional<Definition> resolve(const FileIndex& from, const Mention& mention) const;
 
   // ---- shaders ----
-  // Where shaders of the passes in the graph `path` are looked for.
-  std::vector<std::string> shaderFolders(const std::string& path) const;
+  // Where shaders of the passes in the graph `path` are looked for: as the graphs that include it do.
+  const std::vector<std::string>& shaderFolders(const std::string& path) const;
   std::optional<std::string> locateShader(const std::string& graph, const std::string& shader) const;
   // A GLSL file with all that it includes.
   std::vector<std::string> shaderClosure(const std::string& path,
@@ -88,6 +91,10 @@ class Project {
   const Texts& texts_;
   std::vector<std::string> folders_;
   mutable std::map<std::string, std::shared_ptr<const FileIndex>> indices_;
+  // Until forget().
+  mutable std::optional<std::vector<std::string>> graphFiles_;
+  mutable std::optional<std::map<std::string, std::vector<std::string>>> includers_;
+  mutable std::map<std::string, std::vector<std::string>> shaderFolders_;
 };
 
 }  // namespace weft::app::lsp

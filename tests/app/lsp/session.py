@@ -249,6 +249,64 @@ def check_hostile(weft, report, folder):
     report.check(editor.process.wait(timeout=60) == 1, "the input ended without shutdown")
 
 
+def byte_of(text, where):
+    """Of a position, in a text of ASCII up to there."""
+    lines = text.split("\n")
+    return sum(len(line) + 1 for line in lines[:where["line"]]) + where["character"]
+
+
+def apply(folder, editor, changes):
+    """A workspace edit, on disk."""
+    for uri, edits in changes.items():
+        path = folder / editor.name(uri)
+        text = path.read_text()
+        for edit in sorted(edits, key=lambda e: byte_of(text, e["range"]["start"]), reverse=True):
+            text = text[:byte_of(text, edit["range"]["start"])] + edit["newText"] + text[byte_of(text, edit["range"]["end"]):]
+        path.write_text(text)
+
+
+def tree(folder):
+    return {path.relative_to(folder): path.read_bytes() for part in ("graphs", "shaders") for path in sorted((folder / part).rglob("*")) if path.is_file()}
+
+
+RENAMES = [  # in the bundled graphs: a file, what stands there, its part to rename
+    ("graphs/lit.json", '"brdf": "brdf as linear"', "brdf"),          # a slot of many shaders
+    ("graphs/lit.json", '"ground_sky":', "ground_sky"),               # a resource
+    ("graphs/lit.json", '"name": "skybox"', "skybox"),                # a pass
+    ("graphs/studio.json", '"sky_blur":', "sky_blur"),                # a parameter
+    ("graphs/glow.json", '"result": "ldr"', "result"),                # a slot that most shaders have
+]
+
+
+def check_renames(weft, report, folder):
+    """Renamed, the bundled graphs say what they said; renamed back, they are what they were."""
+    for part in ("graphs", "shaders", "scenes", "materials"):
+        shutil.copytree(TOP / part, folder / part)
+    before = tree(folder)
+    for name, needle, word in RENAMES:
+        text = (folder / name).read_text()
+        at = text.index(needle) + needle.index(word)
+        where = f"{text.count(chr(10), 0, at)}:{at - text.rfind(chr(10), 0, at) - 1}"
+        for old, new in ((word, f"{word}_renamed"), (f"{word}_renamed", word)):
+            editor = Editor(weft, folder)
+            editor.ask("initialize", {"capabilities": {}, "workspaceFolders": [{"uri": editor.uri(""), "name": "weft"}]})
+            editor.open(name)
+            answer = editor.ask("textDocument/rename", editor.at(name, where) | {"newName": new})
+            if not report.check("result" in answer and answer["result"]["changes"], f"{name}: {old} to {new}: {answer}"):
+                break
+            apply(folder, editor, answer["result"]["changes"])
+            editor.end()
+            for graph in ("graphs/studio.json", "graphs/deferred.json", "graphs/glow.json"):
+                editor = Editor(weft, folder)
+                editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+                editor.open(graph)
+                editor.settle(graph)
+                said = [d["message"] for each in editor.published.values() for d in each["diagnostics"] if d["severity"] == 1]
+                report.check(not said, f"{graph}, with {old} as {new} in {name}: {said[:3]}")
+                editor.end()
+            report.check((tree(folder) == before) == (new == word), f"{name}: {old} to {new}, and the files are {'other' if new == word else 'the same'}")
+
+
 def large_graph(count):
     passes = ",\n".join(f'    {{ "name": "p{i}", "type": "fullscreen", "shader": "lsp/show.frag.glsl", "read": {{ "source": "t{i - 1}" }}, "write": {{ "result": "t{i}" }} }}'
                         for i in range(1, count + 1))
@@ -292,6 +350,8 @@ def main():
         if "--bench" in sys.argv:
             return bench(weft, pathlib.Path(folder).resolve())
         check_session(weft, report, pathlib.Path(folder).resolve())
+        pathlib.Path(folder, "bundled").mkdir()
+        check_renames(weft, report, pathlib.Path(folder, "bundled").resolve())
         pathlib.Path(folder, "odd").mkdir()
         check_hostile(weft, report, pathlib.Path(folder, "odd").resolve())
     report.end()
