@@ -89,14 +89,14 @@ _weft() {{
   if [ -n "$words" ]; then
     COMPREPLY=($(compgen -W "$words" -- "$current"))
   elif [ -n "$folders" ]; then
-    compopt -o filenames 2>/dev/null
+    compopt -o filenames 2>/dev/null || true
     mapfile -t COMPREPLY < <(compgen -d -- "$current")
   elif [ -n "$any" ]; then
     :
   elif [ -z "$files" ] && [ "${{current#-}}" != "$current" ]; then
     COMPREPLY=($(compgen -W "$options" -- "$current"))
   else
-    compopt -o filenames 2>/dev/null
+    compopt -o filenames 2>/dev/null || true
     mapfile -t COMPREPLY < <(compgen -f -- "$current")
   fi
 }}
@@ -222,6 +222,7 @@ std::vector<CommandText> describeCommands(const CLI::App& app) {
       if (takesValue) readType(written->get_type_name(), option);
       option.repeatable = written->get_items_expected_max() > 1;
       if (option.names.empty()) option.value = written->get_name(true);
+      if (option.value == "VALUE" && kindOf(option) == std::string_view("file")) option.value = "FILE";
       command.options.push_back(std::move(option));
     }
     commands.push_back(std::move(command));

@@ -22,14 +22,14 @@ printf '%s\n' "${COMPREPLY[@]}"
 
 def complete(script, *words, cwd=TOP):
     """What bash offers for the last word."""
-    done = subprocess.run(["bash", "-eu", "-c", ASK, "bash", script, *words], cwd=cwd, capture_output=True, text=True)
+    done = subprocess.run(["bash", "-u", "-c", ASK, "bash", script, *words], cwd=cwd, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return [line for line in done.stdout.splitlines() if line]
 
 
 def options_of(weft, command):
     """As --help lists them."""
-    return set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", "\n".join(line[:34] for line in run(weft, command, "--help").out.splitlines() if line.startswith("  "))))
+    return set(re.findall(r"^  (?:-\w,)?(--[a-z][a-z-]*)", run(weft, command, "--help").out, re.M))
 
 
 def main():
