@@ -7,6 +7,7 @@
 namespace weft::app {
 
 int runRender(const Options& options);
+int runDump(const Options& options);
 int runCheck(const Options& options);
 int runExplain(const Options& options);
 int runExpand(const Options& options);

@@ -101,21 +101,25 @@ struct Preset {
   std::string name, title, description;  // of the file, "name" and "description" in it
 };
 
-std::vector<Preset> bundledPresets(base::Diagnostics& diagnostics) {
+// Of all folders; of two of one name that which --preset finds.
+std::vector<Preset> knownPresets(const std::string& own, base::Diagnostics& diagnostics) {
   std::vector<Preset> presets;
-  std::error_code ec;
-  for (auto entry = std::filesystem::directory_iterator(presetsFolder(), ec);
-       !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec)) {
-    if (entry->path().extension() != ".json") continue;
-    const std::string path = entry->path().string();
-    const auto text = base::readTextFile(path, diagnostics);
-    const auto root =
-        text ? base::parseJson(*text, std::make_shared<const std::string>(path), diagnostics) : std::nullopt;
-    if (!root) continue;
-    Preset preset{.name = entry->path().stem().string(), .title = {}, .description = {}};
-    if (const auto* title = root->find("name")) preset.title = title->text;
-    if (const auto* description = root->find("description")) preset.description = description->text;
-    presets.push_back(std::move(preset));
+  for (const std::string& folder : presetFolders(own)) {
+    std::error_code ec;
+    for (auto entry = std::filesystem::directory_iterator(folder, ec);
+         !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec)) {
+      const std::string path = entry->path().string(), name = entry->path().stem().string();
+      if (entry->path().extension() != ".json" || std::ranges::count(presets, name, &Preset::name) > 0)
+        continue;
+      const auto text = base::readTextFile(path, diagnostics);
+      const auto root = text ? base::parseJson(*text, std::make_shared<const std::string>(path), diagnostics)
+                             : std::nullopt;
+      if (!root) continue;
+      Preset preset{.name = name, .title = {}, .description = {}};
+      if (const auto* title = root->find("name")) preset.title = title->text;
+      if (const auto* description = root->find("description")) preset.description = description->text;
+      presets.push_back(std::move(preset));
+    }
   }
   std::ranges::sort(presets, {}, &Preset::name);
   return presets;
@@ -143,7 +147,7 @@ int runParams(const Options& options) {
 
 int runPresets(const Options& options) {
   base::Diagnostics diagnostics;
-  const std::vector<Preset> presets = bundledPresets(diagnostics);
+  const std::vector<Preset> presets = knownPresets(options.presetFolder, diagnostics);
   if (options.format == "json") {
     Json all = Json::array();
     for (const Preset& preset : presets)

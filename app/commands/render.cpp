@@ -3,10 +3,13 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/session/device_session.h"
 #include "app/session/output_files.h"
+#include "app/session/pick_outputs.h"
 #include "app/session/picture_writer.h"
 #include "app/session/progress.h"
 #include "app/session/session.h"
@@ -20,11 +23,6 @@ namespace {
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-void showProgress(const Progress& progress) {
-  printError(
-      fmt::format("\r{}\033[K{}", progressText(progress), progress.done == progress.total ? "\n" : ""));
 }
 
 // Whether so many frames may run: the limit `frames`. `why`: more than asked for.
@@ -57,7 +55,11 @@ std::vector<std::string> inputsOf(const Options& options, const runtime::Rendere
 int runRender(const Options& options) {
   const double start = now();
   base::Diagnostics diagnostics;
-  checkOutput(options.output, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
+  const bool whole = !options.output.empty();
+  PickOutputs picks(options);
+  if (whole)
+    checkOutput(options.output, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
+  picks.check(diagnostics);
   checkFrameCount(options, std::uint64_t{options.lastFrame} - options.firstFrame + 1, "", diagnostics);
   auto world = loadWorld(options, diagnostics);
   if (!world || diagnostics.hasErrors()) {
@@ -74,7 +76,7 @@ int runRender(const Options& options) {
   }
   if (!session->renderer.load(settingsOf(options, session->context->device().software), *world, diagnostics))
     return report(diagnostics);
-  if (session->renderer.execution()->presented().id == 0) {
+  if (whole && session->renderer.execution()->presented().id == 0) {
     diagnostics
         .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
                "the graph presents nothing to write")
@@ -86,13 +88,16 @@ int runRender(const Options& options) {
   // Frames before the first one written run too when it may look back at them.
   const std::uint32_t begin = session->renderer.execution()->remembers(*world) ? 0 : options.firstFrame;
   const std::uint64_t total = std::uint64_t{options.lastFrame} - begin + 1;
-  const OutputFile outputs[] = {{"-o", options.output, options.firstFrame, options.lastFrame},
-                                {"--trace", options.trace}};
+  std::vector<OutputFile> outputs = {{"-o", options.output, options.firstFrame, options.lastFrame},
+                                     {"--trace", options.trace}};
+  picks.append(outputs);
   if (!checkFrameCount(options, total, ", because the graph remembers what came before", diagnostics) ||
       !checkDistinct(outputs, inputsOf(options, session->renderer, *world), diagnostics) ||
-      !makeFolders(options.output, options.firstFrame, options.lastFrame, diagnostics))
+      !makeFolders(options.output, options.firstFrame, options.lastFrame, diagnostics) ||
+      !picks.makeAllFolders(diagnostics) || !picks.start(session->renderer, diagnostics))
     return report(diagnostics);
   const bool progress = total > 1 && !options.quiet;
+  ProgressLines lines(isTerminal());
   session->renderer.device().timers.setEnabled(options.profile);
   auto recorder = std::make_unique<TraceRecorder>(session->renderer.device().timers);
   if (!options.trace.empty() && !recorder->start(options.trace, diagnostics)) return report(diagnostics);
@@ -102,6 +107,7 @@ int runRender(const Options& options) {
   for (std::uint64_t done = 1; done <= total; ++done) {
     const auto frame = static_cast<std::uint32_t>(begin + (done - 1));
     const double before = now();
+    picks.expect(frame < options.firstFrame ? std::nullopt : std::optional(frame));
     recorder->begin(session->renderer.execution()->plan(), frame);
     last = session->renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
     recorder->end(last);
@@ -112,17 +118,18 @@ int runRender(const Options& options) {
       firstFrame = now() - before;
     }
     if (progress)
-      showProgress(
-          {.done = done, .total = total, .lead = options.firstFrame - begin, .seconds = now() - prepared});
+      printError(lines.after(
+          {.done = done, .total = total, .lead = options.firstFrame - begin, .seconds = now() - prepared}));
     if (frame < options.firstFrame) continue;
-    if (diagnostics.hasErrors() ||
-        !writer.save(session->renderer, *outputNameOf(options.output, frame), diagnostics)) {
+    if (!picks.finish(diagnostics) || diagnostics.hasErrors() ||
+        (whole && !writer.save(session->renderer, *outputNameOf(options.output, frame), diagnostics))) {
       writer.tell(diagnostics);
       return report(diagnostics);
     }
   }
   session->context->debugLog().drain(diagnostics);
   writer.tell(diagnostics);
+  picks.stop(session->renderer);
   recorder->stop(diagnostics);
   recorder.reset();
   if (options.stats) {

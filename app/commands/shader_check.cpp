@@ -58,7 +58,7 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
 }
 
 void ShaderCheck::checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics) {
-  gl::SourceLoader sources(runtime::shaderRootsOf(options_.graph, dataFolder()));
+  gl::SourceLoader sources(runtime::shaderRootsOf(options_.graph, options_.presets, dataFolder()));
   checkFiles(desc, sources, diagnostics);
   read_.insert(sources.touched().begin(), sources.touched().end());
 }

@@ -4,77 +4,20 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
+#include "app/session/option_checks.h"
 #include "app/session/session.h"
 #include "app/session/standard_streams.h"
 #include "engine/base/files/file_access.h"
-#include "engine/base/limits.h"
 #include "engine/base/nearest.h"
 #include "engine/base/printable.h"
 
 namespace weft::app {
 
 namespace {
-
-bool parseNumber(const std::string& text, std::uint32_t& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
-bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b) {
-  const std::size_t at = text.find(separator);
-  return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
-}
-
-std::string checkSize(const std::string& text) {
-  std::uint32_t width = 0, height = 0;
-  const bool good =
-      parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= 16384 && height <= 16384;
-  return good ? "" : "expected WIDTHxHEIGHT, each from 1 to 16384, found '" + text + "'";
-}
-
-// A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
-CLI::Validator numberFrom(double low, double high) {
-  const auto check = [low, high](const std::string& text) -> std::string {
-    double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    const bool good = error == std::errc{} && end == text.data() + text.size() && x >= low && x <= high;
-    return good ? "" : fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
-  };
-  return {check, fmt::format("{} to {}", low, high)};
-}
-
-std::string checkFrames(const std::string& text) {
-  std::uint32_t first = 0, last = 0;
-  const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
-                                                        : parsePair(text, ':', first, last) && first <= last;
-  return good ? ""
-              : "expected FRAME or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to 4294967295, found "
-                "'" +
-                    text + "'";
-}
-
-std::string checkCount(const std::string& text) {
-  std::uint32_t count = 0;
-  return parseNumber(text, count)
-             ? ""
-             : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
-}
-
-// Sets the limit, for this process.
-std::string takeLimit(const std::string& text) {
-  const std::size_t at = text.find('=');
-  if (at == std::string::npos || at == 0) return "expected NAME=VALUE, found '" + text + "'";
-  return base::setLimit(text.substr(0, at), text.substr(at + 1)).value_or("");
-}
-
-// Confines reading, for this process.
-std::string takeConfinement(const std::string& folder) {
-  return base::confineTo(folder).value_or("");
-}
 
 // What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
 void chooseFiles(const Options& options) {
@@ -89,17 +32,17 @@ void chooseFiles(const Options& options) {
     base::allowFolder(dataFolder() + "/" + folder);
 }
 
-std::string checkSet(const std::string& text) {
-  const std::size_t at = text.find('=');
-  return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
-}
-
-// A preset that is no file is the name of a bundled one, also of one that is not there: the message has the nearest.
-std::string presetFile(const std::string& preset) {
+// A preset that is no file is a name in one of the folders; of one that is in none, the message has the nearest bundled one.
+std::string presetFile(const std::string& preset, const std::string& own) {
   std::error_code ignored;
   const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
-  return name && !std::filesystem::exists(preset, ignored) ? presetsFolder() + "/" + preset + ".json"
-                                                           : preset;
+  if (!name || std::filesystem::exists(preset, ignored)) return preset;
+  std::string file;
+  for (const std::string& folder : presetFolders(own)) {
+    file = folder + "/" + preset + ".json";
+    if (std::filesystem::exists(file, ignored)) break;
+  }
+  return file;
 }
 
 // As messages print what files say.
@@ -138,9 +81,40 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
 
 struct Raw {
   std::string size = "1280x720", frames = "0";
-  std::vector<std::string> sets, limits, folders;
+  std::vector<std::string> sets, limits, folders, outputs;
+  std::string present;
 };
 
+// `-o FILE`, `-o NAME=FILE` and `--present NAME`. What is wrong with them, or nothing.
+std::string takeOutputs(const Raw& raw, Options& options) {
+  for (const std::string& text : raw.outputs) {
+    const std::size_t at = text.find('=');
+    std::optional<graph::Pick> pick;
+    if (at != std::string::npos) pick = graph::parsePick(std::string_view(text).substr(0, at));
+    if (pick) {
+      pick->option = "-o";
+      options.picked.push_back({std::move(*pick), text.substr(at + 1)});
+    } else if (options.output.empty()) {
+      options.output = text;
+    } else {
+      return fmt::format(
+          "the picture would be written to '{}' and to '{}'; write NAME=FILE for another texture",
+          options.output, text);
+    }
+  }
+  if (raw.present.empty()) return {};
+  std::optional<graph::Pick> shown = graph::parsePick(raw.present);
+  if (!shown)
+    return fmt::format("--present takes a texture such as depth, hdr#1 or 'glow.mip[2]', found '{}'",
+                       raw.present);
+  if (options.output.empty()) return "--present needs a file: -o FILE";
+  shown->option = "--present";
+  options.picked.insert(options.picked.begin(), {std::move(*shown), std::exchange(options.output, {})});
+  return {};
+}
+
+constexpr const char* kPresetFolderHelp =
+    "look for the names of presets here first, then in ~/.config/weft/presets, then in graphs/presets";
 constexpr const char* kWaitForAssets = "--wait-for-assets";
 
 // Returns that of the graph's file.
@@ -156,7 +130,8 @@ CLI::Option* addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
       ->check(CLI::Validator(checkSize, "WxH"));
   command.add_option(
       "--preset", options.presets,
-      "lay an overlay over the graph: a file, or the name of one in graphs/presets; repeatable");
+      "lay an overlay over the graph: a file, or the name of one that 'weft presets' lists; repeatable");
+  command.add_option("--preset-folder", options.presetFolder, kPresetFolderHelp);
   command.add_option("--disable", options.disables,
                      "disable a pass (any unique suffix of its name); repeatable");
   command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
@@ -190,15 +165,39 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   addGraphOptions(*render, options, raw);
   addDeviceOptions(*render, options);
   render
-      ->add_option("-o,--output", options.output,
-                   "image to write, .png or .exr; for several frames a pattern: f_%04d.png")
+      ->add_option("-o,--output", raw.outputs,
+                   "image to write, .png or .exr; for several frames a pattern: f_%04d.png; NAME=FILE writes "
+                   "a texture of "
+                   "the graph: depth=depth.png, 'glow.mip[2]=glow.exr'; repeatable")
       ->required();
+  render->add_option(
+      "--present", raw.present,
+      "show this texture instead of the graph's picture, as the viewer's inspector does: depth, "
+      "'hdr after skybox', 'glow.mip[2]'");
   render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")
       ->check(CLI::Validator(checkFrames, "A:B"));
   render->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
   render->add_flag(kWaitForAssets, options.waitForAssets,
                    "the first frame waits for everything it needs; always so without a window");
   render->add_flag("--quiet", options.quiet, "no progress bar and no notes");
+
+  CLI::App* dump = app.add_subcommand("dump",
+                                      "write what each pass wrote of some resources, as pictures (.png), "
+                                      "values (.exr) and bytes (.bin): weft dump "
+                                      "graphs/glow.json 'glow*' -o out");
+  addGraphOptions(*dump, options, raw);
+  dump->add_option(
+          "name", options.patterns,
+          "names of resources, or any suffix of theirs; * stands for any letters; hdr#2 is a version")
+      ->required();
+  dump->add_option("-o,--output", options.output, "folder to write to")->required();
+  dump->add_option("--frames", raw.frames, "the frame to look at")
+      ->check(CLI::Validator(checkFrame, "FRAME"));
+  dump->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
+  dump->add_option("--backend", options.backend, "where OpenGL comes from")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
+  dump->add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'");
+  dump->add_flag("--quiet", options.quiet, "no list of files and no notes");
 
   CLI::App* view =
       app.add_subcommand("view", "open a window and run a graph in it (without a display: xvfb-run -a)");
@@ -260,8 +259,9 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   addGraphOptions(*params, options, raw);
   params->add_flag_callback("--json", asJson, "as JSON");
 
-  CLI::App* presets = app.add_subcommand("presets", "list the bundled presets, for --preset");
+  CLI::App* presets = app.add_subcommand("presets", "list the presets that --preset finds by name");
   presets->add_flag_callback("--json", asJson, "as JSON");
+  presets->add_option("--preset-folder", options.presetFolder, kPresetFolderHelp);
 
   CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
   CLI::Option* drawn = addGraphOptions(*dot, options, raw);
@@ -371,7 +371,12 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     parseNumber(raw.frames, options.firstFrame);
     options.lastFrame = options.firstFrame;
   }
-  for (std::string& preset : options.presets) preset = presetFile(preset);
+  if (const std::string wrong = takeOutputs(raw, options); !wrong.empty()) {
+    printError("weft render: " + shown(wrong) + "\n");
+    exitCode = 2;
+    return std::nullopt;
+  }
+  for (std::string& preset : options.presets) preset = presetFile(preset, options.presetFolder);
   for (const std::string& set : raw.sets) {
     const std::size_t at = set.find('=');
     options.sets.emplace_back(set.substr(0, at), set.substr(at + 1));

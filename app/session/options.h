@@ -9,22 +9,32 @@
 
 #include "app/session/command_line.h"
 #include "engine/graph/expand/expand.h"
+#include "engine/graph/pick/pick.h"
 
 namespace weft::app {
 
 constexpr const char* kVersion = "0.1.0";
+
+// A texture of the graph that is written to a file.
+struct PickedOutput {
+  graph::Pick pick;
+  std::string file;  // or a pattern, as -o
+};
 
 struct Options {
   std::string command;  // "render", "view", "check", "dot", "plan", "params", "presets", "bench", …
   std::string graph;    // path of the graph file
   std::string scene, environment;            // empty: the bundled spheres, no environment
   std::string camera, materials;             // empty: the scene's first camera, the materials it names
-  std::string output;                        // -o
+  std::string output;                        // -o; empty: of render, only `picked`
+  std::vector<PickedOutput> picked{};        // render: -o NAME=FILE, --present
+  std::vector<std::string> patterns;         // dump: of names of resources
   std::uint32_t width = 1280, height = 720;  // --size
   std::uint32_t firstFrame = 0, lastFrame = 0;
   double fps = 60;
   std::vector<std::string> disables;
   std::vector<std::string> presets;  // overlay files
+  std::string presetFolder;          // looked in first for the names of presets; empty: none
   std::vector<graph::Setting> sets;
   std::string backend = "auto";
   std::string cacheFolder;  // program binaries; empty: the user's cache folder, "none": none

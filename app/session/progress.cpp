@@ -21,6 +21,18 @@ std::string twoUnits(double seconds, double greater, const char* name, double sm
                   : fmt::format("{:.0f} {}", whole, name);
 }
 
+// "12/501 frames, 2 h 13 min left".
+std::string countText(const Progress& p) {
+  std::string text = fmt::format("{}/{} frames", p.done, p.total);
+  if (p.lead > 0 && p.done < p.total)
+    text += fmt::format(", {} of them lead up to the first picture", p.lead);
+  if (p.done > 0 && p.done < p.total)
+    text += fmt::format(", {} left", durationText(p.seconds / static_cast<double>(p.done) *
+                                                  static_cast<double>(p.total - p.done)));
+  if (p.done == p.total) text += fmt::format(" in {}", durationText(p.seconds));
+  return text;
+}
+
 }  // namespace
 
 std::string durationText(double seconds) {
@@ -35,15 +47,16 @@ std::string durationText(double seconds) {
 
 std::string progressText(const Progress& p) {
   const auto filled = static_cast<std::size_t>(p.done * kBarWidth / std::max<std::uint64_t>(1, p.total));
-  std::string text = fmt::format("[{}{}] {}/{} frames", std::string(filled, '#'),
-                                 std::string(kBarWidth - filled, '.'), p.done, p.total);
-  if (p.lead > 0 && p.done < p.total)
-    text += fmt::format(", {} of them lead up to the first picture", p.lead);
-  if (p.done > 0 && p.done < p.total)
-    text += fmt::format(", {} left", durationText(p.seconds / static_cast<double>(p.done) *
-                                                  static_cast<double>(p.total - p.done)));
-  if (p.done == p.total) text += fmt::format(" in {}", durationText(p.seconds));
-  return text;
+  return fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'),
+                     countText(p));
+}
+
+std::string ProgressLines::after(const Progress& p) {
+  const bool last = p.done == p.total;
+  if (terminal_) return fmt::format("\r{}\033[K{}", progressText(p), last ? "\n" : "");
+  if (!last && p.seconds - last_ < kPause) return {};
+  last_ = p.seconds;
+  return countText(p) + "\n";
 }
 
 }  // namespace weft::app

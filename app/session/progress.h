@@ -1,4 +1,4 @@
-// The text of the progress bar of `weft render`. Does not: print, or know a clock.
+// The text of the progress of `weft render`: a bar on a terminal, a line now and then elsewhere. Does not: print, or know a clock.
 #pragma once
 
 #include <cstdint>
@@ -18,5 +18,19 @@ struct Progress {
 
 // "[####....] 12/501 frames, 500 of them lead up to the first picture, 2 h 13 min left".
 std::string progressText(const Progress& progress);
+
+// What to print after each frame.
+class ProgressLines {
+ public:
+  // `terminal`: the bar, drawn over itself. Else a line each kPause seconds, and one at the end.
+  explicit ProgressLines(bool terminal) : terminal_(terminal) {}
+  std::string after(const Progress& progress);
+
+  static constexpr double kPause = 10;
+
+ private:
+  bool terminal_;
+  double last_ = 0;
+};
 
 }  // namespace weft::app

@@ -28,6 +28,19 @@ std::string presetsFolder() {
   return dataFolder() + "/graphs/presets";
 }
 
+std::vector<std::string> presetFolders(const std::string& own) {
+  std::vector<std::string> folders;
+  if (!own.empty()) folders.push_back(own);
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  const char* home = std::getenv("HOME");
+  if (config && *config)
+    folders.push_back(std::string(config) + "/weft/presets");
+  else if (home && *home)
+    folders.push_back(std::string(home) + "/.config/weft/presets");
+  folders.push_back(presetsFolder());
+  return folders;
+}
+
 runtime::WorldFacts factsWithoutWorld() {
   runtime::WorldFacts facts;
   for (const std::string& list : scene::drawListNames()) facts.lists.push_back({list, 0});
@@ -35,11 +48,14 @@ runtime::WorldFacts factsWithoutWorld() {
 }
 
 graph::Settings settingsOf(const Options& options, bool software) {
+  std::vector<graph::Pick> kept;
+  for (const PickedOutput& each : options.picked) kept.push_back(each.pick);
   return {.screenWidth = options.width,
           .screenHeight = options.height,
           .software = software,
           .sets = options.sets,
-          .disables = {options.disables.begin(), options.disables.end()}};
+          .disables = {options.disables.begin(), options.disables.end()},
+          .kept = std::move(kept)};
 }
 
 std::string scenePathOf(const Options& options) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/session/options.h"
 #include "engine/base/diagnostic.h"
@@ -21,6 +22,9 @@ std::string dataFolder();
 
 // The folder of the bundled presets, in it.
 std::string presetsFolder();
+// Where a preset's name is looked for, the first first: `own` (--preset-folder) unless it is empty, the user's folder
+// ($XDG_CONFIG_HOME/weft/presets, else ~/.config/weft/presets), the bundled ones. They need not be there.
+std::vector<std::string> presetFolders(const std::string& own);
 
 graph::Settings settingsOf(const Options& options, bool software);
 

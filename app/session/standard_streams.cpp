@@ -51,6 +51,10 @@ void printError(std::string_view text) {
   put(text, stderr, errorFailure);
 }
 
+bool isTerminal() {
+  return ::isatty(STDERR_FILENO) == 1;
+}
+
 std::string dumpJson(const nlohmann::ordered_json& json) {
   return base::printableJson(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }

@@ -17,6 +17,8 @@ void print(std::string_view text);       // on standard output
 void flushPrinted();                     // writes what print() has kept back so far
 void printError(std::string_view text);  // on standard error
 
+bool isTerminal();  // whether a person sees standard error as it is written
+
 // Indented text. Bytes that are no UTF-8 are replaced.
 std::string dumpJson(const nlohmann::ordered_json& json);
 

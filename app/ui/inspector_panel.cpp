@@ -69,10 +69,8 @@ void InspectorPanel::beforeFrame(bool wanted) {
       target_.resource = plan.graph->resourceNames[plan.graph->present.resource];
   }
   if (target_.resource != shown_) {
-    // Values that are encoded already are not encoded again.
     const std::uint32_t shown = indexOf(plan, target_.resource);
-    if (shown != graph::kNone)
-      view_.encode = graph::infoOf(plan.graph->resources[shown].format).kind == graph::TexelKind::floating;
+    if (shown != graph::kNone) view_.encode = runtime::Inspector::viewOf(plan.graph->resources[shown]).encode;
     shown_ = target_.resource;
   }
   found_ = inspector_.watch(*execution, target_);

@@ -96,6 +96,12 @@ inline std::vector<ImportType> testImports() {
        {drawListArgument(), argument("by", Value::text("depth"), {"depth"}),
         argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"})}},
       {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
+      {"image",
+       ImportKind::texture,
+       "",
+       {argument("file", Value::text("")), argument("frame", Value::number(-1)),
+        argument("fps", Value::number(0)), argument("end", Value::text("loop"), {"loop", "hold"}),
+        argument("srgb", Value::boolean(false)), argument("mips", Value::boolean(false))}},
       {"probes",
        ImportKind::buffer,
        "",
@@ -125,6 +131,12 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
     facts.exists = !request.arguments[0].second.symbol.empty();
     facts.format = Format::rgba16f;
     facts.width = facts.height = facts.depth = 33;
+  } else if (request.type == "image") {
+    facts.exists = !request.arguments[0].second.symbol.empty();
+    facts.format = Format::rgba8;
+    facts.width = 64;
+    facts.height = 32;
+    facts.mips = request.arguments[5].second.truth() ? 7 : 1;
   } else if (request.type == "spheres") {
     facts.count = world.spheres;
     facts.bytes = 4800;

@@ -12,6 +12,7 @@
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/passes.h"
 #include "engine/graph/expand/slices.h"
+#include "engine/graph/pick/find_pick.h"
 
 namespace weft::graph {
 
@@ -35,6 +36,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   std::vector<DeferredUniform> deferred;
   if (!isOver(model)) expandPasses(model, deferred);
   if (!isOver(model)) finishGraph(model, deferred);
+  if (!own.hasErrors() && !model.incomplete) keepPicks(model.graph, settings.kept, own);
   if (!isOver(model)) judgeMissing(model);
   reportUnincluded(model);
   if (!own.hasErrors()) checkSlices(model);

@@ -84,7 +84,7 @@ void checkKeys(const Stanza& stanza) {
   const auto lacks = [&](const char* what, const char* expected) {
     stanza.error(Code::keyNeeded, desc.namePlace, fmt::format("lacks {}", what)).expected = expected;
   };
-  if (!desc.vertexShader.empty() && shader != ShaderShape::draw) {
+  if (!desc.vertexShader.empty() && shader != ShaderShape::draw && shader != ShaderShape::fragment) {
     auto& d =
         stanza.error(Code::keyNotTaken, desc.shaderPlace,
                      fmt::format("names a vertex shader, which a {} pass does not take", stanza.type->name));

@@ -55,6 +55,31 @@ void eraseStanzaKeys(JsonValue& root) {
         for (const char* key : {"before", "after", "remove"}) eraseMember(stanza, key);
 }
 
+// What "extends" names: a path, or a list of paths. Empty after a report.
+std::vector<const JsonValue*> namesIn(const JsonValue& extends, base::Diagnostics& diagnostics) {
+  std::vector<const JsonValue*> names;
+  if (extends.is(Type::string)) names.push_back(&extends);
+  for (const JsonValue& item : extends.items) names.push_back(&item);
+  const auto wrong =
+      std::ranges::find_if(names, [](const JsonValue* name) { return !name->is(Type::string); });
+  if (!names.empty() && wrong == names.end()) return names;
+  const JsonValue& found = names.empty() ? extends : **wrong;
+  auto& d = diagnostics.error(Code::wrongType, found.place, "\"extends\" has the wrong type");
+  d.pointer = found.pointer;
+  d.expected = "the path of a graph, from this file's folder, or a list of that and of overlays";
+  d.found = describe(found);
+  return {};
+}
+
+// Whether a file without "extends" has passes that none before it has: no stanza says where it stands.
+bool isWholeGraph(const JsonValue& root) {
+  const JsonValue* passes = root.find("passes");
+  if (!passes || passes->items.empty()) return false;
+  return std::ranges::all_of(passes->items, [](const JsonValue& stanza) {
+    return (stanza.find("type") || stanza.find("include")) && !stanza.find("before") && !stanza.find("after");
+  });
+}
+
 }  // namespace
 
 std::string includePrefix(const JsonValue& stanza) {
@@ -137,18 +162,21 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
 std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& root, const JsonValue& extends,
                                                             const std::string& path) {
   Source source{.path = path, .identity = identityOf(path), .files = {path}};
+  const std::vector<const JsonValue*> below = namesIn(extends, diagnostics_);
+  if (below.empty()) return nullptr;
   open_.emplace_back(source.identity, path);
-  const std::shared_ptr<const Source> below = openBase(extends);
-  if (below && !mayCopy(*below, extends.place)) {
-    open_.pop_back();
-    return nullptr;
-  }
-  if (below) {
-    source.files.insert(source.files.end(), below->files.begin(), below->files.end());
-    source.root = below->root;
-    source.sets = below->sets;
-    source.changed = below->changed;
-    source.removed = below->removed;
+  const std::shared_ptr<const Source> base = openBase(*below[0]);
+  bool good = base && mayCopy(*base, extends.place);
+  if (good) {
+    source.files.insert(source.files.end(), base->files.begin(), base->files.end());
+    source.root = base->root;
+    source.sets = base->sets;
+    source.changed = base->changed;
+    source.removed = base->removed;
+    for (std::size_t i = 1; i < below.size(); ++i) {
+      const std::string over = pathBeside(*below[i]);
+      good = mayExtend(*below[i], over) && layOver(source, over, below[i], false) && good;
+    }
     if (source.root.is(Type::object)) {
       source.root.place = root.place;
       for (const char* own : {"name", "description"}) eraseMember(source.root, own);  // of the base
@@ -157,28 +185,26 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
     source.values = valuesOf(source.root);
   }
   open_.pop_back();
-  return below ? std::make_shared<const Source>(std::move(source)) : nullptr;
+  return good ? std::make_shared<const Source>(std::move(source)) : nullptr;
 }
 
-std::shared_ptr<const Source> SourceLoader::openBase(const JsonValue& extends) {
-  if (!extends.is(Type::string)) {
-    auto& d = diagnostics_.error(Code::wrongType, extends.place, "\"extends\" has the wrong type");
-    d.pointer = extends.pointer;
-    d.expected = "the path of a graph, from this file's folder";
-    d.found = describe(extends);
-    return nullptr;
-  }
-  const std::string below = pathBeside(extends), identity = identityOf(below);
+std::shared_ptr<const Source> SourceLoader::openBase(const JsonValue& written) {
+  const std::string below = pathBeside(written);
+  return mayExtend(written, below) ? file(below, written.place) : nullptr;
+}
+
+bool SourceLoader::mayExtend(const JsonValue& written, const std::string& below) {
+  const std::string identity = identityOf(below);
   if (open_.size() > base::limitOf(base::Limit::extends_depth)) {
-    auto& limit = base::reportLimit(diagnostics_, base::Limit::extends_depth, extends.place,
+    auto& limit = base::reportLimit(diagnostics_, base::Limit::extends_depth, written.place,
                                     "overlays extend each other in too long a row");
-    limit.pointer = extends.pointer;
+    limit.pointer = written.pointer;
     limit.found = fmt::format("'{}', one more", below);
-    return nullptr;
+    return false;
   }
-  if (!isOpen(identity)) return file(below, extends.place);
-  auto& d = diagnostics_.error(Code::extendsItself, extends.place, fmt::format("'{}' extends itself", below));
-  d.pointer = extends.pointer;
+  if (!isOpen(identity)) return true;
+  auto& d = diagnostics_.error(Code::extendsItself, written.place, fmt::format("'{}' extends itself", below));
+  d.pointer = written.pointer;
   bool again = false;
   for (const auto& [openIdentity, openPath] : open_) {
     again = again || openIdentity == identity;
@@ -186,7 +212,7 @@ std::shared_ptr<const Source> SourceLoader::openBase(const JsonValue& extends) {
   }
   d.found += below;
   d.hint = "one of these must not extend the next";
-  return nullptr;
+  return false;
 }
 
 bool SourceLoader::isOpen(const std::string& identity) const {
@@ -194,11 +220,18 @@ bool SourceLoader::isOpen(const std::string& identity) const {
 }
 
 std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, const std::string& path) {
-  const std::shared_ptr<const std::string> bytes = bytesOf(path, {});
-  if (!bytes) return nullptr;
+  Source made = source;
+  if (!layOver(made, path, nullptr, true)) return nullptr;
+  made.values = valuesOf(made.root);
+  return std::make_shared<const Source>(std::move(made));
+}
+
+bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValue* written, bool preset) {
+  const std::shared_ptr<const std::string> bytes = bytesOf(path, written ? written->place : base::Place{});
+  if (!bytes) return false;
   const std::optional<JsonValue> root =
       base::parseJson(*bytes, std::make_shared<const std::string>(path), diagnostics_);
-  if (!root) return nullptr;
+  if (!root) return false;
   const auto refuse = [&](Code code, const JsonValue& value, std::string message) -> base::Diagnostic& {
     auto& d = diagnostics_.error(code, value.place, std::move(message));
     d.pointer = value.pointer;
@@ -208,19 +241,36 @@ std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, con
     auto& d = refuse(Code::wrongType, *root, "a preset has the wrong type");
     d.expected = "an object";
     d.found = describe(*root);
-    return nullptr;
+    return false;
   }
-  if (const JsonValue* extends = root->find("extends")) {
-    refuse(Code::overlayOutOfPlace, *extends, fmt::format("'{}' is no preset: it extends another file", path))
-        .hint = fmt::format("open '{}' as the graph", path);
-    return nullptr;
+  const JsonValue* extends = root->find("extends");
+  if (written && !extends && isWholeGraph(*root)) {
+    auto& d = refuse(Code::overlayOutOfPlace, *written,
+                     fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
+    d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
+    d.hint = "a file extends one graph, the first of its list; give the others as includes";
+    return false;
   }
-  if (!mayCopy(source, root->place)) return nullptr;
-  Source made = source;
-  made.files.push_back(path);
-  if (made.root.is(Type::object)) applyOverlay(*this, *root, true, made, diagnostics_);
-  made.values = valuesOf(made.root);
-  return std::make_shared<const Source>(std::move(made));
+  open_.emplace_back(identityOf(path), path);
+  bool good = true;
+  if (extends) {
+    const std::vector<const JsonValue*> below = namesIn(*extends, diagnostics_);
+    good = !below.empty();
+    for (const JsonValue* each : below) {
+      const std::string file = pathBeside(*each), identity = identityOf(file);
+      const bool there = std::ranges::any_of(
+          made.files, [&](const std::string& known) { return identityOf(known) == identity; });
+      if (there && !isOpen(identity)) continue;  // it is below already
+      good = mayExtend(*each, file) && layOver(made, file, each, preset) && good;
+    }
+  }
+  good = good && mayCopy(made, root->place);
+  if (good) {
+    made.files.push_back(path);
+    if (made.root.is(Type::object)) applyOverlay(*this, *root, preset, made, diagnostics_);
+  }
+  open_.pop_back();
+  return good;
 }
 
 }  // namespace weft::graph

@@ -60,7 +60,11 @@ class SourceLoader {
   std::shared_ptr<const Source> complete(base::JsonValue root, const std::string& path);
   std::shared_ptr<const Source> completeOverlay(const base::JsonValue& root, const base::JsonValue& extends,
                                                 const std::string& path);
-  std::shared_ptr<const Source> openBase(const base::JsonValue& extends);
+  // Null, or false, after a report. `written`: an entry of "extends".
+  std::shared_ptr<const Source> openBase(const base::JsonValue& written);
+  bool mayExtend(const base::JsonValue& written, const std::string& below);
+  // Lays the overlay in `path`, and first those that it extends, over `made`. `written`: what names it; null: the command line.
+  bool layOver(Source& made, const std::string& path, const base::JsonValue* written, bool preset);
 
   base::Diagnostics& diagnostics_;
   const FileTexts* given_ = nullptr;

@@ -115,8 +115,8 @@ void Execution::endFrame(FrameReport& report, base::Diagnostics& diagnostics) {
 }
 
 void Execution::lookThroughTap(std::size_t step, const FrameReport& report) {
-  if (step != tapStep_ || !report.whole) return;
-  tap_();
+  if ((step != tapStep_ && tapStep_ != kEveryStep) || !tap_ || !report.whole) return;
+  tap_(static_cast<std::uint32_t>(step));
   runner_->forgetState();
 }
 

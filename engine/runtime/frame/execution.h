@@ -91,8 +91,9 @@ class Execution {
   // Sets the tap: `look` is called right after `step` in every frame, also when the step was skipped, while the results of
   // the step are still in their storage (later steps may put other resources there). `look` may read, copy and draw into
   // textures of its own; it does not change the plan or what runs. There is one tap at a time, and none in a new
-  // execution. An empty function removes it.
-  void tap(std::uint32_t step, std::function<void()> look);
+  // execution. An empty function removes it. kEveryStep: it is called after each step, with its number.
+  static constexpr std::uint32_t kEveryStep = graph::kNone - 1;
+  void tap(std::uint32_t step, std::function<void(std::uint32_t step)> look);
   bool tapped() const { return tapStep_ != graph::kNone; }
   bool ran(std::string_view pass) const;                                        // in the last frame
   SliceRange slices(std::size_t step) const { return cadence_->slices(step); }  // of a step that ran in it
@@ -148,7 +149,7 @@ class Execution {
   std::vector<std::uint8_t> lasting_;    // per step: runs in an obsolete frame too
   std::vector<scene::MeshView*> views_;  // of passes that draw meshes in this round
   std::size_t tapStep_ = graph::kNone;
-  std::function<void()> tap_;
+  std::function<void(std::uint32_t)> tap_;
 };
 
 }  // namespace weft::runtime

@@ -33,7 +33,7 @@ BufferRef Execution::buffer(std::uint32_t r, std::uint64_t& offset, std::uint32_
   return {resource.buffers[resource.copyOf(history)], resource.bytes};
 }
 
-void Execution::tap(std::uint32_t step, std::function<void()> look) {
+void Execution::tap(std::uint32_t step, std::function<void(std::uint32_t)> look) {
   tapStep_ = look ? std::size_t{step} : std::size_t{kNone};
   tap_ = std::move(look);
 }

@@ -14,11 +14,19 @@
 
 namespace weft::runtime {
 
-std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder) {
-  const std::filesystem::path folder = std::filesystem::path(graphPath).parent_path();
+std::vector<std::string> shaderRootsOf(const std::string& graphPath, std::span<const std::string> presets,
+                                       const std::string& dataFolder) {
+  std::vector<std::filesystem::path> candidates;
+  const auto addBeside = [&](const std::string& file) {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    candidates.push_back(folder / "shaders");
+    candidates.push_back(folder / ".." / "shaders");
+  };
+  addBeside(graphPath);
+  for (const std::string& preset : presets) addBeside(preset);
+  candidates.push_back(std::filesystem::path(dataFolder) / "shaders");
   std::vector<std::string> roots;
-  for (const std::filesystem::path& candidate :
-       {folder / "shaders", folder / ".." / "shaders", std::filesystem::path(dataFolder) / "shaders"}) {
+  for (const std::filesystem::path& candidate : candidates) {
     std::error_code ignored;
     const std::string text = candidate.lexically_normal().string();
     if (base::mayRead(text) && std::filesystem::is_directory(candidate, ignored) &&
@@ -31,8 +39,8 @@ std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::
 Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
     : graphPath_(graphPath),
       options_(std::move(options)),
-      device_(context, shaderRootsOf(graphPath, options_.dataFolder), options_.cacheFolder, options_.trial,
-              options_.plugIns) {}
+      device_(context, shaderRootsOf(graphPath, options_.presets, options_.dataFolder), options_.cacheFolder,
+              options_.trial, options_.plugIns) {}
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
   base::Diagnostics said;
@@ -127,7 +135,7 @@ const Renderer::StandIn* Renderer::prepareStandIn(const std::string& name, const
           : nullptr;
   StandIn made{.path = path, .device = nullptr, .execution = nullptr};
   if (flat && !said.hasErrors()) {
-    made.device = std::make_unique<Device>(device_.context, shaderRootsOf(path, options_.dataFolder),
+    made.device = std::make_unique<Device>(device_.context, shaderRootsOf(path, {}, options_.dataFolder),
                                            options_.cacheFolder, options_.trial, options_.plugIns);
     made.execution =
         Execution::create(*made.device, std::make_shared<const graph::Plan>(graph::compile(flat)), nullptr,

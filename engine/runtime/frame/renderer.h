@@ -15,8 +15,9 @@
 
 namespace weft::runtime {
 
-// Where a graph's shaders are looked for: beside it, beside its folder, then the bundled ones.
-std::vector<std::string> shaderRootsOf(const std::string& graphPath, const std::string& dataFolder);
+// Where a graph's shaders are looked for: beside it, beside its folder, the same of each preset, then the bundled ones.
+std::vector<std::string> shaderRootsOf(const std::string& graphPath, std::span<const std::string> presets,
+                                       const std::string& dataFolder);
 
 // 8 bits of a picture, as readPresented8() gives them: clamped to 0 and 1, NaN becomes 0, alpha that is not there 1.
 assets::Image8 toBytes(const assets::ImageF& picture);

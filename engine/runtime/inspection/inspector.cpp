@@ -1,11 +1,7 @@
 #include "engine/runtime/inspection/inspector.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "engine/runtime/frame/gl_state.h"
 
@@ -38,22 +34,7 @@ bool writes(const graph::Plan& plan, std::uint32_t pass, std::uint32_t resource)
   return false;
 }
 
-std::string numberText(double x) {
-  if (std::isnan(x)) return "nan";
-  return fmt::format("{}", static_cast<float>(x));
-}
-
 }  // namespace
-
-std::string InspectTexel::text() const {
-  std::string out;
-  for (std::uint32_t c = 0; c < channels; ++c) {
-    const bool whole = kind == gl::FormatClass::unsigned_integer || kind == gl::FormatClass::signed_integer;
-    out += (c ? ", " : "") +
-           (whole ? fmt::format("{}", static_cast<std::int64_t>(value[c])) : numberText(value[c]));
-  }
-  return out;
-}
 
 std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint32_t resource) {
   std::vector<std::string> names;
@@ -65,19 +46,32 @@ std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint
 bool Inspector::watch(Execution& execution, const InspectTarget& target) {
   if (execution_ == &execution && execution.tapped() && target == target_) return true;
   release(execution);
+  const std::uint32_t step = aim(execution, target);
+  if (step == kNone) return false;
+  execution.tap(step, [this](std::uint32_t) { copy(); });
+  return true;
+}
+
+bool Inspector::look(Execution& execution, const InspectTarget& target) {
+  if (aim(execution, target) == kNone) return false;
+  copy();
+  return hasPicture_ || hasBuffer_;
+}
+
+std::uint32_t Inspector::aim(Execution& execution, const InspectTarget& target) {
   const graph::Plan& plan = execution.plan();
   const graph::FlatGraph& graph = *plan.graph;
   const auto named = std::ranges::find(graph.resourceNames, target.resource);
-  if (named == graph.resourceNames.end() || plan.steps.empty()) return false;
+  if (named == graph.resourceNames.end() || plan.steps.empty()) return kNone;
   const auto resource = static_cast<std::uint32_t>(named - graph.resourceNames.begin());
   const graph::FlatResource& desc = graph.resources[resource];
-  if (desc.kind == graph::ResourceKind::imported_buffer || plan.firstStep[resource] == kNone) return false;
+  if (desc.kind == graph::ResourceKind::imported_buffer || plan.firstStep[resource] == kNone) return kNone;
   std::uint32_t step = kNone;
   for (std::uint32_t s = 0; s < plan.steps.size(); ++s) {
     const std::uint32_t pass = plan.steps[s].pass;
     if (target.pass.empty() ? writes(plan, pass, resource) : graph.passNames[pass] == target.pass) step = s;
   }
-  if (step == kNone && !target.pass.empty()) return false;
+  if (step == kNone && !target.pass.empty()) return kNone;
   // Nobody writes it: an import, or version zero alone.
   if (step == kNone)
     step = std::min(plan.firstStep[resource], static_cast<std::uint32_t>(plan.steps.size() - 1));
@@ -92,8 +86,7 @@ bool Inspector::watch(Execution& execution, const InspectTarget& target) {
   history_ = std::min<std::uint32_t>(target.history, desc.history);
   stencil_ = target.stencil && graph::hasStencil(desc.format);
   hasPicture_ = hasBuffer_ = false;
-  execution.tap(step, [this] { copy(); });
-  return true;
+  return step;
 }
 
 void Inspector::release(Execution& execution) {
@@ -251,93 +244,6 @@ GLuint Inspector::draw(const InspectView& view, std::uint32_t width, std::uint32
   glDrawArrays(GL_TRIANGLES, 0, 3);
   releaseBindings();
   return canvas_.id();
-}
-
-std::optional<InspectTexel> Inspector::texel(std::uint32_t x, std::uint32_t y) const {
-  if (!hasPicture_ || x >= picture_.desc().width || y >= picture_.desc().height) return std::nullopt;
-  InspectTexel out;
-  out.kind = gl::classOf(picture_.desc().format);
-  out.channels = channels_;
-  const auto get = [&](GLenum format, GLenum type, GLsizei bytes, void* to) {
-    glGetTextureSubImage(picture_.id(), 0, static_cast<GLint>(x), static_cast<GLint>(y), 0, 1, 1, 1, format,
-                         type, bytes, to);
-  };
-  const auto keep = [&](const auto& values) {
-    for (std::uint32_t c = 0; c < out.channels && c < 4; ++c) out.value[c] = static_cast<double>(values[c]);
-  };
-  if (out.kind == gl::FormatClass::depth || out.kind == gl::FormatClass::depth_stencil) {
-    out.channels = 1;
-    if (stencil_) {
-      struct {
-        float depth;
-        std::uint32_t stencil;
-      } both{};
-      std::uint32_t packed = 0;
-      const bool wide = picture_.desc().format == GL_DEPTH32F_STENCIL8;
-      if (wide)
-        get(GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, sizeof both, &both);
-      else
-        get(GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, sizeof packed, &packed);
-      out.kind = gl::FormatClass::unsigned_integer;
-      out.value[0] = (wide ? both.stencil : packed) & 0xff;
-    } else {
-      float depth = 0;
-      get(GL_DEPTH_COMPONENT, GL_FLOAT, sizeof depth, &depth);
-      out.value[0] = depth;
-    }
-  } else if (out.kind == gl::FormatClass::unsigned_integer) {
-    std::uint32_t values[4] = {};
-    get(GL_RGBA_INTEGER, GL_UNSIGNED_INT, sizeof values, values);
-    keep(values);
-  } else if (out.kind == gl::FormatClass::signed_integer) {
-    std::int32_t values[4] = {};
-    get(GL_RGBA_INTEGER, GL_INT, sizeof values, values);
-    keep(values);
-  } else {
-    float values[4] = {};
-    get(GL_RGBA, GL_FLOAT, sizeof values, values);
-    keep(values);
-  }
-  return out;
-}
-
-std::optional<InspectStatistics> Inspector::measure() const {
-  if (!hasPicture_ || stencil_) return std::nullopt;
-  const std::vector<float> texels = gl::readFloats(picture_.ref());
-  const std::size_t stride = gl::floatChannelsOf(picture_.desc().format),
-                    channels = std::min<std::size_t>(stride, channels_);
-  InspectStatistics out;
-  out.low.fill(std::numeric_limits<double>::infinity());
-  out.high.fill(-std::numeric_limits<double>::infinity());
-  std::array<std::uint64_t, 4> finite{};
-  for (std::size_t i = 0; i < texels.size(); i += stride) {
-    bool nan = false, infinite = false;
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double x = texels[i + c];
-      nan |= std::isnan(x);
-      infinite |= std::isinf(x);
-      if (!std::isfinite(x)) continue;
-      out.low[c] = std::min(out.low[c], x);
-      out.high[c] = std::max(out.high[c], x);
-      out.mean[c] += x;
-      ++finite[c];
-    }
-    out.nan += nan;
-    out.infinite += infinite;
-    ++out.texels;
-  }
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (finite[c])
-      out.mean[c] /= static_cast<double>(finite[c]);
-    else
-      out.low[c] = out.high[c] = 0;
-  }
-  return out;
-}
-
-std::vector<std::byte> Inspector::bytes(std::uint64_t offset, std::uint64_t count) const {
-  if (!hasBuffer_ || offset >= buffer_.bytes()) return {};
-  return gl::readBuffer(buffer_.id(), offset, std::min(count, buffer_.bytes() - offset));
 }
 
 }  // namespace weft::runtime

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/assets/images/image.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/runtime/frame/execution.h"
 
@@ -60,6 +61,8 @@ class Inspector {
 
   // Before each frame of `execution`: taps it for `target`. False when the target is not there; nothing is tapped then.
   bool watch(Execution& execution, const InspectTarget& target);
+  // Within another tap of `execution`: copies `target`, as it is now, at once. False when it is not there.
+  bool look(Execution& execution, const InspectTarget& target);
   void release(Execution& execution);
   // Passes that write a resource, in order of steps: where it may be looked at.
   static std::vector<std::string> writersOf(const graph::Plan& plan, std::uint32_t resource);
@@ -72,12 +75,22 @@ class Inspector {
   // Draws it into a texture of that size, rgba8, which stays this object's. 0 after an error or without a picture.
   GLuint draw(const InspectView& view, std::uint32_t width, std::uint32_t height,
               base::Diagnostics& diagnostics);
+  // How `target` is shown at first: what holds linear light goes through the sRGB curve.
+  static InspectView viewOf(const graph::FlatResource& resource);
+  // The same, over the range of what is there where 0 to 1 says little: of depth and of whole numbers. Waits for the GPU.
+  InspectView fittedView() const;
+  // draw() of every texel, a pixel each, top row first; and the values as they are stored, of 1 to 4 channels (whole numbers
+  // above 2^24 are rounded). Both wait for the GPU.
+  std::optional<assets::Image8> drawWhole(const InspectView& view, base::Diagnostics& diagnostics);
+  std::optional<assets::ImageF> values() const;
   // Waits for the GPU. Row 0 is the bottom one.
   std::optional<InspectTexel> texel(std::uint32_t x, std::uint32_t y) const;
   std::optional<InspectStatistics> measure() const;
   std::vector<std::byte> bytes(std::uint64_t offset, std::uint64_t count) const;
 
  private:
+  // Takes `target` for what to look at; the step after which, or kNone when it is not there.
+  std::uint32_t aim(Execution& execution, const InspectTarget& target);
   void copy();
   bool prepareTexture(const gl::TextureRef& from, const graph::FlatResource& desc);
   bool prepareBuffer(std::uint64_t bytes);

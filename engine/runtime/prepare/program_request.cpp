@@ -84,8 +84,11 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
     case ShaderShape::none:
       return request;
     case ShaderShape::fragment:
-      request.stages = {{GL_VERTEX_SHADER, "fullscreen.vert.glsl", kFullscreenVertex},
-                        {GL_FRAGMENT_SHADER, spec.shader, ""}};
+      if (spec.vertexShader.empty())
+        request.stages = {{GL_VERTEX_SHADER, "fullscreen.vert.glsl", kFullscreenVertex}};
+      else
+        request.stages = {{GL_VERTEX_SHADER, spec.vertexShader, ""}};
+      request.stages.push_back({GL_FRAGMENT_SHADER, spec.shader, ""});
       break;
     case ShaderShape::compute:
       request.stages = {{GL_COMPUTE_SHADER, spec.shader, ""}};

@@ -27,3 +27,25 @@ TEST_CASE("progress says what the frames before the first picture are for") {
   CHECK(progressText({.done = 4, .total = 4, .seconds = 8}) ==
         "[########################################] 4/4 frames in 8.0 s");
 }
+
+TEST_CASE(
+    "a terminal has the bar after each frame; a file or a pipe has a line now and then, without control "
+    "codes") {
+  ProgressLines bar(true), lines(false);
+  std::string written;
+  std::size_t count = 0;
+  for (std::uint64_t done = 1; done <= 100; ++done) {
+    const Progress progress{.done = done, .total = 100, .seconds = 0.5 * static_cast<double>(done)};
+    const std::string drawn = bar.after(progress);
+    CHECK(drawn.starts_with("\r["));
+    CHECK(drawn.ends_with('\n') == (done == 100));
+    const std::string line = lines.after(progress);
+    count += !line.empty();
+    written += line;
+  }
+  CHECK(count == 5);  // at 10, 20, 30 and 40 seconds, and at the end
+  CHECK(written ==
+        "20/100 frames, 40 s left\n40/100 frames, 30 s left\n60/100 frames, 20 s left\n80/100 frames, 10 s "
+        "left\n"
+        "100/100 frames in 50 s\n");
+}

@@ -260,7 +260,7 @@ TEST_CASE("values that do not fit are reported where they stand") {
   CHECK(only(R"({ "set": { "gain": [1, "x"] } })") == "W003 1:20");
   CHECK(only(R"({ "set": 3 })") == "W003 1:10");
   CHECK(only(R"([])") == "W003 1:1");
-  CHECK(only(R"({ "extends": "base.json" })") == "W019 1:14");
+  CHECK(only(R"({ "extends": "parts/post.json" })") == "W019 1:14");
   CHECK(only(R"({ "passes": [ { "name": "sohw", "enabled": false } ] })") == "W016 1:25");
   CHECK(expandFile(folder.file("base.json"), {folder.file("none.json")}).has(Code::unreadableFile));
 }
@@ -329,6 +329,65 @@ TEST_CASE("circles of extends and include end") {
   folder.write("b.json", R"({ "passes": [ { "include": "c.json" } ] })");
   folder.write("c.json", R"({ "extends": "a.json", "resources": { "r": { "size": 3 } } })");
   for (const char* name : {"a.json", "b.json", "c.json"}) CHECK(!wrong(folder.file(name)).empty());
+}
+
+TEST_CASE("a list of extends: a graph, then overlays in their order, then the file itself; the last wins") {
+  const Folder folder;
+  folder.write(
+      "looks/warm.json",
+      R"({ "name": "warm", "set": { "gain": 2, "tint": 0.25 }, "resources": { "ldr": { "texture": "rgba16f" } } })");
+  folder.write("looks/grain.json", R"({ "extends": "warm.json", "set": { "gain": 3 },
+    "passes": [ { "after": "show", "name": "grain", "type": "fullscreen", "shader": "n.frag.glsl", "read": { "source": "ldr" },
+                  "write": { "result": "ldr" } } ] })");
+  const Expanded e = fine(folder.write(
+      "all.json",
+      R"({ "extends": ["base.json", "looks/warm.json", "looks/grain.json"], "set": { "strength": 0.5 } })"));
+  CHECK(e.names() == "fill post.bloom.spread post.composite show grain");
+  CHECK(e.graph->name == "all");
+  CHECK(valueOf(e, "gain") == "3");
+  CHECK(valueOf(e, "fill.tint") == "0.25");
+  CHECK(valueOf(e, "post.composite.strength") == "0.5");
+  CHECK(std::vector<std::string>(e.graph->files.begin(), e.graph->files.begin() + 4) ==
+        std::vector<std::string>{folder.file("all.json"), folder.file("base.json"),
+                                 folder.file("looks/warm.json"), folder.file("looks/grain.json")});
+  // The other order: the one that extends warm.json brings it below itself, and then it lies on top once more.
+  CHECK(valueOf(fine(folder.write("turned.json",
+                                  R"({ "extends": ["base.json", "looks/grain.json", "looks/warm.json"] })")),
+                "gain") == "2");
+  CHECK(fine(folder.write("alone.json", R"({ "extends": ["base.json"] })")).names() ==
+        "fill post.bloom.spread post.composite show");
+}
+
+TEST_CASE("a preset lays what it extends below itself, also where that is an overlay of the graph") {
+  const Folder folder;
+  const std::string warm = folder.write("warm.json", R"({ "set": { "gain": 2, "tint": 0.25 } })");
+  const std::string warmer =
+      folder.write("warmer.json", R"({ "extends": "warm.json", "set": { "gain": 4 } })");
+  const Expanded e = fine(folder.file("base.json"), {warmer});
+  CHECK(valueOf(e, "gain") == "4");
+  CHECK(valueOf(e, "fill.tint") == "0.25");
+  CHECK(e.graph->name == "base");
+  CHECK(std::ranges::find(e.graph->files, warm) != e.graph->files.end());
+  for (const ParameterSpec& spec : e.graph->parameters)
+    if (spec.path == "fill.tint") CHECK(spec.origin == Origin::preset);
+  const std::string own =
+      folder.write("own.json", R"({ "extends": ["base.json", "warm.json"], "set": { "gain": 5 } })");
+  CHECK(valueOf(fine(folder.file("base.json"), {own}), "gain") == "5");
+  CHECK(valueOf(fine(own, {own}), "gain") == "5");
+}
+
+TEST_CASE("a list of extends that cannot be has its place: two graphs, a circle, what is no path") {
+  const Folder folder;
+  const auto over = [&](const char* text) { return wrong(folder.write("over.json", text)); };
+  CHECK(over(R"({ "extends": ["base.json", "parts/post.json"] })") == "W019 over.json 1:28");
+  CHECK(over(R"({ "extends": ["base.json", "over.json"] })") == "W015 over.json 1:28");
+  CHECK(over(R"({ "extends": ["base.json", 3] })") == "W003 over.json 1:28");
+  CHECK(over(R"({ "extends": [] })") == "W003 over.json 1:14");
+  CHECK(over(R"({ "extends": ["base.json", "none.json"] })") == "W001 over.json 1:28");
+  folder.write("a.json", R"({ "extends": "b.json" })");
+  folder.write("b.json", R"({ "extends": "a.json" })");
+  CHECK(over(R"({ "extends": ["base.json", "a.json"] })") == "W015 b.json 1:14");
+  CHECK(wrong(folder.file("base.json"), {folder.file("a.json")}) == "W015 b.json 1:14");
 }
 
 TEST_CASE("the papers' overlays read and expand") {

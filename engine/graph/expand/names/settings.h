@@ -10,6 +10,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/language/value.h"
+#include "engine/graph/pick/pick.h"
 
 namespace weft::graph {
 
@@ -38,6 +39,7 @@ struct Settings {
   bool software = false;        // device.software
   std::vector<Setting> sets{};  // in order: the last wins
   std::vector<Disable> disables{};
+  std::vector<Pick> kept{};  // to be looked at: what writes them is live
 };
 
 // How diagnostics call them: "--set bloom=yes" and "--disable fxaa" as on the command line, "the value 9 set here for

@@ -1,0 +1,115 @@
+// weft dump: what each pass wrote, of the resources that patterns name, into a folder.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/session/device_session.h"
+#include "app/session/output_files.h"
+#include "app/session/pick_outputs.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "engine/base/files/file.h"
+#include "engine/graph/language/suffix.h"
+#include "engine/graph/pick/find_pick.h"
+#include "engine/runtime/inspection/capture.h"
+
+namespace weft::app {
+
+namespace {
+
+// Without what a shell or a file system takes in another way: "hdr#2" is "hdr-2", "down[3]" is "down-3".
+std::string plainWord(const std::string& name) {
+  std::string out;
+  for (const char c : name)
+    if (c == '#' || c == '[')
+      out += '-';
+    else if (c == ',')
+      out += '_';
+    else if (c != ']' && c != '@')
+      out += c;
+  return out;
+}
+
+// "007_glow_down-1.mip1": steps sort as they ran.
+std::string fileNameOf(const runtime::CaptureItem& item, const graph::Plan& plan) {
+  const graph::FlatGraph& graph = *plan.graph;
+  const auto at = std::ranges::find(graph.resourceNames, item.target.resource) - graph.resourceNames.begin();
+  const graph::FlatResource& resource = graph.resources[static_cast<std::size_t>(at)];
+  const std::size_t digits = std::max<std::size_t>(2, std::to_string(plan.steps.size()).size());
+  std::string name = fmt::format("{:0{}}_{}_{}", item.step, digits, plainWord(item.target.resource),
+                                 plainWord(item.target.pass));
+  if (resource.mips > 1) name += fmt::format(".mip{}", item.target.mip);
+  if (resource.layers > 1 || resource.depth > 1) name += fmt::format(".layer{}", item.target.layer);
+  return name + (item.target.stencil ? ".stencil" : "");
+}
+
+void reportNoMatch(const graph::Plan& plan, const std::vector<std::string>& patterns,
+                   base::Diagnostics& diagnostics) {
+  const graph::FlatGraph& graph = *plan.graph;
+  std::vector<std::string> names;
+  for (const std::string& name : graph.resourceNames) names.emplace_back(graph::sharedName(name));
+  for (const std::string& pattern : patterns) {
+    if (!runtime::captureItems(plan, {&pattern, 1}).empty()) continue;
+    diagnostics
+        .error(base::Code::unknownResource, graph::placeOfOption(pattern),
+               fmt::format("no pass that runs writes a resource '{}'", pattern))
+        .hint = graph::suffixHint(pattern, names);
+  }
+}
+
+}  // namespace
+
+int runDump(const Options& options) {
+  base::Diagnostics diagnostics;
+  auto world = loadWorld(options, diagnostics);
+  if (!world || diagnostics.hasErrors()) {
+    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+    return report(diagnostics);
+  }
+  auto session = openDevice(options, diagnostics);
+  if (!session) {
+    makePlan(options, world->facts(), true, diagnostics);
+    report(diagnostics);
+    return 3;
+  }
+  runtime::Renderer& renderer = session->renderer;
+  if (!renderer.load(settingsOf(options, session->context->device().software), *world, diagnostics))
+    return report(diagnostics);
+  runtime::Execution& execution = *renderer.execution();
+  const graph::Plan& plan = execution.plan();
+  reportNoMatch(plan, options.patterns, diagnostics);
+  const std::string folder = options.output + "/";
+  if (diagnostics.hasErrors() || !makeFolderOf(folder + "picture", diagnostics)) return report(diagnostics);
+
+  runtime::Capture capture(renderer.device());
+  const std::vector<runtime::CaptureItem> items = runtime::captureItems(plan, options.patterns);
+  std::vector<std::string> names(items.size());
+  const std::uint32_t begin = execution.remembers(*world) ? 0 : options.lastFrame;
+  for (std::uint32_t frame = begin; frame <= options.lastFrame && !diagnostics.hasErrors(); ++frame) {
+    base::Diagnostics said;
+    if (frame == options.lastFrame)
+      capture.start(execution, items, [&](std::size_t item, runtime::Inspector& inspector) {
+        const std::string path = folder + fileNameOf(items[item], plan);
+        if (inspector.picture().id == 0) {
+          const std::vector<std::byte> bytes = inspector.bytes(0, inspector.bufferBytes());
+          base::writeFile(path + ".bin", {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, said);
+          names[item] = path + ".bin";
+          return;
+        }
+        saveInspected(inspector, path + ".png", said);
+        if (saveInspected(inspector, path + ".exr", said)) names[item] = path + ".png";
+      });
+    renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
+    diagnostics.append(said);
+    session->context->debugLog().drain(diagnostics);
+  }
+  capture.stop(execution);
+  for (std::size_t i = 0; i < items.size() && !options.quiet; ++i)
+    if (!names[i].empty())
+      print(fmt::format("{}  {} after {}\n", names[i], items[i].target.resource, items[i].target.pass));
+  return report(diagnostics, !options.quiet);
+}
+
+}  // namespace weft::app

@@ -1,0 +1,78 @@
+#include "app/session/option_checks.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "engine/base/files/file_access.h"
+#include "engine/base/limits.h"
+
+namespace weft::app {
+
+bool parseNumber(const std::string& text, std::uint32_t& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b) {
+  const std::size_t at = text.find(separator);
+  return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
+}
+
+std::string checkSize(const std::string& text) {
+  std::uint32_t width = 0, height = 0;
+  const bool good =
+      parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= 16384 && height <= 16384;
+  return good ? "" : "expected WIDTHxHEIGHT, each from 1 to 16384, found '" + text + "'";
+}
+
+CLI::Validator numberFrom(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    const bool good = error == std::errc{} && end == text.data() + text.size() && x >= low && x <= high;
+    return good ? "" : fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
+  };
+  return {check, fmt::format("{} to {}", low, high)};
+}
+
+std::string checkFrames(const std::string& text) {
+  std::uint32_t first = 0, last = 0;
+  const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
+                                                        : parsePair(text, ':', first, last) && first <= last;
+  return good ? ""
+              : "expected FRAME or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to 4294967295, found "
+                "'" +
+                    text + "'";
+}
+
+std::string checkFrame(const std::string& text) {
+  std::uint32_t frame = 0;
+  return parseNumber(text, frame) ? "" : fmt::format("expected a frame number, found '{}'", text);
+}
+
+std::string checkCount(const std::string& text) {
+  std::uint32_t count = 0;
+  return parseNumber(text, count)
+             ? ""
+             : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
+}
+
+// Sets the limit, for this process.
+std::string takeLimit(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) return "expected NAME=VALUE, found '" + text + "'";
+  return base::setLimit(text.substr(0, at), text.substr(at + 1)).value_or("");
+}
+
+// Confines reading, for this process.
+std::string takeConfinement(const std::string& folder) {
+  return base::confineTo(folder).value_or("");
+}
+
+std::string checkSet(const std::string& text) {
+  const std::size_t at = text.find('=');
+  return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
+}
+
+}  // namespace weft::app

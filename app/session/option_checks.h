@@ -1,0 +1,26 @@
+// Values on the command line: what each has to look like. A check gives "" or what is wrong, for CLI11. Does not: know options.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+namespace weft::app {
+
+// False when `text` is no whole number, or no two with `separator` between them.
+bool parseNumber(const std::string& text, std::uint32_t& out);
+bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b);
+
+std::string checkSize(const std::string& text);    // "640x360"
+std::string checkFrames(const std::string& text);  // "7" or "0:59"
+std::string checkFrame(const std::string& text);
+std::string checkCount(const std::string& text);
+std::string checkSet(const std::string& text);  // "NAME=VALUE"
+// A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
+CLI::Validator numberFrom(double low, double high);
+
+// Set a limit (NAME=VALUE), and confine reading to a folder, for this process.
+std::string takeLimit(const std::string& text);
+std::string takeConfinement(const std::string& folder);
+
+}  // namespace weft::app

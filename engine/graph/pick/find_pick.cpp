@@ -1,0 +1,145 @@
+#include "engine/graph/pick/find_pick.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/language/suffix.h"
+
+namespace weft::graph {
+
+namespace {
+
+using base::Code;
+
+base::Diagnostic& complain(base::Diagnostics& diagnostics, Code code, const Pick& pick, std::string message) {
+  const std::string where = "command line: " + pick.option + (pick.option.empty() ? "" : " ") + pick.text;
+  base::Diagnostic& d =
+      diagnostics.error(code, {std::make_shared<const std::string>(where), 0, 0}, std::move(message));
+  d.resource = pick.name;
+  return d;
+}
+
+// Which version of its name a resource is, from 1.
+std::uint32_t versionOf(std::string_view resourceName) {
+  const std::size_t at = resourceName.find('#');
+  std::uint32_t version = 1;
+  if (at != std::string_view::npos)
+    version = static_cast<std::uint32_t>(std::stoul(std::string(resourceName.substr(at + 1))));
+  return version;
+}
+
+bool writesResource(const FlatGraph& graph, std::uint32_t pass, std::uint32_t resource) {
+  const FlatPass& flat = graph.passes[pass];
+  for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u)
+    if (graph.uses[u].resource == resource && graph.uses[u].access != Access::read) return true;
+  return false;
+}
+
+std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
+  std::vector<std::string> names;  // each once
+  for (const std::string& name : graph.resourceNames)
+    if (const std::string shared(sharedName(name)); std::ranges::find(names, shared) == names.end())
+      names.push_back(shared);
+  const std::vector<std::size_t> matches = suffixMatches(names, pick.name);
+  if (matches.size() != 1) {
+    auto& d =
+        complain(diagnostics, matches.empty() ? Code::unknownResource : Code::ambiguousName, pick,
+                 matches.empty() ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
+                                 : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()));
+    if (matches.empty())
+      d.hint = suffixHint(pick.name, names);
+    else
+      d.hint = fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
+    return kNone;
+  }
+  std::uint32_t found = kNone, last = 0;
+  for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
+    if (sharedName(graph.resourceNames[r]) != names[matches[0]]) continue;
+    const std::uint32_t version = versionOf(graph.resourceNames[r]);
+    if (pick.version == 0 ? version > last : version == pick.version) found = r;
+    last = std::max(last, version);
+  }
+  if (found == kNone) {
+    auto& d = complain(diagnostics, Code::missingSubresource, pick,
+                       fmt::format("'{}' has no version {}", pick.name, pick.version));
+    d.expected = fmt::format("#1 to #{}", last);
+    d.found = fmt::format("#{}", pick.version);
+  }
+  return found;
+}
+
+bool checkParts(const FlatResource& resource, const Pick& pick, base::Diagnostics& diagnostics) {
+  const auto within = [&](const char* what, std::uint32_t value, std::uint32_t count, Code code) {
+    if (value < count) return true;
+    auto& d = complain(diagnostics, code, pick, fmt::format("'{}' has no {} {}", pick.name, what, value));
+    d.expected = count == 1 ? fmt::format("only {} 0", what) : fmt::format("{} 0 to {}", what, count - 1);
+    return false;
+  };
+  const std::uint32_t slices = resource.target == Target::texture_3d
+                                   ? std::max(1u, resource.depth >> std::min<std::uint32_t>(pick.mip, 31))
+                                   : resource.layers;
+  if (!within("level", pick.mip, resource.mips, Code::missingSubresource) ||
+      !within("layer", pick.layer, slices, Code::missingSubresource))
+    return false;
+  if (pick.history > resource.history) {
+    auto& d = complain(diagnostics, Code::noHistory, pick,
+                       fmt::format("'{}' keeps {} of its publications", pick.name,
+                                   resource.history == 0 ? "none" : std::to_string(resource.history)));
+    d.hint = fmt::format("write \"history\": {} into its declaration", pick.history);
+    return false;
+  }
+  if (pick.stencil && !hasStencil(resource.format)) {
+    complain(diagnostics, Code::badSelector, pick, fmt::format("'{}' has no stencil", pick.name)).found =
+        infoOf(resource.format).name;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string_view sharedName(std::string_view resourceName) {
+  return resourceName.substr(0, resourceName.find('#'));
+}
+
+std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
+  const std::uint32_t resource = findVersion(graph, pick, diagnostics);
+  if (resource == kNone || !checkParts(graph.resources[resource], pick, diagnostics)) return std::nullopt;
+  if (pick.pass.empty()) return FoundPick{resource, kNone};
+  std::vector<std::string> writers;
+  std::vector<std::uint32_t> passes;
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
+    if (writesResource(graph, p, resource)) {
+      writers.push_back(graph.passNames[p]);
+      passes.push_back(p);
+    }
+  const std::vector<std::size_t> matches = suffixMatches(writers, pick.pass);
+  if (matches.size() == 1) return FoundPick{resource, passes[matches[0]]};
+  auto& d = complain(
+      diagnostics, matches.empty() ? Code::unknownPass : Code::ambiguousName, pick,
+      fmt::format("{} '{}' that writes '{}'", matches.empty() ? "there is no pass" : "more than one pass is",
+                  pick.pass, graph.resourceNames[resource]));
+  for (const std::string& writer : writers) d.expected += (d.expected.empty() ? "" : ", ") + writer;
+  return std::nullopt;
+}
+
+void keepPicks(FlatGraph& graph, std::span<const Pick> picks, base::Diagnostics& diagnostics) {
+  for (const Pick& pick : picks) {
+    const std::optional<FoundPick> found = findPick(graph, pick, diagnostics);
+    if (!found) continue;
+    for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+      FlatPass& pass = graph.passes[p];
+      for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+        FlatUse& use = graph.uses[u];
+        if (use.resource != found->resource || use.access == Access::read) continue;
+        use.keep = true;
+        pass.sideEffect = true;
+      }
+    }
+  }
+}
+
+}  // namespace weft::graph

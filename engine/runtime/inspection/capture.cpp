@@ -1,0 +1,126 @@
+#include "engine/runtime/inspection/capture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "engine/graph/pick/find_pick.h"
+
+namespace weft::runtime {
+
+namespace {
+
+bool isWanted(std::string_view resource, std::span<const std::string> patterns) {
+  const auto fits = [](std::string_view pattern, std::string_view name) {
+    for (;;) {  // the name and each suffix of it
+      if (graph::matchesPattern(pattern, name)) return true;
+      const std::size_t dot = name.find('.');
+      if (dot == std::string_view::npos) return false;
+      name.remove_prefix(dot + 1);
+    }
+  };
+  return std::ranges::any_of(patterns, [&](const std::string& pattern) {
+    return fits(pattern, pattern.find('#') == std::string::npos ? graph::sharedName(resource) : resource);
+  });
+}
+
+std::uint32_t slicesOf(const graph::FlatResource& resource, std::uint32_t mip) {
+  return resource.target == graph::Target::texture_3d ? std::max(1u, resource.depth >> mip) : resource.layers;
+}
+
+}  // namespace
+
+std::vector<CaptureItem> captureItems(const graph::Plan& plan, std::span<const std::string> patterns) {
+  const graph::FlatGraph& graph = *plan.graph;
+  std::vector<CaptureItem> items;
+  for (std::uint32_t step = 0; step < plan.steps.size(); ++step) {
+    const std::uint32_t p = plan.steps[step].pass;
+    const graph::FlatPass& pass = graph.passes[p];
+    const auto begin = static_cast<std::ptrdiff_t>(items.size());
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const graph::FlatUse& use = graph.uses[u];
+      if (use.access == graph::Access::read || !plan.attached[u] ||
+          !isWanted(graph.resourceNames[use.resource], patterns))
+        continue;
+      const graph::FlatResource& resource = graph.resources[use.resource];
+      const bool buffer = resource.kind == graph::ResourceKind::buffer;
+      const auto add = [&](std::uint32_t mip, std::uint32_t layer, bool stencil) {
+        const CaptureItem item{step,
+                               {.resource = graph.resourceNames[use.resource],
+                                .pass = graph.passNames[p],
+                                .mip = mip,
+                                .layer = layer,
+                                .stencil = stencil}};
+        if (std::find(items.begin() + begin, items.end(), item) == items.end()) items.push_back(item);
+      };
+      if (buffer) {
+        add(0, 0, false);
+        continue;
+      }
+      const bool volume = resource.target == graph::Target::texture_3d;
+      for (std::uint32_t mip = use.mip; mip < std::uint32_t{use.mip} + use.mips; ++mip) {
+        const std::uint32_t first = volume ? 0 : use.layer,
+                            count = volume ? slicesOf(resource, mip) : use.layers;
+        for (std::uint32_t layer = first; layer < first + count; ++layer) {
+          if (!graph::hasStencil(resource.format) || (use.planes & 1)) add(mip, layer, false);
+          if (graph::hasStencil(resource.format) && (use.planes & 2)) add(mip, layer, true);
+        }
+      }
+    }
+  }
+  return items;
+}
+
+std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::Pick& pick,
+                                         base::Diagnostics& diagnostics) {
+  const graph::FlatGraph& graph = *plan.graph;
+  const auto found = graph::findPick(graph, pick, diagnostics);
+  if (!found) return std::nullopt;
+  std::uint32_t last = graph::kNone;
+  for (std::uint32_t step = 0; step < plan.steps.size(); ++step) {
+    const std::uint32_t p = plan.steps[step].pass;
+    const graph::FlatPass& pass = graph.passes[p];
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u)
+      if (graph.uses[u].resource == found->resource && graph.uses[u].access != graph::Access::read &&
+          plan.attached[u] && (found->pass == graph::kNone || found->pass == p))
+        last = step;
+  }
+  // Nobody writes it: an import, or version zero alone.
+  if (last == graph::kNone && found->pass == graph::kNone && plan.firstStep[found->resource] != graph::kNone)
+    last = std::min(plan.firstStep[found->resource], static_cast<std::uint32_t>(plan.steps.size() - 1));
+  const bool table = graph.resources[found->resource].kind == graph::ResourceKind::imported_buffer;
+  if (last == graph::kNone || table) {
+    base::Diagnostic& d = diagnostics.error(
+        base::Code::presentsUnwritten,
+        {std::make_shared<const std::string>("command line: " + pick.option + " " + pick.text), 0, 0},
+        table ? fmt::format("'{}' is a table of the scene and no texture", pick.name)
+              : fmt::format("no pass that runs touches '{}'", pick.name));
+    d.resource = graph.resourceNames[found->resource];
+    return std::nullopt;
+  }
+  return CaptureItem{last,
+                     {.resource = graph.resourceNames[found->resource],
+                      .pass = found->pass == graph::kNone ? "" : graph.passNames[found->pass],
+                      .mip = pick.mip,
+                      .layer = pick.layer,
+                      .history = pick.history,
+                      .stencil = pick.stencil}};
+}
+
+void Capture::start(Execution& execution, std::vector<CaptureItem> items, Visit visit) {
+  items_ = std::move(items);
+  visit_ = std::move(visit);
+  execution.tap(Execution::kEveryStep, [this, &execution](std::uint32_t step) {
+    for (std::size_t i = 0; i < items_.size(); ++i)
+      if (items_[i].step == step && inspector_.look(execution, items_[i].target)) visit_(i, inspector_);
+  });
+}
+
+void Capture::stop(Execution& execution) {
+  execution.tap(0, {});
+  visit_ = {};
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Presets of a user's own: which folder a name is found in, that `weft presets` lists them, that they bring their shaders, and that a graph
+may extend several files.
+
+    own_presets.py WEFT
+"""
+import json
+import os
+import pathlib
+import sys
+
+from pictures import read_exr
+from program import Report, run, temporary_folder
+
+GRAPH = """{ "parameters": { "level": { "default": 0.25 } },
+  "resources": { "ldr": { "texture": "rgba32f", "size": [2, 2] } },
+  "passes": [ { "name": "fill", "type": "fullscreen", "shader": "fill.frag.glsl", "write": { "result": "ldr" }, "parameters": { "level": "$level" } } ],
+  "present": "ldr" }
+"""
+FILL = "layout(std140) uniform Parameters { float level; };\nout vec4 result;\nvoid main() { result = vec4(level); }\n"
+NEGATE = "uniform sampler2D source;\nout vec4 result;\nvoid main() { result = 1.0 - texelFetch(source, ivec2(gl_FragCoord.xy), 0); }\n"
+STANZA = """{ "after": "fill", "name": "negate", "type": "fullscreen", "shader": "negate.frag.glsl", "read": { "source": "ldr" }, "write": { "result": "ldr" } }"""
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+
+        def write(path, text):
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_text(text)
+            return folder / path
+
+        graph = write("graphs/g.json", GRAPH)
+        write("graphs/shaders/fill.frag.glsl", FILL)
+        write("user/weft/presets/dim.json", '{ "description": "of the user", "set": { "level": 0.125 } }')
+        write("user/weft/presets/cinema.json", '{ "description": "hides the bundled one", "set": { "level": 0.5 } }')
+        write("mine/dim.json", '{ "description": "of the folder", "set": { "level": 0.0625 } }')
+        write("mine/negative.json", f'{{ "extends": "dim.json", "passes": [ {STANZA} ] }}')
+        write("mine/shaders/negate.frag.glsl", NEGATE)
+        environment = {**os.environ, "XDG_CONFIG_HOME": str(folder / "user")}
+
+        def shows(value, label, *arguments, of=graph):
+            for command in ("check", "render"):
+                output = ["-o", folder / "out.exr"] if command == "render" else []
+                ran = run(weft, command, of, *output, *arguments, env=environment)
+                if not report.check(ran.code == 0 and not ran.err, f"{label}: {command} {ran.code} {ran.err}"):
+                    return
+            got = read_exr((folder / "out.exr").read_bytes())[0][0][0]
+            report.check(got == value, f"{label}: {got} instead of {value}")
+
+        shows(0.25, "without a preset")
+        shows(0.125, "a name in the user's folder", "--preset", "dim")
+        shows(0.0625, "a name in the folder of the option", "--preset-folder", folder / "mine", "--preset", "dim")
+        shows(0.5, "a user's preset before a bundled one", "--preset", "cinema")
+        shows(0.9375, "a preset that extends another and brings its shader", "--preset-folder", folder / "mine", "--preset", "negative")
+        shows(0.9375, "the same by its path", "--preset", folder / "mine/negative.json")
+        shows(0.875, "later presets win", "--preset", folder / "mine/negative.json", "--preset", "dim")
+        several = write("graphs/several.json", '{ "extends": ["g.json", "../user/weft/presets/dim.json", "../mine/dim.json"] }')
+        shows(0.0625, "a graph that extends several files", of=several)
+        listed = run(weft, "presets", "--json", "--preset-folder", folder / "mine", env=environment)
+        found = {each["name"]: each["description"] for each in json.loads(listed.out)}
+        report.check(found.get("dim") == "of the folder" and found.get("cinema") == "hides the bundled one" and "negative" in found and "evening" in found,
+                     f"the list of presets: {found}")
+        missing = run(weft, "check", graph, "--preset", "cinma", env=environment)
+        report.check(missing.code == 1 and missing.codes() == ["W001"] and "cinema" in missing.err, f"a name that nobody has: {missing.err}")
+    report.end()
+
+
+main()
