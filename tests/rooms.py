@@ -68,7 +68,8 @@ SUB_ROOMS = {
         "ui": {"session", "live"},
         "view": {"session", "live", "ui"},
         "bench": {"session", "live"},
-        "commands": {"session", "bench"},
+        "trials": {"session"},
+        "commands": {"session", "bench", "trials"},
         ".": {"session", "commands", "view", "bench"},
     },
 }

@@ -4,12 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <sstream>
 
+#include "app/session/option_parts.h"
 #include "app/session/session.h"
 #include "app/session/standard_streams.h"
+#include "app/session/trial_options.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/limits.h"
 #include "engine/base/nearest.h"
@@ -18,44 +19,6 @@
 namespace weft::app {
 
 namespace {
-
-bool parseNumber(const std::string& text, std::uint32_t& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
-bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b) {
-  const std::size_t at = text.find(separator);
-  return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
-}
-
-std::string checkSize(const std::string& text) {
-  std::uint32_t width = 0, height = 0;
-  const bool good =
-      parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= 16384 && height <= 16384;
-  return good ? "" : "expected WIDTHxHEIGHT, each from 1 to 16384, found '" + text + "'";
-}
-
-// A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
-CLI::Validator numberFrom(double low, double high) {
-  const auto check = [low, high](const std::string& text) -> std::string {
-    double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    const bool good = error == std::errc{} && end == text.data() + text.size() && x >= low && x <= high;
-    return good ? "" : fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
-  };
-  return {check, fmt::format("{} to {}", low, high)};
-}
-
-std::string checkFrames(const std::string& text) {
-  std::uint32_t first = 0, last = 0;
-  const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
-                                                        : parsePair(text, ':', first, last) && first <= last;
-  return good ? ""
-              : "expected FRAME or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to 4294967295, found "
-                "'" +
-                    text + "'";
-}
 
 std::string checkCount(const std::string& text) {
   std::uint32_t count = 0;
@@ -79,27 +42,15 @@ std::string takeConfinement(const std::string& folder) {
 // What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
 void chooseFiles(const Options& options) {
   for (const std::string* file : {&options.graph, &options.otherGraph, &options.scene, &options.environment,
-                                  &options.materials, &options.frameGraph})
+                                  &options.materials, &options.frameGraph, &options.trial.folder})
     base::chooseFile(*file);
   for (const std::string& preset : options.presets) base::chooseFile(preset);
+  for (const std::string& preset : options.trial.otherPresets) base::chooseFile(preset);
   for (const std::string& workload : options.workloads) base::chooseFile(workload);
   for (const std::string& file : options.files) base::chooseFile(file);
   for (const graph::Setting& set : options.sets) base::chooseFile(set.text);  // where the parameter is a file
   for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
     base::allowFolder(dataFolder() + "/" + folder);
-}
-
-std::string checkSet(const std::string& text) {
-  const std::size_t at = text.find('=');
-  return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
-}
-
-// A preset that is no file is the name of a bundled one, also of one that is not there: the message has the nearest.
-std::string presetFile(const std::string& preset) {
-  std::error_code ignored;
-  const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
-  return name && !std::filesystem::exists(preset, ignored) ? presetsFolder() + "/" + preset + ".json"
-                                                           : preset;
 }
 
 // As messages print what files say.
@@ -136,50 +87,13 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
   return code;
 }
 
-struct Raw {
-  std::string size = "1280x720", frames = "0";
-  std::vector<std::string> sets, limits, folders;
-};
-
 constexpr const char* kWaitForAssets = "--wait-for-assets";
-
-// Returns that of the graph's file.
-CLI::Option* addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
-  CLI::Option* graph = command.add_option("graph", options.graph, "graph file (JSON)")->required();
-  command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
-  command.add_option("--camera", options.camera, "camera of the scene to look through (default: its first)");
-  command.add_option("--materials", options.materials,
-                     "material library for the scene's grid, instead of the one it names");
-  command.add_option("--environment", options.environment,
-                     "environment map, .hdr or .exr; for view also a folder of them");
-  command.add_option("--size", raw.size, "size of the screen in pixels")
-      ->check(CLI::Validator(checkSize, "WxH"));
-  command.add_option(
-      "--preset", options.presets,
-      "lay an overlay over the graph: a file, or the name of one in graphs/presets; repeatable");
-  command.add_option("--disable", options.disables,
-                     "disable a pass (any unique suffix of its name); repeatable");
-  command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
-      ->check(CLI::Validator(checkSet, "NAME=VALUE"));
-  return graph;
-}
-
-void addDeviceOptions(CLI::App& command, Options& options) {
-  command.add_option("--backend", options.backend, "where OpenGL comes from")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
-  command.add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'");
-  command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
-  command.add_option("--trace", options.trace,
-                     "write a Chrome trace of the frames, for ui.perfetto.dev (measures each pass)");
-  command.add_flag("--profile", options.profile,
-                   "measure each pass (slower: waits for the GPU after every pass on software)");
-}
 
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   Options options;
-  Raw raw;
+  RawOptions raw;
   CLI::App app("Weft: a frame is a JSON file", "weft");
   app.require_subcommand(1);
   const auto asJson = [&options] { options.format = "json"; };
@@ -314,6 +228,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   format->add_flag("--check", options.checkOnly,
                    "write nothing; exit 1 and name the first line that differs");
 
+  addTrialCommands(app, options, raw);
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 
@@ -355,10 +270,9 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     options.lastFrame = options.firstFrame;
   }
   for (std::string& preset : options.presets) preset = presetFile(preset);
-  for (const std::string& set : raw.sets) {
-    const std::size_t at = set.find('=');
-    options.sets.emplace_back(set.substr(0, at), set.substr(at + 1));
-  }
+  options.sets = settingsFrom(raw.sets);
+  options.trial.otherSets = settingsFrom(raw.otherSets);
+  for (std::string& preset : options.trial.otherPresets) preset = presetFile(preset);
   chooseFiles(options);
   return options;
 }

@@ -28,6 +28,13 @@ std::string presetsFolder() {
   return dataFolder() + "/graphs/presets";
 }
 
+std::string presetFile(const std::string& preset) {
+  std::error_code ignored;
+  const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
+  return name && !std::filesystem::exists(preset, ignored) ? presetsFolder() + "/" + preset + ".json"
+                                                           : preset;
+}
+
 runtime::WorldFacts factsWithoutWorld() {
   runtime::WorldFacts facts;
   for (const std::string& list : scene::drawListNames()) facts.lists.push_back({list, 0});

@@ -22,6 +22,10 @@ std::string dataFolder();
 // The folder of the bundled presets, in it.
 std::string presetsFolder();
 
+// The file of a preset. A word that is no file is the name of a bundled one, also of one that is not there: the message has the
+// nearest.
+std::string presetFile(const std::string& preset);
+
 graph::Settings settingsOf(const Options& options, bool software);
 
 // Path of the scene file: the one the options name, or the bundled one.
