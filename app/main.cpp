@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
       {"expand", runExpand}, {"diff", runDiff},     {"params", runParams}, {"presets", runPresets},
       {"dot", runDot},       {"plan", runPlan},     {"bench", runBench},   {"schema", runSchema},
       {"types", runTypes},   {"format", runFormat}, {"lsp", runLsp},       {"completion", runCompletion},
-      {"man", runMan},       {"dump", runDump},
+      {"man", runMan},       {"dump", runDump},     {"test", runTest},     {"bisect", runBisect},
+      {"ablate", runAblate}, {"fuzz", runFuzz},     {"new", runNew},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));

@@ -73,7 +73,8 @@ SUB_ROOMS = {
         "lsp/files": {"session", "lsp/text"},
         "lsp/answers": {"session", "lsp/text", "lsp/files"},
         "lsp": {"session", "lsp/text", "lsp/files", "lsp/answers"},
-        "commands": {"session", "bench"},
+        "trials": {"session"},
+        "commands": {"session", "bench", "trials"},
         ".": {"session", "commands", "view", "bench", "lsp"},
     },
 }

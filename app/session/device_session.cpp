@@ -24,7 +24,7 @@ std::string cacheFolderOf(const Options& options) {
 
 }  // namespace
 
-std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics) {
+std::unique_ptr<gl::Context> openContext(const Options& options, base::Diagnostics& diagnostics) {
   const bool window = options.command == "view";
   gl::ContextOptions wanted;
   wanted.backend = gl::findBackend(options.backend).value_or(gl::Backend::automatic);
@@ -35,15 +35,22 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
   wanted.height = options.height;
   wanted.visible = window;
   wanted.vsync = options.vsync;
-  auto context = gl::createContext(wanted, diagnostics);
+  return gl::createContext(wanted, diagnostics);
+}
+
+runtime::Renderer::Options rendererOptionsOf(const Options& options) {
+  return {.dataFolder = dataFolder(),
+          .cacheFolder = cacheFolderOf(options),
+          .trial = {"/proc/self/exe"},
+          .presets = options.presets};
+}
+
+std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics) {
+  auto context = openContext(options, diagnostics);
   if (!context) return nullptr;
   gl::Context& current = *context;
-  return std::unique_ptr<DeviceSession>(
-      new DeviceSession{std::move(context), runtime::Renderer(current, options.graph,
-                                                              {.dataFolder = dataFolder(),
-                                                               .cacheFolder = cacheFolderOf(options),
-                                                               .trial = {"/proc/self/exe"},
-                                                               .presets = options.presets})});
+  return std::unique_ptr<DeviceSession>(new DeviceSession{
+      std::move(context), runtime::Renderer(current, options.graph, rendererOptionsOf(options))});
 }
 
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {

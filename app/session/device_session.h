@@ -16,6 +16,10 @@ struct DeviceSession {
   runtime::Renderer renderer;
 };
 
+// A context alone, and what a renderer on it takes from the options.
+std::unique_ptr<gl::Context> openContext(const Options& options, base::Diagnostics& diagnostics);
+runtime::Renderer::Options rendererOptionsOf(const Options& options);
+
 // Headless unless options.command is "view". Null after errors.
 std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics);
 

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "app/session/option_checks.h"
+#include "app/session/option_parts.h"
 #include "app/session/session.h"
 #include "app/session/standard_streams.h"
+#include "app/session/trial_options.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/nearest.h"
 #include "engine/base/printable.h"
@@ -22,27 +24,15 @@ namespace {
 // What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
 void chooseFiles(const Options& options) {
   for (const std::string* file : {&options.graph, &options.otherGraph, &options.scene, &options.environment,
-                                  &options.materials, &options.frameGraph})
+                                  &options.materials, &options.frameGraph, &options.trial.folder})
     base::chooseFile(*file);
   for (const std::string& preset : options.presets) base::chooseFile(preset);
+  for (const std::string& preset : options.trial.otherPresets) base::chooseFile(preset);
   for (const std::string& workload : options.workloads) base::chooseFile(workload);
   for (const std::string& file : options.files) base::chooseFile(file);
   for (const graph::Setting& set : options.sets) base::chooseFile(set.text);  // where the parameter is a file
   for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
     base::allowFolder(dataFolder() + "/" + folder);
-}
-
-// A preset that is no file is a name in one of the folders; of one that is in none, the message has the nearest bundled one.
-std::string presetFile(const std::string& preset, const std::string& own) {
-  std::error_code ignored;
-  const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
-  if (!name || std::filesystem::exists(preset, ignored)) return preset;
-  std::string file;
-  for (const std::string& folder : presetFolders(own)) {
-    file = folder + "/" + preset + ".json";
-    if (std::filesystem::exists(file, ignored)) break;
-  }
-  return file;
 }
 
 // As messages print what files say.
@@ -79,14 +69,8 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
   return code;
 }
 
-struct Raw {
-  std::string size = "1280x720", frames = "0";
-  std::vector<std::string> sets, limits, folders, outputs;
-  std::string present;
-};
-
 // `-o FILE`, `-o NAME=FILE` and `--present NAME`. What is wrong with them, or nothing.
-std::string takeOutputs(const Raw& raw, Options& options) {
+std::string takeOutputs(const RawOptions& raw, Options& options) {
   for (const std::string& text : raw.outputs) {
     const std::size_t at = text.find('=');
     std::optional<graph::Pick> pick;
@@ -113,48 +97,13 @@ std::string takeOutputs(const Raw& raw, Options& options) {
   return {};
 }
 
-constexpr const char* kPresetFolderHelp =
-    "look for the names of presets here first, then in ~/.config/weft/presets, then in graphs/presets";
 constexpr const char* kWaitForAssets = "--wait-for-assets";
-
-// Returns that of the graph's file.
-CLI::Option* addGraphOptions(CLI::App& command, Options& options, Raw& raw) {
-  CLI::Option* graph = command.add_option("graph", options.graph, "graph file (JSON)")->required();
-  command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
-  command.add_option("--camera", options.camera, "camera of the scene to look through (default: its first)");
-  command.add_option("--materials", options.materials,
-                     "material library for the scene's grid, instead of the one it names");
-  command.add_option("--environment", options.environment,
-                     "environment map, .hdr or .exr; for view also a folder of them");
-  command.add_option("--size", raw.size, "size of the screen in pixels")
-      ->check(CLI::Validator(checkSize, "WxH"));
-  command.add_option(
-      "--preset", options.presets,
-      "lay an overlay over the graph: a file, or the name of one that 'weft presets' lists; repeatable");
-  command.add_option("--preset-folder", options.presetFolder, kPresetFolderHelp);
-  command.add_option("--disable", options.disables,
-                     "disable a pass (any unique suffix of its name); repeatable");
-  command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
-      ->check(CLI::Validator(checkSet, "NAME=VALUE"));
-  return graph;
-}
-
-void addDeviceOptions(CLI::App& command, Options& options) {
-  command.add_option("--backend", options.backend, "where OpenGL comes from")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
-  command.add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'");
-  command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
-  command.add_option("--trace", options.trace,
-                     "write a Chrome trace of the frames, for ui.perfetto.dev (measures each pass)");
-  command.add_flag("--profile", options.profile,
-                   "measure each pass (slower: waits for the GPU after every pass on software)");
-}
 
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   Options options;
-  Raw raw;
+  RawOptions raw;
   CLI::App app("Weft: a frame is a JSON file", "weft");
   app.require_subcommand(1);
   const auto asJson = [&options] { options.format = "json"; };
@@ -329,6 +278,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   completion->footer("Example: source <(weft completion bash)");
   app.add_subcommand("man", "print the manual page")->footer("Example: weft man | man -l -");
 
+  addTrialCommands(app, options, raw);
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 
@@ -377,10 +327,9 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     return std::nullopt;
   }
   for (std::string& preset : options.presets) preset = presetFile(preset, options.presetFolder);
-  for (const std::string& set : raw.sets) {
-    const std::size_t at = set.find('=');
-    options.sets.emplace_back(set.substr(0, at), set.substr(at + 1));
-  }
+  options.sets = settingsFrom(raw.sets);
+  options.trial.otherSets = settingsFrom(raw.otherSets);
+  for (std::string& preset : options.trial.otherPresets) preset = presetFile(preset, options.presetFolder);
   chooseFiles(options);
   return options;
 }

@@ -21,6 +21,20 @@ struct PickedOutput {
   std::string file;  // or a pattern, as -o
 };
 
+// Of the commands that try variations of a graph: test, bisect, ablate, fuzz, new.
+struct TrialOptions {
+  std::string folder;                                    // test: cases; new: where to write
+  bool accept = false;                                   // test: write goldens
+  std::vector<std::string> only;                         // test: names of cases
+  std::string report;                                    // test: page of failures
+  std::vector<graph::Setting> otherSets;                 // bisect: of the second graph alone
+  std::vector<std::string> otherDisables, otherPresets;  // bisect
+  std::uint32_t runs = 12;                               // fuzz: random orders
+  std::optional<std::uint32_t> seed;                     // fuzz: this order alone; 0 is the declared one
+  std::string order, share = "both", poison = "both";    // fuzz
+  std::uint32_t repeats = 3;                             // ablate: frames of which the fastest counts
+};
+
 struct Options {
   std::string command;  // "render", "view", "check", "dot", "plan", "params", "presets", "bench", …
   std::string graph;    // path of the graph file
@@ -66,7 +80,8 @@ struct Options {
   double renderScale = 1,
          uiScale = 0;   // view: pixels of the scene per pixel of the window; 0: as the screen says
   bool events = false;  // view: says what happens, for scripts
-  std::string record;   // view: pattern of a recording from the first frame on; empty: none
+  TrialOptions trial;
+  std::string record;  // view: pattern of a recording from the first frame on; empty: none
 };
 
 // Empty, with `exitCode` set, when the program should end (help, a wrong argument); the text is printed by then.

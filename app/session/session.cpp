@@ -41,6 +41,18 @@ std::vector<std::string> presetFolders(const std::string& own) {
   return folders;
 }
 
+std::string presetFile(const std::string& preset, const std::string& own) {
+  std::error_code ignored;
+  const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
+  if (!name || std::filesystem::exists(preset, ignored)) return preset;
+  std::string file;
+  for (const std::string& folder : presetFolders(own)) {
+    file = folder + "/" + preset + ".json";
+    if (std::filesystem::exists(file, ignored)) break;
+  }
+  return file;
+}
+
 runtime::WorldFacts factsWithoutWorld() {
   runtime::WorldFacts facts;
   for (const std::string& list : scene::drawListNames()) facts.lists.push_back({list, 0});

@@ -2,6 +2,7 @@
 //   weft_compare ACTUAL EXPECTED STEP FRACTION [DIFFERENCE.png]   exit 0 when at most FRACTION of the pixels have a channel
 //                                                                 that differs, and none by more than STEP (of 255)
 //   weft_compare --describe FILE                                  width, height, mean and standard deviation of the colours
+//   weft_compare --flip REFERENCE TEST PIXELS_PER_DEGREE          the FLIP error of each pixel, a line each
 #include "engine/assets/images/compare.h"
 
 #include <cmath>
@@ -10,9 +11,23 @@
 #include <string>
 #include <vector>
 
+#include "engine/assets/images/flip.h"
+
 using namespace weft;
 
 namespace {
+
+int printFlip(const std::string& reference, const std::string& test, double density) {
+  base::Diagnostics diagnostics;
+  const auto a = assets::loadImage8(reference, 3, diagnostics), b = assets::loadImage8(test, 3, diagnostics);
+  if (!a || !b) {
+    std::fputs(diagnostics.text().c_str(), stderr);
+    return 2;
+  }
+  const assets::FlipMap map = assets::computeFlip(*a, *b, density);
+  for (const float error : map.errors) std::printf("%.9g\n", static_cast<double>(error));
+  return map.errors.empty() ? 1 : 0;
+}
 
 int describe(const std::string& path) {
   base::Diagnostics diagnostics;
@@ -37,6 +52,8 @@ int describe(const std::string& path) {
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() == 2 && arguments[0] == "--describe") return describe(arguments[1]);
+  if (arguments.size() == 4 && arguments[0] == "--flip")
+    return printFlip(arguments[1], arguments[2], std::atof(arguments[3].c_str()));
   if (arguments.size() < 4) return 2;
   base::Diagnostics diagnostics;
   const auto actual = assets::loadImage8(arguments[0], 4, diagnostics);

@@ -1,14 +1,9 @@
 #!/usr/bin/env python3
-"""Golden pictures and plans of manifest.json, rendered anew and compared with the committed files.
+"""Weft's own goldens, by `weft test`, and what it does not look at: files without a case, their size, and the example of the vignette, which is
+one stanza and one GLSL file more than graphs/glow.json.
 
-    golden.py WEFT COMPARE OUT            compare; exit 1 when something moved, with what was made left in OUT
-    golden.py WEFT COMPARE OUT --update   write the goldens: the only thing that does
-
-Pictures may differ by `tolerance.step` of 255 in `tolerance.fraction` of their pixels, so that another build of Mesa
-passes; on one build they are equal to the byte. Plans are text and must be equal.
-Also holds the proof of the vignette example: one stanza and one GLSL file more than graphs/glow.json.
+    golden.py WEFT OUT      exit 1 when something moved, with a page, the pictures and their differences left in OUT
 """
-import difflib
 import json
 import pathlib
 import re
@@ -17,65 +12,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
-
-
-def command(weft, verb, entry):
-    line = [weft, verb, entry["graph"], "--size", entry["size"]]
-    for name, value in entry.get("sets", {}).items():
-        line += ["--set", f"{name}={value}"]
-    for name in entry.get("disables", []):
-        line += ["--disable", name]
-    for name in entry.get("presets", []):
-        line += ["--preset", name]
-    if entry.get("scene"):
-        line += ["--scene", entry["scene"]]
-    if entry.get("camera"):
-        line += ["--camera", entry["camera"]]
-    if entry.get("environment"):
-        line += ["--environment", entry["environment"]]
-    return line
-
-
-def execute(line):
-    return subprocess.run(list(map(str, line)), cwd=TOP, capture_output=True, text=True)
-
-
-def check_picture(weft, compare, out, entry, tolerance, update):
-    golden, actual = HERE / entry["image"], out / entry["image"]
-    made = HERE / entry["image"] if update else actual
-    made.unlink(missing_ok=True)
-    done = execute([*command(weft, "render", entry), "--frames", entry["frame"], "--quiet", "--program-cache", out / "programs", "-o", made])
-    if done.returncode or done.stderr:
-        return f"exit code {done.returncode}\n{done.stderr}"
-    if update:
-        return None
-    if not golden.exists():
-        return f"there is no {golden}: look at {actual}, then run golden.py with --update"
-    difference = out / ("difference_" + entry["image"])
-    allowed = entry.get("tolerance", tolerance)
-    found = execute([compare, actual, golden, allowed["step"], allowed["fraction"], difference])
-    if found.returncode:
-        return f"{found.stdout}{found.stderr}actual: {actual}\ndifference, 16 times as bright: {difference}"
-    for leftover in (actual, difference):
-        leftover.unlink(missing_ok=True)
-    return None
-
-
-def check_plan(weft, out, entry, update):
-    golden, actual = HERE / entry["text"], out / entry["text"]
-    done = execute(command(weft, "plan", entry))
-    if done.returncode:
-        return f"exit code {done.returncode}\n{done.stderr}"
-    if update:
-        golden.write_text(done.stdout)
-        return None
-    expected = golden.read_text() if golden.exists() else ""
-    if done.stdout == expected:
-        actual.unlink(missing_ok=True)
-        return None
-    actual.write_text(done.stdout)
-    lines = difflib.unified_diff(expected.splitlines(), done.stdout.splitlines(), str(golden), str(actual), lineterm="")
-    return "\n".join(list(lines)[:60])
+MOST_BYTES = 1_500_000
 
 
 def read_graph(path):
@@ -101,32 +38,27 @@ def check_vignette():
     return None
 
 
-def main():
-    weft, compare, out = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
-    update = "--update" in sys.argv[4:]
-    out.mkdir(parents=True, exist_ok=True)
-    manifest = json.loads((HERE / "manifest.json").read_text())
-    failures = []
-
-    def say(name, problem):
-        print(f"{'FAILED' if problem else 'written' if update else 'ok':8}{name}", flush=True)
-        if problem:
-            print(problem)
-            failures.append(name)
-
-    say("vignette.json is one stanza and one GLSL file", check_vignette())
-    for entry in manifest["plans"]:
-        say(entry["text"], check_plan(weft, out, entry, update))
-    for entry in manifest["pictures"]:
-        say(entry["image"], check_picture(weft, compare, out, entry, manifest["tolerance"], update))
-    named = {e["image"] for e in manifest["pictures"]} | {e["text"] for e in manifest["plans"]}
-    stray = sorted(f.name for f in HERE.iterdir() if f.suffix in (".png", ".txt") and f.name not in named | {"CMakeLists.txt"})
-    if stray:
-        say("no files without an entry: " + ", ".join(stray), "remove them or give them entries")
+def check_files(cases):
+    """Every golden has a case, every case its golden and its record."""
+    expected = {f"{case['name']}.txt" for case in cases if case.get("plan")}
+    expected |= {f"{case['name']}{suffix}" for case in cases if not case.get("plan") for suffix in (".png", ".passes")}
+    there = {f.name for f in HERE.iterdir() if f.suffix in (".png", ".txt", ".passes")} - {"CMakeLists.txt"}
     size = sum(f.stat().st_size for f in HERE.rglob("*") if f.is_file())
-    if size > 1_500_000:
-        say("size", f"{size} bytes of goldens: above 1.5 MB")
-    sys.exit(1 if failures else 0)
+    problems = [f"{name}: no case has it" for name in sorted(there - expected)] + [f"{name} is not there" for name in sorted(expected - there)]
+    if size > MOST_BYTES:
+        problems.append(f"{size} bytes of goldens: above {MOST_BYTES}")
+    return "\n".join(problems)
 
 
-main()
+def main():
+    weft, out = sys.argv[1], pathlib.Path(sys.argv[2])
+    cases = json.loads((HERE / "goldens.cases.json").read_text())["cases"]
+    problems = [problem for problem in (check_vignette(), check_files(cases)) if problem]
+    done = subprocess.run([weft, "test", "tests/golden", "--program-cache", out / "programs", "-o", out, "--report", out / "report.html"], cwd=TOP)
+    if done.returncode:
+        problems.append(f"weft test: exit code {done.returncode}; look at {out}/report.html")
+    print("\n".join(f"FAILED: {problem}" for problem in problems) or "every golden has a case; the vignette is one stanza and one GLSL file")
+    return 1 if problems else 0
+
+
+sys.exit(main())

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <memory>
 
+#include "engine/assets/images/encode_png.h"
 #include "engine/assets/images/image_check.h"
 #include "engine/assets/images/image_codecs.h"
 #include "engine/base/files/file.h"
@@ -197,12 +198,8 @@ std::optional<std::vector<std::uint16_t>> decodeShorts(std::string_view bytes, c
 
 bool savePng8(const std::string& path, int width, int height, int channels,
               std::span<const std::uint8_t> texels, Diagnostics& diagnostics) {
-  assert(width > 0 && height > 0 && channels >= 1 && channels <= 4);
-  assert(texels.size() == componentCount(width, height, channels));
-  std::string bytes;
-  const int done =
-      stbi_write_png_to_func(appendBytes, &bytes, width, height, channels, texels.data(), width * channels);
-  if (done) return base::writeFile(path, bytes, diagnostics);
+  const std::string bytes = encodePng8(width, height, channels, texels);
+  if (!bytes.empty()) return base::writeFile(path, bytes, diagnostics);
   diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
                     fmt::format("cannot encode '{}' as PNG", path));
   return false;

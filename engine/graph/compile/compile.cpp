@@ -24,7 +24,7 @@ Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& optio
   plan.graph = std::move(graph);
   steps::indexCells(g, scratch);
   findLive(g, scratch.livePass, plan.attached, scratch.stack);
-  steps::orderPasses(g, options.orderSeed, plan, scratch);
+  steps::orderPasses(g, options, plan, scratch);
   plan.groups = formGroups(
       g, [&](std::uint32_t p) { return plan.stepOf[p] != kNone; },
       [&](std::uint32_t u) { return plan.attached[u] != 0; });

@@ -51,7 +51,9 @@ void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
   bool any = false;
   for (std::size_t round = 0; round < plan_->groups.sliced.size(); ++round) {
     if (!cadence_->decideAhead(hashes_, publications_->generations())) break;
+    ahead_ = true;
     runSteps(report, diagnostics);
+    ahead_ = false;
     publications_->publishFinished();
     publications_->viewImports(diagnostics);
     runner_->forgetState();  // an upload may have changed it
@@ -89,11 +91,13 @@ void Execution::runSteps(FrameReport& report, base::Diagnostics& diagnostics) {
     report.whole = report.whole && !(input_.obsolete && input_.obsolete());
     if (runs(step) && (report.whole || lasting_[step])) {
       ran_[step] = 1;
+      look(watch_.before, step);
       runner_->run(step, passes_[step], cadence_->slices(step).begins(), diagnostics);
     } else if (planned.barriersAfterClears) {
       glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
     }
     lookThroughTap(step, report);
+    if (report.whole) look(watch_.after, step);
   }
   cadence_->endFrame(hashes_, publications_->generationsBefore(), publications_->generations());
 }
@@ -117,6 +121,12 @@ void Execution::endFrame(FrameReport& report, base::Diagnostics& diagnostics) {
 void Execution::lookThroughTap(std::size_t step, const FrameReport& report) {
   if ((step != tapStep_ && tapStep_ != kEveryStep) || !tap_ || !report.whole) return;
   tap_(static_cast<std::uint32_t>(step));
+  runner_->forgetState();
+}
+
+void Execution::look(const std::function<void(std::uint32_t step)>& watcher, std::size_t step) {
+  if (!watcher || ahead_) return;
+  watcher(static_cast<std::uint32_t>(step));
   runner_->forgetState();
 }
 

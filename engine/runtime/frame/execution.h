@@ -95,6 +95,13 @@ class Execution {
   static constexpr std::uint32_t kEveryStep = graph::kNone - 1;
   void tap(std::uint32_t step, std::function<void(std::uint32_t step)> look);
   bool tapped() const { return tapStep_ != graph::kNone; }
+  // Sets a watch over every step of a frame, on the terms of a tap: `before` is called right before a step that runs, when its
+  // barriers are issued and its clears are not yet made; `after` right after each step, also when it was skipped. Work that
+  // time-sliced groups do ahead of a headless frame is not watched. An empty watch removes it.
+  struct StepWatch {
+    std::function<void(std::uint32_t step)> before{}, after{};
+  };
+  void watch(StepWatch watch) { watch_ = std::move(watch); }
   bool ran(std::string_view pass) const;                                        // in the last frame
   SliceRange slices(std::size_t step) const { return cadence_->slices(step); }  // of a step that ran in it
 
@@ -126,6 +133,7 @@ class Execution {
   void refreshSlices();
   void lookAtMeshes();
   void lookThroughTap(std::size_t step, const FrameReport& report);
+  void look(const std::function<void(std::uint32_t step)>& watcher, std::size_t step);
   graph::Cadence cadenceOf(std::size_t step) const {
     return plan_->graph->passes[plan_->steps[step].pass].cadence;
   }
@@ -150,6 +158,8 @@ class Execution {
   std::vector<scene::MeshView*> views_;  // of passes that draw meshes in this round
   std::size_t tapStep_ = graph::kNone;
   std::function<void(std::uint32_t)> tap_;
+  StepWatch watch_;
+  bool ahead_ = false;  // a round of runAhead()
 };
 
 }  // namespace weft::runtime

@@ -101,7 +101,7 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
   device_.imports.prepare(*flat);
-  auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
+  auto plan = std::make_shared<const graph::Plan>(graph::compile(flat, options_.compile));
   if (!graph::checkMemory(*plan, diagnostics)) return nullptr;
   ++plansBuilt_;
   if (!prepareStandIns(*flat, world, diagnostics)) return nullptr;

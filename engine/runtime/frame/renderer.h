@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/assets/images/image.h"
+#include "engine/graph/compile/compile.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/runtime/frame/execution.h"
 
@@ -31,6 +32,7 @@ class Renderer {
         trial{};  // starts a process that tries a large shader first (gl::ProgramCache); empty: none
     std::vector<std::string> presets{};  // overlays laid over the graph whenever it is read, in order
     PlugIns plugIns{};                   // pass types and imports that graphs may name
+    graph::CompileOptions compile{};     // another order or storage, for those who test plans
   };
   Renderer(gl::Context& context, const std::string& graphPath, Options options);
 

@@ -1,0 +1,135 @@
+// weft bisect: the first pass whose output differs between two graphs, or two settings of one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/commands/commands.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "app/trials/divergence.h"
+#include "engine/assets/images/flip.h"
+
+namespace weft::app {
+
+namespace {
+
+Options otherOf(const Options& options) {
+  Options other = options;
+  if (!options.otherGraph.empty()) other.graph = options.otherGraph;
+  const TrialOptions& trial = options.trial;
+  other.sets.insert(other.sets.end(), trial.otherSets.begin(), trial.otherSets.end());
+  other.disables.insert(other.disables.end(), trial.otherDisables.begin(), trial.otherDisables.end());
+  other.presets.insert(other.presets.end(), trial.otherPresets.begin(), trial.otherPresets.end());
+  return other;
+}
+
+// "96 of 100 texels differ (96 %), by at most 0.5, on average by 0.2"
+std::string compareTexels(const runtime::WrittenTexels& a, const runtime::WrittenTexels& b) {
+  if (a.values.size() != b.values.size() || a.stride != b.stride || a.width != b.width)
+    return fmt::format("{} texels, {} texels: another size or format", a.values.size() / a.stride,
+                       b.values.size() / b.stride);
+  std::size_t differ = 0, broken = 0;
+  double most = 0, sum = 0;
+  for (std::size_t i = 0; i < a.values.size(); i += a.stride) {
+    bool other = false, odd = false;
+    for (std::size_t c = i; c < i + a.stride; ++c) {
+      const float x = a.values[c], y = b.values[c];
+      if (x == y || (std::isnan(x) && std::isnan(y))) continue;
+      other = true;
+      const double difference = std::abs(static_cast<double>(x) - static_cast<double>(y));
+      odd = odd || !std::isfinite(difference);
+      if (!std::isfinite(difference)) continue;
+      most = std::max(most, difference);
+      sum += difference;
+    }
+    differ += other;
+    broken += odd;
+  }
+  const std::size_t texels = a.values.size() / a.stride;
+  return fmt::format(
+      "{} of {} texels differ ({:.3g} %), by at most {:.4g}, on average by {:.4g}{}", differ, texels,
+      100.0 * static_cast<double>(differ) / static_cast<double>(std::max<std::size_t>(1, texels)), most,
+      sum / static_cast<double>(std::max<std::size_t>(1, a.values.size())),
+      broken ? fmt::format("; {} of them are infinite or no number in one of the two", broken) : "");
+}
+
+std::string countSame(const Shot& shot, const Divergence& found) {
+  std::size_t before = 0, all = 0;
+  bool passed = false;
+  for (const FrameRecord& frame : shot.records)
+    if (frame.frame == found.frame)
+      for (const runtime::StepRecord& step : frame.steps) {
+        passed = passed || (step.pass == found.pass && step.resource == found.resource);
+        before += !passed;
+        ++all;
+      }
+  return fmt::format("{} of {} results come before it and are the same", before, all);
+}
+
+class Bisection {
+ public:
+  Bisection(gl::Context& context, const Options& options, const runtime::World& world)
+      : context_(context), world_(world), sides_{options, otherOf(options)}, frame_(options.lastFrame) {}
+
+  int run(base::Diagnostics& diagnostics) {
+    const auto a = shoot(0, {}, 0, diagnostics);
+    const auto b = a ? shoot(1, {}, 0, diagnostics) : std::nullopt;
+    if (!b) return 2;
+    const std::string& driver = context_.device().driverKey;
+    const auto found = findDivergence({driver, a->records}, {driver, b->records});
+    if (!found) {
+      print(fmt::format("no pass differs in {} frames\n", b->records.size()));
+      return 0;
+    }
+    print(fmt::format("first that differs: {}\n    {}\n", found->text(), countSame(*b, *found)));
+    if (found->kind == Divergence::Kind::differs) tellTexels(*found, diagnostics);
+    tellPictures(a->pictures.at(frame_), b->pictures.at(frame_));
+    return 1;
+  }
+
+ private:
+  std::optional<Shot> shoot(std::size_t side, std::pair<std::string, std::string> keep,
+                            std::uint32_t keepFrame, base::Diagnostics& diagnostics) {
+    return takeShot(
+        context_, sides_[side], world_,
+        {.frames = {frame_}, .records = keep.first.empty(), .keep = std::move(keep), .keepFrame = keepFrame},
+        diagnostics);
+  }
+
+  void tellTexels(const Divergence& found, base::Diagnostics& diagnostics) {
+    const auto a = shoot(0, {found.pass, found.resource}, found.frame, diagnostics);
+    const auto b = shoot(1, {found.pass, found.resource}, found.frame, diagnostics);
+    if (a && b && a->kept && b->kept) print("    " + compareTexels(*a->kept, *b->kept) + "\n");
+  }
+
+  static void tellPictures(const assets::Image8& a, const assets::Image8& b) {
+    const assets::FlipMap map = assets::computeFlip(a, b);
+    const assets::FlipSummary flip = assets::summarizeFlip(map);
+    print(map.errors.empty() ? "pictures: of different sizes\n"
+                             : fmt::format("pictures: FLIP {:.4f}, at most {:.3f} (at {},{})\n", flip.mean,
+                                           flip.peak, flip.x, flip.y));
+  }
+
+  gl::Context& context_;
+  const runtime::World& world_;
+  Options sides_[2];
+  std::uint32_t frame_;
+};
+
+}  // namespace
+
+int runBisect(const Options& options) {
+  base::Diagnostics diagnostics;
+  const auto world = loadWorld(options, diagnostics);
+  const auto context = world ? openContext(options, diagnostics) : nullptr;
+  if (!context) {
+    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+    report(diagnostics);
+    return world ? 3 : 2;
+  }
+  const int code = Bisection(*context, options, *world).run(diagnostics);
+  return report(diagnostics) ? 2 : code;
+}
+
+}  // namespace weft::app

@@ -1,0 +1,156 @@
+// weft fuzz: whatever a plan leaves open, the picture is the same.
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/session/option_parts.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "app/trials/divergence.h"
+#include "app/trials/fuzz.h"
+#include "engine/assets/images/compare.h"
+#include "engine/assets/images/flip.h"
+
+namespace weft::app {
+
+namespace {
+
+class Fuzzer {
+ public:
+  Fuzzer(gl::Context& context, const Options& options, const runtime::World& world)
+      : context_(context), options_(options), world_(world) {}
+
+  // Returns the exit code.
+  int run(base::Diagnostics& diagnostics) {
+    base_ = shoot({}, diagnostics);
+    if (!base_) return 2;
+    const std::vector<FuzzTrial> trials = trialsOf(options_.trial);
+    for (const FuzzTrial& trial : trials) {
+      if (!differs(trial)) {
+        if (!problems_.hasErrors()) continue;
+        diagnostics.append(problems_);
+        return 2;
+      }
+      tell(trial);
+      return 1;
+    }
+    print(fmt::format("{} runs of {} passes in {} orders: every picture is the same\n", trials.size(),
+                      base_->plan->steps.size(), options_.trial.seed ? 1 : options_.trial.runs + 1));
+    return 0;
+  }
+
+ private:
+  static std::vector<FuzzTrial> trialsOf(const TrialOptions& wanted) {
+    std::vector<std::uint32_t> seeds;
+    if (wanted.seed)
+      seeds = {*wanted.seed};
+    else
+      for (std::uint32_t seed = 0; seed <= wanted.runs; ++seed) seeds.push_back(seed);
+    std::vector<bool> shares;
+    if (wanted.share != "off") shares.push_back(true);
+    if (wanted.share != "on") shares.push_back(false);
+    std::vector<std::optional<runtime::PoisonPattern>> poisons;
+    if (wanted.poison == "both")
+      poisons = {runtime::PoisonPattern::nan, runtime::PoisonPattern::large};
+    else
+      poisons = {runtime::findPoison(wanted.poison)};
+    std::uint32_t first = 0, last = ~0u;
+    if (!wanted.order.empty()) parsePair(wanted.order, ':', first, last);
+    return listTrials(seeds, first, last, shares, poisons);
+  }
+
+  std::optional<Shot> shoot(const FuzzTrial& trial, base::Diagnostics& diagnostics) {
+    return takeShot(context_, options_, world_,
+                    {.frames = {options_.lastFrame},
+                     .records = true,
+                     .compile = trial.compileOptions(),
+                     .poison = trial.poison},
+                    diagnostics);
+  }
+
+  const assets::Image8& pictureOf(const Shot& shot) const { return shot.pictures.at(options_.lastFrame); }
+
+  bool differs(const FuzzTrial& trial) {
+    problems_.clear();
+    auto shot = shoot(trial, problems_);
+    if (!shot || pictureOf(*shot).texels == pictureOf(*base_).texels) return false;
+    last_ = std::move(shot);
+    return true;
+  }
+
+  void tell(const FuzzTrial& found) {
+    const FuzzTrial trial = shrinkTrial(found, static_cast<std::uint32_t>(base_->plan->steps.size()),
+                                        [&](const FuzzTrial& smaller) { return differs(smaller); });
+    differs(trial);
+    const assets::Image8 &picture = pictureOf(*last_), &expected = pictureOf(*base_);
+    const assets::Comparison bytes = assets::compareImages(picture, expected);
+    const assets::FlipSummary flip = assets::summarizeFlip(assets::computeFlip(expected, picture));
+    print(fmt::format("a picture differs: {} pixels, by up to {:.0f} of 255 (at {},{}); FLIP {:.4f}\n",
+                      bytes.differingPixels, bytes.maxDifference, bytes.worstX, bytes.worstY, flip.mean));
+    const std::string& driver = context_.device().driverKey;
+    if (const auto first = findDivergence({driver, base_->records}, {driver, last_->records}))
+      print(fmt::format("    first that differs: {}\n", first->text()));
+    print(fmt::format("    found with {}\n", found.arguments()));
+    if (trial.seed != 0) print("    in this order: " + reordered() + "\n");
+    print(fmt::format("    repeat: weft fuzz {} --frame {} {}{}\n", quote(options_.graph), options_.lastFrame,
+                      trial.arguments(), settingsText()));
+  }
+
+  // The passes that do not stand where they are declared.
+  std::string reordered() const {
+    std::string text;
+    const graph::Plan &declared = *base_->plan, &plan = *last_->plan;
+    for (std::size_t step = 0; step < plan.steps.size(); ++step)
+      if (plan.steps[step].pass != declared.steps[step].pass)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", step,
+                            plan.graph->passNames[plan.steps[step].pass]);
+    return text;
+  }
+
+  static std::string quote(const std::string& word) {
+    if (!word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                               "_-./=:,+@%") == std::string::npos)
+      return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+  }
+
+  std::string settingsText() const {
+    std::string text = fmt::format(" --size {}x{}", options_.width, options_.height);
+    const auto add = [&](const char* option, const std::string& value) {
+      if (!value.empty()) text += fmt::format(" {} {}", option, quote(value));
+    };
+    add("--scene", options_.scene);
+    add("--camera", options_.camera);
+    add("--materials", options_.materials);
+    add("--environment", options_.environment);
+    for (const std::string& preset : options_.presets) add("--preset", preset);
+    for (const std::string& pass : options_.disables) add("--disable", pass);
+    for (const graph::Setting& set : options_.sets) add("--set", set.name + "=" + set.text);
+    return text;
+  }
+
+  gl::Context& context_;
+  const Options& options_;
+  const runtime::World& world_;
+  std::optional<Shot> base_, last_;  // the declared plan; the last picture that differed
+  base::Diagnostics problems_;
+};
+
+}  // namespace
+
+int runFuzz(const Options& options) {
+  base::Diagnostics diagnostics;
+  const auto world = loadWorld(options, diagnostics);
+  const auto context = world ? openContext(options, diagnostics) : nullptr;
+  if (!context) {
+    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+    report(diagnostics);
+    return world ? 3 : 2;
+  }
+  const int code = Fuzzer(*context, options, *world).run(diagnostics);
+  return report(diagnostics) ? 2 : code;
+}
+
+}  // namespace weft::app

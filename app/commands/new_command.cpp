@@ -1,0 +1,135 @@
+// weft new pass: a graph with one pass more, and the shader of that pass, both commented.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/session/output_files.h"
+#include "app/session/session.h"
+#include "app/session/standard_streams.h"
+#include "engine/base/files/file.h"
+#include "engine/graph/read/read.h"
+
+namespace weft::app {
+
+namespace {
+
+bool isPassName(const std::string& name) {
+  return !name.empty() && name.size() <= 64 && std::isalpha(static_cast<unsigned char>(name[0])) &&
+         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+// What the new pass stands behind: the last stanza, and the texture that is shown.
+struct Anchor {
+  std::string after, texture;
+};
+
+std::optional<Anchor> findAnchor(const Options& options, const std::string& name,
+                                 base::Diagnostics& diagnostics) {
+  const auto desc = graph::readGraph(options.graph, diagnostics);
+  if (!desc || diagnostics.hasErrors()) return std::nullopt;
+  const base::Place place = {std::make_shared<const std::string>(options.graph), 1, 1};
+  for (const graph::PassDesc& pass : desc->passes)
+    if (pass.name == name) {
+      diagnostics
+          .error(base::Code::duplicateName, pass.namePlace, fmt::format("the graph has a pass '{}'", name))
+          .hint = "give the new pass another name";
+      return std::nullopt;
+    }
+  const auto& present = desc->present;
+  const bool whole =
+      present && !present->mip && !present->layer && !present->face && !present->element && !present->import;
+  if (whole && !desc->passes.empty()) return Anchor{desc->passes.back().name, present->name};
+  base::Diagnostic& d =
+      diagnostics.error(base::Code::presentsNothing, present ? present->place : place,
+                        "the graph presents no whole texture of its own that a pass could change");
+  d.expected = "\"present\": \"<texture>\" and a pass";
+  if (present) d.found = present->text;
+  return std::nullopt;
+}
+
+std::string stanzaText(const std::string& name, const std::string& base, const Anchor& anchor) {
+  return fmt::format(R"({{
+  // An overlay: the graph below with one pass more. Run it with: weft view {0}.json
+  "extends": {1},
+  "passes": [
+    {{ "name": "{0}", "after": "{2}", "type": "fullscreen",
+      // Looked for in the folder "shaders" beside this file.
+      "shader": "{0}/{0}.frag.glsl",
+      // Slots: the name in the shader, then the texture. Reading and writing one texture makes its next version, so that the pass
+      // may be moved or disabled. More textures: "depth": "depth", "mask": "@image", a half-size one: declare it in "resources".
+      "read": {{ "source": "{3}" }},
+      "write": {{ "result": "{3}" }},
+      // Each becomes a uniform of the block Parameters, an option --set {0}.strength=0.5, and a slider in the viewer.
+      "parameters": {{
+        "strength": {{ "type": "float", "default": 1, "min": 0, "max": 1, "label": "Strength of {0}" }}
+      }} }}
+  ]
+}}
+)",
+                     name, nlohmann::json(base).dump(), anchor.after, anchor.texture);
+}
+
+std::string shaderText(const std::string& name) {
+  return fmt::format(R"(// {0}: darkens the picture towards its edges. Replace this by what the pass shall do.
+// read    source    the picture before this pass
+// write   result    the picture after it
+// params  strength  0: nothing changes, 1: the corners are black
+uniform sampler2D source;
+layout(std140) uniform Parameters {{ float strength; }};
+in vec2 uv;  // (0,0) at the lower left, (1,1) at the upper right
+out vec4 result;
+
+void main() {{
+  vec4 color = texelFetch(source, ivec2(gl_FragCoord.xy), 0);
+  vec2 from_center = uv - 0.5;
+  result = vec4(color.rgb * (1.0 - strength * 2.0 * dot(from_center, from_center)), color.a);
+}}
+)",
+                     name);
+}
+
+bool writeNew(const std::string& path, const std::string& text, base::Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) {
+    diagnostics
+        .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(path)},
+               "there is a file of this name")
+        .hint = "remove it, or choose another name or another folder with -o";
+    return false;
+  }
+  return makeFolderOf(path, diagnostics) && base::writeFile(path, text, diagnostics);
+}
+
+}  // namespace
+
+int runNew(const Options& wanted) {
+  namespace fs = std::filesystem;
+  base::Diagnostics diagnostics;
+  Options options = wanted;
+  if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
+  const std::string& name = options.name;
+  if (!isPassName(name)) {
+    base::Diagnostic& d = diagnostics.error(base::Code::notAName, graph::placeOfOption("new pass " + name),
+                                            "this is no name for a pass");
+    d.expected = "a letter, then letters, digits and _";
+    return report(diagnostics);
+  }
+  const auto anchor = findAnchor(options, name, diagnostics);
+  if (!anchor) return report(diagnostics);
+  const fs::path folder = options.trial.folder.empty() ? "." : options.trial.folder;
+  std::error_code failed;
+  const fs::path base = fs::relative(options.graph, folder, failed);
+  const std::string graphFile = (folder / (name + ".json")).lexically_normal().string();
+  const std::string shaderFile =
+      (folder / "shaders" / name / (name + ".frag.glsl")).lexically_normal().string();
+  const std::string extended = failed || base.empty() ? fs::absolute(options.graph).string() : base.string();
+  if (writeNew(graphFile, stanzaText(name, extended, *anchor), diagnostics) &&
+      writeNew(shaderFile, shaderText(name), diagnostics))
+    print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graphFile, shaderFile, graphFile, name));
+  return report(diagnostics);
+}
+
+}  // namespace weft::app

@@ -1,0 +1,259 @@
+#include "app/trials/case_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "app/session/option_parts.h"
+#include "app/session/session.h"
+#include "engine/base/files/file.h"
+#include "engine/base/files/file_access.h"
+#include "engine/base/files/text_file.h"
+#include "engine/base/json/fields.h"
+
+namespace weft::app {
+
+namespace {
+
+using base::Code;
+using base::JsonFields;
+using base::JsonMember;
+using base::JsonValue;
+
+constexpr std::string_view kSuffix = ".cases.json";
+constexpr base::NumberRange kShare{.min = 0, .max = 1};
+constexpr base::NumberRange kStep{.min = 0, .max = 255};
+constexpr base::NumberRange kFrame{.min = 0, .max = 4294967295.0, .whole = true};
+constexpr base::NumberRange kRate{.min = 1, .max = 1000};
+
+bool isCaseName(std::string_view text) {
+  return !text.empty() && text.size() <= 100 &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+}
+
+// As behind --set NAME=.
+std::string settingText(const JsonValue& value) {
+  switch (value.type) {
+    case JsonValue::Type::boolean:
+      return value.flag ? "true" : "false";
+    case JsonValue::Type::number:
+      return fmt::format("{}", value.number);
+    case JsonValue::Type::string:
+      return value.text;
+    case JsonValue::Type::array: {
+      std::string text;
+      for (const JsonValue& item : value.items) text += (text.empty() ? "" : ", ") + settingText(item);
+      return "[" + text + "]";
+    }
+    default:
+      return {};
+  }
+}
+
+class CaseReader {
+ public:
+  CaseReader(const std::string& path, const Options& base, base::Diagnostics& diagnostics)
+      : base_(base), diagnostics_(diagnostics), file_(std::make_shared<const std::string>(path)) {
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    folder_ = parent.empty() ? "" : parent.string() + "/";
+  }
+
+  void read(std::vector<TestCase>& cases) {
+    const auto text = base::readTextFile(*file_, diagnostics_);
+    const auto document = text ? base::parseJson(*text, file_, diagnostics_) : std::nullopt;
+    if (!document) return;
+    JsonFields fields(*document, "the file of cases", Code::outOfRange, diagnostics_);
+    fields.require({"cases"});
+    fields.find("about");
+    TestCase defaults;
+    defaults.options = base_;
+    defaults.folder = folder_;
+    if (const JsonValue* object = fields.object("defaults")) {
+      JsonFields given(*object, "the defaults", Code::outOfRange, diagnostics_);
+      readShared(given, defaults);
+      given.finish();
+    }
+    if (const JsonValue* list = fields.array("cases"))
+      for (const JsonValue& value : list->items) readCase(value, defaults, cases);
+    fields.finish();
+  }
+
+ private:
+  void readCase(const JsonValue& value, const TestCase& defaults, std::vector<TestCase>& cases) {
+    TestCase test = defaults;
+    test.place = value.place;
+    const JsonValue* named = value.find("name");
+    JsonFields fields(value,
+                      named && named->is(JsonValue::Type::string) ? "case '" + named->text + "'" : "a case",
+                      Code::outOfRange, diagnostics_);
+    fields.require({"name", "graph"});
+    if (const auto name = fields.text("name")) readName(*name, fields.find("name")->textPlace(), test);
+    if (const auto graph = fields.text("graph")) test.options.graph = besideCase(fields, "graph", *graph);
+    test.plan = fields.boolean("plan").value_or(false);
+    readShared(fields, test);
+    fields.finish();
+    const bool picture =
+        fields.find("mask") || fields.find("tolerance") || fields.find("frame") || fields.find("frames");
+    if (test.plan && picture)
+      diagnostics_
+          .error(Code::keysExclude, value.place,
+                 fmt::format("case '{}' compares a plan, which has no picture", test.name))
+          .hint = "remove \"frame\", \"frames\", \"mask\" and \"tolerance\", or \"plan\"";
+    cases.push_back(std::move(test));
+  }
+
+  void readName(const std::string& name, const base::Place& place, TestCase& test) {
+    test.name = name;
+    if (!isCaseName(name)) {
+      base::Diagnostic& d =
+          diagnostics_.error(Code::notAName, place, fmt::format("'{}' is no name for a case", name));
+      d.expected = "letters, digits, _ and -, because its golden is a file of that name";
+    } else if (!names_.insert(name).second) {
+      diagnostics_
+          .error(Code::duplicateName, place, fmt::format("there are two cases of the name '{}'", name))
+          .hint = "give one of them another name: each has a golden of its own";
+    }
+  }
+
+  // What the defaults may say, too.
+  void readShared(JsonFields& fields, TestCase& test) {
+    Options& options = test.options;
+    for (const auto& [key, target] : {std::pair("scene", &options.scene),
+                                      {"environment", &options.environment},
+                                      {"materials", &options.materials},
+                                      {"mask", &test.mask}})
+      if (const JsonValue* value = fields.find(key); value && !value->is(JsonValue::Type::null))
+        if (const auto path = fields.text(key)) *target = besideCase(fields, key, *path);
+    if (const auto camera = fields.text("camera")) options.camera = *camera;
+    if (const auto fps = fields.number("fps", kRate)) options.fps = *fps;
+    readSize(fields, options);
+    readFrames(fields, test);
+    readNames(fields, "preset", [&](const JsonValue& item) {
+      const bool word = item.text.find_first_of("/.") == std::string::npos;
+      options.presets.push_back(word ? presetFile(item.text, {}) : besideFile(item.textPlace(), item.text));
+    });
+    readNames(fields, "disable", [&](const JsonValue& item) {
+      options.disables.push_back(item.text);
+      test.settingPlaces["--disable " + item.text] = item.textPlace();
+    });
+    if (const JsonValue* sets = fields.object("set"))
+      for (const JsonMember& member : sets->members) readSet(member, test);
+    if (const JsonValue* object = fields.object("tolerance")) readTolerance(*object, test.tolerance);
+  }
+
+  void readSet(const JsonMember& member, TestCase& test) {
+    const std::string text = settingText(member.value);
+    if (text.empty() && !member.value.is(JsonValue::Type::string)) {
+      base::Diagnostic& d = diagnostics_.error(Code::wrongType, member.value.place,
+                                               fmt::format("the value of the parameter '{}' cannot be {}",
+                                                           member.key, base::nameOf(member.value.type)));
+      d.expected = "a number, a boolean, a string or a list of numbers";
+      return;
+    }
+    test.options.sets.emplace_back(member.key, text);
+    test.settingPlaces[fmt::format("--set {}={}", member.key, text)] = member.value.place;
+  }
+
+  void readTolerance(const JsonValue& object, Tolerance& tolerance) {
+    JsonFields fields(object, "the tolerance", Code::outOfRange, diagnostics_);
+    if (const auto flip = fields.number("flip", kShare)) tolerance.flip = *flip;
+    if (const auto peak = fields.number("flip_peak", kShare)) tolerance.flipPeak = *peak;
+    if (const auto step = fields.number("step", kStep)) tolerance.step = *step;
+    if (const auto fraction = fields.number("fraction", kShare)) tolerance.fraction = *fraction;
+    fields.finish();
+  }
+
+  void readSize(JsonFields& fields, Options& options) {
+    const auto size = fields.text("size");
+    if (!size) return;
+    if (const std::string wrong = checkSize(*size); wrong.empty())
+      parsePair(*size, 'x', options.width, options.height);
+    else
+      diagnostics_.error(Code::outOfRange, fields.find("size")->textPlace(), "the size: " + wrong);
+  }
+
+  void readFrames(JsonFields& fields, TestCase& test) {
+    const auto frame = fields.number("frame", kFrame);
+    if (frame) test.frames = {static_cast<std::uint32_t>(*frame)};
+    const JsonValue* frames = fields.array("frames");
+    if (!frames) return;
+    if (frame || frames->items.empty()) {
+      base::Diagnostic& d = diagnostics_.error(frame ? Code::keysExclude : Code::outOfRange, frames->place,
+                                               frame ? "\"frame\" and \"frames\" exclude each other"
+                                                     : "\"frames\" is empty, so nothing would be compared");
+      d.hint = frame ? "put all of them into \"frames\"" : "name a frame, such as [0]";
+      return;
+    }
+    std::set<std::uint32_t> numbers;
+    for (const JsonValue& item : frames->items)
+      if (const auto number = base::readNumber(item, "a frame", kFrame, Code::outOfRange, diagnostics_))
+        numbers.insert(static_cast<std::uint32_t>(*number));
+    test.frames.assign(numbers.begin(), numbers.end());
+    if (test.frames.empty()) test.frames = {0};
+  }
+
+  template <class Take>
+  void readNames(JsonFields& fields, const char* key, Take&& take) {
+    const JsonValue* list = fields.array(key);
+    for (std::size_t i = 0; list && i < list->items.size(); ++i)
+      if (base::readText(list->items[i], fmt::format("an entry of \"{}\"", key), diagnostics_))
+        take(list->items[i]);
+  }
+
+  std::string besideCase(JsonFields& fields, const char* key, const std::string& path) {
+    return std::filesystem::path(besideFile(fields.find(key)->place, path)).lexically_normal().string();
+  }
+
+  const Options& base_;
+  base::Diagnostics& diagnostics_;
+  std::shared_ptr<const std::string> file_;
+  std::string folder_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+std::string TestCase::goldenOf(std::uint32_t frame) const {
+  return folder + (frames.size() == 1 ? name : fmt::format("{}_{:04}", name, frame)) + ".png";
+}
+
+std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return {path};
+  std::vector<std::string> files;
+  for (std::filesystem::recursive_directory_iterator at(path, ignored), end; !ignored && at != end;
+       at.increment(ignored))
+    if (at->path().filename().string().ends_with(kSuffix) && at->is_regular_file(ignored))
+      files.push_back(at->path().string());
+  std::ranges::sort(files);
+  if (files.empty())
+    diagnostics
+        .error(Code::unreadableFile, {std::make_shared<const std::string>(path)},
+               "the folder has no file of cases")
+        .hint = fmt::format("write one whose name ends in {}: docs/testing_pictures.md", kSuffix);
+  return files;
+}
+
+void readCases(const std::string& path, const Options& base, std::vector<TestCase>& cases,
+               base::Diagnostics& diagnostics) {
+  CaseReader(path, base, diagnostics).read(cases);
+}
+
+void appendWithPlaces(const TestCase& test, const base::Diagnostics& said, base::Diagnostics& diagnostics) {
+  for (base::Diagnostic each : said.items()) {
+    if (graph::isSetting(each.place) || !each.place.file) {
+      const auto known = std::ranges::find_if(test.settingPlaces, [&](const auto& entry) {
+        return each.place.file && each.place.file->ends_with(entry.first);
+      });
+      each.place = known == test.settingPlaces.end() ? test.place : known->second;
+    }
+    if (each.severity != base::Severity::note)
+      each.message = fmt::format("{} (case '{}')", each.message, test.name);
+    diagnostics.add(std::move(each));
+  }
+}
+
+}  // namespace weft::app

@@ -1,0 +1,51 @@
+// Cases of `weft test`: *.cases.json files. Reports everything wrong in one at once, each mistake with its place. The format is
+// described in docs/testing_pictures.md. Does not: render, or read goldens.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/session/options.h"
+#include "engine/base/diagnostic.h"
+
+namespace weft::app {
+
+// All of them must hold.
+struct Tolerance {
+  double flip = 0.002;     // mean FLIP error
+  double flipPeak = 0.25;  // largest FLIP error
+  double step = 255;       // largest difference of a channel, of 255
+  double fraction = 1;     // share of the pixels that differ at all
+};
+
+struct TestCase {
+  std::string name;
+  base::Place place;
+  Options options;    // graph, scene, settings, size; paths as seen from here
+  bool plan = false;  // compares the plan as text, not pictures
+  std::vector<std::uint32_t> frames = {0};
+  Tolerance tolerance;
+  std::string mask;  // a picture: what is black in it does not count
+  std::map<std::string, base::Place>
+      settingPlaces;  // by the option that stands for the setting: "--set bloom=false"
+
+  // Beside the case file.
+  std::string goldenOf(std::uint32_t frame) const;
+  std::string planGolden() const { return folder + name + ".txt"; }
+  std::string recordFile() const { return folder + name + ".passes"; }
+  std::string folder;  // of the case file, with a slash behind it, or ""
+};
+
+// The *.cases.json of a folder and those below it, by name; or the one file that `path` is. Empty after an error.
+std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostics& diagnostics);
+
+// Appends the cases of a file. `base` has what holds for all of them (backend, caches).
+void readCases(const std::string& path, const Options& base, std::vector<TestCase>& cases,
+               base::Diagnostics& diagnostics);
+
+// Diagnostics of a run of the case, with places in the case file where they are about its settings.
+void appendWithPlaces(const TestCase& test, const base::Diagnostics& said, base::Diagnostics& diagnostics);
+
+}  // namespace weft::app

@@ -1,0 +1,226 @@
+#include "app/trials/case_run.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/session/session.h"
+#include "engine/assets/images/compare.h"
+#include "engine/base/files/file.h"
+#include "engine/graph/print/text.h"
+
+namespace weft::app {
+
+namespace {
+
+using State = CaseResult::State;
+
+bool isThere(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+// How two pictures of one size differ, in numbers.
+struct Found {
+  assets::Comparison bytes;
+  assets::FlipSummary flip;
+  double share = 0;
+
+  Found(const assets::Image8& picture, const assets::Image8& golden, const assets::FlipMap& map,
+        const std::vector<std::uint8_t>& weights)
+      : bytes(assets::compareImages(picture, golden)),
+        flip(assets::summarizeFlip(map, weights)),
+        share(static_cast<double>(bytes.differingPixels) /
+              (static_cast<double>(picture.width) * static_cast<double>(picture.height))) {}
+
+  bool fits(const Tolerance& tolerance) const {
+    return flip.mean <= tolerance.flip && flip.peak <= tolerance.flipPeak &&
+           bytes.maxDifference <= tolerance.step && share <= tolerance.fraction;
+  }
+  std::string text() const {
+    return fmt::format(
+        "FLIP {:.4f}, at most {:.3f} (at {},{}); {} pixels differ ({:.3g} %), by up to {:.0f} of 255 (at "
+        "{},{})",
+        flip.mean, flip.peak, flip.x, flip.y, bytes.differingPixels, 100 * share, bytes.maxDifference,
+        bytes.worstX, bytes.worstY);
+  }
+};
+
+std::string text(const Tolerance& t) {
+  return fmt::format("allowed: FLIP {:g}, at most {:g}; {:g} % of the pixels, by up to {:g}", t.flip,
+                     t.flipPeak, 100 * t.fraction, t.step);
+}
+
+std::string sizeText(const assets::Image8& image) {
+  return fmt::format("{}x{}", image.width, image.height);
+}
+
+// 0 where pixels do not count; empty: all count. Empty as a whole after an error.
+std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const assets::Image8& picture,
+                                                  base::Diagnostics& diagnostics) {
+  if (test.mask.empty()) return std::vector<std::uint8_t>{};
+  auto mask = assets::loadImage8(test.mask, 1, diagnostics);
+  if (!mask) return std::nullopt;
+  if (mask->width != picture.width || mask->height != picture.height) {
+    base::Diagnostic& d =
+        diagnostics.error(base::Code::badImageSize, test.place,
+                          fmt::format("the mask '{}' has another size than the picture", test.mask));
+    d.expected = sizeText(picture);
+    d.found = sizeText(*mask);
+    return std::nullopt;
+  }
+  for (std::uint8_t& weight : mask->texels) weight = weight >= 128;
+  return std::move(mask->texels);
+}
+
+// What does not count is as in the golden: so it reaches no pixel beside it, either.
+assets::Image8 laidUnder(assets::Image8 picture, const assets::Image8& golden,
+                         const std::vector<std::uint8_t>& weights) {
+  for (std::size_t p = 0; p < weights.size(); ++p)
+    for (std::size_t c = 0; weights[p] == 0 && c < 4; ++c)
+      picture.texels[4 * p + c] = golden.texels[4 * p + c];
+  return picture;
+}
+
+std::string firstLineOfDifference(const std::string& before, const std::string& after) {
+  std::size_t line = 1, begin = 0;
+  for (std::size_t i = 0; i < before.size() && i < after.size() && before[i] == after[i]; ++i)
+    if (before[i] == '\n') ++line, begin = i + 1;
+  const auto lineOf = [&](const std::string& text) {
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  return fmt::format("line {} is '{}', not '{}'", line, lineOf(after), lineOf(before));
+}
+
+}  // namespace
+
+CaseResult CaseRunner::run(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
+  base::Diagnostics said;
+  CaseResult result = test.plan ? runPlan(test, accept, said) : runPictures(test, accept, said);
+  bool warned = false;
+  for (const base::Diagnostic& each : said.items())
+    warned = warned || each.severity == base::Severity::warning;
+  appendWithPlaces(test, said, diagnostics);
+  if (said.hasErrors()) {
+    result.state = State::broken;
+  } else if (warned && !accept) {
+    result.lines.emplace_back("it has warnings: see above");
+    result.state = State::different;
+  }
+  return result;
+}
+
+CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
+  CaseResult result;
+  const auto world = loadWorld(test.options, diagnostics);
+  const auto plan = makePlan(test.options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+  if (!plan || diagnostics.hasErrors()) return result;
+  const std::string text = graph::dumpText(*plan), file = test.planGolden();
+  const bool known = isThere(file);
+  const auto golden = known ? base::readFile(file, diagnostics) : std::nullopt;
+  const bool same = golden && *golden == text;
+  if (golden && !same) result.lines.push_back(firstLineOfDifference(*golden, text));
+  if (!known) result.lines.push_back(fmt::format("there is no golden plan '{}' yet", file));
+  if (accept) {
+    result.state = same ? State::kept : State::written;
+    if (!same) base::writeFile(file, text, diagnostics);
+  } else {
+    result.state = same ? State::same : State::different;
+    if (!known) result.lines.back() += "; --accept writes it";
+  }
+  return result;
+}
+
+std::optional<Shot> CaseRunner::shoot(const TestCase& test, base::Diagnostics& diagnostics) {
+  if (!context_ && !lacksContext_) {
+    context_ = openContext(options_, diagnostics);
+    lacksContext_ = !context_;
+  }
+  const auto world = loadWorld(test.options, diagnostics);
+  if (!world || !context_) {
+    makePlan(test.options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+    return std::nullopt;
+  }
+  return takeShot(*context_, test.options, *world, {.frames = test.frames, .records = true}, diagnostics);
+}
+
+bool CaseRunner::comparePair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
+                             CaseResult& result, base::Diagnostics& diagnostics) {
+  const std::string file = test.goldenOf(frame);
+  const std::string which = test.frames.size() > 1 ? fmt::format("frame {}: ", frame) : "";
+  if (!isThere(file)) {
+    result.lines.push_back(fmt::format("{}there is no golden '{}' yet; --accept writes it", which, file));
+    result.pairs.push_back({frame, file, picture, {}, {}, true});
+    return false;
+  }
+  const auto golden = assets::loadImage8(file, 4, diagnostics);
+  const auto weights = readMask(test, picture, diagnostics);
+  if (!golden || !weights) return false;
+  if (golden->width != picture.width || golden->height != picture.height) {
+    result.lines.push_back(
+        fmt::format("{}the picture is {}, its golden {}", which, sizeText(picture), sizeText(*golden)));
+    result.pairs.push_back({frame, file, picture, *golden, {}, true});
+    return false;
+  }
+  const assets::Image8 compared = laidUnder(picture, *golden, *weights);
+  if (compared.texels == golden->texels) return true;
+  assets::FlipMap map = assets::computeFlip(*golden, compared);
+  const Found found(compared, *golden, map, *weights);
+  const bool fits = found.fits(test.tolerance);
+  result.lines.push_back(which + found.text());
+  if (!fits) result.lines.push_back(text(test.tolerance));
+  result.pairs.push_back({frame, file, picture, *golden, std::move(map), !fits});
+  return fits;
+}
+
+bool CaseRunner::acceptPair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
+                            CaseResult& result, base::Diagnostics& diagnostics) {
+  const std::string file = test.goldenOf(frame);
+  if (isThere(file)) {
+    const auto golden = assets::loadImage8(file, 4, diagnostics);
+    if (golden && golden->width == picture.width && golden->height == picture.height) {
+      if (golden->texels == picture.texels) return false;
+      const Found found(picture, *golden, assets::computeFlip(*golden, picture), {});
+      result.lines.push_back(fmt::format("'{}' changed: {}", file, found.text()));
+    } else if (golden) {
+      result.lines.push_back(
+          fmt::format("'{}' is {} now, it was {}", file, sizeText(picture), sizeText(*golden)));
+    }
+  } else {
+    result.lines.push_back(fmt::format("'{}' is new", file));
+  }
+  assets::savePng8(file, picture.width, picture.height, picture.channels, picture.texels, diagnostics);
+  return true;
+}
+
+CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
+  CaseResult result;
+  const auto shot = shoot(test, diagnostics);
+  if (!shot) return result;
+  const PassRecords records{context_->device().driverKey, shot->records};
+  const std::string record = test.recordFile();
+  bool same = true;
+  for (const auto& [frame, picture] : shot->pictures) {
+    const bool fits = accept ? !acceptPair(test, frame, picture, result, diagnostics)
+                             : comparePair(test, frame, picture, result, diagnostics);
+    same = same && fits;
+  }
+  if (accept) {
+    base::Diagnostics ignored;
+    const std::string text = toText(records);
+    const auto before = isThere(record) ? base::readFile(record, ignored) : std::nullopt;
+    if (before != text) base::writeFile(record, text, diagnostics);
+    result.state = !same ? State::written : State::kept;
+    if (same && before != text) {
+      result.lines.push_back(fmt::format("'{}' is written anew, the pictures are the same", record));
+      result.state = State::written;
+    }
+    return result;
+  }
+  result.state = same ? State::same : State::different;
+  if (!same && isThere(record))
+    if (const auto before = readRecords(record, diagnostics)) result.first = findDivergence(*before, records);
+  return result;
+}
+
+}  // namespace weft::app

@@ -1,0 +1,56 @@
+// Runs one case of `weft test`: renders, compares with the golden or writes it, and finds the first pass that differs.
+// Does not: print, or decide the exit code.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/trials/case_file.h"
+#include "app/trials/divergence.h"
+#include "engine/assets/images/flip.h"
+
+namespace weft::app {
+
+struct CaseResult {
+  // same, different: compared. written, kept: accepted. broken: it could not be rendered, or its golden not be read.
+  enum class State { same, different, written, kept, broken };
+  // A frame and its golden.
+  struct Pair {
+    std::uint32_t frame = 0;
+    std::string golden;  // file
+    assets::Image8 picture, expected;
+    assets::FlipMap map;
+    bool failed = false;
+  };
+  State state = State::same;
+  std::vector<std::string> lines;  // what was found, a sentence each
+  std::vector<Pair> pairs;         // those that differ
+  std::optional<Divergence> first;
+};
+
+class CaseRunner {
+ public:
+  explicit CaseRunner(const Options& options) : options_(options) {}
+
+  // `accept`: writes the goldens instead of judging.
+  CaseResult run(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
+  // Whether there is an OpenGL context, once a case has asked for one.
+  bool lacksContext() const { return lacksContext_; }
+
+ private:
+  CaseResult runPlan(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
+  CaseResult runPictures(const TestCase& test, bool accept, base::Diagnostics& diagnostics);
+  std::optional<Shot> shoot(const TestCase& test, base::Diagnostics& diagnostics);
+  static bool comparePair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
+                          CaseResult& result, base::Diagnostics& diagnostics);
+  static bool acceptPair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
+                         CaseResult& result, base::Diagnostics& diagnostics);
+
+  const Options& options_;
+  std::unique_ptr<gl::Context> context_;
+  bool lacksContext_ = false;
+};
+
+}  // namespace weft::app

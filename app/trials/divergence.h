@@ -1,0 +1,38 @@
+// What every pass of a frame wrote, as a text file beside a golden picture; and the first pass at which two such records differ. On
+// one driver every byte is compared, on another one only what rounding leaves alone. Does not: render, or judge pictures.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/trials/shot.h"
+
+namespace weft::app {
+
+struct PassRecords {
+  std::string driver;  // DeviceInfo::driverKey
+  std::vector<FrameRecord> frames;
+};
+
+// One line per pass and resource: hash, signature, pass, resource, with tabs between.
+std::string toText(const PassRecords& records);
+// Empty after an error (W001, or W003 with its line).
+std::optional<PassRecords> readRecords(const std::string& path, base::Diagnostics& diagnostics);
+
+struct Divergence {
+  enum class Kind { differs, missing, added };
+  Kind kind = Kind::differs;
+  std::uint32_t frame = 0;
+  std::string pass, resource;
+  double amount = 0;         // relative, of the signatures
+  bool exact = false;        // found by the bytes
+  std::string text() const;  // "pass 'sky' writes another 'scene' in frame 0 (by 3 %)"
+};
+
+// Above this relative difference two signatures of different drivers are not the same picture.
+constexpr double kSignatureNoise = 1.0 / 64;
+
+std::optional<Divergence> findDivergence(const PassRecords& before, const PassRecords& after);
+
+}  // namespace weft::app

@@ -1,0 +1,95 @@
+#include "app/trials/shot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/session/session.h"
+#include "engine/base/limits.h"
+
+namespace weft::app {
+
+namespace {
+
+bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Diagnostics& diagnostics) {
+  if (renderer.execution()->presented().id != 0) return true;
+  diagnostics
+      .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
+             "the graph presents nothing to compare")
+      .hint = "add \"present\": \"<texture>\"";
+  return false;
+}
+
+bool checkReach(std::uint32_t frame, base::Diagnostics& diagnostics) {
+  const std::uint64_t limit = base::limitOf(base::Limit::frames);
+  if (frame < limit) return true;
+  diagnostics
+      .error(base::Code::limitExceeded, {},
+             fmt::format("frame {} is beyond what one command runs, the limit 'frames' is {}", frame, limit))
+      .hint = base::hintToRaise(base::Limit::frames, std::uint64_t{frame} + 1);
+  return false;
+}
+
+void measure(runtime::Renderer& renderer, const runtime::World& world, const Options& options,
+             std::uint32_t frame, std::uint32_t repeats, Shot& shot, base::Diagnostics& diagnostics) {
+  gl::PassTimers& timers = renderer.device().timers;
+  const graph::FlatGraph& graph = *shot.plan->graph;
+  timers.setEnabled(true);
+  for (std::uint32_t i = 0; i < repeats; ++i) {
+    renderer.frame(world, runtime::headlessFrame(world, frame + i, options.fps), diagnostics);
+    timers.finish();
+    double whole = 0;
+    std::map<std::string, double> passes;
+    for (std::size_t step = 0; step < timers.results().size() && step < shot.plan->steps.size(); ++step) {
+      const double ms = timers.results()[step].ran ? timers.results()[step].gpu : 0;
+      whole += ms;
+      passes[graph.specs[shot.plan->steps[step].pass].declared] += ms;
+    }
+    if (i > 0 && whole >= shot.milliseconds) continue;
+    shot.milliseconds = whole;
+    shot.passMilliseconds = std::move(passes);
+  }
+  timers.setEnabled(false);
+}
+
+}  // namespace
+
+std::optional<Shot> takeShot(gl::Context& context, const Options& options, const runtime::World& world,
+                             const ShotWish& wish, base::Diagnostics& diagnostics) {
+  if (!checkReach(wish.frames.back(), diagnostics)) return std::nullopt;
+  runtime::Renderer::Options wanted = rendererOptionsOf(options);
+  wanted.compile = wish.compile;
+  runtime::Renderer renderer(context, options.graph, std::move(wanted));
+  if (!renderer.load(settingsOf(options, context.device().software), world, diagnostics)) return std::nullopt;
+  if (!checkPresents(options, renderer, diagnostics)) return std::nullopt;
+  runtime::Execution& execution = *renderer.execution();
+  Shot shot;
+  shot.plan = std::make_shared<const graph::Plan>(execution.plan());
+  runtime::StepRecorder recorder;
+  if (!wish.keep.first.empty()) recorder.keep(wish.keep.first, wish.keep.second);
+  const std::uint32_t first = execution.remembers(world) ? 0 : wish.frames.front();
+  for (std::uint64_t frame = first; frame <= wish.frames.back(); ++frame) {
+    const auto number = static_cast<std::uint32_t>(frame);
+    const bool shown = std::ranges::find(wish.frames, number) != wish.frames.end();
+    const bool keeps = !wish.keep.first.empty() && number == wish.keepFrame;
+    runtime::Execution::StepWatch watch;
+    if (wish.poison)
+      watch.before = [&](std::uint32_t step) { runtime::poisonStep(execution, step, *wish.poison); };
+    if ((wish.records && (shown || frame == first)) || keeps)
+      watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };
+    execution.watch(std::move(watch));
+    renderer.frame(world, runtime::headlessFrame(world, number, options.fps), diagnostics);
+    context.debugLog().drain(diagnostics);
+    if (diagnostics.hasErrors()) return std::nullopt;
+    if (auto steps = recorder.take(); !steps.empty()) shot.records.push_back({number, std::move(steps)});
+    if (keeps) shot.kept = recorder.kept();
+    if (!shown) continue;
+    if (auto picture = renderer.readPresented8()) shot.pictures[number] = std::move(*picture);
+  }
+  execution.watch({});
+  if (wish.repeats > 0)
+    measure(renderer, world, options, wish.frames.back() + 1, wish.repeats, shot, diagnostics);
+  return shot;
+}
+
+}  // namespace weft::app

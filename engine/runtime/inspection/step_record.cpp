@@ -1,0 +1,204 @@
+#include "engine/runtime/inspection/step_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "engine/base/hash.h"
+#include "engine/runtime/frame/gl_state.h"
+#include "engine/runtime/storage/formats.h"
+
+namespace weft::runtime {
+
+namespace {
+
+std::uint64_t hashOf(const void* data, std::size_t bytes, std::uint64_t hash) {
+  const auto* at = static_cast<const unsigned char*>(data);
+  for (; bytes >= 8; bytes -= 8, at += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, at, 8);
+    hash = base::hashCombine(hash, word);
+  }
+  std::uint64_t rest = 0;
+  std::memcpy(&rest, at, bytes);
+  return base::hashCombine(hash, rest + bytes);
+}
+
+bool isInteger(GLenum format) {
+  const gl::FormatClass kind = gl::classOf(format);
+  return kind == gl::FormatClass::unsigned_integer || kind == gl::FormatClass::signed_integer;
+}
+
+std::string nameWithoutVersion(const std::string& name) {
+  return name.substr(0, name.find('#'));
+}
+
+}  // namespace
+
+double differenceOf(const Signature& a, const Signature& b) {
+  float largest = 1e-6f;
+  const auto measure = [&](const auto& values) {
+    for (const float v : values) largest = std::max(largest, std::abs(v));
+  };
+  measure(a.parts);
+  measure(b.parts);
+  double worst = std::abs(static_cast<double>(a.broken) - static_cast<double>(b.broken));
+  const auto compare = [&](float x, float y) {
+    // What is nearly black says little: no part counts as less than a sixteenth of the brightest.
+    const float size = std::max({std::abs(x), std::abs(y), largest / 16});
+    worst = std::max(worst, static_cast<double>(std::abs(x - y) / size));
+  };
+  for (std::size_t i = 0; i < a.parts.size(); ++i) compare(a.parts[i], b.parts[i]);
+  for (std::size_t i = 0; i < a.channels.size(); ++i) compare(a.channels[i], b.channels[i]);
+  return worst;
+}
+
+// Of one resource, over all that the step wrote of it.
+struct StepRecorder::Sum {
+  static constexpr std::size_t kParts = Signature::kSide * Signature::kSide;
+  std::uint64_t hash = base::kHashSeed;
+  std::array<double, kParts> parts{};
+  std::array<double, kParts> weights{};
+  std::array<double, 4> channels{};
+  double texels = 0, broken = 0;
+  bool texture = false, keep = false;
+
+  void addLayer(const std::vector<float>& values, std::uint32_t width, std::uint32_t height,
+                std::uint32_t stride) {
+    for (std::uint32_t y = 0; y < height; ++y)
+      for (std::uint32_t x = 0; x < width; ++x) {
+        const float* texel = &values[(std::size_t{y} * width + x) * stride];
+        double weighted = 0;
+        bool finite = true;
+        for (std::uint32_t c = 0; c < stride; ++c) {
+          finite = finite && std::isfinite(texel[c]);
+          weighted += (c + 1.0) * static_cast<double>(texel[c]);
+        }
+        texels += 1;
+        if (!finite) {
+          broken += 1;
+          continue;
+        }
+        const std::size_t part =
+            y * Signature::kSide / height * Signature::kSide + x * Signature::kSide / width;
+        parts[part] += weighted;
+        weights[part] += 1;
+        for (std::uint32_t c = 0; c < stride; ++c) channels[c] += static_cast<double>(texel[c]);
+      }
+  }
+
+  Signature signature() const {
+    Signature out;
+    for (std::size_t i = 0; i < kParts; ++i)
+      out.parts[i] = static_cast<float>(parts[i] / std::max(1.0, weights[i]));
+    for (std::size_t c = 0; c < 4; ++c)
+      out.channels[c] = static_cast<float>(channels[c] / std::max(1.0, texels - broken));
+    out.broken = static_cast<float>(broken / std::max(1.0, texels));
+    return out;
+  }
+};
+
+void StepRecorder::keep(std::string pass, std::string resource) {
+  keptPass_ = std::move(pass);
+  keptResource_ = std::move(resource);
+  kept_.reset();
+}
+
+// The mean of the samples, through a texture of one sample.
+std::vector<float> StepRecorder::readSamples(const gl::TextureRef& texture) {
+  base::Diagnostics ignored;
+  const gl::TextureDesc wanted{
+      .format = texture.desc.format, .width = texture.desc.width, .height = texture.desc.height};
+  const auto resolved = gl::Texture::create(wanted, "record", ignored);
+  if (!resolved) return {};
+  const gl::FormatClass kind = gl::classOf(wanted.format);
+  const GLenum point = kind == gl::FormatClass::depth           ? GL_DEPTH_ATTACHMENT
+                       : kind == gl::FormatClass::depth_stencil ? GL_DEPTH_STENCIL_ATTACHMENT
+                                                                : GL_COLOR_ATTACHMENT0;
+  const gl::Attachment from{.point = point, .texture = texture.id},
+      to{.point = point, .texture = resolved->id()};
+  const auto source = gl::Framebuffer::create({&from, 1}, "record", ignored),
+             target = gl::Framebuffer::create({&to, 1}, "record", ignored);
+  if (!source || !target) return {};
+  openMasks();
+  const auto width = static_cast<GLint>(wanted.width), height = static_cast<GLint>(wanted.height);
+  glBlitNamedFramebuffer(source->id(), target->id(), 0, 0, width, height, 0, 0, width, height,
+                         point == GL_COLOR_ATTACHMENT0 ? GL_COLOR_BUFFER_BIT : GL_DEPTH_BUFFER_BIT,
+                         GL_NEAREST);
+  return gl::readFloats(resolved->ref());
+}
+
+std::vector<float> StepRecorder::readLayer(const gl::TextureRef& texture, std::uint32_t mip,
+                                           std::uint32_t layer, std::uint64_t& hash) {
+  std::vector<float> values = texture.desc.target == GL_TEXTURE_2D_MULTISAMPLE
+                                  ? readSamples(texture)
+                                  : gl::readFloats(texture, mip, layer);
+  if (isInteger(texture.desc.format) && texture.desc.samples <= 1) {  // floats do not hold all of them
+    const bool isSigned = gl::classOf(texture.desc.format) == gl::FormatClass::signed_integer;
+    const std::vector<std::byte> exact =
+        gl::readTexture(texture, mip, layer, GL_RGBA_INTEGER, isSigned ? GL_INT : GL_UNSIGNED_INT);
+    hash = hashOf(exact.data(), exact.size(), hash);
+  } else {
+    hash = hashOf(values.data(), values.size() * sizeof(float), hash);
+  }
+  return values;
+}
+
+void StepRecorder::add(Execution& execution, const graph::FlatUse& use, Sum& sum) {
+  const graph::FlatResource& desc = execution.plan().graph->resources[use.resource];
+  if (desc.kind == graph::ResourceKind::buffer) {
+    std::uint64_t offset = 0;
+    const BufferRef buffer = execution.buffer(use.resource, offset);
+    if (buffer.id == 0) return;
+    const std::vector<std::byte> bytes = gl::readBuffer(buffer.id, offset, buffer.bytes);
+    sum.hash = hashOf(bytes.data(), bytes.size(), sum.hash);
+    return;
+  }
+  const gl::TextureRef texture = execution.texture(use.resource);
+  if (texture.id == 0) return;
+  sum.texture = true;
+  const std::uint32_t stride = gl::floatChannelsOf(texture.desc.format);
+  for (std::uint32_t mip = use.mip; mip < use.mip + use.mips; ++mip) {
+    const gl::Extent extent = gl::extentOf(texture.desc, mip);
+    const bool volume = desc.target == graph::Target::texture_3d;
+    const std::uint32_t first = volume ? 0 : use.layer, count = volume ? extent.layers : use.layers;
+    for (std::uint32_t layer = first; layer < first + count; ++layer) {
+      const std::vector<float> values = readLayer(texture, mip, layer, sum.hash);
+      if (values.size() < std::size_t{extent.width} * extent.height * stride) continue;
+      sum.addLayer(values, extent.width, extent.height, stride);
+      if (!sum.keep) continue;
+      if (!kept_) kept_ = WrittenTexels{.values = {}, .stride = stride, .width = extent.width};
+      kept_->values.insert(kept_->values.end(), values.begin(), values.end());
+    }
+  }
+}
+
+// What shaders stored must be there to be read: a barrier of its own, since the plan knows nothing of it.
+void StepRecorder::look(Execution& execution, std::uint32_t step) {
+  const graph::Plan& plan = execution.plan();
+  const graph::FlatGraph& graph = *plan.graph;
+  const std::uint32_t index = plan.steps[step].pass;
+  const graph::FlatPass& pass = graph.passes[index];
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<std::pair<std::string, Sum>> sums;  // in the order of the slots
+  for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+    const graph::FlatUse& use = graph.uses[u];
+    if (use.access == graph::Access::read || !plan.attached[u]) continue;
+    const std::string name = nameWithoutVersion(graph.resourceNames[use.resource]);
+    auto sum = std::ranges::find(sums, name, &std::pair<std::string, Sum>::first);
+    if (sum == sums.end()) {
+      sum = sums.emplace(sums.end(), name, Sum{});
+      sum->second.keep = name == keptResource_ && graph.passNames[index] == keptPass_;
+      if (sum->second.keep) kept_.reset();
+    }
+    add(execution, use, sum->second);
+  }
+  for (const auto& [name, sum] : sums)
+    records_.push_back({.pass = graph.passNames[index],
+                        .resource = name,
+                        .hash = sum.hash,
+                        .signature = sum.texture ? std::optional(sum.signature()) : std::nullopt});
+}
+
+}  // namespace weft::runtime

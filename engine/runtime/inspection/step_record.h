@@ -1,0 +1,64 @@
+// What each pass of a frame left in what it writes, small enough to be kept beside a picture: a hash, and means over parts of it, by
+// which frames of different drivers can be compared. So two frames tell the first pass at which they differ. Does not: keep
+// pictures (but for one that is asked for), look at stencil, or look at work that is done ahead of the frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/runtime/frame/execution.h"
+
+namespace weft::runtime {
+
+// Means over all levels and layers that a pass wrote. Texels that are not finite count in `broken` alone.
+struct Signature {
+  static constexpr std::size_t kSide = 4;    // parts each way, from the lower left
+  std::array<float, kSide * kSide> parts{};  // of the channels, weighted so that exchanged ones differ
+  std::array<float, 4> channels{};
+  float broken = 0;  // share of the texels
+};
+
+struct StepRecord {
+  std::string pass, resource;  // full instance name; name in the graph without the number of the version
+  std::uint64_t hash = 0;      // of every byte
+  std::optional<Signature> signature;  // of textures
+};
+
+// The largest relative difference of two signatures: 0 for equal ones, 1 for a part that is black in one of them.
+double differenceOf(const Signature& a, const Signature& b);
+
+// All texels that a pass wrote to one resource, level by level and layer by layer: four floats each, or one of depth.
+struct WrittenTexels {
+  std::vector<float> values;
+  std::uint32_t stride = 4;  // values per texel
+  std::uint32_t width = 0;   // of the first level
+};
+
+class StepRecorder {
+ public:
+  // To be called in Execution::StepWatch::after.
+  void look(Execution& execution, std::uint32_t step);
+  // Keeps the texels that this pass writes to this resource (names as in StepRecord), too.
+  void keep(std::string pass, std::string resource);
+
+  // Of the steps since the last call, in their order.
+  std::vector<StepRecord> take() { return std::exchange(records_, {}); }
+  const std::optional<WrittenTexels>& kept() const { return kept_; }
+
+ private:
+  struct Sum;
+  std::vector<float> readLayer(const gl::TextureRef& texture, std::uint32_t mip, std::uint32_t layer,
+                               std::uint64_t& hash);
+  std::vector<float> readSamples(const gl::TextureRef& texture);
+  void add(Execution& execution, const graph::FlatUse& use, Sum& sum);
+
+  std::vector<StepRecord> records_;
+  std::string keptPass_, keptResource_;
+  std::optional<WrittenTexels> kept_;
+};
+
+}  // namespace weft::runtime

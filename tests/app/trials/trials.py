@@ -1,0 +1,255 @@
+#!/usr/bin/env python3
+"""weft test, bisect, ablate, fuzz and new: exit codes, places of mistakes, what they find and what they leave behind.
+
+    trials.py WEFT
+"""
+import json
+import pathlib
+import re
+import shutil
+import struct
+import sys
+import zlib
+
+from program import TOP, Report, run, temporary_folder
+
+SIZE = "64x36"
+GLOW = str(TOP / "graphs/glow.json")
+
+
+def write_cases(folder, cases, **top):
+    (folder / "some.cases.json").write_text(json.dumps({"defaults": {"size": SIZE}, **top, "cases": cases}, indent=2))
+
+
+def write_mask(path, width, height, white):
+    rows = b"".join(b"\0" + bytes(255 if white(x, y) else 0 for x in range(width)) for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows))
+                     + chunk(b"IEND", b""))
+
+
+def check_test(weft, report, folder):
+    def test(*arguments):
+        return run(weft, "test", folder, *arguments)
+
+    cases = [{"name": "glow", "graph": GLOW}, {"name": "plan", "graph": GLOW, "plan": True},
+             {"name": "two", "graph": GLOW, "frames": [3, 0], "set": {"threshold": 2}}]
+    write_cases(folder, cases)
+    result = test()
+    report.check(result.code == 1 and result.out.count("--accept") == 4 and "3 cases: 3 FAILED" in result.out, f"without goldens: {result.code}\n{result.out}{result.err}")
+    result = test("--accept")
+    report.check(result.code == 0 and "3 written" in result.out, f"accept: {result.code}\n{result.out}{result.err}")
+    names = sorted(f.name for f in folder.iterdir())
+    report.check(names == ["glow.passes", "glow.png", "plan.txt", "some.cases.json", "two.passes", "two_0000.png", "two_0003.png"], f"{names}")
+    before = {name: (folder / name).read_bytes() for name in names}
+    result = test()
+    report.check(result.code == 0 and "3 cases: 3 ok" in result.out and not result.err, f"again: {result.code}\n{result.out}{result.err}")
+    result = test("--accept")
+    report.check(result.code == 0 and "3 kept" in result.out, f"accepted again: {result.out}")
+    report.check(before == {name: (folder / name).read_bytes() for name in names}, "accepting what is the same changes a file")
+    record = (folder / "two.passes").read_text()
+    report.check(record.startswith("weft passes 1\ndriver ") and re.findall(r"^frame \d+$", record, re.M) == ["frame 0", "frame 3"], record[:200])
+
+    # A picture that differs: the first pass is named, the page holds it, and the files are there.
+    cases[0]["set"] = {"threshold": 0.25}
+    write_cases(folder, cases)
+    page, left = folder / "page.html", folder / "left"
+    result = test("--report", page, "-o", left, "--only", "glow")
+    report.check(result.code == 1 and "first that differs: pass 'glow_prefilter' writes another 'glow' in frame 0" in result.out, f"{result.code}\n{result.out}{result.err}")
+    report.check("1 cases: 1 FAILED" in result.out, result.out)
+    text = page.read_text()
+    report.check(text.count("data:image/png;base64,") == 5 and "glow_prefilter" in text and "http" not in text, f"page of {len(text)} bytes")
+    report.check(sorted(f.name for f in left.iterdir()) == ["glow.png", "glow_flip.png"], f"{list(left.iterdir())}")
+    # Bounds: each of them alone refuses, all of them wide accept.
+    wide = {"flip": 1, "flip_peak": 1, "step": 255, "fraction": 1}
+    for key in (None, *wide):
+        cases[0]["tolerance"] = {**wide, **({key: 0} if key else {})}
+        write_cases(folder, cases)
+        result = test("--only", "glow")
+        report.check(result.code == (1 if key else 0), f"tolerance {key}: {result.code}\n{result.out}")
+    # A mask leaves out what differs.
+    write_mask(folder / "none.png", 64, 36, lambda x, y: False)
+    write_mask(folder / "half.png", 64, 36, lambda x, y: x < 32)
+    write_mask(folder / "small.png", 8, 8, lambda x, y: True)
+    del cases[0]["tolerance"]
+    for mask, code in (("none.png", 0), ("half.png", 1), ("small.png", 2)):
+        cases[0]["mask"] = mask
+        write_cases(folder, cases)
+        result = test("--only", "glow")
+        report.check(result.code == code, f"mask {mask}: {result.code}\n{result.out}{result.err}")
+    report.check("W152" in result.err and "some.cases.json:" in result.err and "expected: 64x36" in result.err, result.err)
+    # A plan that differs, and a record of another driver.
+    cases[0] = {"name": "glow", "graph": GLOW, "set": {"threshold": 0.25}}
+    cases[1]["size"] = "320x180"
+    write_cases(folder, cases)
+    result = test("--only", "plan")
+    report.check(result.code == 1 and re.search(r"line \d+ is '", result.out), f"{result.out}")
+    (folder / "glow.passes").write_text(re.sub("driver .*", "driver another", (folder / "glow.passes").read_text()))
+    result = test("--only", "glow")
+    report.check("pass 'glow_prefilter' writes another" in result.out, f"another driver: {result.out}")
+    (folder / "glow.passes").write_text("weft passes 1\ndriver x\nframe 0\nnonsense\n")
+    result = test("--only", "glow")
+    report.check(result.code == 2 and "glow.passes:4:1: error[W003]" in result.err, f"damaged record: {result.err}")
+    result = test("--accept")
+    report.check(result.code == 0 and "'%s' changed: FLIP" % (folder / "glow.png") in result.out, f"accept says how much: {result.out}")
+    report.check(test().code == 0, "after accepting")
+
+
+def check_mistakes(weft, report, folder):
+    """Each mistake in a case file has its place; all are told at once."""
+    text = """{
+  "defaults": { "size": "64x36" },
+  "cases": [
+    { "name": "a/b", "graph": "g.json" },
+    { "name": "twice", "graph": "g.json" }, { "name": "twice", "graph": "g.json" },
+    { "nam": "x", "graph": "g.json" },
+    { "name": "size", "graph": "g.json", "size": "64" },
+    { "name": "frames", "graph": "g.json", "frames": [] },
+    { "name": "frame", "graph": "g.json", "frame": -1 },
+    { "name": "flip", "graph": "g.json", "tolerance": { "flip": 2, "steps": 1 } },
+    { "name": "plan", "graph": "g.json", "plan": true, "mask": "m.png" },
+    { "name": "set", "graph": "g.json", "set": { "bloom": null } }
+  ]
+}
+"""
+    (folder / "bad.cases.json").write_text(text)
+    result = run(weft, "test", folder)
+    told = {(int(d["line"] or 0), d["code"]) for d in result.diagnostics}
+    expected = {(4, "W012"), (5, "W009"), (6, "W004"), (6, "W005"), (7, "W013"), (8, "W013"), (9, "W013"), (10, "W013"), (10, "W004"), (11, "W014"), (12, "W003")}
+    report.check(result.code == 2 and told == expected, f"{result.code} {sorted(told ^ expected)}\n{result.err}")
+    write = (folder / "bad.cases.json").write_text
+    write('{ "cases": [\n  { "name": "no", "graph": "nothing.json" },\n  { "name": "set", "graph": "%s",\n    "set": { "bloom": 7 } } ] }' % GLOW)
+    result = run(weft, "test", folder)
+    report.check(result.code == 2 and "2 BROKEN" in result.out, f"{result.out}{result.err}")
+    report.check(re.search(r"bad\.cases\.json:4:23: error\[W\d+\].*\(case 'set'\)", result.err), f"a setting has the place of its value: {result.err}")
+    report.check("nothing.json" in result.err, result.err)
+    (folder / "bad.cases.json").unlink()
+    result = run(weft, "test", folder)
+    report.check(result.code == 2 and "no file of cases" in result.err, f"{result.err}")
+
+
+def check_bisect(weft, report, folder):
+    same = run(weft, "bisect", GLOW, "--size", SIZE)
+    report.check(same.code == 0 and "no pass differs" in same.out, f"{same.out}{same.err}")
+    result = run(weft, "bisect", GLOW, "--size", SIZE, "--other-set", "threshold=0.25")
+    report.check(result.code == 1 and "pass 'glow_prefilter'" in result.out and re.search(r"\n    1 of \d+ results", result.out), result.out + result.err)
+    report.check(re.search(r"texels differ \([\d.]+ %\), by at most [\d.e-]+, on average", result.out) and "FLIP" in result.out, result.out)
+    result = run(weft, "bisect", GLOW, "--size", SIZE, "--other-disable", "glow_up")
+    # Then nothing needs the smaller levels, either.
+    report.check(result.code == 1 and "pass 'glow_down[1]' no longer writes 'glow'" in result.out, result.out + result.err)
+    # Two graphs: what the second one adds.
+    result = run(weft, "bisect", GLOW, TOP / "tests/golden/vignette.json", "--size", SIZE)
+    report.check(result.code == 1 and "pass 'vignette' writes 'scene' in frame 0, which it did not" in result.out, result.out + result.err)
+    report.check(run(weft, "bisect", GLOW, folder / "none.json").code == 2, "a graph that is not there")
+
+
+def check_ablate(weft, report):
+    result = run(weft, "ablate", GLOW, "--size", SIZE, "--repeats", "1", "--format", "json")
+    report.check(result.code == 0, result.err)
+    table = json.loads(result.out)
+    rows = {row["pass"]: row for row in table["passes"]}
+    report.check(list(rows) == ["sky", "glow_prefilter", "glow_down", "glow_up", "composite"], f"{list(rows)}")
+    report.check("needed" in rows["composite"] and "flip" not in rows["composite"], f"{rows['composite']}")
+    up = rows["glow_up"]
+    report.check(up["flip"] > 0 and up["flip_peak"] >= up["flip"] and up["steps_gone"] >= 5, f"{up}")
+    report.check(table["ms"] > 0 and all(row["own_ms"] > 0 for row in rows.values()), f"{table}")
+    text = run(weft, "ablate", GLOW, "--size", SIZE, "--repeats", "1", "--disable", "glow_up").out
+    report.check("glow_up" not in text and "glow_prefilter" in text and "needed" in text, text)
+    page = run(weft, "ablate", GLOW, "--size", SIZE, "--repeats", "1", "--format", "html").out
+    report.check(page.startswith("<!doctype html>") and page.count("data:image/png") == 1 + 2 * sum("flip" in row for row in rows.values()), page[:200])
+
+
+HALF = """{ "resources": { "picture": { "texture": "rgba16f", "size": "screen" }, "ldr": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "half", "type": "fullscreen", "shader": "half.frag.glsl", "write": { "result": "picture" } },
+    { "name": "show", "type": "fullscreen", "shader": "show.frag.glsl", "read": { "source": "picture" }, "write": { "result": "ldr" } } ],
+  "present": "ldr" }"""
+HALF_SHADERS = {"half.frag.glsl": "in vec2 uv;\nout vec4 result;\nvoid main() { if (uv.y > 0.5) discard; result = vec4(uv, 0.5, 1.0); }\n",
+                "show.frag.glsl": "uniform sampler2D source;\nout vec4 result;\n"
+                                  "void main() { vec4 c = texelFetch(source, ivec2(gl_FragCoord.xy), 0); result = c.r >= 0.0 && c.r < 9.0 ? c : vec4(1.0); }\n"}
+# Two passes add to a buffer by a slot that says `read`: nothing tells that the order matters.
+ORDER = """{ "resources": { "sum": { "buffer": 16 }, "a": { "buffer": 16 }, "b": { "buffer": 16 }, "ldr": { "texture": "rgba8", "size": "screen" } },
+  "passes": [
+    { "name": "begin", "type": "compute", "shader": "begin.comp.glsl", "threads": 1, "write": { "total": "sum" } },
+    { "name": "add", "type": "compute", "shader": "add.comp.glsl", "threads": 1, "read": { "total": "sum" }, "write": { "done": "a" } },
+    { "name": "double", "type": "compute", "shader": "double.comp.glsl", "threads": 1, "read": { "total": "sum" }, "write": { "done": "b" } },
+    { "name": "show", "type": "fullscreen", "shader": "show.frag.glsl", "read": { "total": "sum", "one": "a", "two": "b" }, "write": { "result": "ldr" } } ],
+  "present": "ldr" }"""
+COMPUTE = "layout(local_size_x = 1) in;\nlayout(std430) %sbuffer total { float value[4]; };\n"
+ORDER_SHADERS = {"begin.comp.glsl": COMPUTE % "" + "void main() { for (int i = 0; i < 4; ++i) value[i] = 0.25; }\n",
+                 "add.comp.glsl": COMPUTE % "" + "layout(std430) buffer done { float ready[4]; };\nvoid main() { value[0] += 0.1; for (int i = 0; i < 4; ++i) ready[i] = 0.0; }\n",
+                 "double.comp.glsl": COMPUTE % "" + "layout(std430) buffer done { float ready[4]; };\nvoid main() { value[0] *= 2.0; for (int i = 0; i < 4; ++i) ready[i] = 0.0; }\n",
+                 "show.frag.glsl": "layout(std430) buffer total { float value[4]; };\nlayout(std430) buffer one { float first[4]; };\nlayout(std430) buffer two { float second[4]; };\n"
+                                   "out vec4 result;\nvoid main() { result = vec4(vec3(value[0] + first[0] + second[0]), 1.0); }\n"}
+
+
+def write_graph(folder, name, graph, shaders):
+    (folder / name / "shaders").mkdir(parents=True)
+    (folder / name / "graph.json").write_text(graph)
+    for shader, text in shaders.items():
+        (folder / name / "shaders" / shader).write_text(text)
+    return folder / name / "graph.json"
+
+
+def check_fuzz(weft, report, folder):
+    for graph in (GLOW, TOP / "tests/golden/vignette.json"):
+        result = run(weft, "fuzz", graph, "--size", SIZE, "--runs", "2")
+        report.check(result.code == 0 and "12 runs of" in result.out and "every picture is the same" in result.out, f"{graph}: {result.out}{result.err}")
+    # A pass that promises to write everything and writes half of it.
+    half = write_graph(folder, "half", HALF, HALF_SHADERS)
+    result = run(weft, "fuzz", half, "--size", SIZE, "--runs", "1")
+    report.check(result.code == 1 and "pass 'half' writes another 'picture'" in result.out and "--poison nan" in result.out, result.out + result.err)
+    repeat_it(weft, report, result)
+    # Passes that depend on each other without saying so.
+    order = write_graph(folder, "order", ORDER, ORDER_SHADERS)
+    result = run(weft, "fuzz", order, "--size", SIZE, "--runs", "6", "--poison", "none", "--share", "on")
+    report.check(result.code == 1 and "--poison none" in result.out and "double" in result.out, result.out + result.err)
+    report.check("--order 1:2" in result.out, f"only the two passes are left: {result.out}")
+    repeat_it(weft, report, result)
+    report.check(run(weft, "fuzz", order, "--size", SIZE, "--seed", "0", "--poison", "none").code == 0, "in the declared order there is nothing to find")
+
+
+def repeat_it(weft, report, result):
+    command = re.search(r"repeat: weft (.*)", result.out)
+    if report.check(command, result.out):
+        again = run(weft, *command[1].split())
+        report.check(again.code == 1 and again.out.splitlines()[0] == result.out.splitlines()[0], f"{command[1]}: {again.code}\n{again.out}{again.err}")
+
+
+def check_new(weft, report, folder):
+    for graph in (None, "graphs/studio.json", "graphs/deferred.json"):
+        here = folder / pathlib.Path(graph or "default").stem
+        made = run(weft, "new", "pass", "tint", "-o", here, *(["--graph", graph] if graph else []))
+        report.check(made.code == 0 and not made.err, f"{graph}: {made.out}{made.err}")
+        files = sorted(str(f.relative_to(here)) for f in here.rglob("*") if f.is_file())
+        report.check(files == ["shaders/tint/tint.frag.glsl", "tint.json"], f"{files}")
+        done = run(weft, "render", here / "tint.json", "--size", SIZE, "--quiet", "-o", here / "with.png")
+        base = run(weft, "render", graph or GLOW, "--size", SIZE, "--quiet", "-o", here / "without.png")
+        none = run(weft, "render", here / "tint.json", "--size", SIZE, "--quiet", "--set", "tint.strength=0", "-o", here / "none.png")
+        report.check(done.code == base.code == none.code == 0 and not done.err, f"{graph}: {done.err}{base.err}{none.err}")
+        if done.code == base.code == none.code == 0:
+            pictures = [(here / f"{name}.png").read_bytes() for name in ("with", "without", "none")]
+            report.check(pictures[0] != pictures[1] == pictures[2], f"{graph}: the pass does what it says")
+    again = run(weft, "new", "pass", "tint", "-o", here)
+    report.check(again.code == 1 and "W180" in again.err, f"nothing is written over: {again.code}\n{again.err}")
+    for name, code in (("9lives", "W012"), ("sky", "W009")):
+        wrong = run(weft, "new", "pass", name, "-o", folder / "wrong")
+        report.check(wrong.code == 1 and code in wrong.err and not (folder / "wrong").exists(), f"{name}: {wrong.err}")
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    for check in (check_test, check_mistakes, check_bisect, check_fuzz, check_new):
+        with temporary_folder() as folder:
+            check(weft, report, pathlib.Path(folder))
+    check_ablate(weft, report)
+    for command in ("test", "bisect", "ablate", "fuzz"):
+        help_ = run(weft, command, "--help")
+        report.check(help_.code == 0 and f"Example: weft {command}" in help_.out, help_.out)
+    report.check("Example: weft new pass" in run(weft, "new", "pass", "--help").out, "new pass --help")
+    report.end()
+
+
+main()

@@ -1,0 +1,135 @@
+// Records of passes and their comparison; how a failure of fuzz is made smaller.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/trials/divergence.h"
+#include "app/trials/fuzz.h"
+#include "engine/base/files/file.h"
+
+using namespace weft;
+using namespace weft::app;
+
+namespace {
+
+runtime::StepRecord step(const char* pass, const char* resource, std::uint64_t hash, float value) {
+  runtime::Signature signature;
+  signature.parts.fill(value);
+  signature.channels.fill(value / 10);
+  return {.pass = pass, .resource = resource, .hash = hash, .signature = signature};
+}
+
+PassRecords threePasses() {
+  return {"driver a",
+          {{0, {step("sky", "hdr", 1, 4), step("blur[2,1]", "glow", 2, 0.5f), step("tone", "ldr", 3, 1)}}}};
+}
+
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& text) {
+    path = (std::filesystem::temp_directory_path() / ("weft_record_" + std::to_string(std::rand()))).string();
+    base::Diagnostics ignored;
+    base::writeFile(path, text, ignored);
+  }
+  ~TemporaryFile() { std::filesystem::remove(path); }
+  std::string path;
+};
+
+}  // namespace
+
+TEST_CASE("a record is the same after it was written and read") {
+  PassRecords records = threePasses();
+  records.frames.push_back({7, {{.pass = "sort", .resource = "keys", .hash = ~0ull, .signature = {}}}});
+  records.frames[0].steps[0].signature->broken = 0.25f;
+  const TemporaryFile file(toText(records));
+  base::Diagnostics diagnostics;
+  const auto read = readRecords(file.path, diagnostics);
+  REQUIRE_MESSAGE(read.has_value(), diagnostics.text());
+  CHECK(toText(*read) == toText(records));
+  CHECK(read->frames[1].frame == 7);
+  CHECK_FALSE(read->frames[1].steps[0].signature.has_value());
+  CHECK(read->frames[0].steps[0].signature->broken == 0.25f);
+  CHECK_FALSE(findDivergence(*read, records).has_value());
+}
+
+TEST_CASE("a damaged record is refused at its line") {
+  const std::string good = toText(threePasses());
+  for (const auto& [from, to, line] :
+       {std::tuple("weft passes 1", "weft passes 9", 1u), std::tuple("frame 0", "frame x", 3u),
+        std::tuple("0000000000000002\t", "000000000000000g\t", 5u), std::tuple("\tglow\n", "\n", 5u)}) {
+    std::string text = good;
+    text.replace(text.find(from), std::string(from).size(), to);
+    const TemporaryFile file(text);
+    base::Diagnostics diagnostics;
+    CHECK_FALSE(readRecords(file.path, diagnostics).has_value());
+    REQUIRE(diagnostics.size() == 1);
+    CHECK(diagnostics.items()[0].place.line == line);
+  }
+}
+
+TEST_CASE("the first pass that differs, by bytes on one driver and by means on another") {
+  const PassRecords before = threePasses();
+  PassRecords after = threePasses();
+  after.frames[0].steps[1] = step("blur[2,1]", "glow", 20, 0.501f);
+  after.frames[0].steps[2] = step("tone", "ldr", 30, 1.5f);
+  auto found = findDivergence(before, after);
+  REQUIRE(found.has_value());
+  CHECK(found->pass == "blur[2,1]");
+  CHECK(found->exact);
+  after.driver = "driver b";  // where 0.2 % is rounding
+  found = findDivergence(before, after);
+  REQUIRE(found.has_value());
+  CHECK(found->pass == "tone");
+  CHECK(found->amount == doctest::Approx(1.0 / 3).epsilon(0.01));
+  after.frames[0].steps[2] = step("tone", "ldr", 30, 1.001f);
+  CHECK_FALSE(findDivergence(before, after).has_value());
+}
+
+TEST_CASE("passes that came and went are told where they stand") {
+  const PassRecords before = threePasses();
+  PassRecords after = threePasses();
+  after.frames[0].steps.erase(after.frames[0].steps.begin() + 1);
+  after.frames[0].steps[1].hash = 99;
+  auto found = findDivergence(before, after);
+  REQUIRE(found.has_value());
+  CHECK(found->kind == Divergence::Kind::missing);
+  CHECK(found->pass == "blur[2,1]");
+  found = findDivergence(after, before);
+  REQUIRE(found.has_value());
+  CHECK(found->kind == Divergence::Kind::added);
+  CHECK(found->pass == "blur[2,1]");
+  after.frames[0].steps.pop_back();
+  found = findDivergence(before, after);
+  REQUIRE(found.has_value());
+  CHECK(found->kind == Divergence::Kind::missing);
+}
+
+TEST_CASE("a signature sees exchanged channels and what is not finite") {
+  runtime::Signature a, b;
+  CHECK(runtime::differenceOf(a, b) == 0);
+  a.channels = {1, 2, 3, 1};
+  b.channels = {2, 1, 3, 1};
+  CHECK(runtime::differenceOf(a, b) == doctest::Approx(0.5));
+  b = a;
+  b.broken = 0.5f;
+  CHECK(runtime::differenceOf(a, b) == doctest::Approx(0.5));
+}
+
+TEST_CASE("what fuzz found is made as small as it stays wrong") {
+  const auto shrink = [](FuzzTrial trial, const auto& differs) { return shrinkTrial(trial, 40, differs); };
+  const FuzzTrial found{.seed = 9, .share = false, .poison = runtime::PoisonPattern::nan};
+  // Only the order of the passes 11 and 12 matters.
+  FuzzTrial least =
+      shrink(found, [](const FuzzTrial& t) { return t.seed != 0 && t.first <= 11 && t.last >= 12; });
+  CHECK(least == FuzzTrial{.seed = 9, .first = 11, .last = 12});
+  CHECK(least.arguments() == "--seed 9 --order 11:12 --share on --poison none");
+  // Only the poison.
+  least = shrink(found, [](const FuzzTrial& t) { return t.poison.has_value(); });
+  CHECK(least.arguments() == "--seed 0 --share on --poison nan");
+  // Only that storage is not shared.
+  least = shrink(found, [](const FuzzTrial& t) { return !t.share; });
+  CHECK(least.arguments() == "--seed 0 --share off --poison none");
+  CHECK(listTrials({0, 1, 2}, 0, ~0u, {true, false}, {std::nullopt, runtime::PoisonPattern::large}).size() ==
+        12);
+}

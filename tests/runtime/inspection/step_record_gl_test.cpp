@@ -1,0 +1,106 @@
+// What a watch sees of each step: the record of every pass, also where its storage is used again, and what poison does.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/runtime/inspection/inspector.h"
+#include "engine/runtime/inspection/poison.h"
+#include "engine/runtime/inspection/step_record.h"
+#include "tests/runtime/stage.h"
+
+using namespace weft;
+using namespace weft::runtime;
+using namespace weft::runtime::test;
+
+namespace {
+
+constexpr const char* kRecorded = "tests/theory/inspect.json";
+
+std::vector<StepRecord> recordFrame(Stage& stage, StepRecorder& recorder) {
+  stage.execution().watch({.after = [&](std::uint32_t step) { recorder.look(stage.execution(), step); }});
+  stage.run();
+  stage.execution().watch({});
+  return recorder.take();
+}
+
+const StepRecord& recordOf(const std::vector<StepRecord>& records, const char* pass, const char* resource) {
+  const auto found = std::ranges::find_if(
+      records, [&](const StepRecord& r) { return r.pass == pass && r.resource == resource; });
+  REQUIRE_MESSAGE(found != records.end(), pass << " " << resource);
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("each step has a record of what it wrote, the same in every frame") {
+  const CleanScope clean;
+  Stage stage(kRecorded, 16, 16);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  StepRecorder recorder;
+  recorder.keep("one", "first");
+  const auto records = recordFrame(stage, recorder);
+  CHECK(records.size() == 14);  // 6 of the chain, 2 of `numbers`, one of each of the 6 others
+  CHECK(recordOf(records, "chain[0,0]", "chain").hash != recordOf(records, "chain[1,0]", "chain").hash);
+  CHECK_FALSE(recordOf(records, "numbers", "table").signature.has_value());
+  // `shown` and `shown_ids` share storage, and are two pictures.
+  CHECK(recordOf(records, "show", "shown").hash != recordOf(records, "show_ids", "shown_ids").hash);
+  const auto again = recordFrame(stage, recorder);
+  REQUIRE(again.size() == records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) CHECK(again[i].hash == records[i].hash);
+
+  // What is kept is what the inspector reads.
+  REQUIRE(recorder.kept().has_value());
+  Inspector inspector(stage.renderer().device());
+  REQUIRE(inspector.watch(stage.execution(), {.resource = "first", .pass = "one"}));
+  stage.run();
+  CHECK(recorder.kept()->width == 8);
+  CHECK(recorder.kept()->values.size() == 8 * 4 * 4);
+  for (std::uint32_t i = 0; i < 32; ++i)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double kept = static_cast<double>(recorder.kept()->values[i * 4 + c]);
+      const double read = inspector.texel(i % 8, i / 8)->value[c];
+      CHECK((kept == read || (std::isnan(kept) && std::isnan(read))));
+    }
+  inspector.release(stage.execution());
+
+  // Means of what is finite, by hand: texel (x, y) of `first` is (x, y, 1, 1), but one that is NaN and one that is infinite.
+  const Signature& first = *recordOf(records, "one", "first").signature;
+  CHECK(first.broken == doctest::Approx(2.0 / 32));
+  CHECK(first.channels[0] == doctest::Approx((4 * 28 - 1 - 2) / 30.0));
+  CHECK(first.channels[1] == doctest::Approx((8 * 6 - 2) / 30.0));
+  CHECK(first.parts[3] == doctest::Approx(6.5 + 3 + 4));
+  // Depth has one channel; integers are read as numbers.
+  CHECK(recordOf(records, "deep", "deep").signature->channels[0] > 0);
+  CHECK(recordOf(records, "numbers", "ids").signature->channels[0] > 1000);
+}
+
+TEST_CASE("poison is what a pass finds, and no pass of a sound graph shows it") {
+  const CleanScope clean;
+  for (const char* graph : {kRecorded, "graphs/glow.json"}) {
+    Stage stage(graph, 32, 18);
+    REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+    stage.run();
+    const auto expected = gl::readFloats(stage.execution().presented());
+    for (const PoisonPattern pattern : {PoisonPattern::nan, PoisonPattern::large}) {
+      const graph::Plan& plan = stage.execution().plan();
+      std::size_t poisoned = 0;
+      stage.execution().watch({.before = [&](std::uint32_t step) {
+        poisonStep(stage.execution(), step, pattern);
+        for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
+          const graph::FlatResource& desc = plan.graph->resources[r];
+          if (plan.firstStep[r] != step || plan.persistent[r] || desc.format != graph::Format::rgba32f)
+            continue;
+          const float found = gl::readFloats(stage.execution().texture(r))[0];
+          CHECK((pattern == PoisonPattern::nan ? std::isnan(found) : found == 30000));
+          ++poisoned;
+        }
+      }});
+      stage.run();
+      stage.execution().watch({});
+      CHECK(poisoned == (graph == kRecorded ? 3 : 0));
+      const auto found = gl::readFloats(stage.execution().presented());
+      REQUIRE(found.size() == expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i)
+        CHECK((found[i] == expected[i] || (std::isnan(found[i]) && std::isnan(expected[i]))));
+    }
+  }
+}
