@@ -8,6 +8,7 @@
 #include "engine/imports/draw_order/draw_order.h"
 #include "engine/imports/environment/environment.h"
 #include "engine/imports/ground/ground.h"
+#include "engine/imports/image/image.h"
 #include "engine/imports/joints/joints.h"
 #include "engine/imports/lamps/lamps.h"
 #include "engine/imports/material_maps/material_maps.h"
@@ -35,6 +36,7 @@ ImportRegistry ImportRegistry::builtin() {
   registry.add(std::make_unique<Ground>());
   registry.add(std::make_unique<Camera>());
   registry.add(std::make_unique<CubeLut>());
+  registry.add(std::make_unique<Image>());
   registry.add(std::make_unique<Cut>());
   registry.add(std::make_unique<Probes>());
   return registry;

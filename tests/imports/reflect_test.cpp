@@ -5,8 +5,10 @@
 #include <cmath>
 #include <set>
 
+#include "engine/assets/images/image.h"
 #include "engine/imports/files.h"
 #include "engine/imports/import_registry.h"
+#include "tests/assets/temporary.h"
 
 using namespace weft;
 using namespace weft::imports;
@@ -68,8 +70,8 @@ TEST_CASE(
     CHECK(importOf(type.name).provide(requestOf(type.name)));
   }
   CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "ground",
-                                       "joints", "lamps", "material_maps", "materials", "meshes", "probes",
-                                       "spheres", "sun", "vertex_colors"});
+                                       "image", "joints", "lamps", "material_maps", "materials", "meshes",
+                                       "probes", "spheres", "sun", "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -140,6 +142,31 @@ TEST_CASE("a table is not there without a file; a file that cannot be read is sa
   CHECK(files.touched() == std::set<std::string>{"no/such/table.cube"});
 }
 
+TEST_CASE("an image is not there without a file; a sequence is watched with the picture that comes next") {
+  CHECK(importOf("image").reflect().kind == ImportKind::texture);
+  CHECK_FALSE(factsOf(requestOf("image"), {}).exists);
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  const std::vector<std::uint8_t> texels(12, 7);
+  REQUIRE(assets::savePng8(folder.at("a.1.png"), 2, 2, 3, texels, diagnostics));
+  REQUIRE(assets::savePng8(folder.at("a.12.png"), 2, 2, 3, texels, diagnostics));
+  REQUIRE(assets::savePng8(folder.at("a.01.png"), 2, 2, 3, texels, diagnostics));  // no number without zeros
+  Files files;
+  const auto request = requestOf("image", "file", folder.at("a.%d.png"));
+  const graph::ImportFacts facts = importOf("image").facts(request, {}, files);
+  CHECK(facts.exists);
+  CHECK(facts.format == graph::Format::rgba8);
+  CHECK(facts.width == 2);
+  CHECK(facts.mips == 1);
+  CHECK(files.touched() ==
+        std::set<std::string>{folder.at("a.1.png"), folder.at("a.12.png"), folder.at("a.13.png")});
+  CHECK_FALSE(importOf("image").provide(request)->isStill(World{scene::Scene{}}));
+  const graph::ImportFacts missing = factsOf(requestOf("image", "file", folder.at("b.##.png")), {});
+  CHECK_FALSE(missing.exists);
+  REQUIRE(missing.problems.size() == 1);
+  CHECK(missing.problems[0].code == base::Code::unreadableImage);
+}
+
 TEST_CASE(
     "probes are a buffer of a header and nine vec4 each; a grid or distances that cannot be are refused") {
   const graph::ImportType type = importOf("probes").reflect();
@@ -188,8 +215,9 @@ TEST_CASE("what may differ from frame to frame says so; none of the built-in imp
   World still{scene};
   scene.spheres.add({.velocity = {1, 0, 0}, .material = {}});
   World moving{scene};
-  const std::set<std::string> always = {"environment", "cube_lut",      "cut",       "ground",       "joints",
-                                        "lamps",       "material_maps", "materials", "vertex_colors"};
+  const std::set<std::string> always = {"environment", "cube_lut",     "cut",   "ground",
+                                        "image",       "joints",       "lamps", "material_maps",
+                                        "materials",   "vertex_colors"};
   for (const graph::ImportType& type : registry().reflect()) {
     CAPTURE(type.name);
     const auto provider = importOf(type.name).provide(requestOf(type.name));

@@ -35,13 +35,6 @@ std::string extensionOf(const std::string& name) {
   return extension;
 }
 
-void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  base::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
-                                          fmt::format("'{}' is no kind of image that is known", name));
-  d.expected = std::move(expected);
-  d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
-}
-
 // Grey, grey-alpha and RGB become RGBA; a missing alpha is 1.
 ImageF widenToRgba(ImageF image) {
   if (image.channels == 4) return image;
@@ -97,6 +90,13 @@ double spreadLight(ImageF& image, int x, int y) {
 }
 
 }  // namespace
+
+void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
+  base::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
+                                          fmt::format("'{}' is no kind of image that is known", name));
+  d.expected = std::move(expected);
+  d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
+}
 
 ImageKind kindOfName(const std::string& name) {
   const std::string extension = extensionOf(name);

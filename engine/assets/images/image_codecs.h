@@ -22,6 +22,11 @@ bool checkSize(base::Diagnostics& diagnostics, const std::string& name, long lon
 // Width and height of what decodeBytes would take, without decoding texels.
 std::optional<std::pair<int, int>> readImageSize(std::string_view bytes, const std::string& name,
                                                  base::Diagnostics& diagnostics);
+// The same for an .hdr and an .exr.
+std::optional<std::pair<int, int>> readHdrSize(std::string_view bytes, const std::string& name,
+                                               base::Diagnostics& diagnostics);
+std::optional<std::pair<int, int>> readExrSize(std::string_view bytes, const std::string& name,
+                                               base::Diagnostics& diagnostics);
 std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
                                 base::Diagnostics& diagnostics);
 std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
@@ -30,5 +35,11 @@ std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& na
                                    base::Diagnostics& diagnostics);
 std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const std::string& name,
                                   base::Diagnostics& diagnostics);
+// Whether a file that decodeBytes takes has 16 bits a channel; and those, as stored, RGBA.
+bool hasShorts(std::string_view bytes);
+std::optional<std::vector<std::uint16_t>> decodeShorts(std::string_view bytes, const std::string& name,
+                                                       base::Diagnostics& diagnostics);
+// "cannot be read" as unknownImageKind; `expected` lists the extensions.
+void reportUnknownKind(base::Diagnostics& diagnostics, const std::string& name, std::string expected);
 
 }  // namespace weft::assets

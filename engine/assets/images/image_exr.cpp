@@ -69,7 +69,14 @@ std::array<int, 4> findChannels(const EXRHeader& header) {
   return found;
 }
 
-std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+// What the header says of the picture, and which channels are wanted as floats. Nothing after errors.
+struct Opening {
+  HeaderOwner owner;
+  long long width = 0, height = 0;
+  std::array<int, 4> channels{};
+};
+
+std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
   if (const std::string problem = checkExr(bytes); !problem.empty()) {
     reportUnreadable(diagnostics, name, problem);
     return {};
@@ -79,22 +86,23 @@ std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Di
     reportUnreadable(diagnostics, name, "its version is not valid");
     return {};
   }
-  HeaderOwner owner;
-  EXRHeader& header = owner.header;
+  auto opening = std::make_unique<Opening>();
+  EXRHeader& header = opening->owner.header;
   const char* message = nullptr;
   if (ParseEXRHeaderFromMemory(&header, &version, dataOf(bytes), bytes.size(), &message) != TINYEXR_SUCCESS) {
     reportUnreadable(diagnostics, name, takeMessage(message));
     return {};
   }
   const EXRBox2i& box = header.data_window;
-  const long long width = static_cast<long long>(box.max_x) - box.min_x + 1;
-  const long long height = static_cast<long long>(box.max_y) - box.min_y + 1;
-  if (!checkSize(diagnostics, name, width, height)) return {};
-  if (!areCountsSound(header, width, height, bytes.size())) {
+  opening->width = static_cast<long long>(box.max_x) - box.min_x + 1;
+  opening->height = static_cast<long long>(box.max_y) - box.min_y + 1;
+  if (!checkSize(diagnostics, name, opening->width, opening->height)) return {};
+  if (!areCountsSound(header, opening->width, opening->height, bytes.size())) {
     reportUnreadable(diagnostics, name, "its header has impossible channel or chunk counts");
     return {};
   }
-  const std::array<int, 4> channels = findChannels(header);
+  opening->channels = findChannels(header);
+  const std::array<int, 4>& channels = opening->channels;
   if (channels[0] < 0 || channels[1] < 0 || channels[2] < 0) {
     reportUnreadable(diagnostics, name, "it has no channels R, G and B");
     return {};
@@ -107,7 +115,15 @@ std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Di
     reportUnreadable(diagnostics, name, "a colour channel holds whole numbers");
     return {};
   }
+  return opening;
+}
 
+std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+  const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
+  if (!opening) return {};
+  EXRHeader& header = opening->owner.header;
+  const std::array<int, 4>& channels = opening->channels;
+  const char* message = nullptr;
   PictureOwner picture;
   picture.image.num_channels =
       header.num_channels;  // on failure the library frees so many planes, else it leaks them
@@ -117,8 +133,8 @@ std::optional<ImageF> decode(std::string_view bytes, const std::string& name, Di
     reportUnreadable(diagnostics, name, takeMessage(message));
     return {};
   }
-  ImageF image{static_cast<int>(width), static_cast<int>(height), 4, {}};
-  image.texels.assign(static_cast<std::size_t>(width * height) * 4, 1.0f);
+  ImageF image{static_cast<int>(opening->width), static_cast<int>(opening->height), 4, {}};
+  image.texels.assign(static_cast<std::size_t>(opening->width * opening->height) * 4, 1.0f);
   for (std::size_t c = 0; c < 4; ++c) {
     if (channels[c] < 0) continue;
     const float* plane = reinterpret_cast<const float*>(picture.image.images[channels[c]]);
@@ -134,6 +150,18 @@ std::optional<ImageF> decodeExr(std::string_view bytes, const std::string& name,
     return decode(bytes, name, diagnostics);
   } catch (const std::exception& error) {  // the library's own containers
     reportUnreadable(diagnostics, name, fmt::format("decoding failed ({})", error.what()));
+    return {};
+  }
+}
+
+std::optional<std::pair<int, int>> readExrSize(std::string_view bytes, const std::string& name,
+                                               Diagnostics& diagnostics) {
+  try {
+    const std::unique_ptr<Opening> opening = openExr(bytes, name, diagnostics);
+    if (!opening) return {};
+    return std::pair{static_cast<int>(opening->width), static_cast<int>(opening->height)};
+  } catch (const std::exception& error) {
+    reportUnreadable(diagnostics, name, fmt::format("its header cannot be read ({})", error.what()));
     return {};
   }
 }

@@ -117,7 +117,8 @@ void appendBytes(void* out, void* bytes, int count) {
 
 }  // namespace
 
-std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+std::optional<std::pair<int, int>> readHdrSize(std::string_view bytes, const std::string& name,
+                                               Diagnostics& diagnostics) {
   if (bytes.size() <= 0x7fffffffu && !stbi_is_hdr_from_memory(stbData(bytes), stbSize(bytes))) {
     reportUnreadable(diagnostics, name, "it does not begin as a Radiance picture (#?RADIANCE)");
     return {};
@@ -128,11 +129,17 @@ std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name,
     reportUnreadable(diagnostics, name, problem);
     return {};
   }
+  return std::pair{header->width, header->height};
+}
+
+std::optional<ImageF> decodeHdr(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+  const auto size = readHdrSize(bytes, name, diagnostics);
+  if (!size) return {};
   int width = 0, height = 0, channels = 0;
   float* texels = stbi_loadf_from_memory(stbData(bytes), stbSize(bytes), &width, &height, &channels, 3);
-  auto values = take(texels, componentCount(header->width, header->height, 3), name, diagnostics);
+  auto values = take(texels, componentCount(size->first, size->second, 3), name, diagnostics);
   if (!values) return {};
-  return ImageF{header->width, header->height, 3, std::move(*values)};
+  return ImageF{size->first, size->second, 3, std::move(*values)};
 }
 
 std::optional<ImageF> decodeLinear(std::string_view bytes, const std::string& name,
@@ -173,6 +180,19 @@ std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const st
   auto values = take(texels, componentCount(header->width, header->height, wanted), name, diagnostics);
   if (!values) return {};
   return Image8{header->width, header->height, wanted, std::move(*values)};
+}
+
+bool hasShorts(std::string_view bytes) {
+  return bytes.size() <= 0x7fffffffu && stbi_is_16_bit_from_memory(stbData(bytes), stbSize(bytes));
+}
+
+std::optional<std::vector<std::uint16_t>> decodeShorts(std::string_view bytes, const std::string& name,
+                                                       Diagnostics& diagnostics) {
+  const std::optional<Header> header = readPictureHeader(bytes, name, diagnostics);
+  if (!header) return {};
+  int width = 0, height = 0, stored = 0;
+  stbi_us* texels = stbi_load_16_from_memory(stbData(bytes), stbSize(bytes), &width, &height, &stored, 4);
+  return take(texels, componentCount(header->width, header->height, 4), name, diagnostics);
 }
 
 bool savePng8(const std::string& path, int width, int height, int channels,

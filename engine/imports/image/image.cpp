@@ -1,0 +1,285 @@
+#include "engine/imports/image/image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "engine/assets/images/stored_image.h"
+#include "engine/base/limits.h"
+#include "engine/imports/files.h"
+#include "engine/imports/image/image_sequence.h"
+
+namespace weft::imports {
+
+namespace {
+
+using assets::StoredHeader;
+using assets::StoredType;
+using graph::Value;
+
+// In the order of reflect().
+enum ImageArgument : std::size_t { kImageFile, kImageFrame, kImageFps, kImageEnd, kImageSrgb, kImageMips };
+
+struct ImageRequest {
+  std::string file;
+  double frame = -1;  // below 0: the sequence plays
+  double fps = 0;     // 0: a picture per frame
+  bool hold = false, srgb = false, mips = false;
+};
+
+ImageRequest imageRequestOf(const graph::ImportRequest& request) {
+  const auto number = [&](ImageArgument which) { return request.arguments[which].second.v[0]; };
+  return {.file = request.arguments[kImageFile].second.symbol,
+          .frame = number(kImageFrame),
+          .fps = number(kImageFps),
+          .hold = request.arguments[kImageEnd].second.symbol == "hold",
+          .srgb = number(kImageSrgb) != 0,
+          .mips = number(kImageMips) != 0};
+}
+
+graph::Format formatOf(StoredType type, bool srgb) {
+  switch (type) {
+    case StoredType::byte:
+      return srgb ? graph::Format::srgb8_a8 : graph::Format::rgba8;
+    case StoredType::word:
+      // OpenGL decodes sRGB of 8 bits only.
+      return srgb ? graph::Format::rgba32f : graph::Format::rgba16;
+    case StoredType::real:
+      break;
+  }
+  return graph::Format::rgba32f;
+}
+
+std::uint32_t levelsOf(const StoredHeader& header, bool mips) {
+  return mips ? static_cast<std::uint32_t>(
+                    std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))))
+              : 1;
+}
+
+gl::TextureDesc textureDescOf(const StoredHeader& header, const ImageRequest& request) {
+  const graph::Format format = formatOf(header.type, request.srgb);
+  return {.format = format == graph::Format::srgb8_a8 ? GLenum{GL_SRGB8_ALPHA8}
+                    : format == graph::Format::rgba8  ? GLenum{GL_RGBA8}
+                    : format == graph::Format::rgba16 ? GLenum{GL_RGBA16}
+                                                      : GLenum{GL_RGBA32F},
+          .width = static_cast<std::uint32_t>(header.width),
+          .height = static_cast<std::uint32_t>(header.height),
+          .mips = levelsOf(header, request.mips)};
+}
+
+// The file that stands for the number `wanted` of a sequence: of a gap, the one before it.
+std::uint32_t numberAt(const std::vector<std::uint32_t>& numbers, std::uint64_t wanted) {
+  const auto after = std::ranges::upper_bound(numbers, wanted);
+  return after == numbers.begin() ? numbers.front() : *(after - 1);
+}
+
+// Which number of a playing sequence a frame shows.
+std::uint32_t numberNow(const std::vector<std::uint32_t>& numbers, const ImageRequest& request,
+                        const FrameInput& input) {
+  // A frame at exactly k / fps shows picture k, however its time was rounded.
+  constexpr double kRounding = 1e-6;
+  const double step =
+      request.fps > 0 ? std::max(0.0, std::floor(input.time * request.fps + kRounding)) : input.frame;
+  const std::uint64_t first = numbers.front(), count = numbers.back() - first + 1;
+  const auto steps = static_cast<std::uint64_t>(std::min(step, 1e15));
+  return numberAt(numbers, first + (request.hold ? std::min(steps, count - 1) : steps % count));
+}
+
+// "1024 x 512 with 8 bits a channel".
+std::string shapeText(const StoredHeader& header) {
+  const char* const bits = header.type == StoredType::byte   ? "8"
+                           : header.type == StoredType::word ? "16"
+                                                             : "32";
+  return fmt::format("{} x {} with {} bits a channel", header.width, header.height, bits);
+}
+
+class ImageProvider : public Provider {
+ public:
+  explicit ImageProvider(const graph::ImportRequest& request)
+      : request_(imageRequestOf(request)), pattern_(sequencePatternOf(request_.file)) {}
+
+  gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override {
+    if (request_.file.empty()) return {};
+    if (stale_ && pattern_) numbers_ = numbersOf(*pattern_, diagnostics);
+    std::string path = request_.file;
+    if (pattern_) path = numbers_.empty() ? "" : pattern_->nameOf(numberOf(frame));
+    if (!path.empty() && (stale_ || path != path_)) show(frame, path, diagnostics);
+    stale_ = false;
+    return texture_ ? texture_.ref() : gl::TextureRef{};
+  }
+  std::uint64_t generation(const Frame&) override { return generation_; }
+  bool isStill(const World&) const override { return !pattern_ || request_.frame >= 0; }
+  bool renew(bool used) override {
+    stale_ = true;
+    return used;
+  }
+
+ private:
+  std::uint32_t numberOf(const Frame& frame) const {
+    return request_.frame >= 0 ? numberAt(numbers_, static_cast<std::uint64_t>(request_.frame))
+                               : numberNow(numbers_, request_, frame.input);
+  }
+
+  // After an error the texture stays as it is, and the file is not tried again before it changes.
+  void show(const Frame& frame, const std::string& path, base::Diagnostics& diagnostics) {
+    const bool another = path != path_;
+    path_ = path;
+    base::Diagnostics said;
+    const auto header = frame.files.get<StoredHeader>(path, assets::loadStoredHeader, said);
+    if (header && header == header_ && !another) return;  // as it was
+    header_ = header;
+    auto image = header ? assets::loadStored(path, said) : std::nullopt;
+    if (image && pattern_ && another && texture_ && !fits(image->header, path, said)) image.reset();
+    diagnostics.append(said);
+    if (!image) return;
+    if (request_.srgb && image->header.type == StoredType::word) *image = assets::decodeSrgbWords(*image);
+    const gl::TextureDesc desc = textureDescOf(image->header, request_);
+    if (!texture_ || !(texture_.desc() == desc)) {
+      auto texture = gl::Texture::create(desc, request_.file, diagnostics);
+      if (!texture) return;
+      texture_ = std::move(*texture);
+    }
+    const GLenum type = image->header.type == StoredType::byte   ? GL_UNSIGNED_BYTE
+                        : image->header.type == StoredType::word ? GL_UNSIGNED_SHORT
+                                                                 : GL_FLOAT;
+    gl::uploadTexture(texture_.ref(), 0, 0, GL_RGBA, type, image->texels);
+    if (desc.mips > 1) glGenerateTextureMipmap(texture_.id());
+    generation_ = frame.newGeneration();
+  }
+
+  // A sequence has one size: the graph's sizes depend on it.
+  bool fits(const StoredHeader& header, const std::string& path, base::Diagnostics& diagnostics) const {
+    if (textureDescOf(header, request_) == texture_.desc()) return true;
+    base::Diagnostic& d =
+        diagnostics.error(base::Code::badImageSize, {std::make_shared<const std::string>(path)},
+                          fmt::format("a picture of the sequence '{}' has another size", pattern_->text));
+    d.expected =
+        fmt::format("{} x {}, as the pictures before", texture_.desc().width, texture_.desc().height);
+    d.found = shapeText(header);
+    d.hint = "save all pictures of a sequence in one size and with equally many bits";
+    return false;
+  }
+
+  ImageRequest request_;
+  std::optional<SequencePattern> pattern_;
+  std::vector<std::uint32_t> numbers_;
+  std::string path_;                            // tried last
+  std::shared_ptr<const StoredHeader> header_;  // of it: another object when the file is another
+  gl::Texture texture_;
+  std::uint64_t generation_ = 0;
+  bool stale_ = true;
+};
+
+// The file whose header tells the size. Empty after errors.
+std::string firstFileOf(const ImageRequest& request, Files& files, base::Diagnostics& diagnostics) {
+  const auto pattern = sequencePatternOf(request.file);
+  if (!pattern) {
+    if (request.frame >= 0) {
+      base::Diagnostic& d =
+          diagnostics.error(base::Code::badImportArgument, {}, "\"frame\" chooses from a sequence");
+      d.expected = "a \"file\" with #### or %04d in its name";
+      d.found = request.file;
+      d.hint = "leave \"frame\" out, or name a sequence: \"clouds.####.png\"";
+      return {};
+    }
+    return request.file;
+  }
+  const std::vector<std::uint32_t> numbers = numbersOf(*pattern, diagnostics);
+  if (numbers.empty()) return {};
+  for (const std::uint32_t number : numbers) files.touch(pattern->nameOf(number));
+  files.touch(pattern->nameOf(numbers.back() + 1));
+  if (request.frame < 0) return pattern->nameOf(numbers.front());
+  const std::uint32_t nearest = numberAt(numbers, static_cast<std::uint64_t>(request.frame));
+  if (nearest != std::floor(request.frame)) {
+    base::Diagnostic& d =
+        diagnostics.error(base::Code::badImportArgument, {},
+                          fmt::format("the sequence '{}' has no such picture", request.file));
+    d.expected = fmt::format("\"frame\" from {} to {}", numbers.front(), numbers.back());
+    d.found = fmt::format("{}", request.frame);
+    d.hint = fmt::format("the nearest is {}", nearest);
+    return {};
+  }
+  return pattern->nameOf(nearest);
+}
+
+bool fitsMemory(const StoredHeader& header, const ImageRequest& request, const std::string& path,
+                base::Diagnostics& diagnostics) {
+  const std::uint64_t texels = std::uint64_t(header.width) * std::uint64_t(header.height);
+  const std::uint64_t level = texels * graph::infoOf(formatOf(header.type, request.srgb)).bytes;
+  const std::uint64_t bytes = request.mips ? level + level / 3 : level;
+  const std::uint64_t most = base::limitOf(base::Limit::texture_bytes);
+  if (bytes <= most) return true;
+  base::Diagnostic& d =
+      diagnostics.error(base::Code::limitExceeded, {std::make_shared<const std::string>(path)},
+                        fmt::format("the image '{}' needs {} bytes as a texture", path, bytes));
+  d.expected = fmt::format("at most {} bytes (limit {})", most, base::nameOf(base::Limit::texture_bytes));
+  d.found = shapeText(header);
+  d.hint = base::hintToRaise(base::Limit::texture_bytes, bytes);
+  return false;
+}
+
+}  // namespace
+
+graph::ImportType Image::reflect() const {
+  return {
+      .name = "image",
+      .kind = graph::ImportKind::texture,
+      .doc =
+          "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .tga as rgba8 "
+          "or rgba16, "
+          ".hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` is empty.",
+      .arguments = {
+          {.name = "file",
+           .initial = Value::text(""),
+           .choices = {},
+           .doc = "path of the file; of a sequence with #### or %04d for the number"},
+          {.name = "frame",
+           .initial = Value::number(-1),
+           .choices = {},
+           .doc = "number of the picture of a sequence; -1: it plays from its first number on"},
+          {.name = "fps",
+           .initial = Value::number(0),
+           .choices = {},
+           .doc = "pictures per second of a sequence that plays; 0: one per frame"},
+          {.name = "end",
+           .initial = Value::text("loop"),
+           .choices = {"loop", "hold"},
+           .doc = "what follows the last picture of a sequence: the first, or itself"},
+          {.name = "srgb",
+           .initial = Value::boolean(false),
+           .choices = {},
+           .doc =
+               "decode red, green and blue from sRGB, as pictures are stored; not for .hdr and .exr, which "
+               "are linear"},
+          {.name = "mips",
+           .initial = Value::boolean(false),
+           .choices = {},
+           .doc = "all levels down to one texel"}}};
+}
+
+graph::ImportFacts Image::facts(const graph::ImportRequest& request, const WorldFacts&, Files& files) const {
+  graph::ImportFacts result;
+  const ImageRequest image = imageRequestOf(request);
+  if (image.file.empty()) return result;
+  base::Diagnostics said;
+  const std::string path = firstFileOf(image, files, said);
+  const auto header = path.empty() ? nullptr : files.get<StoredHeader>(path, assets::loadStoredHeader, said);
+  if (header && fitsMemory(*header, image, path, said)) {
+    result.exists = true;
+    result.format = formatOf(header->type, image.srgb);
+    result.width = static_cast<std::uint32_t>(header->width);
+    result.height = static_cast<std::uint32_t>(header->height);
+    result.mips = levelsOf(*header, image.mips);
+  }
+  result.problems = said.items();
+  return result;
+}
+
+std::unique_ptr<Provider> Image::provide(const graph::ImportRequest& request) const {
+  return std::make_unique<ImageProvider>(request);
+}
+
+}  // namespace weft::imports
