@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
       {"render", runRender}, {"view", runView},     {"check", runCheck},   {"explain", runExplain},
       {"expand", runExpand}, {"diff", runDiff},     {"params", runParams}, {"presets", runPresets},
       {"dot", runDot},       {"plan", runPlan},     {"bench", runBench},   {"schema", runSchema},
-      {"types", runTypes},   {"format", runFormat},
+      {"types", runTypes},   {"format", runFormat}, {"import", runImport},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));
