@@ -23,7 +23,7 @@ TEST_CASE("every file of tests/convert becomes a graph that Weft reads") {
     REQUIRE_MESSAGE(converted, diagnostics.text());
     CHECK_FALSE(diagnostics.hasErrors());
     std::string why;
-    CHECK_MESSAGE(isReadable(*converted, why), why);
+    CHECK_MESSAGE(isSound(*converted, why), why);
     // The lines keep their numbers, and the comments their text.
     const bool isf = file.extension() == ".fs";
     const std::string original = textOf(file);

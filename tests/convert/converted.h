@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,7 +17,9 @@
 #include "engine/convert/isf/convert_isf.h"
 #include "engine/convert/mpv/convert_mpv.h"
 #include "engine/graph/desc.h"
+#include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
+#include "tests/graph/test_registry.h"
 
 namespace weft::convert::test {
 
@@ -65,12 +68,46 @@ inline std::string partOf(const Converted& converted, std::string_view ending) {
   return {};
 }
 
-// Whether Weft's own reader takes the graph.
-inline bool isReadable(const Converted& converted, std::string& why) {
+// Whether Weft reads the graph and expands it, with a picture and without. What the values of a foreign file make wrong, a
+// size of 0 or a division by it, is no fault of the import: `values` allows it.
+inline bool isSound(const Converted& converted, std::string& why, bool values = false) {
   base::Diagnostics diagnostics;
   const auto desc = graph::readGraphText(partOf(converted, converted.graph), converted.graph, diagnostics);
-  why = diagnostics.text();
-  return desc && diagnostics.empty();
+  if (!desc || !diagnostics.empty()) {
+    why = diagnostics.text();
+    return false;
+  }
+  for (const bool present : {false, true}) {
+    graph::Registry registry = graph::test::testRegistry();
+    std::erase_if(registry.imports, [](const graph::ImportType& type) { return type.name == "image"; });
+    registry.imports.push_back({.name = "image",
+                                .kind = graph::ImportKind::texture,
+                                .doc = "",
+                                .arguments = {graph::test::argument("file", graph::Value::text(""))}});
+    registry.factsOf = [present](const graph::ImportRequest& request) {
+      graph::ImportFacts facts = graph::test::testFacts({}, request);
+      if (request.type != "image") return facts;
+      facts.exists = present;
+      facts.format = graph::Format::rgba8;
+      facts.width = 96;
+      facts.height = 64;
+      return facts;
+    };
+    base::Diagnostics said;
+    const auto flat = graph::expandGraph(*desc, registry, {.screenWidth = 96, .screenHeight = 64}, said);
+    for (const base::Diagnostic& d : said.items()) {
+      const bool ofValues = d.code == base::Code::numberOutOfRange || d.code == base::Code::noFiniteResult ||
+                            d.code == base::Code::texturesTooLarge || d.code == base::Code::limitExceeded;
+      const bool absent =
+          !present && d.severity == base::Severity::error && !flat;  // an image that must be there
+      if (d.severity == base::Severity::error && !(values && ofValues) && !absent) {
+        why = said.text();
+        return false;
+      }
+    }
+    if (present && !flat && !values) return false;
+  }
+  return true;
 }
 
 }  // namespace weft::convert::test

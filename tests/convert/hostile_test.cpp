@@ -17,7 +17,7 @@ void expectSane(const std::string& text, bool isf) {
   const auto converted = isf ? convertIsfText(text, diagnostics) : convertMpvText(text, diagnostics);
   if (converted) {
     std::string why;
-    CHECK_MESSAGE(isReadable(*converted, why), why << "\nof\n" << text);
+    CHECK_MESSAGE(isSound(*converted, why, true), why << "\nof\n" << text);
     return;
   }
   CHECK(diagnostics.hasErrors());

@@ -19,7 +19,7 @@ std::string graphOf(const std::string& header, const std::string& body) {
   const auto converted = convertIsfText("/*" + header + "*/\n" + body, diagnostics);
   REQUIRE_MESSAGE(converted, diagnostics.text());
   std::string why;
-  CHECK_MESSAGE(isReadable(*converted, why), why);
+  CHECK_MESSAGE(isSound(*converted, why), why);
   return partOf(*converted, "x.json");
 }
 
@@ -32,7 +32,7 @@ std::string mpvGraphOf(const std::string& text) {
   const auto converted = convertMpvText(text, diagnostics);
   REQUIRE_MESSAGE(converted, diagnostics.text());
   std::string why;
-  CHECK_MESSAGE(isReadable(*converted, why), why);
+  CHECK_MESSAGE(isSound(*converted, why), why);
   return partOf(*converted, "x.json");
 }
 
