@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
       {"dot", runDot},       {"plan", runPlan},     {"bench", runBench},   {"schema", runSchema},
       {"types", runTypes},   {"format", runFormat}, {"lsp", runLsp},       {"completion", runCompletion},
       {"man", runMan},       {"dump", runDump},     {"test", runTest},     {"bisect", runBisect},
-      {"ablate", runAblate}, {"fuzz", runFuzz},     {"new", runNew},
+      {"ablate", runAblate}, {"fuzz", runFuzz},     {"new", runNew},       {"import", runImport},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));

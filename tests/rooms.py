@@ -14,10 +14,11 @@ ROOMS = {
     "gl": {"base"},
     "assets": {"base"},
     "scene": {"base", "assets"},
+    "convert": {"base", "gl", "assets"},
     "passes": {"base", "graph", "gl", "scene", "assets"},
     "imports": {"base", "graph", "gl", "assets", "scene"},
     "runtime": {"base", "graph", "gl", "assets", "scene", "passes", "imports"},
-    "app": {"base", "graph", "gl", "assets", "scene", "passes", "imports", "runtime"},
+    "app": {"base", "graph", "gl", "assets", "scene", "passes", "imports", "runtime", "convert"},
 }
 # Sub-rooms and which others of their room each may include. "." is the door: files in the room's own folder. Each line may name
 # earlier lines only, so that no arrow runs upward.
@@ -55,6 +56,7 @@ SUB_ROOMS = {
         "shaders": set(),
         "programs": {"context", "objects", "shaders"},
     },
+    "convert": {"text": set(), "isf": {"text"}, "mpv": {"text"}, ".": {"text", "isf", "mpv"}},
     "runtime": {
         "storage": set(),
         "cadence": set(),

@@ -26,6 +26,7 @@ int runTaskDot(const Options& options);
 int runPlan(const Options& options);
 int runBench(const Options& options);
 int runFormat(const Options& options);
+int runImport(const Options& options);
 int runSchema(const Options& options);
 int runTypes(const Options& options);
 int runCompletion(const Options& options);

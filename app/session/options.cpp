@@ -23,8 +23,9 @@ namespace {
 
 // What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
 void chooseFiles(const Options& options) {
-  for (const std::string* file : {&options.graph, &options.otherGraph, &options.scene, &options.environment,
-                                  &options.materials, &options.frameGraph, &options.trial.folder})
+  for (const std::string* file :
+       {&options.graph, &options.otherGraph, &options.scene, &options.environment, &options.materials,
+        &options.frameGraph, &options.trial.folder, &options.foreignFile})
     base::chooseFile(*file);
   for (const std::string& preset : options.presets) base::chooseFile(preset);
   for (const std::string& preset : options.trial.otherPresets) base::chooseFile(preset);
@@ -279,6 +280,17 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.add_subcommand("man", "print the manual page")->footer("Example: weft man | man -l -");
 
   addTrialCommands(app, options, raw);
+  CLI::App* import = app.add_subcommand(
+      "import", "make a graph and its shaders of an ISF file (.fs) or a user shader of mpv (.glsl, .hook)");
+  import->add_option("file", options.foreignFile, "the file; a .vs beside a .fs is read, too")->required();
+  import->add_option("-o,--output", options.folder, "folder to write into; made where it is missing")
+      ->required();
+  import->add_option("--image", options.images, "a picture for an input of the file; repeatable")
+      ->check(CLI::Validator(checkSet, "NAME=FILE"));
+  import->add_option("--name", options.newName, "name of the graph (default: that of the file)");
+  import->add_flag("--overwrite", options.overwrite, "replace files that are there");
+  import->footer("example: weft import glow.fs -o glow --image inputImage=photo.png");
+
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 

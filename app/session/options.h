@@ -61,6 +61,11 @@ struct Options {
   std::string otherGraph;                // diff: the second graph
   std::string format = "text";           // check, plan, params, presets: text, json or (check) sarif
   std::vector<std::string> files;        // format
+  std::string foreignFile;               // import: of another program
+  std::string folder;                    // import: where the graph goes
+  std::string newName;                   // import: of the graph; empty: that of the file
+  std::vector<std::string> images;       // import: NAME=FILE of pictures that the file reads
+  bool overwrite = false;                // import: files that are there
   std::string shell;                     // completion
   std::vector<CommandText> commandLine;  // completion, man: what they are about
   bool stdio = true;                     // lsp: what editors ask for, and the only way there is

@@ -2,7 +2,8 @@
 // code, and tests/bad_graphs (or the room's tests) one failing input per code. A ctest holds the three together.
 //
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
-// W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits.
+// W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits, W220-W239 pipelines of other
+// programs.
 // Numbers are never reused; W010 (overlays are not supported yet) is retired. Does not hold the message texts: those
 // stand where the mistake is found.
 #pragma once
@@ -152,7 +153,15 @@ namespace weft::base {
   X(W205, filesArePolled,            "files are polled")                                            \
   X(W206, tooManyWorkGroups,         "work groups beyond the limit of the device")                  \
   X(W207, pictureNotFinite,          "picture of values that are no colours")                       \
-  X(W208, messagesLeftOut,           "further messages are left out")
+  X(W208, messagesLeftOut,           "further messages are left out")                               \
+  /* pipelines of other programs */                                                                \
+  X(W220, notIsf,                    "not an ISF file")                                             \
+  X(W221, isfNotMapped,              "ISF that Weft cannot map")                                    \
+  X(W222, sizeNotMapped,             "size that Weft cannot express")                               \
+  X(W223, unknownPipeline,           "unknown kind of pipeline")                                    \
+  X(W224, glslNotMapped,             "GLSL that cannot be translated")                              \
+  X(W225, badMpvHeader,              "broken header of an mpv shader")                              \
+  X(W226, mpvNotMapped,              "mpv shader that Weft cannot map")
 // clang-format on
 
 // 53 of "W053".

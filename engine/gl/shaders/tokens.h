@@ -2,7 +2,7 @@
 // macros expanded, each token with the line of the text that it comes from. The work is bounded, so that
 // macros which double again and again cost what the bound allows. Where a condition hangs on what only the
 // driver knows (a macro GL_…), all its branches are taken. Does not: check that the text is right; the
-// compiler does. Not for other rooms.
+// compiler does. Of other rooms only engine/convert needs it, to translate shaders.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Imports the files of cases.json, renders them, and holds the pictures against those of other players (references/, made by
+judges/references.py). Prints the table of docs/importing.md. Each imported graph also passes `weft format --check` and `weft check`.
+
+    agreement.py WEFT [--table]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER / "judges"))
+from pictures import difference, read_png  # noqa: E402
+
+
+def weft(binary, *arguments):
+    process = subprocess.run([binary, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    if process.returncode != 0:
+        raise SystemExit(f"weft {' '.join(map(str, arguments))}: exit {process.returncode}\n{process.stderr}")
+    return process
+
+
+def main():
+    binary = sys.argv[1]
+    manifest = json.loads((FOLDER / "cases.json").read_text())
+    size = "x".join(map(str, manifest["size"]))
+    rows, problems = [], []
+    with tempfile.TemporaryDirectory() as temporary:
+        top = pathlib.Path(temporary)
+        for case in manifest["cases"]:
+            name, out = case["name"], top / case["name"]
+            images = case.get("images", {} if case["file"].endswith(".fs") else {"picture": "card.png"})
+            pictures = [word for image, file in images.items() for word in ("--image", f"{image}={FOLDER / 'pictures' / file}")]
+            weft(binary, "import", FOLDER / case["file"], "-o", out, *pictures)
+            graph = out / f"{name}.json"
+            weft(binary, "format", "--check", graph)
+            said = weft(binary, "check", graph, "--size", size).stderr
+            if said:
+                problems.append(f"{name}: check says\n{said}")
+            shown = top / f"{name}.png"
+            weft(binary, "render", graph, "--size", size, "--frames", case.get("frame", 0), "--quiet", "-o", shown)
+            width, height, rgb = read_png(shown)
+            expected = read_png(FOLDER / "references" / f"{name}.png")
+            if (width, height) != expected[:2]:
+                problems.append(f"{name}: {width} x {height} instead of {expected[0]} x {expected[1]}")
+                continue
+            mean, largest = difference(rgb, expected[2])
+            rows.append(f"| `{case['file']}` | {case['shows']} | {mean:.3f} | {largest} |")
+            if mean > case["mean"] or largest > case["largest"]:
+                problems.append(f"{name}: mean difference {mean:.3f} (at most {case['mean']}), largest {largest} (at most {case['largest']})")
+    if "--table" in sys.argv or problems:
+        print("\n".join(rows))
+    print("\n".join(problems))
+    return 1 if problems else 0
+
+
+sys.exit(main())

@@ -1,0 +1,6 @@
+/*{
+  "INPUTS": [
+    { "NAME": "level" }
+  ]
+}*/
+void main() { gl_FragColor = vec4(1.0); }

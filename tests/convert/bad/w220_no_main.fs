@@ -1,0 +1,2 @@
+/*{ "INPUTS": [] }*/
+float half_ = 0.5;

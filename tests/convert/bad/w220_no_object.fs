@@ -1,0 +1,2 @@
+/*[ "a", "list" ]*/
+void main() { gl_FragColor = vec4(1.0); }

@@ -1,0 +1,7 @@
+/*{
+  "PASSES": [
+    { "TARGET": "small", "WIDTH": "$WIDTH / $cells" },
+    { }
+  ]
+}*/
+void main() { gl_FragColor = IMG_THIS_PIXEL(small); }

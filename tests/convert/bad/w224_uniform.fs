@@ -1,0 +1,5 @@
+/*{ }*/
+uniform float gain;
+void main() {
+  gl_FragColor = vec4(gain);
+}

@@ -1,0 +1,4 @@
+//!HOOK MAIN
+//!BIND HOOKED
+//!COMPUTE 8
+void hook() {}

@@ -1,0 +1,3 @@
+//!DESC nothing is hooked
+//!BIND HOOKED
+vec4 hook() { return vec4(1.0); }

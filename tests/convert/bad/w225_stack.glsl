@@ -1,0 +1,4 @@
+//!HOOK MAIN
+//!BIND HOOKED
+//!WIDTH HOOKED.w *
+vec4 hook() { return vec4(1.0); }

@@ -1,0 +1,4 @@
+//!HOOK MAIN
+//!BIND HOOKED
+//!BIND BLURRED
+vec4 hook() { return BLURRED_texOff(0); }

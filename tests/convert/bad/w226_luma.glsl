@@ -1,0 +1,3 @@
+//!HOOK LUMA
+//!BIND HOOKED
+vec4 hook() { return HOOKED_texOff(0); }

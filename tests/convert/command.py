@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""weft import as a command: what it writes and prints, that it replaces nothing unasked and writes nothing after an error, that
+messages of the shader compiler keep the lines of the original, and that reading can be confined.
+
+    command.py WEFT
+"""
+import pathlib
+import sys
+import tempfile
+
+from program import TOP, run
+
+WEFT = sys.argv[1]
+ISF = """/*{
+  "INPUTS": [ { "NAME": "level", "TYPE": "float", "DEFAULT": 0.5 } ]
+}*/
+void main() {
+  float half_ = level * 0.5;
+  gl_FragColor = vec4(halff_);
+}
+"""
+HOOK = """//!HOOK MAIN
+//!BIND HOOKED
+vec4 hook() { return HOOKED_texOff(0); }
+//!HOOK MAIN
+//!BIND HOOKED
+vec4 hook() {
+  return HOOKED_texOff(0) * gainn;
+}
+"""
+
+
+def files_in(folder):
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+
+
+def main():
+    with tempfile.TemporaryDirectory() as temporary:
+        top = pathlib.Path(temporary)
+        out = top / "out"
+        done = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out)
+        assert done.code == 0 and done.out == f"{out}/corners.json\n" and not done.err, done.err
+        shaders = ["corners.frag.glsl", "corners.fs.glsl", "corners.vert.glsl", "corners.vs.glsl", "isf.glsl"]
+        assert files_in(out) == ["corners.json", *(f"shaders/corners/{name}" for name in shaders)], files_in(out)
+        # Without a picture it is a graph, too.
+        assert run(WEFT, "check", out / "corners.json", "--size", "32x32").err.count("[W") == 0
+
+        # Nothing is replaced unasked.
+        mine = out / "corners.json"
+        mine.write_text("mine")
+        again = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out)
+        assert again.code == 1 and again.codes() == ["W180"] and mine.read_text() == "mine", again.err
+        assert run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--overwrite").code == 0 and mine.read_text() != "mine"
+        other = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--name", "second")
+        assert other.code == 0 and (out / "second.json").exists(), other.err
+        assert run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--name", "../up").codes() == ["W012"]
+
+        # After an error nothing is written.
+        bad = run(WEFT, "import", "tests/convert/bad/w221_audio.fs", "-o", top / "none")
+        assert bad.code == 1 and bad.codes() == ["W221"] and not (top / "none").exists(), bad.err
+        missing = run(WEFT, "import", top / "no.fs", "-o", top / "none")
+        assert missing.code == 1 and missing.codes() == ["W001"], missing.err
+        wrong = run(WEFT, "import", "tests/convert/isf/negative.fs", "-o", top / "none", "--image", "imputImage=x.png")
+        assert wrong.code == 1 and wrong.codes() == ["W044"] and "inputImage" in wrong.err, wrong.err
+        assert not (top / "none").exists()
+
+        # Messages keep the lines.
+        for name, text, line in (("wrong.fs", ISF, 6), ("wrong.hook", HOOK, 7)):
+            (top / name).write_text(text)
+            assert run(WEFT, "import", top / name, "-o", top / "wrong", "--overwrite").code == 0
+            said = run(WEFT, "check", top / "wrong/wrong.json")
+            assert said.code == 1 and any(d["line"] == str(line) and d["code"] == "W104" for d in said.diagnostics), said.err
+
+        # The .vs beside the file is the only other file that is read.
+        confined = run(WEFT, "import", TOP / "tests/convert/isf/corners.fs", "-o", top / "confined", "--confine", top)
+        assert confined.code == 0, confined.err
+
+        help_text = run(WEFT, "import", "--help").out
+        assert "example: weft import" in help_text, help_text
+    print("import: files, refusals, lines and help")
+    return 0
+
+
+sys.exit(main())

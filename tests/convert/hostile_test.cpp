@@ -1,0 +1,112 @@
+// Damaged and hostile files: no crash, no endless work, and a diagnostic with a place for each that is refused. What
+// is taken is a graph that Weft reads.
+#include <algorithm>
+#include <random>
+
+#include "engine/base/limits.h"
+#include "tests/convert/converted.h"
+
+using namespace weft;
+using namespace weft::convert;
+using namespace weft::convert::test;
+
+namespace {
+
+void expectSane(const std::string& text, bool isf) {
+  base::Diagnostics diagnostics;
+  const auto converted = isf ? convertIsfText(text, diagnostics) : convertMpvText(text, diagnostics);
+  if (converted) {
+    std::string why;
+    CHECK_MESSAGE(isSound(*converted, why, true), why << "\nof\n" << text);
+    return;
+  }
+  CHECK(diagnostics.hasErrors());
+  for (const base::Diagnostic& d : diagnostics.items()) {
+    CHECK(d.place.file);
+    CHECK(d.place.line > 0);
+    CHECK_FALSE(d.message.empty());
+  }
+}
+
+std::string damaged(std::string text, std::mt19937& random) {
+  static const std::string kBytes = "{}[]()\"$/*,:.#!\n\\ 0a-\x80";
+  for (int changes = 1 + static_cast<int>(random() % 3); changes > 0 && !text.empty(); --changes) {
+    const std::size_t at = random() % text.size();
+    const std::size_t count = std::min<std::size_t>(1 + random() % 12, text.size() - at);
+    switch (random() % 4) {
+      case 0:
+        text.erase(at, count);
+        break;
+      case 1:
+        text[at] = kBytes[random() % kBytes.size()];
+        break;
+      case 2:
+        text.insert(at, text.substr(at, count));
+        break;
+      default:
+        text.insert(at, std::to_string(static_cast<std::int64_t>(random()) * 7919));
+    }
+  }
+  return text;
+}
+
+std::string repeated(std::string_view piece, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += piece;
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("files cut short anywhere") {
+  for (const auto& [folder, extension] : {std::pair{"isf", ".fs"}, std::pair{"mpv", ".glsl"}})
+    for (const auto& file : filesIn(folder, extension)) {
+      const std::string text = textOf(file);
+      for (std::size_t bytes = 0; bytes < text.size(); bytes += 7)
+        expectSane(text.substr(0, bytes), extension[1] == 'f');
+    }
+}
+
+TEST_CASE("files with bytes changed, taken out and doubled") {
+  std::mt19937 random(20261122);
+  for (const auto& [folder, extension] : {std::pair{"isf", ".fs"}, std::pair{"mpv", ".glsl"}})
+    for (const auto& file : filesIn(folder, extension)) {
+      const std::string text = textOf(file);
+      for (int round = 0; round < 150; ++round) expectSane(damaged(text, random), extension[1] == 'f');
+    }
+}
+
+TEST_CASE("headers that want too much are refused, each for its reason") {
+  const auto said = [](const std::string& header) {
+    base::Diagnostics diagnostics;
+    CHECK_FALSE(convertIsfText("/*" + header + "*/\nvoid main() {}\n", diagnostics));
+    return codesOf(diagnostics);
+  };
+  CHECK(said(repeated("{\"INPUTS\":[", 100)) == "W007 ");
+  CHECK(said("{\"PASSES\": [" + repeated("{},", 64) + "{}]}") == "W221 ");
+  CHECK(said("{\"INPUTS\": [{\"NAME\": \"" + repeated("n", 65) + "\", \"TYPE\": \"bool\"}]}") == "W012 ");
+  const auto sized = [](const std::string& size) {
+    return "{\"PASSES\": [{\"TARGET\": \"t\", \"WIDTH\": \"" + size + "\"}]}";
+  };
+  CHECK(said(sized(repeated("(", 200) + "1" + repeated(")", 199))) == "W222 ");
+  CHECK(said(sized(repeated("1+", 300) + "1")) == "W222 ");
+  CHECK(said("{\"INPUTS\": [{\"NAME\": \"a\", \"TYPE\": \"long\", \"DEFAULT\": 1e12}]}") == "W013 ");
+  CHECK(said("{\"INPUTS\": [{\"NAME\": \"a\", \"TYPE\": \"float\", \"DEFAULT\": 1e300}]}") == "W003 ");
+}
+
+TEST_CASE("user shaders that want too much are refused, each for its reason") {
+  const auto said = [](const std::string& text) {
+    base::Diagnostics diagnostics;
+    CHECK_FALSE(convertMpvText(text, diagnostics));
+    return codesOf(diagnostics);
+  };
+  const std::string hook = "//!HOOK MAIN\n//!BIND HOOKED\n",
+                    body = "vec4 hook() { return HOOKED_texOff(0); }\n";
+  CHECK(said(hook + "//!WIDTH " + repeated("1 ", 33) + "\n" + body) == "W225 ");
+  CHECK(said(hook + "//!WIDTH 1 1\n" + body) == "W225 ");
+  CHECK(said(hook + "//!COMPUTE 1024 1024\nvoid hook() {}\n") == "W225 ");
+  // As many texels as 64 bits can say, and not a byte of them.
+  CHECK(said("//!TEXTURE T\n//!SIZE 16384 16384 16384\n//!FORMAT rgba32f\n00\n" + hook + body) == "W225 ");
+  CHECK(said("//!TEXTURE T\n//!SIZE 100000\n//!FORMAT r8\n00\n" + hook + body) == "W225 ");
+  CHECK(said(repeated(hook + body, 300)).starts_with("W225 "));
+}
