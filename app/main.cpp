@@ -4,8 +4,8 @@
 
 #include "app/commands/commands.h"
 #include "app/lsp/lsp.h"
+#include "app/output/standard_streams.h"
 #include "app/session/options.h"
-#include "app/session/standard_streams.h"
 #include "app/view/view.h"
 #include "engine/gl/programs/shader_trial.h"
 

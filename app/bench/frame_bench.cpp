@@ -8,9 +8,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/graph/read/read.h"
 
 namespace weft::app {

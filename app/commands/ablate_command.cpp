@@ -1,7 +1,7 @@
 // weft ablate: what each pass costs and does.
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "app/trials/ablation.h"
 
 namespace weft::app {

@@ -10,8 +10,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/shader_check.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/base/files/file_watcher.h"
 #include "engine/base/printable.h"
 #include "engine/base/report.h"

@@ -1,6 +1,6 @@
 // weft completion, weft man: what shells and man(1) read.
 #include "app/commands/commands.h"
-#include "app/session/standard_streams.h"
+#include "app/output/standard_streams.h"
 
 namespace weft::app {
 

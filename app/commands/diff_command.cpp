@@ -1,7 +1,7 @@
 // weft diff: how the plan of one graph differs from that of another.
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/graph/print/diff.h"
 
 namespace weft::app {

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
-#include "app/session/output_files.h"
 #include "app/session/pick_outputs.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/base/files/file.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/pick/find_pick.h"

@@ -1,7 +1,7 @@
 // weft expand: a plan as a graph file without includes, repeats and conditions.
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/base/json/layout.h"
 #include "engine/graph/print/graph_file.h"
 

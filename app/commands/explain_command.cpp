@@ -1,7 +1,7 @@
 // weft explain: what the plan knows of one pass, resource or parameter.
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/graph/print/describe.h"
 
 namespace weft::app {

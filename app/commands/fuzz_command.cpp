@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/option_parts.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
 #include "engine/assets/images/compare.h"

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/assets/images/image.h"
 #include "engine/base/chars.h"
 #include "engine/base/files/file.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/dom.h"
 #include "engine/base/printable.h"

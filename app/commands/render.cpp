@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/output/output_files.h"
+#include "app/output/picture_writer.h"
+#include "app/output/progress.h"
+#include "app/output/standard_streams.h"
+#include "app/output/trace_recorder.h"
 #include "app/session/device_session.h"
-#include "app/session/output_files.h"
 #include "app/session/pick_outputs.h"
-#include "app/session/picture_writer.h"
-#include "app/session/progress.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
-#include "app/session/trace_recorder.h"
 #include "engine/base/limits.h"
 
 namespace weft::app {

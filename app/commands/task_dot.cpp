@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/scene/frame/mesh_frame.h"
 #include "engine/scene/frame/mesh_views.h"
 #include "engine/scene/models/decode_work.h"

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/session/output_files.h"
+#include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "app/trials/case_run.h"
 #include "app/trials/report_page.h"
 #include "engine/base/files/file.h"

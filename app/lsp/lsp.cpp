@@ -4,7 +4,7 @@
 
 #include "app/lsp/server.h"
 #include "app/lsp/text/framing.h"
-#include "app/session/standard_streams.h"
+#include "app/output/standard_streams.h"
 
 namespace weft::app {
 

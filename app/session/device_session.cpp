@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "engine/base/files/file_access.h"
 #include "engine/gl/objects/objects.h"
 

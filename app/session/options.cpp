@@ -8,10 +8,10 @@
 #include <sstream>
 #include <utility>
 
+#include "app/output/standard_streams.h"
 #include "app/session/option_checks.h"
 #include "app/session/option_parts.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "app/session/trial_options.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/nearest.h"

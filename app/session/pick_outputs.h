@@ -1,5 +1,5 @@
 // `-o NAME=FILE` and `--present NAME`: textures of the graph into picture files, as the viewer's inspector shows them (.png) or with their
-// values (.exr). Does not: choose frames, or write the presented picture (app/session/picture_writer.h does).
+// values (.exr). Does not: choose frames, or write the presented picture (app/output/picture_writer.h does).
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/output/output_files.h"
 #include "app/session/options.h"
-#include "app/session/output_files.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/inspection/capture.h"
 

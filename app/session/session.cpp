@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/session/standard_streams.h"
+#include "app/output/standard_streams.h"
 #include "data_places.h"
 #include "engine/assets/environments/loader.h"
 #include "engine/base/message_choice.h"

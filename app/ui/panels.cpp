@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "app/session/recorder.h"
-#include "app/session/standard_streams.h"
+#include "app/output/recorder.h"
+#include "app/output/standard_streams.h"
 #include "app/ui/loading.h"
 #include "app/ui/log_layout.h"
 #include "engine/base/printable.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/live/live_graph.h"
-#include "app/session/trace_recorder.h"
+#include "app/output/trace_recorder.h"
 #include "app/ui/inspector_panel.h"
 #include "app/ui/log.h"
 #include "engine/graph/print/explain.h"

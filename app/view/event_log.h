@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "app/session/standard_streams.h"
+#include "app/output/standard_streams.h"
 
 namespace weft::app {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "app/live/live_environment.h"
-#include "app/session/output_files.h"
+#include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "app/view/viewer.h"
 #include "engine/base/limits.h"
 #include "engine/scene/files/scene_file.h"

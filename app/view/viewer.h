@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "app/live/live_graph.h"
+#include "app/output/recorder.h"
 #include "app/session/device_session.h"
-#include "app/session/recorder.h"
 #include "app/ui/overlay.h"
 #include "app/ui/panels.h"
 #include "app/view/actions.h"

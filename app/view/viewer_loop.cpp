@@ -9,9 +9,9 @@
 #include <thread>
 #include <utility>
 
-#include "app/session/output_files.h"
+#include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "app/session/standard_streams.h"
 #include "app/view/screens.h"
 #include "app/view/viewer.h"
 #include "engine/base/hash.h"

@@ -1,4 +1,4 @@
-#include "app/session/progress.h"
+#include "app/output/progress.h"
 
 #include <doctest/doctest.h>
 

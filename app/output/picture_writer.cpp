@@ -1,4 +1,4 @@
-#include "app/session/picture_writer.h"
+#include "app/output/picture_writer.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/session/output_files.h"
+#include "app/output/output_files.h"
 
 namespace weft::app {
 

@@ -1,4 +1,4 @@
-#include "app/session/output_files.h"
+#include "app/output/output_files.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -1,11 +1,11 @@
-#include "app/session/recorder.h"
+#include "app/output/recorder.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 
-#include "app/session/output_files.h"
-#include "app/session/standard_streams.h"
+#include "app/output/output_files.h"
+#include "app/output/standard_streams.h"
 
 namespace weft::app {
 

@@ -1,5 +1,5 @@
 // Files that commands write: names with frame numbers, their folders, and that none of them is a file that is
-// read. Does not: write them (app/session/picture_writer.h does), or decide which frames.
+// read. Does not: write them (app/output/picture_writer.h does), or decide which frames.
 #pragma once
 
 #include <cstdint>

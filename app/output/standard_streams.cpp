@@ -1,4 +1,4 @@
-#include "app/session/standard_streams.h"
+#include "app/output/standard_streams.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

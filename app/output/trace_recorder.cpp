@@ -1,4 +1,4 @@
-#include "app/session/trace_recorder.h"
+#include "app/output/trace_recorder.h"
 
 namespace weft::app {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "app/session/picture_writer.h"
+#include "app/output/picture_writer.h"
 #include "engine/base/diagnostic.h"
 #include "engine/runtime/frame/renderer.h"
 
