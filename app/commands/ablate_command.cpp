@@ -1,25 +1,26 @@
 // weft ablate: what each pass costs and does.
 #include "app/commands/commands.h"
+<<<<<<< ours
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
+=======
+#include "app/session/standard_streams.h"
+>>>>>>> theirs
 #include "app/trials/ablation.h"
+#include "app/trials/device_run.h"
 
 namespace weft::app {
 
 int runAblate(const Options& options) {
-  base::Diagnostics diagnostics;
-  const auto world = loadWorld(options, diagnostics);
-  const auto context = world ? openContext(options, diagnostics) : nullptr;
-  if (!context) {
-    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-    report(diagnostics);
-    return world ? 3 : 1;
-  }
-  if (const auto table = ablatePasses(*context, options, *world, diagnostics))
+  const auto run = [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
+    const auto table = ablatePasses(context, options, world, diagnostics);
+    if (!table) return 1;
     print(options.format == "json"   ? ablationJson(*table)
           : options.format == "html" ? ablationPage(*table, options.graph)
                                      : ablationText(*table));
-  return report(diagnostics);
+    return 0;
+  };
+  return runOnDevice(options, 1, run);
 }
 
 }  // namespace weft::app

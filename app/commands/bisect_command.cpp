@@ -5,8 +5,13 @@
 #include <cmath>
 
 #include "app/commands/commands.h"
+<<<<<<< ours
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
+=======
+#include "app/session/standard_streams.h"
+#include "app/trials/device_run.h"
+>>>>>>> theirs
 #include "app/trials/divergence.h"
 #include "engine/assets/images/flip.h"
 
@@ -77,7 +82,7 @@ class Bisection {
     const auto b = a ? shoot(1, {}, 0, diagnostics) : std::nullopt;
     if (!b) return 2;
     const std::string& driver = context_.device().driverKey;
-    const auto found = findDivergence({driver, a->records}, {driver, b->records});
+    const auto found = findDivergence(recordsOf(*a, driver), recordsOf(*b, driver));
     if (!found) {
       print(fmt::format("no pass differs in {} frames\n", b->records.size()));
       return 0;
@@ -120,16 +125,10 @@ class Bisection {
 }  // namespace
 
 int runBisect(const Options& options) {
-  base::Diagnostics diagnostics;
-  const auto world = loadWorld(options, diagnostics);
-  const auto context = world ? openContext(options, diagnostics) : nullptr;
-  if (!context) {
-    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-    report(diagnostics);
-    return world ? 3 : 2;
-  }
-  const int code = Bisection(*context, options, *world).run(diagnostics);
-  return report(diagnostics) ? 2 : code;
+  return runOnDevice(options, 2,
+                     [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
+                       return Bisection(context, options, world).run(diagnostics);
+                     });
 }
 
 }  // namespace weft::app

@@ -63,20 +63,11 @@ void reportNoMatch(const graph::Plan& plan, const std::vector<std::string>& patt
 
 int runDump(const Options& options) {
   base::Diagnostics diagnostics;
-  auto world = loadWorld(options, diagnostics);
-  if (!world || diagnostics.hasErrors()) {
-    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-    return report(diagnostics);
-  }
-  auto session = openDevice(options, diagnostics);
-  if (!session) {
-    makePlan(options, world->facts(), true, diagnostics);
-    report(diagnostics);
-    return 3;
-  }
-  runtime::Renderer& renderer = session->renderer;
-  if (!renderer.load(settingsOf(options, session->context->device().software), *world, diagnostics))
-    return report(diagnostics);
+  int exitCode = 0;
+  auto opened = openGraph(options, diagnostics, exitCode);
+  if (!opened) return exitCode;
+  runtime::World& world = opened->world;
+  runtime::Renderer& renderer = opened->session->renderer;
   runtime::Execution& execution = *renderer.execution();
   const graph::Plan& plan = execution.plan();
   reportNoMatch(plan, options.patterns, diagnostics);
@@ -86,7 +77,7 @@ int runDump(const Options& options) {
   runtime::Capture capture(renderer.device());
   const std::vector<runtime::CaptureItem> items = runtime::captureItems(plan, options.patterns);
   std::vector<std::string> names(items.size());
-  const std::uint32_t begin = execution.remembers(*world) ? 0 : options.lastFrame;
+  const std::uint32_t begin = execution.remembers(world) ? 0 : options.lastFrame;
   for (std::uint32_t frame = begin; frame <= options.lastFrame && !diagnostics.hasErrors(); ++frame) {
     base::Diagnostics said;
     if (frame == options.lastFrame)
@@ -101,9 +92,9 @@ int runDump(const Options& options) {
         saveInspected(inspector, path + ".png", said);
         if (saveInspected(inspector, path + ".exr", said)) names[item] = path + ".png";
       });
-    renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
+    renderer.frame(world, runtime::headlessFrame(world, frame, options.fps), diagnostics);
     diagnostics.append(said);
-    session->context->debugLog().drain(diagnostics);
+    opened->session->context->debugLog().drain(diagnostics);
   }
   capture.stop(execution);
   for (std::size_t i = 0; i < items.size() && !options.quiet; ++i)

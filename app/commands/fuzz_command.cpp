@@ -4,7 +4,12 @@
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
 #include "app/session/option_parts.h"
+<<<<<<< ours
 #include "app/session/session.h"
+=======
+#include "app/session/standard_streams.h"
+#include "app/trials/device_run.h"
+>>>>>>> theirs
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
 #include "engine/assets/images/compare.h"
@@ -87,7 +92,7 @@ class Fuzzer {
     print(fmt::format("a picture differs: {} pixels, by up to {:.0f} of 255 (at {},{}); FLIP {:.4f}\n",
                       bytes.differingPixels, bytes.maxDifference, bytes.worstX, bytes.worstY, flip.mean));
     const std::string& driver = context_.device().driverKey;
-    if (const auto first = findDivergence({driver, base_->records}, {driver, last_->records}))
+    if (const auto first = findDivergence(recordsOf(*base_, driver), recordsOf(*last_, driver)))
       print(fmt::format("    first that differs: {}\n", first->text()));
     print(fmt::format("    found with {}\n", found.arguments()));
     if (trial.seed != 0) print("    in this order: " + reordered() + "\n");
@@ -141,16 +146,10 @@ class Fuzzer {
 }  // namespace
 
 int runFuzz(const Options& options) {
-  base::Diagnostics diagnostics;
-  const auto world = loadWorld(options, diagnostics);
-  const auto context = world ? openContext(options, diagnostics) : nullptr;
-  if (!context) {
-    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-    report(diagnostics);
-    return world ? 3 : 2;
-  }
-  const int code = Fuzzer(*context, options, *world).run(diagnostics);
-  return report(diagnostics) ? 2 : code;
+  return runOnDevice(options, 2,
+                     [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
+                       return Fuzzer(context, options, world).run(diagnostics);
+                     });
 }
 
 }  // namespace weft::app

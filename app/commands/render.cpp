@@ -56,26 +56,16 @@ int runRender(const Options& options) {
   const double start = now();
   base::Diagnostics diagnostics;
   const bool whole = !options.output.empty();
-  PickOutputs picks(options);
   if (whole)
     checkOutput(options.output, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
-  picks.check(diagnostics);
+  PickOutputs(options).check(diagnostics);
   checkFrameCount(options, std::uint64_t{options.lastFrame} - options.firstFrame + 1, "", diagnostics);
-  auto world = loadWorld(options, diagnostics);
-  if (!world || diagnostics.hasErrors()) {
-    // The graph's own mistakes are reported in the same run.
-    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-    return report(diagnostics);
-  }
-  auto session = openDevice(options, diagnostics);
-  if (!session) {
-    // The graph's own mistakes are no matter of the machine.
-    makePlan(options, world->facts(), true, diagnostics);
-    report(diagnostics);
-    return 3;
-  }
-  if (!session->renderer.load(settingsOf(options, session->context->device().software), *world, diagnostics))
-    return report(diagnostics);
+  int exitCode = 0;
+  auto opened = openGraph(options, diagnostics, exitCode);
+  if (!opened) return exitCode;
+  std::unique_ptr<DeviceSession> session = std::move(opened->session);
+  runtime::World& world = opened->world;
+  PickOutputs picks(options);  // goes before the device does
   if (whole && session->renderer.execution()->presented().id == 0) {
     diagnostics
         .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
@@ -86,13 +76,13 @@ int runRender(const Options& options) {
   const double prepared = now();
   double firstFrame = 0;
   // Frames before the first one written run too when it may look back at them.
-  const std::uint32_t begin = session->renderer.execution()->remembers(*world) ? 0 : options.firstFrame;
+  const std::uint32_t begin = session->renderer.execution()->remembers(world) ? 0 : options.firstFrame;
   const std::uint64_t total = std::uint64_t{options.lastFrame} - begin + 1;
   std::vector<OutputFile> outputs = {{"-o", options.output, options.firstFrame, options.lastFrame},
                                      {"--trace", options.trace}};
   picks.append(outputs);
   if (!checkFrameCount(options, total, ", because the graph remembers what came before", diagnostics) ||
-      !checkDistinct(outputs, inputsOf(options, session->renderer, *world), diagnostics) ||
+      !checkDistinct(outputs, inputsOf(options, session->renderer, world), diagnostics) ||
       !makeFolders(options.output, options.firstFrame, options.lastFrame, diagnostics) ||
       !picks.makeAllFolders(diagnostics) || !picks.start(session->renderer, diagnostics))
     return report(diagnostics);
@@ -109,9 +99,9 @@ int runRender(const Options& options) {
     const double before = now();
     picks.expect(frame < options.firstFrame ? std::nullopt : std::optional(frame));
     recorder->begin(session->renderer.execution()->plan(), frame);
-    last = session->renderer.frame(*world, runtime::headlessFrame(*world, frame, options.fps), diagnostics);
+    last = session->renderer.frame(world, runtime::headlessFrame(world, frame, options.fps), diagnostics);
     recorder->end(last);
-    session->renderer.dropUploaded(*world);
+    session->renderer.dropUploaded(world);
     session->context->debugLog().drain(diagnostics);
     if (done == 1) {
       glFinish();

@@ -53,6 +53,29 @@ std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnost
       std::move(context), runtime::Renderer(current, options.graph, rendererOptionsOf(options))});
 }
 
+std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagnostics, int& exitCode) {
+  auto world = loadWorld(options, diagnostics);
+  exitCode = 1;
+  if (!world || diagnostics.hasErrors()) {
+    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+    report(diagnostics);
+    return std::nullopt;
+  }
+  auto session = openDevice(options, diagnostics);
+  if (!session) {  // no matter of the graph
+    makePlan(options, world->facts(), true, diagnostics);
+    report(diagnostics);
+    exitCode = 3;
+    return std::nullopt;
+  }
+  if (!session->renderer.load(settingsOf(options, session->context->device().software), *world,
+                              diagnostics)) {
+    report(diagnostics);
+    return std::nullopt;
+  }
+  return Opened{*std::move(world), std::move(session)};
+}
+
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {
   const gl::ProgramCacheStats& programs = session.renderer.device().programs.stats();
   const gl::DeviceInfo& device = session.context->device();

@@ -23,6 +23,14 @@ runtime::Renderer::Options rendererOptionsOf(const Options& options);
 // Headless unless options.command is "view". Null after errors.
 std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics);
 
+// What a headless command begins with: the world, a device, and the graph loaded on it. Nothing after a failure, which is
+// reported by then; `exitCode` is that of the command. The graph's own mistakes are reported in any case.
+struct Opened {
+  runtime::World world;
+  std::unique_ptr<DeviceSession> session;
+};
+std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagnostics, int& exitCode);
+
 // --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);
 void printStats(const nlohmann::ordered_json& stats);  // on standard error

@@ -197,7 +197,7 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diag
   CaseResult result;
   const auto shot = shoot(test, diagnostics);
   if (!shot) return result;
-  const PassRecords records{context_->device().driverKey, shot->records};
+  const PassRecords records = recordsOf(*shot, context_->device().driverKey);
   const std::string record = test.recordFile();
   bool same = true;
   for (const auto& [frame, picture] : shot->pictures) {

@@ -85,7 +85,9 @@ bool readLine(std::string_view line, PassRecords& records) {
   return true;
 }
 
-std::optional<Divergence> compareFrames(const FrameRecord& before, const FrameRecord& after, bool exact) {
+std::optional<Divergence> compareFrames(const FrameRecord& before, const FrameRecord& after, bool exact,
+                                        const std::vector<std::string>& culled,
+                                        std::optional<Divergence>& follower) {
   std::map<Key, std::size_t> old, fresh;
   for (std::size_t i = 0; i < before.steps.size(); ++i) old[keyOf(before.steps[i])] = i;
   for (std::size_t i = 0; i < after.steps.size(); ++i) fresh[keyOf(after.steps[i])] = i;
@@ -93,22 +95,26 @@ std::optional<Divergence> compareFrames(const FrameRecord& before, const FrameRe
     return Divergence{kind, after.frame, step.pass, step.resource, amount, exact};
   };
   std::size_t passed = 0;  // of `before`
+  const auto goOnTo = [&](std::size_t end) -> std::optional<Divergence> {
+    for (; passed < end; ++passed) {
+      if (fresh.contains(keyOf(before.steps[passed]))) continue;
+      auto missing = found(Divergence::Kind::missing, before.steps[passed], 0);
+      if (std::ranges::find(culled, missing.pass) == culled.end()) return missing;
+      if (!follower) follower = std::move(missing);
+    }
+    return std::nullopt;
+  };
   for (const runtime::StepRecord& step : after.steps) {
     const auto known = old.find(keyOf(step));
     if (known == old.end()) return found(Divergence::Kind::added, step, 0);
-    for (; passed < known->second; ++passed)
-      if (!fresh.contains(keyOf(before.steps[passed])))
-        return found(Divergence::Kind::missing, before.steps[passed], 0);
+    if (auto missing = goOnTo(known->second)) return missing;
     const runtime::StepRecord& golden = before.steps[known->second];
     const bool both = golden.signature && step.signature;
     const double amount = both ? runtime::differenceOf(*golden.signature, *step.signature) : 0;
     if (exact ? golden.hash != step.hash : amount > kSignatureNoise)
       return found(Divergence::Kind::differs, step, amount);
   }
-  for (; passed < before.steps.size(); ++passed)
-    if (!fresh.contains(keyOf(before.steps[passed])))
-      return found(Divergence::Kind::missing, before.steps[passed], 0);
-  return std::nullopt;
+  return goOnTo(before.steps.size());
 }
 
 }  // namespace
@@ -122,6 +128,13 @@ std::string Divergence::text() const {
                            : exact         ? " (in single texels)"
                                            : "";
   return fmt::format("pass '{}' writes another '{}' in frame {}{}", pass, resource, frame, much);
+}
+
+PassRecords recordsOf(const Shot& shot, std::string driver) {
+  PassRecords records{std::move(driver), shot.records, {}};
+  for (std::size_t pass = 0; pass < shot.plan->stepOf.size(); ++pass)
+    if (shot.plan->stepOf[pass] == graph::kNone) records.culled.push_back(shot.plan->graph->passNames[pass]);
+  return records;
 }
 
 std::string toText(const PassRecords& records) {
@@ -165,12 +178,13 @@ std::optional<PassRecords> readRecords(const std::string& path, base::Diagnostic
 
 std::optional<Divergence> findDivergence(const PassRecords& before, const PassRecords& after) {
   const bool exact = before.driver == after.driver;
+  std::optional<Divergence> follower;
   for (const FrameRecord& frame : after.frames) {
     const auto same = std::ranges::find(before.frames, frame.frame, &FrameRecord::frame);
     if (same == before.frames.end()) continue;
-    if (auto found = compareFrames(*same, frame, exact)) return found;
+    if (auto found = compareFrames(*same, frame, exact, after.culled, follower)) return found;
   }
-  return std::nullopt;
+  return follower;
 }
 
 }  // namespace weft::app

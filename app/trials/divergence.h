@@ -13,7 +13,9 @@ namespace weft::app {
 struct PassRecords {
   std::string driver;  // DeviceInfo::driverKey
   std::vector<FrameRecord> frames;
+  std::vector<std::string> culled{};  // passes of the graph that do not run; not written to the file
 };
+PassRecords recordsOf(const Shot& shot, std::string driver);
 
 // One line per pass and resource: hash, signature, pass, resource, with tabs between.
 std::string toText(const PassRecords& records);
@@ -33,6 +35,7 @@ struct Divergence {
 // Above this relative difference two signatures of different drivers are not the same picture.
 constexpr double kSignatureNoise = 1.0 / 64;
 
+// That a pass was culled follows from another pass, and is found only where nothing else is.
 std::optional<Divergence> findDivergence(const PassRecords& before, const PassRecords& after);
 
 }  // namespace weft::app

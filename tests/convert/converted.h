@@ -87,7 +87,7 @@ inline bool isSound(const Converted& converted, std::string& why, bool values = 
     registry.factsOf = [present](const graph::ImportRequest& request) {
       graph::ImportFacts facts = graph::test::testFacts({}, request);
       if (request.type != "image") return facts;
-      facts.exists = present;
+      facts.exists = present || !request.arguments[0].second.symbol.empty();
       facts.format = graph::Format::rgba8;
       facts.width = 96;
       facts.height = 64;
@@ -98,14 +98,12 @@ inline bool isSound(const Converted& converted, std::string& why, bool values = 
     for (const base::Diagnostic& d : said.items()) {
       const bool ofValues = d.code == base::Code::numberOutOfRange || d.code == base::Code::noFiniteResult ||
                             d.code == base::Code::texturesTooLarge || d.code == base::Code::limitExceeded;
-      const bool absent =
-          !present && d.severity == base::Severity::error && !flat;  // an image that must be there
-      if (d.severity == base::Severity::error && !(values && ofValues) && !absent) {
+      if (d.severity == base::Severity::error && !(values && ofValues)) {
         why = said.text();
         return false;
       }
     }
-    if (present && !flat && !values) return false;
+    if (!flat && !values) return false;
   }
   return true;
 }

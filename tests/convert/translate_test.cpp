@@ -96,6 +96,15 @@ TEST_CASE("what a pass reads is what was drawn before it, in this frame or in th
       R"("clear": [0, 0, 0, 0])"));
 }
 
+TEST_CASE("an image that a function takes has something in its place where no picture is given") {
+  const std::string graph =
+      graphOf(R"({"INPUTS": [{"NAME": "a", "TYPE": "image"}, {"NAME": "b", "TYPE": "image"}]})",
+              "vec4 f(sampler2D s) { return texture2D(s, vec2(0.5)); }\nvoid main() { gl_FragColor = f(a) + "
+              "IMG_THIS_PIXEL(b); }\n");
+  CHECK(has(graph, R"("a_or_none":  ["a", "no_picture"])"));
+  CHECK(has(graph, R"("read": { "a": "a_or_none as linear", "b": "b as linear ?" })"));
+}
+
 TEST_CASE("labels become words, and their numbers reach the shader") {
   const std::string graph = graphOf(
       R"({"INPUTS": [{"NAME": "m", "TYPE": "long", "VALUES": [3, 7], "LABELS": ["Soft light", "x"], "DEFAULT": 7}]})",

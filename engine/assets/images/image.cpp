@@ -35,6 +35,13 @@ std::string extensionOf(const std::string& name) {
   return extension;
 }
 
+void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
+  base::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
+                                          fmt::format("'{}' is no kind of image that is known", name));
+  d.expected = std::move(expected);
+  d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
+}
+
 // Grey, grey-alpha and RGB become RGBA; a missing alpha is 1.
 ImageF widenToRgba(ImageF image) {
   if (image.channels == 4) return image;
@@ -91,13 +98,6 @@ double spreadLight(ImageF& image, int x, int y) {
 
 }  // namespace
 
-void reportUnknownKind(Diagnostics& diagnostics, const std::string& name, std::string expected) {
-  base::Diagnostic& d = diagnostics.error(Code::unknownImageKind, placeOf(name),
-                                          fmt::format("'{}' is no kind of image that is known", name));
-  d.expected = std::move(expected);
-  d.found = extensionOf(name).empty() ? "no extension" : extensionOf(name);
-}
-
 ImageKind kindOfName(const std::string& name) {
   const std::string extension = extensionOf(name);
   if (extension == ".hdr") return ImageKind::hdr;
@@ -110,6 +110,15 @@ ImageKind kindOfName(const std::string& name) {
 void reportUnreadable(Diagnostics& diagnostics, const std::string& name, const std::string& why) {
   diagnostics.error(Code::unreadableImage, placeOf(name),
                     fmt::format("cannot read image '{}': {}", name, why));
+}
+
+ImageKind checkKind(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
+  const ImageKind kind = kindOfName(name);
+  if (kind == ImageKind::unknown)
+    reportUnknownKind(diagnostics, name, ".hdr, .exr, .png, .jpg, .jpeg or .tga");
+  else if (bytes.empty())
+    reportUnreadable(diagnostics, name, "the file is empty");
+  return bytes.empty() ? ImageKind::unknown : kind;
 }
 
 bool checkSize(Diagnostics& diagnostics, const std::string& name, long long width, long long height) {
@@ -125,15 +134,8 @@ bool checkSize(Diagnostics& diagnostics, const std::string& name, long long widt
 }
 
 std::optional<ImageF> decodeImage(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  const ImageKind kind = kindOfName(name);
-  if (kind == ImageKind::unknown) {
-    reportUnknownKind(diagnostics, name, ".hdr, .exr, .png, .jpg, .jpeg or .tga");
-    return {};
-  }
-  if (bytes.empty()) {
-    reportUnreadable(diagnostics, name, "the file is empty");
-    return {};
-  }
+  const ImageKind kind = checkKind(bytes, name, diagnostics);
+  if (kind == ImageKind::unknown) return {};
   if (kind == ImageKind::hdr) return decodeHdr(bytes, name, diagnostics);
   if (kind == ImageKind::exr) return decodeExr(bytes, name, diagnostics);
   return decodeLinear(bytes, name, diagnostics);

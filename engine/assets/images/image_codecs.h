@@ -39,7 +39,7 @@ std::optional<Image8> decodeBytes(std::string_view bytes, int channels, const st
 bool hasShorts(std::string_view bytes);
 std::optional<std::vector<std::uint16_t>> decodeShorts(std::string_view bytes, const std::string& name,
                                                        base::Diagnostics& diagnostics);
-// "cannot be read" as unknownImageKind; `expected` lists the extensions.
-void reportUnknownKind(base::Diagnostics& diagnostics, const std::string& name, std::string expected);
+// The kind of a file that holds something; unknown after W150 or W151.
+ImageKind checkKind(std::string_view bytes, const std::string& name, base::Diagnostics& diagnostics);
 
 }  // namespace weft::assets

@@ -42,15 +42,8 @@ std::vector<float> withAlpha(const std::vector<float>& rgb) {
 
 std::optional<StoredHeader> readStoredHeader(std::string_view bytes, const std::string& name,
                                              Diagnostics& diagnostics) {
-  const ImageKind kind = kindOfName(name);
-  if (kind == ImageKind::unknown) {
-    reportUnknownKind(diagnostics, name, ".hdr, .exr, .png, .jpg, .jpeg or .tga");
-    return {};
-  }
-  if (bytes.empty()) {
-    reportUnreadable(diagnostics, name, "the file is empty");
-    return {};
-  }
+  const ImageKind kind = checkKind(bytes, name, diagnostics);
+  if (kind == ImageKind::unknown) return {};
   const auto size = kind == ImageKind::hdr   ? readHdrSize(bytes, name, diagnostics)
                     : kind == ImageKind::exr ? readExrSize(bytes, name, diagnostics)
                                              : readImageSize(bytes, name, diagnostics);

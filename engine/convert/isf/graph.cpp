@@ -15,7 +15,7 @@ namespace weft::convert {
 
 namespace {
 
-using Type = IsfInput::Type;
+using InputType = IsfInput::Type;
 
 std::string oneLine(std::string text) {
   for (char& c : text)
@@ -66,18 +66,20 @@ class IsfGraphWriter {
 
   void addInput(const IsfInput& input) {
     const std::string& name = names_.of(input.name);
-    if (input.type == Type::image) return addImage(input);
+    if (input.type == InputType::image) return addImage(input);
     JsonObjectText parameter;
     std::string value = "$" + name;
-    if (input.type == Type::boolean || input.type == Type::event) {
+    if (input.type == InputType::boolean || input.type == InputType::event) {
       parameter.add("default", !input.initial.empty() && input.initial[0] != 0 ? "true" : "false");
-    } else if (input.type == Type::integer && !input.labels.empty() && addChoices(input, parameter)) {
+    } else if (input.type == InputType::integer && !input.labels.empty() && addChoices(input, parameter)) {
       value = "$" + choiceValues_.at(input.name);
     } else {
       addNumbers(input, parameter);
     }
     const std::string label =
-        input.type == Type::event ? input.label + " (an event: true for one frame)" : input.label;
+        input.type == InputType::event
+            ? (input.label.empty() ? input.name : input.label) + " (an event: true for one frame)"
+            : input.label;
     if (!label.empty()) parameter.addText("label", oneLine(label));
     parameters_.add(name, parameter.text());
     uniforms_.addText(name, value);
@@ -86,18 +88,18 @@ class IsfGraphWriter {
 
   // The default must lie in the range: ISF does not ask for it.
   void addNumbers(const IsfInput& input, JsonObjectText& parameter) {
-    const bool real = input.type != Type::integer;
-    const std::size_t count = input.type == Type::point ? 2 : input.type == Type::color ? 4 : 1;
+    const bool real = input.type != InputType::integer;
+    const std::size_t count = input.type == InputType::point ? 2 : input.type == InputType::color ? 4 : 1;
     std::vector<double> initial = input.initial;
     if (initial.empty()) initial.assign(count, 0.0);
     double low = -3e38, high = 3e38;
     for (const double x : input.min) low = low < -2e38 ? x : std::min(low, x);
     for (const double x : input.max) high = high > 2e38 ? x : std::max(high, x);
-    if (input.type == Type::integer && !input.values.empty() && input.min.empty() && input.max.empty()) {
+    if (input.type == InputType::integer && !input.values.empty() && input.min.empty() && input.max.empty()) {
       low = *std::ranges::min_element(input.values);
       high = *std::ranges::max_element(input.values);
     }
-    if (input.type == Type::color && input.min.empty() && input.max.empty()) low = 0, high = 1;
+    if (input.type == InputType::color && input.min.empty() && input.max.empty()) low = 0, high = 1;
     if (!real) {
       parameter.addText("type", "int");
       if (std::abs(low) < 2e9) low = std::floor(low);
@@ -160,6 +162,15 @@ class IsfGraphWriter {
     parameter.addText("label", oneLine((input.label.empty() ? input.name : input.label) + ": a picture"));
     parameters_.add(name, parameter.text());
     addPicture(name, "$" + name);
+    if (!shader_.needed.contains(input.name)) return;
+    // A function takes it, so that something must be there.
+    if (nothing_.empty()) {
+      nothing_ = names_.fresh("no_picture");
+      resources_.add(nothing_, R"({"texture": "rgba8", "size": 1, "clear": [0, 0, 0, 0]})");
+    }
+    const std::string chosen = names_.fresh(name + "_or_none");
+    resources_.add(chosen, fmt::format("[{}, {}]", base::quoteJson(name), base::quoteJson(nothing_)));
+    chosen_[input.name] = chosen;
   }
 
   void addImported(const IsfImported& imported) {
@@ -221,7 +232,7 @@ class IsfGraphWriter {
       const auto value = values_.find(name);
       if (value != values_.end()) {
         const auto input = std::ranges::find(header_.inputs, name, &IsfInput::name);
-        const bool number = input->type != Type::point && input->type != Type::color;
+        const bool number = input->type != InputType::point && input->type != InputType::color;
         return number ? value->second : std::string();
       }
       for (const std::string_view end : {"_WIDTH", "_HEIGHT"})
@@ -248,8 +259,9 @@ class IsfGraphWriter {
         reads.addText(names_.of(name), from + " as linear" + (optional ? " ?" : ""));
     };
     for (const IsfInput& input : header_.inputs)
-      if (input.type == Type::image)
-        add(input.name, names_.of(input.name), !shader_.needed.contains(input.name));
+      if (input.type == InputType::image)
+        chosen_.contains(input.name) ? add(input.name, chosen_.at(input.name), false)
+                                     : add(input.name, names_.of(input.name), true);
     for (const IsfImported& imported : header_.imported) add(imported.name, names_.of(imported.name), false);
     for (const auto& [name, target] : targets_) {
       if (target.written || target.cleared)
@@ -327,8 +339,9 @@ class IsfGraphWriter {
   std::string passes_, lastName_;
   std::set<std::string> passNames_;
   std::map<std::string, Target, std::less<>> targets_;
-  std::map<std::string, std::string, std::less<>> values_;  // of inputs, in expressions
-  std::map<std::string, std::string> choiceValues_;
+  std::map<std::string, std::string, std::less<>> values_;    // of inputs, in expressions
+  std::map<std::string, std::string> choiceValues_, chosen_;  // by input
+  std::string nothing_;
   bool shown_ = false;  // the last pass draws a target of another kind than the picture
 };
 

@@ -21,7 +21,7 @@ using base::Diagnostics;
 using base::JsonFields;
 using base::JsonValue;
 using base::Place;
-using Type = JsonValue::Type;
+using JsonType = JsonValue::Type;
 
 constexpr std::size_t kMostPasses = 64;
 
@@ -59,7 +59,7 @@ class HeaderReader {
     const std::size_t errors = diagnostics_.errorCount();
     const auto root = base::parseJson(json, file_, diagnostics_);
     if (!root) return std::nullopt;
-    if (!root->is(Type::object)) {
+    if (!root->is(JsonType::object)) {
       auto& d = diagnostics_.error(Code::notIsf, root->place, "the first comment is no ISF header");
       d.expected = "an object";
       d.found = base::describe(*root);
@@ -75,24 +75,25 @@ class HeaderReader {
  private:
   static std::string textOf(const JsonValue& object, std::string_view key) {
     const JsonValue* value = object.find(key);
-    return value && value->is(Type::string) ? value->text : std::string();
+    return value && value->is(JsonType::string) ? value->text : std::string();
   }
 
   // ISF files write true, 1 and "true".
   bool flagOf(const JsonValue& object, std::string_view key) {
     const JsonValue* value = object.find(key);
     if (!value) return false;
-    if (value->is(Type::boolean)) return value->flag;
-    if (value->is(Type::number)) return value->number != 0;
-    if (value->is(Type::string)) return value->text == "true" || value->text == "1" || value->text == "YES";
-    base::expectType(*value, key, Type::boolean, diagnostics_);
+    if (value->is(JsonType::boolean)) return value->flag;
+    if (value->is(JsonType::number)) return value->number != 0;
+    if (value->is(JsonType::string))
+      return value->text == "true" || value->text == "1" || value->text == "YES";
+    base::expectType(*value, key, JsonType::boolean, diagnostics_);
     return false;
   }
 
   const JsonValue* listOf(const JsonValue& object, std::string_view key) {
     const JsonValue* value = object.find(key);
-    if (!value || value->is(Type::null)) return nullptr;
-    return base::expectType(*value, key, Type::array, diagnostics_) ? value : nullptr;
+    if (!value || value->is(JsonType::null)) return nullptr;
+    return base::expectType(*value, key, JsonType::array, diagnostics_) ? value : nullptr;
   }
 
   void readTop(const JsonValue& root) {
@@ -140,31 +141,31 @@ class HeaderReader {
   std::vector<double> numbersOf(const JsonValue& object, std::string_view key, std::size_t count) {
     const JsonValue* value = object.find(key);
     std::vector<double> numbers;
-    if (!value || value->is(Type::null)) return numbers;
-    if (value->is(Type::boolean)) numbers.push_back(value->flag ? 1 : 0);
-    if (value->is(Type::number)) numbers.push_back(value->number);
-    if (value->is(Type::array))
+    if (!value || value->is(JsonType::null)) return numbers;
+    if (value->is(JsonType::boolean)) numbers.push_back(value->flag ? 1 : 0);
+    if (value->is(JsonType::number)) numbers.push_back(value->number);
+    if (value->is(JsonType::array))
       for (const JsonValue& item : value->items)
-        if (item.is(Type::number)) numbers.push_back(item.number);
+        if (item.is(JsonType::number)) numbers.push_back(item.number);
     if (count == 4 && numbers.size() == 3) numbers.push_back(1);  // an opaque colour
     const bool all = std::ranges::all_of(numbers, [](double x) { return std::abs(x) <= 3e38; });
     if (numbers.size() == count && all) return numbers;
     auto& d = diagnostics_.error(Code::wrongType, value->place, fmt::format("{} has the wrong type", key));
     d.expected = count == 1 ? "a number or a boolean" : fmt::format("a list of {} numbers", count);
-    d.found = value->is(Type::array) ? fmt::format("a list with {} numbers", numbers.size())
-                                     : base::describe(*value);
+    d.found = value->is(JsonType::array) ? fmt::format("a list with {} numbers", numbers.size())
+                                         : base::describe(*value);
     d.hint = "write a value that fits the TYPE of the input";
     return {};
   }
 
   void readInput(const JsonValue& value) {
-    if (!base::expectType(value, "an input", Type::object, diagnostics_)) return;
+    if (!base::expectType(value, "an input", JsonType::object, diagnostics_)) return;
     JsonFields fields(value, "an input", Code::outOfRange, diagnostics_);
     fields.require({"NAME", "TYPE"});
     const JsonValue* name = value.find("NAME");
     const auto type = fields.text("TYPE");
     if (!name || !type) return;
-    if (!base::expectType(*name, "NAME", Type::string, diagnostics_)) return;
+    if (!base::expectType(*name, "NAME", JsonType::string, diagnostics_)) return;
     IsfInput input{.name = name->text, .place = name->place};
     using T = IsfInput::Type;
     static constexpr std::array<std::pair<std::string_view, T>, 7> kTypes{{{"bool", T::boolean},
@@ -223,7 +224,7 @@ class HeaderReader {
       }
     if (const JsonValue* values = listOf(value, "VALUES"))
       for (const JsonValue& each : values->items) {
-        if (!base::expectType(each, "one of VALUES", Type::number, diagnostics_)) return;
+        if (!base::expectType(each, "one of VALUES", JsonType::number, diagnostics_)) return;
         if (each.number != std::floor(each.number) || std::abs(each.number) > 2147483647.0) {
           auto& d = diagnostics_.error(Code::outOfRange, each.place,
                                        fmt::format("a value of '{}' is no whole number", input.name));
@@ -236,30 +237,30 @@ class HeaderReader {
       }
     if (const JsonValue* labels = listOf(value, "LABELS"))
       for (const JsonValue& each : labels->items)
-        input.labels.push_back(each.is(Type::string)   ? each.text
-                               : each.is(Type::number) ? fmt::format("{}", each.number)
-                                                       : std::string());
+        input.labels.push_back(each.is(JsonType::string)   ? each.text
+                               : each.is(JsonType::number) ? fmt::format("{}", each.number)
+                                                           : std::string());
     if (input.labels.size() != input.values.size()) input.labels.clear();
   }
 
   void readSize(const JsonValue& value, std::string_view key, std::string& text, Place& place) {
     const JsonValue* size = value.find(key);
-    if (!size || size->is(Type::null)) return;
+    if (!size || size->is(JsonType::null)) return;
     place = size->place;
-    if (size->is(Type::number))
+    if (size->is(JsonType::number))
       text = fmt::format("{}", size->number);
-    else if (base::expectType(*size, key, Type::string, diagnostics_)) {
+    else if (base::expectType(*size, key, JsonType::string, diagnostics_)) {
       text = size->text;
       place = size->textPlace();
     }
   }
 
   void readPass(const JsonValue& value) {
-    if (!base::expectType(value, "a pass", Type::object, diagnostics_)) return;
+    if (!base::expectType(value, "a pass", JsonType::object, diagnostics_)) return;
     IsfPass pass{.place = value.place};
     if (const JsonValue* target = value.find("TARGET");
-        target && !target->is(Type::null) &&
-        base::expectType(*target, "TARGET", Type::string, diagnostics_)) {
+        target && !target->is(JsonType::null) &&
+        base::expectType(*target, "TARGET", JsonType::string, diagnostics_)) {
       pass.target = target->text;
       pass.place = target->place;
       const bool again =
@@ -291,21 +292,21 @@ class HeaderReader {
                    fmt::format("no pass draws into the persistent buffer '{}'", name))
           .hint = "it is left out";
     };
-    if (buffers.is(Type::array)) {
+    if (buffers.is(JsonType::array)) {
       for (const JsonValue& name : buffers.items)
-        if (base::expectType(name, "a name in PERSISTENT_BUFFERS", Type::string, diagnostics_))
+        if (base::expectType(name, "a name in PERSISTENT_BUFFERS", JsonType::string, diagnostics_))
           mark(name.text, nullptr, name.place);
-    } else if (base::expectType(buffers, "PERSISTENT_BUFFERS", Type::object, diagnostics_)) {
+    } else if (base::expectType(buffers, "PERSISTENT_BUFFERS", JsonType::object, diagnostics_)) {
       for (const base::JsonMember& member : buffers.members)
-        mark(member.key, member.value.is(Type::object) ? &member.value : nullptr, member.place);
+        mark(member.key, member.value.is(JsonType::object) ? &member.value : nullptr, member.place);
     }
   }
 
   void readImported(const JsonValue& imported) {
     const auto add = [&](const std::string& name, const JsonValue& value, const JsonValue& at) {
-      if (!base::expectType(value, "an imported picture", Type::object, diagnostics_)) return;
+      if (!base::expectType(value, "an imported picture", JsonType::object, diagnostics_)) return;
       const JsonValue* path = value.find("PATH");
-      if (!path || !path->is(Type::string)) {
+      if (!path || !path->is(JsonType::string)) {
         auto& d =
             diagnostics_.error(path ? Code::isfNotMapped : Code::missingKey, path ? path->place : value.place,
                                fmt::format("the imported picture '{}' has no PATH of one file", name));
@@ -317,9 +318,9 @@ class HeaderReader {
       if (checkName(at, name, "an imported picture"))
         out_.imported.push_back({name, path->text, path->textPlace()});
     };
-    if (imported.is(Type::array)) {
+    if (imported.is(JsonType::array)) {
       for (const JsonValue& each : imported.items) add(textOf(each, "NAME"), each, each);
-    } else if (base::expectType(imported, "IMPORTED", Type::object, diagnostics_)) {
+    } else if (base::expectType(imported, "IMPORTED", JsonType::object, diagnostics_)) {
       for (const base::JsonMember& member : imported.members) add(member.key, member.value, member.value);
     }
   }

@@ -22,7 +22,8 @@ runtime::StepRecord step(const char* pass, const char* resource, std::uint64_t h
 
 PassRecords threePasses() {
   return {"driver a",
-          {{0, {step("sky", "hdr", 1, 4), step("blur[2,1]", "glow", 2, 0.5f), step("tone", "ldr", 3, 1)}}}};
+          {{0, {step("sky", "hdr", 1, 4), step("blur[2,1]", "glow", 2, 0.5f), step("tone", "ldr", 3, 1)}}},
+          {}};
 }
 
 class TemporaryFile {
@@ -103,6 +104,20 @@ TEST_CASE("passes that came and went are told where they stand") {
   found = findDivergence(before, after);
   REQUIRE(found.has_value());
   CHECK(found->kind == Divergence::Kind::missing);
+}
+
+TEST_CASE("a culled pass is named only when nothing else differs") {
+  const PassRecords before = threePasses();
+  PassRecords after = threePasses();
+  after.frames[0].steps.erase(after.frames[0].steps.begin());
+  after.culled = {"sky"};
+  auto found = findDivergence(before, after);
+  REQUIRE(found.has_value());
+  CHECK(found->pass == "sky");
+  after.frames[0].steps[1].hash = 99;
+  found = findDivergence(before, after);
+  REQUIRE(found.has_value());
+  CHECK(found->pass == "tone");
 }
 
 TEST_CASE("a signature sees exchanged channels and what is not finite") {
