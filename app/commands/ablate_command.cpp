@@ -1,11 +1,6 @@
 // weft ablate: what each pass costs and does.
 #include "app/commands/commands.h"
-<<<<<<< ours
 #include "app/output/standard_streams.h"
-#include "app/session/session.h"
-=======
-#include "app/session/standard_streams.h"
->>>>>>> theirs
 #include "app/trials/ablation.h"
 #include "app/trials/device_run.h"
 

@@ -5,13 +5,8 @@
 #include <cmath>
 
 #include "app/commands/commands.h"
-<<<<<<< ours
 #include "app/output/standard_streams.h"
-#include "app/session/session.h"
-=======
-#include "app/session/standard_streams.h"
 #include "app/trials/device_run.h"
->>>>>>> theirs
 #include "app/trials/divergence.h"
 #include "engine/assets/images/flip.h"
 

@@ -4,12 +4,7 @@
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
 #include "app/session/option_parts.h"
-<<<<<<< ours
-#include "app/session/session.h"
-=======
-#include "app/session/standard_streams.h"
 #include "app/trials/device_run.h"
->>>>>>> theirs
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
 #include "engine/assets/images/compare.h"
