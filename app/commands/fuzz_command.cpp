@@ -3,6 +3,7 @@
 
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
+#include "app/session/option_checks.h"
 #include "app/session/option_parts.h"
 #include "app/trials/device_run.h"
 #include "app/trials/divergence.h"

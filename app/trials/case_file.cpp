@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "app/session/option_checks.h"
 #include "app/session/option_parts.h"
 #include "app/session/session.h"
 #include "engine/base/files/file.h"

@@ -91,7 +91,7 @@ void Analysis::look(const std::string& path, Graph& graph) {
   for (std::string& each : project_.closure(path)) graph.files.insert(std::move(each));
   if (!desc) return;
   if (!graph.sources)
-    graph.sources = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(path, dataFolder()));
+    graph.sources = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(path, {}, dataFolder()));
   graph.sources->forgetTouched();
   const auto flat = graph::expandGraph(*desc, registry_, settingsOf(options_, true), graph.said);
   if (flat && !graph.said.hasErrors()) {
