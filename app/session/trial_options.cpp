@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/session/option_checks.h"
+
 namespace weft::app {
 
 namespace {
