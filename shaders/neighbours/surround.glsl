@@ -1,6 +1,6 @@
 // What the spheres around a point of a sphere do to its light: they hide light from everywhere, from the sun and from the brightest spot,
 // and what they hide they replace by light that they throw back. For shading/light.glsl.
-// Slot neighbours, see neighbours/lists.glsl.
+// Slot neighbours, see neighbours/lists.glsl; not `as linear`.
 #ifndef NEIGHBOURS_SURROUND_GLSL
 #define NEIGHBOURS_SURROUND_GLSL
 
@@ -40,14 +40,37 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
   float sun_angle = max(sqrt(max(1.0 - sun_light[0].cos_angle * sun_light[0].cos_angle, 0.0)), 0.002);
 #endif
   float reach = texelFetch(neighbours, ivec2(0), 0).x;
-  ivec2 texel = neighbourTexel(row, 0);
-  for (int i = 0; i < kMost; ++i) {
-    vec4 ball = texelFetch(neighbours, texel + ivec2(2 * i, 0), 0);
-    if (ball.w <= 0.0) break;
-    vec4 light = texelFetch(neighbours, texel + ivec2(2 * i + 1, 0), 0);
+  // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
+  vec2 step_on = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * step_on;
+  int i = -1;
+  while (i < kMost - 1) {
+    // On to the next sphere that takes anything. This loop is short, so that the rest runs for these alone, also where lanes go together.
+    // Its count goes up first of all: llvmpipe goes on computing for lanes that have left, from the count that they left with.
+    bool counts = false, ends = false;
+    vec4 ball;
+    do {
+      ++i;
+      ball = textureLod(neighbours, vec2(first.x + float(2 * i) * step_on.x, first.y), 0.0);
+      vec3 to = ball.xyz - at;
+      float distance2 = dot(to, to), distance_to = sqrt(distance2), along = dot(axis, to), lobe_ends = ball.w + cone * distance_to;
+      counts = dot(n, to) > -ball.w || (along > 0.0 ? distance2 - along * along < lobe_ends * lobe_ends : distance_to - along < lobe_ends);
+#ifdef HAS_BRIGHTEST
+      float along_spot = dot(lobe.spot, to), spot_ends = ball.w + spot_angle * distance_to;
+      counts = counts || (along_spot > 0.0 && distance2 - along_spot * along_spot < spot_ends * spot_ends);
+#endif
+#ifdef HAS_SUN
+      float along_sun = dot(sun_direction, to), sun_ends = ball.w + sun_angle * distance_to;
+      counts = counts || (along_sun > 0.0 && distance2 - along_sun * along_sun < sun_ends * sun_ends);
+#endif
+      counts = counts && distance_to < reach * ball.w;
+      ends = ball.w <= 0.0;
+    } while (i < kMost - 1 && !counts && !ends);
+    if (!counts) break;
+    vec4 light = textureLod(neighbours, vec2(first.x + float(2 * i + 1) * step_on.x, first.y), 0.0);
     vec3 to = ball.xyz - at;
     float distance2 = dot(to, to), per_distance = inversesqrt(distance2), distance_to = distance2 * per_distance;
     float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);
+    float along = dot(axis, to), beside2 = max(distance2 - along * along, 0.0);
     float share = capShare(ratio, dot(n, to) * per_distance) * near * abs(light.a);
     if (light.a < 0.0) {
       all.foot = share;
@@ -56,7 +79,6 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
     hidden += share;
     colors += share * light.rgb;
     towards += share * per_distance * to;
-    float along = dot(axis, to), beside2 = max(distance2 - along * along, 0.0);
     float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near, share, alpha) * all.mirror_seen;
     all.mirror_seen -= in_lobe;
     all.mirror_albedo += in_lobe * light.rgb;
