@@ -27,11 +27,11 @@ struct Surround {
 
 // Of a point of the sphere of that row. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
 Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe lobe) {
-  Surround all = Surround(1.0, vec3(0.0), vec3(0.0), 0.0, 1.0, vec3(0.0), vec3(0.0), 1.0, 1.0);
+  Surround all = Surround(1.0, vec3(0.0), n, 0.0, 1.0, vec3(0.0), vec3(0.0), 1.0, 1.0);
   axis = normalize(axis);
   const float kWidth = 1.6;  // of the cone, in half angles of half vectors
   float alpha = alphaOfRoughness(roughness), cone = kWidth * alpha + 0.005, hidden = 0.0;
-  vec3 colors = vec3(0.0), towards = vec3(0.0);
+  vec3 colors = vec3(0.0), towards = colors;
 #ifdef HAS_BRIGHTEST
   float spot_angle = max(2.0 * sqrt(brightest_light.w), 0.002);
 #endif
@@ -41,49 +41,43 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
 #endif
   float reach = texelFetch(neighbours, ivec2(0), 0).x;
   // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
-  vec2 step_on = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * step_on;
+  vec2 texel = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * texel;
   int i = -1;
   while (i < kMost - 1) {
-    // On to the next sphere that takes anything. This loop is short, so that the rest runs for these alone, also where lanes go together.
+    // On to the next sphere that takes anything: above the horizon, where lights are, or in the lobe. This loop is short, so that the rest
+    // runs for these alone, also where lanes go together.
     // Its count goes up first of all: llvmpipe goes on computing for lanes that have left, from the count that they left with.
-    bool counts = false, ends = false;
+    bool counts;
     vec4 ball;
+    vec3 to;
+    float distance2, distance_to, along;
     do {
       ++i;
-      ball = textureLod(neighbours, vec2(first.x + float(2 * i) * step_on.x, first.y), 0.0);
-      vec3 to = ball.xyz - at;
-      float distance2 = dot(to, to), distance_to = sqrt(distance2), along = dot(axis, to), lobe_ends = ball.w + cone * distance_to;
-      counts = dot(n, to) > -ball.w || (along > 0.0 ? distance2 - along * along < lobe_ends * lobe_ends : distance_to - along < lobe_ends);
-#ifdef HAS_BRIGHTEST
-      float along_spot = dot(lobe.spot, to), spot_ends = ball.w + spot_angle * distance_to;
-      counts = counts || (along_spot > 0.0 && distance2 - along_spot * along_spot < spot_ends * spot_ends);
-#endif
-#ifdef HAS_SUN
-      float along_sun = dot(sun_direction, to), sun_ends = ball.w + sun_angle * distance_to;
-      counts = counts || (along_sun > 0.0 && distance2 - along_sun * along_sun < sun_ends * sun_ends);
-#endif
-      counts = counts && distance_to < reach * ball.w;
-      ends = ball.w <= 0.0;
-    } while (i < kMost - 1 && !counts && !ends);
+      ball = textureLod(neighbours, first + vec2(2 * i, 0) * texel, 0.0);
+      to = ball.xyz - at;
+      distance2 = dot(to, to);
+      distance_to = sqrt(distance2);
+      along = dot(axis, to);
+      float lobe_ends = ball.w + cone * distance_to;
+      counts = distance_to < reach * ball.w &&
+               (dot(n, to) > -ball.w || (along > -lobe_ends && distance2 - along * along < lobe_ends * lobe_ends));
+    } while (i < kMost - 1 && !counts && ball.w > 0.0);
     if (!counts) break;
-    vec4 light = textureLod(neighbours, vec2(first.x + float(2 * i + 1) * step_on.x, first.y), 0.0);
-    vec3 to = ball.xyz - at;
-    float distance2 = dot(to, to), per_distance = inversesqrt(distance2), distance_to = distance2 * per_distance;
+    vec4 light = textureLod(neighbours, first + vec2(2 * i + 1, 0) * texel, 0.0);
     float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);
-    float along = dot(axis, to), beside2 = max(distance2 - along * along, 0.0);
-    float share = capShare(ratio, dot(n, to) * per_distance) * near * abs(light.a);
+    float share = capShare(ratio, dot(n, to) / distance_to) * near * abs(light.a);
     if (light.a < 0.0) {
       all.foot = share;
       share = near = 0.0;
     }
     hidden += share;
     colors += share * light.rgb;
-    towards += share * per_distance * to;
-    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(beside2), distance_to) * near, share, alpha) * all.mirror_seen;
+    towards += share / distance_to * to;
+    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to) * near, share, alpha) * all.mirror_seen;
     all.mirror_seen -= in_lobe;
     all.mirror_albedo += in_lobe * light.rgb;
     // Where the axis meets that sphere, or is nearest to it.
-    all.mirror_facing += (axis * (along - sqrt(max(ball.w * ball.w - beside2, 0.0))) - to) * (in_lobe / ball.w);
+    all.mirror_facing += (axis * (along - sqrt(max(ball.w * ball.w - distance2 + along * along, 0.0))) - to) * (in_lobe / ball.w);
 #ifdef HAS_BRIGHTEST
     along = dot(lobe.spot, to);
     all.spot_seen *= 1.0 - discShare(ball.w, spot_angle * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to) * near;
