@@ -16,8 +16,14 @@ float searchRadius(ivec2 pixel) {
   return mix(side.x, side.y, within.y);
 }
 #else
-float searchRadius(ivec2 pixel) { return float(tile); }
+float searchRadius(ivec2 pixel) {
+  return float(tile);
+}
 #endif
+// That of the pixel's own disc; 0: it is not in the near field.
+float ownDisc(ivec2 pixel) {
+  return texelFetch(discs, pixel, 0).r / max(texelFetch(source, pixel, 0).a, 0.25);
+}
 #else
 // In the far field it is the radius of the pixel's own disc, or, where something nearer hides the layer, of that thing's disc.
 float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
@@ -26,22 +32,39 @@ float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
 #endif
 
 // The rings from the middle to `ring` hold this many samples if each stands for one; small discs take fewer rings.
-float samplesTo(int ring) { return 1.0 + 2.5 * float(ring * (ring + 1)); }
-int ringsFor(float radius, int rings) { return clamp(int(ceil(0.7 * radius - 0.2)), 0, rings); }
-float samplesFor(float radius, int rings) { return samplesTo(ringsFor(radius, rings)); }
+float samplesTo(int ring) {
+  return 1.0 + 2.5 * float(ring * (ring + 1));
+}
+int ringsFor(float radius, int rings) {
+  return clamp(int(ceil(0.7 * radius - 0.2)), 0, rings);
+}
 
-// Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them, up to a radius
-// of FILL_START / FILL_SLOPE. The graph defines both, because it leaves the fill out where no disc is larger.
-float fillVariance(float radius) { return clamp(FILL_SLOPE * radius - FILL_START, 0.0, 2.0 / 3.0); }
+// About how far the samples in a disc are apart: the root of the area for each, over that of pi.
+float gapOf(float radius, int rings) {
+  return radius * inversesqrt(samplesTo(ringsFor(radius, rings)));
+}
 
-// How far apart, in texels, the nine lookups of the fill lie, for a gap between samples of the near field: wide enough that highlights of a
-// few texels are no dots, and no wider, as it softens discs. (In the far field they lie a texel apart.)
-float fillStride(float gap) { return max(0.6 * gap, 1.0); }
+// From this gap on the texels read are four pixels of the half size wide instead of two.
+const float kCoarseGap = 4.0;
 
-// Weight of the neighbours along an axis in the fill, 0..1.
-float fillWeight(float radius) {
-  float variance = fillVariance(radius);
-  return variance / (2.0 - 2.0 * variance);
+// Up to this gap filtering and the fill close it; from there on coarser texels and four sets of places do, see rings.glsl.
+const float kFineGap = 1.7;
+
+// Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them; where there are four sets at
+// least what makes the mean hold as much of each, and so much that their gaps do not show.
+float fillVariance(float radius, float gap) {
+  float closing = 0.16 * gap * gap - (gap > kCoarseGap ? 2.0 : 0.0);
+  return gap > kFineGap ? clamp(closing, 0.5, 1.8)
+                        : clamp(min(1.6 * gap - 0.98, 0.5 * radius - 1.48), 0.0, 0.6 * gap);
+}
+
+// The fill takes its mean of lookups this many texels apart, and gives the neighbours along an axis this weight beside the middle's 1: so the
+// texels of even and of odd distance have equal weight from a variance of a half on, where a lookup between two texels counts for both.
+float fillStride(float variance) {
+  return max((4.0 * variance + 2.0) / (2.0 * variance + 3.0), 1.0);
+}
+float fillWeight(float variance) {
+  return variance < 0.5 ? variance / (2.0 - 2.0 * variance) : 0.5 / (3.0 - 2.0 * fillStride(variance));
 }
 
 #endif

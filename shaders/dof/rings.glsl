@@ -1,27 +1,118 @@
-// The places on a disc at which the bokeh passes sample: rings of 5, 10, 15 ... around the middle, so that each place stands for the same area.
+// The places on a disc at which the bokeh passes sample: rings of 5, 10, 15 ... around the middle, so that each place stands for the same
+// area. Four neighbouring pixels have four sets of places, and the mean of the fill takes as much of each: so its pixels see four times as
+// many places (interleaved sampling; Keller and Heidrich, EGWR 2001). Whoever includes this defines takePlace().
 #ifndef DOF_RINGS_GLSL
 #define DOF_RINGS_GLSL
+
+#include "disc.glsl"
+
+#ifndef COARSEST
+#define COARSEST 16.0
+#endif
+
+// How a disc is searched.
+struct Search {
+  int outermost;          // ring
+  float samples;          // in all rings
+  float level;            // to read: its texels are as large as the gaps between the places of four pixels
+  float shared_variance;  // four times what filtering adds to the variance of a disc
+  float differs;          // 1: the four sets differ, else 0
+  float shift;            // of this pixel's set: across its ring, as a share of the ring's area
+  float
+      half_share;  // what a disc counts that ends where the place is: a half, in small discs more, so that they are flatter
+  float span;  // radius of the area that the places stand for, pixels of the half size
+};
+
+// What the pass does with a place `across` pixels of the half size from the pixel; `share` is its area, 1 for a round aperture.
+void takePlace(Search search, vec2 at, float across, float share);
+
+// The set of this pixel, two numbers of 0 or 1. The first: in the outer half of the rings, and turned by a quarter of the step around the ring; as the
+// fields of a chessboard, because along rows or columns its rings and the pixels of a set would beat. The second: turned by two quarters.
+vec2 whichSet() {
+  vec2 at = floor(gl_FragCoord.xy);
+  return step(0.25, fract(0.5 * vec2(at.x + at.y, at.y)));
+}
+
+Search searchOver(float radius, int rings) {
+  Search search;
+  search.outermost = ringsFor(radius, rings);
+  search.samples = samplesTo(search.outermost);
+  // Where a pixel's own places are too far apart, the sets differ. Then no level is finer than two pixels: the pixels of one set are as far
+  // apart, and only so a texel counts for all sets alike.
+  float gap = gapOf(radius, rings), variance = fillVariance(radius, gap);
+  search.differs = gap > kFineGap ? 1.0 : 0.0;
+  search.level = gap > kFineGap ? min(gap > kCoarseGap ? 2.0 : 1.0, COARSEST) : 0.0;
+  search.shift = (whichSet().x - 0.5) * 0.5 * search.differs;
+  search.half_share = 0.65 - 0.15 * clamp(0.5 * radius - 1.4, 0.0, 1.0);
+  float texel = exp2(search.level);
+  search.shared_variance = 4.0 * variance + 1.7 + 0.667 * (2.0 * texel * texel - 1.0);
+  search.span = sqrt(max(radius * radius - search.shared_variance, 0.25)) + 0.5;
+  return search;
+}
 
 // Directions of 18 degrees, and of a step around the n-th ring.
 const vec2 kStart = vec2(0.951056516, 0.309016994);
 // From the fourth ring on each ring begins at another angle (the golden angle on), because equal beginnings would make spokes.
 const vec2 kGolden = vec2(-0.737368878, 0.675490294);
-const vec2 kStep[9] = vec2[9](vec2(1.0, 0.0), vec2(0.309016994, 0.951056516), vec2(0.809016994, 0.587785252), vec2(0.913545458, 0.406736643),
-                              vec2(0.951056516, 0.309016994), vec2(0.968583161, 0.248689887), vec2(0.978147601, 0.207911691),
-                              vec2(0.983930, 0.178557), vec2(0.987688341, 0.156434465));
+const vec2 kStep[9] =
+    vec2[9](vec2(1.0, 0.0), vec2(0.309016994, 0.951056516), vec2(0.809016994, 0.587785252),
+            vec2(0.913545458, 0.406736643), vec2(0.951056516, 0.309016994), vec2(0.968583161, 0.248689887),
+            vec2(0.978147601, 0.207911691), vec2(0.983930, 0.178557), vec2(0.987688341, 0.156434465));
 
-vec2 turned(vec2 direction, vec2 by) { return vec2(direction.x * by.x - direction.y * by.y, direction.x * by.y + direction.y * by.x); }
-vec2 startOfNext(vec2 start, int ring) { return ring > 2 ? turned(start, kGolden) : start; }
+vec2 turned(vec2 direction, vec2 by) {
+  return vec2(direction.x * by.x - direction.y * by.y, direction.x * by.y + direction.y * by.x);
+}
+
+// A quarter of that step, and in the middle a quarter of a turn.
+const vec2 kQuarter[9] = vec2[9](
+    vec2(0.0, 1.0), vec2(0.951056516, 0.309016994), vec2(0.987688341, 0.156434465),
+    vec2(0.994521895, 0.104528463), vec2(0.996917334, 0.0784590957), vec2(0.998026728, 0.0627905195),
+    vec2(0.998629535, 0.0523359562), vec2(0.998993067, 0.0448648304), vec2(0.999229036, 0.0392598158));
 
 // The n-th ring is this far out.
-float ringRadius(int ring, float span, float samples) { return ring == 0 ? 0.0 : span * sqrt((1.0 + 2.5 * float(ring * ring)) / samples); }
+float ringRadius(Search search, int ring) {
+  float area = ring == 0 ? 0.5 * search.differs + search.shift
+                         : 1.0 + 2.5 * float(ring * ring) + 5.0 * float(ring) * search.shift;
+  return search.span * sqrt(area / search.samples);
+}
 
 #if POLYGON
+// Behind the focus a disc is the aperture's outline, before it the same upside down: there its rays have not yet crossed. A pixel that is
+// up in a disc looks for its light below.
+const float kUpright = NEAR == 1 ? 1.0 : -1.0;
+
 // How far out the polygon of the blades is in this direction, of the radius of its corners.
 float outline(vec2 direction) {
   float sector = 6.28318530717959 / float(blades), angle = atan(direction.y, direction.x);
   return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
 }
 #endif
+
+// Calls takePlace for all places; returns the sum of their shares. `to_uv`: of a pixel of the half size.
+float takePlaces(Search search, vec2 to_uv) {
+  vec2 odd = whichSet() * search.differs, middle = gl_FragCoord.xy * to_uv, start = kStart;
+  float area = 0.0;
+  for (int ring = 0; ring <= search.outermost; ++ring) {
+    int count = max(5 * ring, 1);
+    float across = ringRadius(search, ring);
+    vec2 quarter = kQuarter[ring], half_step = turned(quarter, quarter);
+    vec2 direction =
+        turned(turned(start, mix(vec2(1.0, 0.0), quarter, odd.x)), mix(vec2(1.0, 0.0), half_step, odd.y));
+    if (ring > 2) start = turned(start, kGolden);
+    for (int i = 0; i < count; ++i) {
+      vec2 at = across * direction;
+      float share = 1.0;
+#if POLYGON
+      float shape = outline(direction);
+      at *= kUpright * shape;
+      share = shape * shape;
+#endif
+      area += share;
+      direction = turned(direction, kStep[ring]);
+      takePlace(search, middle + at * to_uv, across, share);
+    }
+  }
+  return area;
+}
 
 #endif

@@ -12,7 +12,8 @@ uniform sampler2D tiles;
 
 // `target` texels of a target for one of the half size.
 vec4 workCorner(int tile, int target) {
-  ivec2 half_size = ivec2(viewport) / target, grid = max((half_size + tile - 1) / tile, ivec2(1)), at = tileOf(grid);
+  ivec2 half_size = (ivec2(viewport) + target - 1) / target,
+        grid = max((half_size + tile - 1) / tile, ivec2(1)), at = tileOf(grid);
 #ifdef HAS_TILES
   bool wanted = texelFetch(tiles, at, 0).r > 0.0;
 #else

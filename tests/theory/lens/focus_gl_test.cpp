@@ -167,7 +167,8 @@ TEST_CASE("focus: the near field covers the sharp sky as far as its disc reaches
   CHECK(panels.after(edge - 1, row)[1] < 0.8);
   CHECK(panels.after(edge + 1, row)[1] > 0.3);  // the sky shows inside the silhouette
   CHECK(panels.after(edge - static_cast<std::uint32_t>(radius / 2), row)[1] < 0.98);
-  for (std::uint32_t x = 0; x + radius + 4 < edge; ++x) {
+  // A texel of the half size that the sphere touches counts by its share: so the disc may begin two pixels farther out.
+  for (std::uint32_t x = 0; x + radius + 6 < edge; ++x) {
     CAPTURE(edge - x);
     CHECK(panels.after(x, row)[1] == panels.before(x, row)[1]);
   }
@@ -292,9 +293,8 @@ TEST_CASE("focus: one colour stays that colour") {
 }
 
 TEST_CASE(
-    "focus: in both fields light is kept within 2 % and spreads at most 18 % wider in variance than the thin "
-    "lens "
-    "spreads it, point by point; the far field without its fill within 1 %") {
+    "focus: in both fields light is kept within 2 % and spreads at most 13 % wider in variance than the thin "
+    "lens spreads it, point by point") {
   struct Case {
     Lens lens;
     Ball ball;
@@ -313,16 +313,10 @@ TEST_CASE(
             " of ", expected);
     REQUIRE(expected > 4);
     CHECK(blurred.mass == doctest::Approx(sharp.mass).epsilon(0.02));
-    // Wider, never narrower: measured 1.131 and 1.166, which is 6 and 8 % of the radius. It is the fill that widens.
+    // Wider, never narrower: measured 1.03 and 1.12.
     CHECK(blurred.variance - sharp.variance > expected);
-    CHECK(blurred.variance - sharp.variance < 1.18 * expected);
+    CHECK(blurred.variance - sharp.variance < 1.13 * expected);
   }
-  Setup bare = scene({cases[1].ball}, cases[1].lens, "4");
-  bare.disables = {"post.dof.far_fill"};
-  const Panels panels = panelsOf(bare);
-  const double sharp = darkOf(panels, false).variance,
-               expected = spreadByLens(panels, cases[1].lens, cases[1].ball).variance - sharp;
-  CHECK(darkOf(panels, true).variance - sharp == doctest::Approx(expected).epsilon(0.01));  // measured: 1.004
 }
 
 TEST_CASE("focus: blades make a polygon of the disc, and the light stays") {

@@ -1,0 +1,21 @@
+// The next coarser level of the two fields and of the discs: a mean of four by four texels that weighs 1, 3, 3, 1, so that what is small stays
+// exactly where it is, and nothing beats with the pixels that read it.
+// read    near_source, far_source, disc_source   a level, `as linear`
+// write   near, far, disc                        the next one, half as wide and high
+uniform sampler2D near_source, far_source, disc_source;
+out vec4 near;
+out vec4 far;
+out float disc;
+
+vec4 meanOf(sampler2D source) {
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), at = 2.0 * gl_FragCoord.xy * texel,
+       low = at - 0.75 * texel, high = at + 0.75 * texel;
+  return 0.25 * (textureLod(source, low, 0.0) + textureLod(source, high, 0.0) +
+                 textureLod(source, vec2(low.x, high.y), 0.0) + textureLod(source, vec2(high.x, low.y), 0.0));
+}
+
+void main() {
+  near = meanOf(near_source);
+  far = meanOf(far_source);
+  disc = meanOf(disc_source).r;
+}
