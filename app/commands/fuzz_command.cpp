@@ -8,6 +8,7 @@
 #include "app/trials/device_run.h"
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
+#include "app/trials/work_lines.h"
 #include "engine/assets/images/compare.h"
 #include "engine/assets/images/flip.h"
 
@@ -25,8 +26,11 @@ class Fuzzer {
     base_ = shoot({}, diagnostics);
     if (!base_) return 2;
     const std::vector<FuzzTrial> trials = trialsOf(options_.trial);
+    WorkLines lines(trials.size(), "runs");
     for (const FuzzTrial& trial : trials) {
-      if (!differs(trial)) {
+      const bool same = !differs(trial);
+      lines.countOne();
+      if (same) {
         if (!problems_.hasErrors()) continue;
         diagnostics.append(problems_);
         return 2;

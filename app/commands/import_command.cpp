@@ -11,7 +11,6 @@
 #include "engine/assets/images/image.h"
 #include "engine/base/chars.h"
 #include "engine/base/files/file.h"
-#include "engine/base/files/file_access.h"
 #include "engine/base/printable.h"
 #include "engine/convert/convert.h"
 
@@ -84,7 +83,6 @@ int runImport(const Options& options) {
     d.expected = "at most 60 letters, digits and '_', not beginning with a digit";
     return report(diagnostics);
   }
-  base::chooseFile(convert::vertexFileOf(options.foreignFile));
   convert::ConvertOptions wanted{.name = options.newName};
   const std::string parent = fs::path(options.foreignFile).parent_path().string();
   wanted.sourceFolder = seenFrom(options.folder, parent.empty() ? "." : parent);

@@ -1,6 +1,8 @@
 // weft test: cases of pictures and plans against their goldens.
 #include <fmt/format.h>
 
+#include <map>
+
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
@@ -9,6 +11,7 @@
 #include "app/trials/report_page.h"
 #include "engine/base/files/file.h"
 #include "engine/base/nearest.h"
+#include "engine/base/printable.h"
 
 namespace weft::app {
 
@@ -23,7 +26,7 @@ const char* wordOf(State state) {
 
 void printResult(const TestCase& test, const CaseResult& result) {
   print(fmt::format("{:8}{}\n", wordOf(result.state), test.name));
-  for (const std::string& line : result.lines) print(fmt::format("        {}\n", line));
+  for (const std::string& line : result.lines) print(fmt::format("        {}\n", base::printable(line)));
   if (result.first) print(fmt::format("        first that differs: {}\n", result.first->text()));
   flushPrinted();
 }
@@ -40,8 +43,16 @@ std::vector<TestCase> chooseCases(const Options& options, base::Diagnostics& dia
   for (const std::string& file : findCaseFiles(options.trial.folder, diagnostics))
     readCases(file, options, all, diagnostics);
   std::vector<std::string> names;
+  std::map<std::string, const TestCase*> goldens;
   for (const TestCase& test : all) {
     names.push_back(test.name);
+    const auto [known, fresh] = goldens.emplace(test.plan ? test.planGolden() : test.recordFile(), &test);
+    if (!fresh)
+      diagnostics
+          .error(base::Code::duplicateName, test.place,
+                 fmt::format("'{}' is also a case of '{}', and both have one golden", test.name,
+                             known->second->place.file ? *known->second->place.file : ""))
+          .hint = "give one of them another name";
     if (isWanted(test, options.trial.only)) wanted.push_back(test);
   }
   if (wanted.empty() && !diagnostics.hasErrors()) {
@@ -53,13 +64,40 @@ std::vector<TestCase> chooseCases(const Options& options, base::Diagnostics& dia
   return wanted;
 }
 
+// Without ".png": where -o puts the picture of a case.
+std::string leftName(const std::string& folder, const TestCase& test, std::uint32_t frame) {
+  return fmt::format("{}/{}{}", folder, test.name,
+                     test.frames.size() > 1 ? fmt::format("_{:04}", frame) : "");
+}
+
+// That what --report and -o write is none of the files that the cases are made of, and each picture another file.
+bool checkOutputs(const Options& options, const std::vector<TestCase>& cases,
+                  base::Diagnostics& diagnostics) {
+  std::vector<OutputFile> outputs;
+  std::vector<std::string> inputs;
+  if (!options.trial.report.empty()) outputs.push_back({"--report", options.trial.report});
+  for (const TestCase& test : cases) {
+    inputs.insert(inputs.end(),
+                  {test.options.graph, test.options.scene, test.options.materials, test.options.environment});
+    inputs.insert(inputs.end(), {test.mask, test.place.file ? *test.place.file : std::string()});
+    inputs.insert(inputs.end(), {test.planGolden(), test.recordFile()});
+    for (const std::uint32_t frame : test.frames) {
+      inputs.push_back(test.goldenOf(frame));
+      if (options.output.empty() || test.plan) continue;
+      for (const char* end : {".png", "_flip.png"})
+        outputs.push_back({"-o", leftName(options.output, test, frame) + end});
+    }
+  }
+  std::erase(inputs, "");
+  return checkDistinct(outputs, inputs, diagnostics);
+}
+
 // The picture and the difference of what failed.
 void leaveFiles(const std::string& folder, const TestCase& test, const CaseResult& result,
                 base::Diagnostics& diagnostics) {
   for (const CaseResult::Pair& pair : result.pairs) {
     if (!pair.failed) continue;
-    const std::string stem = fmt::format("{}/{}{}", folder, test.name,
-                                         test.frames.size() > 1 ? fmt::format("_{:04}", pair.frame) : "");
+    const std::string stem = leftName(folder, test, pair.frame);
     const assets::Image8 difference = assets::colorFlip(pair.map);
     if (!makeFolderOf(stem + ".png", diagnostics)) return;
     assets::savePng8(stem + ".png", pair.picture.width, pair.picture.height, pair.picture.channels,
@@ -75,7 +113,7 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
 int runTest(const Options& options) {
   base::Diagnostics diagnostics;
   const std::vector<TestCase> cases = chooseCases(options, diagnostics);
-  if (diagnostics.hasErrors()) {
+  if (diagnostics.hasErrors() || !checkOutputs(options, cases, diagnostics)) {
     report(diagnostics);
     return 2;
   }

@@ -23,7 +23,7 @@ std::string twoUnits(double seconds, double greater, const char* name, double sm
 
 // "12/501 frames, 2 h 13 min left".
 std::string countText(const Progress& p) {
-  std::string text = fmt::format("{}/{} frames", p.done, p.total);
+  std::string text = fmt::format("{}/{} {}", p.done, p.total, p.unit);
   if (p.lead > 0 && p.done < p.total)
     text += fmt::format(", {} of them lead up to the first picture", p.lead);
   if (p.done > 0 && p.done < p.total)

@@ -14,6 +14,7 @@ std::string durationText(double seconds);
 struct Progress {
   std::uint64_t done = 0, total = 1, lead = 0;
   double seconds = 0;
+  const char* unit = "frames";  // what is counted
 };
 
 // "[####....] 12/501 frames, 500 of them lead up to the first picture, 2 h 13 min left".

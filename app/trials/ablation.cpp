@@ -8,6 +8,7 @@
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "app/trials/report_page.h"
+#include "app/trials/work_lines.h"
 
 namespace weft::app {
 
@@ -42,7 +43,9 @@ std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& o
                       .steps = whole->plan->steps.size(),
                       .picture = whole->pictures.at(frame),
                       .rows = {}};
-  for (const std::string& pass : passesOf(*whole->plan)) {
+  const auto passes = passesOf(*whole->plan);
+  WorkLines lines(passes.size(), "passes");
+  for (const std::string& pass : passes) {
     Ablation row{.pass = pass};
     if (const auto own = whole->passMilliseconds.find(pass); own != whole->passMilliseconds.end())
       row.ownMs = own->second;
@@ -65,6 +68,7 @@ std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& o
       row.flip = assets::summarizeFlip(row.map);
     }
     table.rows.push_back(std::move(row));
+    lines.countOne();
   }
   return table;
 }

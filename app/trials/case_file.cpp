@@ -222,15 +222,28 @@ std::string TestCase::goldenOf(std::uint32_t frame) const {
 }
 
 std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostics& diagnostics) {
+  namespace fs = std::filesystem;
   std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) return {path};
-  std::vector<std::string> files;
-  for (std::filesystem::recursive_directory_iterator at(path, ignored), end; !ignored && at != end;
-       at.increment(ignored))
-    if (at->path().filename().string().ends_with(kSuffix) && at->is_regular_file(ignored))
-      files.push_back(at->path().string());
+  if (!fs::is_directory(path, ignored)) return {path};
+  std::vector<std::string> files, folders = {path};
+  // By hand, because an iterator over all of them ends at a folder that cannot be read, and a case that is not run is none that holds.
+  while (!folders.empty()) {
+    const std::string folder = std::move(folders.back());
+    folders.pop_back();
+    std::error_code ec;
+    for (fs::directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
+      const std::string name = at->path().string();
+      if (at->is_directory(ignored) && !at->is_symlink(ignored))
+        folders.push_back(name);
+      else if (name.ends_with(kSuffix))
+        files.push_back(name);  // also what is no file: reading it says so
+    }
+    if (ec)
+      diagnostics.error(Code::unreadableFile, {std::make_shared<const std::string>(folder)},
+                        fmt::format("cannot read the folder: {}", ec.message()));
+  }
   std::ranges::sort(files);
-  if (files.empty())
+  if (files.empty() && !diagnostics.hasErrors())
     diagnostics
         .error(Code::unreadableFile, {std::make_shared<const std::string>(path)},
                "the folder has no file of cases")

@@ -176,8 +176,11 @@ bool CaseRunner::comparePair(const TestCase& test, std::uint32_t frame, const as
 bool CaseRunner::acceptPair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
                             CaseResult& result, base::Diagnostics& diagnostics) {
   const std::string file = test.goldenOf(frame);
+  if (!readMask(test, picture, diagnostics)) return false;
   if (isThere(file)) {
-    const auto golden = assets::loadImage8(file, 4, diagnostics);
+    base::Diagnostics unreadable;  // which ends with being written anew
+    const auto golden = assets::loadImage8(file, 4, unreadable);
+    if (!golden) result.lines.push_back(fmt::format("'{}' could not be read, and is written anew", file));
     if (golden && golden->width == picture.width && golden->height == picture.height) {
       if (golden->texels == picture.texels) return false;
       const Found found(picture, *golden, assets::computeFlip(*golden, picture), {});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/session/session.h"
 #include "engine/base/limits.h"
@@ -28,6 +29,23 @@ bool checkReach(std::uint32_t frame, base::Diagnostics& diagnostics) {
              fmt::format("frame {} is beyond what one command runs, the limit 'frames' is {}", frame, limit))
       .hint = base::hintToRaise(base::Limit::frames, std::uint64_t{frame} + 1);
   return false;
+}
+
+// A picture of 8 bits shows no NaN: it is 0 there.
+void warnOfBrokenValues(const Options& options, runtime::Renderer& renderer, base::Diagnostics& diagnostics) {
+  const auto values = renderer.presentsBytes() ? std::nullopt : renderer.readPresentedFloat();
+  if (!values) return;
+  std::size_t pixels = 0;
+  for (std::size_t at = 0; at < values->texels.size(); at += values->channels) {
+    const auto begin = values->texels.begin() + static_cast<std::ptrdiff_t>(at);
+    pixels += std::any_of(begin, begin + values->channels, [](float v) { return !std::isfinite(v); });
+  }
+  if (pixels == 0) return;
+  base::Diagnostic& d = diagnostics.warning(
+      base::Code::pictureNotFinite, {std::make_shared<const std::string>(options.graph), 0, 0},
+      fmt::format("{} pixels of the picture are NaN or infinite", pixels));
+  d.expected = "finite numbers";
+  d.hint = "the texture inspector of `weft view` marks them";
 }
 
 void measure(runtime::Renderer& renderer, const runtime::World& world, const Options& options,
@@ -84,6 +102,7 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
     if (auto steps = recorder.take(); !steps.empty()) shot.records.push_back({number, std::move(steps)});
     if (keeps) shot.kept = recorder.kept();
     if (!shown) continue;
+    if (wish.records && !wish.poison) warnOfBrokenValues(options, renderer, diagnostics);
     if (auto picture = renderer.readPresented8()) shot.pictures[number] = std::move(*picture);
   }
   execution.watch({});
