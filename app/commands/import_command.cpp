@@ -11,6 +11,7 @@
 #include "engine/assets/images/image.h"
 #include "engine/base/chars.h"
 #include "engine/base/files/file.h"
+#include "engine/base/files/file_access.h"
 #include "engine/base/printable.h"
 #include "engine/convert/convert.h"
 
@@ -72,6 +73,15 @@ bool isName(const std::string& name) {
          std::ranges::all_of(name, base::isIdentChar);
 }
 
+// The .vs beside the file is part of what the command line names, unless it is a link to elsewhere or no file at all.
+void chooseVertexFile(const std::string& file) {
+  const std::string vertex = convert::vertexFileOf(file);
+  std::error_code ec, ignored;
+  if (fs::is_regular_file(vertex, ignored) &&
+      fs::canonical(vertex, ec).parent_path() == fs::canonical(file, ignored).parent_path() && !ec)
+    base::chooseFile(vertex);
+}
+
 }  // namespace
 
 int runImport(const Options& options) {
@@ -83,6 +93,7 @@ int runImport(const Options& options) {
     d.expected = "at most 60 letters, digits and '_', not beginning with a digit";
     return report(diagnostics);
   }
+  chooseVertexFile(options.foreignFile);
   convert::ConvertOptions wanted{.name = options.newName};
   const std::string parent = fs::path(options.foreignFile).parent_path().string();
   wanted.sourceFolder = seenFrom(options.folder, parent.empty() ? "." : parent);

@@ -4,6 +4,7 @@ messages of the shader compiler keep the lines of the original, and that reading
 
     command.py WEFT
 """
+import os
 import pathlib
 import sys
 import tempfile
@@ -54,6 +55,19 @@ def main():
         other = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--name", "second")
         assert other.code == 0 and (out / "second.json").exists(), other.err
         assert run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--name", "../up").codes() == ["W012"]
+
+        # The .vs beside a file is no path of the command line: it is confined, and no pipe.
+        beside = top / "beside"
+        beside.mkdir()
+        (beside / "x.fs").write_text(ISF)
+        (top / "secret.txt").write_text("secret")
+        (beside / "x.vs").symlink_to(top / "secret.txt")
+        outside = run(WEFT, "import", beside / "x.fs", "-o", top / "stolen", "--confine", beside)
+        assert outside.code == 1 and outside.codes() == ["W200"] and not (top / "stolen").exists(), outside.err
+        (beside / "x.vs").unlink()
+        os.mkfifo(beside / "x.vs")
+        pipe = run(WEFT, "import", beside / "x.fs", "-o", top / "stolen")
+        assert pipe.code == 1 and pipe.codes() == ["W001"] and not (top / "stolen").exists(), pipe.err
 
         # After an error nothing is written.
         bad = run(WEFT, "import", "tests/convert/bad/w221_audio.fs", "-o", top / "none")

@@ -130,6 +130,48 @@ def check_mistakes(weft, report, folder):
     report.check(result.code == 2 and "no file of cases" in result.err, f"{result.err}")
 
 
+def check_files(weft, report, folder):
+    """What it reads is never written over, every case is found, and names that it found forge no lines."""
+    def test(*arguments, code=2, says=""):
+        result = run(weft, "test", folder, *arguments)
+        report.check(result.code == code and says in result.out + result.err, f"{arguments}: {result.code}\n{result.out}{result.err}")
+        return result
+
+    write_cases(folder, [{"name": "glow", "graph": GLOW}])
+    test("--accept", code=0)
+    write_cases(folder, [{"name": "glow", "graph": GLOW, "set": {"threshold": 0.25}}])
+    before = {f.name: f.read_bytes() for f in folder.iterdir()}
+    test("-o", folder, says="W180")
+    for name in before:
+        test("--report", folder / name, says="W180")
+    report.check(before == {f.name: f.read_bytes() for f in folder.iterdir()}, "a file that is read was written over")
+    (folder / "gone.cases.json").symlink_to("nowhere")
+    test(says="gone.cases.json")
+    (folder / "gone.cases.json").unlink()
+    shutil.copy(folder / "some.cases.json", folder / "same.cases.json")
+    test(says="W009")
+    (folder / "same.cases.json").unlink()
+    (folder / "glow.png").write_bytes(b"")
+    test("--accept", code=0, says="written anew")
+    test(code=0)
+    forged = folder / "a\x1b[31mb\nok      all"
+    forged.mkdir()
+    shutil.copy(folder / "some.cases.json", forged / "other.cases.json")
+    result = test(code=1)
+    report.check("\x1b" not in result.out and "\nok      all" not in result.out, repr(result.out))
+    shutil.rmtree(forged)
+    write_cases(folder, [{"name": "glow", "graph": GLOW, "mask": "none.png"}])
+    test("--accept", says="none.png")
+
+    # A picture of NaN has a warning, and so differs.
+    nan = {"resources": {"picture": {"texture": "rgba16f", "size": [8, 8]}}, "present": "picture",
+           "passes": [{"name": "nan", "type": "fullscreen", "shader": "nan.frag.glsl", "write": {"result": "picture"}}]}
+    write_graph(folder, "nan", json.dumps(nan), {"nan.frag.glsl": "in vec2 uv;\nout vec4 result;\nvoid main() { result = vec4(sqrt(-1.0 - uv.x)); }\n"})
+    write_cases(folder, [{"name": "nan", "graph": "nan/graph.json"}])
+    test("--accept", code=0, says="W207")
+    test(code=1, says="W207")
+
+
 def check_bisect(weft, report, folder):
     same = run(weft, "bisect", GLOW, "--size", SIZE)
     report.check(same.code == 0 and "no pass differs" in same.out, f"{same.out}{same.err}")
@@ -241,7 +283,7 @@ def check_new(weft, report, folder):
 
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
-    for check in (check_test, check_mistakes, check_bisect, check_fuzz, check_new):
+    for check in (check_test, check_mistakes, check_files, check_bisect, check_fuzz, check_new):
         with temporary_folder() as folder:
             check(weft, report, pathlib.Path(folder))
     check_ablate(weft, report)
