@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "app/commands/commands.h"
 #include "app/commands/shader_check.h"
@@ -172,13 +173,16 @@ std::vector<std::string> waitForChange(base::FileWatcher& watcher) {
 
 using FileClock = std::chrono::file_clock;
 
+// Until Linux 6.13 a file's time is that of the last tick, so a save may seem to be older by as much.
+constexpr auto kGrain = std::chrono::milliseconds(20);
+
 // The files that were saved since `began`: while they were checked, nobody watched them. A time to come is no save.
 std::vector<std::string> savedSince(const std::vector<std::string>& files, FileClock::time_point began) {
   std::vector<std::string> saved;
   for (const std::string& file : files) {
     std::error_code ec;
     const auto at = std::filesystem::last_write_time(file, ec);
-    if (!ec && at >= began && at <= FileClock::now()) saved.push_back(file);
+    if (!ec && at >= began - kGrain && at <= FileClock::now()) saved.push_back(file);
   }
   return saved;
 }
@@ -196,7 +200,10 @@ int runCheck(const Options& options) {
     if (options.format == "text") print(fmt::format("watching {} files\n", checked.files.size()));
     flushPrinted();
     std::vector<std::string> changed = savedSince(checked.files, began);
-    if (changed.empty()) changed = waitForChange(watcher);
+    if (changed.empty())
+      changed = waitForChange(watcher);
+    else
+      std::this_thread::sleep_for(kGrain);  // so that the same save is not found again
     if (options.format == "text") print(fmt::format("\nchanged: {}\n", base::printable(changed[0])));
   }
 }

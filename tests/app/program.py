@@ -52,11 +52,14 @@ def count_run():
     sanitizers.runs += 1
 
 
-def run(weft, *arguments, before=(), folder=TOP, timeout=300 * SLOWER, **options):
+def run(weft, *arguments, before=(), folder=TOP, timeout=900 * SLOWER, **options):
     command = [*map(str, before), str(weft), *map(str, arguments)]
     if pathlib.Path(weft).name != "weft_compare":
         count_run()
-    return Run(subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=timeout, **options))
+    try:
+        return Run(subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=timeout, **options))
+    except subprocess.TimeoutExpired:
+        return Run(subprocess.CompletedProcess(command, None, "", f"no end after {timeout} s: {command}"))
 
 
 class Report:

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using assets::CubeLut;

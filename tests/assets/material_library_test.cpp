@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <set>
 
-#include "tests/assets/temporary.h"
 #include "tests/skip.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::assets;

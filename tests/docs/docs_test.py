@@ -79,7 +79,7 @@ class Sandbox:
         self.root = folder / "weft"
         self.root.mkdir()
         for name in DATA:
-            shutil.copytree(TOP / name, self.root / name)
+            shutil.copytree(TOP / name, self.root / name, ignore=shutil.ignore_patterns("__pycache__"))
         write_program(self.root / "run", RUN.format(weft=shlex.quote(str(WEFT))))
         write_program(self.root / "test", TEST.format(ctest=shlex.quote(shutil.which(CTEST)), binary=shlex.quote(str(BINARY))))
         tools = folder / "tools"

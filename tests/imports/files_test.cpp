@@ -1,5 +1,4 @@
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -8,15 +7,14 @@
 #include <string>
 
 #include "engine/imports/cube_lut/lut_texture.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::imports;
 
 TEST_CASE("a table is parsed once, again when its file changed, and its mistakes are said each time") {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("weft_lut_files_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  const std::string path = (folder / "a.cube").string();
+  const TemporaryFolder folder;
+  const std::string path = folder.at("a.cube");
   const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
   Files files;
   const auto table = [&](base::Diagnostics& said) { return tableOf(files, path, said); };
@@ -49,5 +47,4 @@ TEST_CASE("a table is parsed once, again when its file changed, and its mistakes
   CHECK(files.touched() == std::set{path});
   files.forgetTouched();
   CHECK(files.touched().empty());
-  std::filesystem::remove_all(folder);
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/assets/images/image.h"
-#include "tests/assets/temporary.h"
 #include "tests/runtime/stage.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::runtime;

@@ -8,7 +8,7 @@
 #include "engine/assets/images/image.h"
 #include "engine/imports/files.h"
 #include "engine/imports/import_registry.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::imports;

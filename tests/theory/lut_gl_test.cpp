@@ -11,7 +11,7 @@
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
 #include "engine/passes/pass_registry.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 #include "tests/theory/lab.h"
 
 using namespace weft::theory;

@@ -3,17 +3,20 @@
 
     check.py WEFT
 """
+import contextlib
 import json
 import pathlib
 import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 
-from program import TOP, Report, count_run, run, temporary_folder
+from program import SLOWER, TOP, Report, count_run, run, temporary_folder
 
 BROKEN = "tests/bad_graphs/w040_unknown_resource.json"
+SOUND = "tests/bad_graphs/w091_never_read.json"
 GLOW = "graphs/glow.json"
 
 
@@ -111,26 +114,41 @@ def codes_until(process, wanted):
     return codes
 
 
+@contextlib.contextmanager
+def watching(weft, graph):
+    """A check that goes on. One that never finds what is awaited is ended, and codes_until() gives what it found last."""
+    count_run()
+    process = subprocess.Popen([weft, "check", "--no-shaders", graph, "--watch", "--format", "json"], cwd=TOP, stdout=subprocess.PIPE, text=True)
+    guard = threading.Timer(120 * SLOWER, process.kill)
+    guard.start()
+    try:
+        yield process
+    finally:
+        guard.cancel()
+        process.terminate()
+        process.wait()
+
+
 def check_watch(weft, report):
     broken = run(weft, "check", "--no-shaders", BROKEN).codes()
     report.check("W040" in broken, f"{broken}")
+
+    def finds(process, wanted, when):
+        found = codes_until(process, wanted)
+        report.check(found == wanted, f"{when}: {found}")
+
     with temporary_folder() as folder:
         graph = pathlib.Path(folder, "graph.json")
         shutil.copy(TOP / BROKEN, graph)
-        count_run()
-        process = subprocess.Popen([weft, "check", "--no-shaders", graph, "--watch", "--format", "json"], cwd=TOP, stdout=subprocess.PIPE, text=True)
-        try:
-            report.check(codes_until(process, broken) == broken, "the broken graph")
-            graph.write_text((TOP / "tests/bad_graphs/w091_never_read.json").read_text())
-            report.check(codes_until(process, ["W091"]) == ["W091"], "the sound one, written over it")
+        with watching(weft, graph) as process:
+            finds(process, broken, "the broken graph")
+            graph.write_text((TOP / SOUND).read_text())
+            finds(process, ["W091"], "the sound one, written over it")
             # By renaming, as editors save.
             other = pathlib.Path(folder, "other.json")
             shutil.copy(TOP / BROKEN, other)
             other.rename(graph)
-            report.check(codes_until(process, broken) == broken, "the broken one again, renamed")
-        finally:
-            process.terminate()
-            process.wait()
+            finds(process, broken, "the broken one again, renamed")
 
 
 def check_watch_from_the_start(weft, report):
@@ -139,18 +157,13 @@ def check_watch_from_the_start(weft, report):
         with temporary_folder() as folder:
             graph = pathlib.Path(folder, "graph.json")
             shutil.copy(TOP / BROKEN, graph)
-            count_run()
-            process = subprocess.Popen([weft, "check", "--no-shaders", graph, "--watch", "--format", "json"], cwd=TOP, stdout=subprocess.PIPE, text=True)
-            try:
+            with watching(weft, graph) as process:
                 time.sleep(0.002 * phase)  # sweeps through the check; nothing is asked of when it comes
                 process.send_signal(signal.SIGSTOP)
-                graph.write_text((TOP / "tests/bad_graphs/w091_never_read.json").read_text())
+                graph.write_text((TOP / SOUND).read_text())
                 process.send_signal(signal.SIGCONT)
                 codes = codes_until(process, ["W091"])
                 report.check(codes == ["W091"], f"{codes}")
-            finally:
-                process.terminate()
-                process.wait()
 
 
 def main():

@@ -15,7 +15,7 @@ from program import TOP, Report, temporary_folder
 
 CMAKE = """#!/usr/bin/env bash
 [ -z "${PRETEND_LOG:-}" ] || printf '%s\n' "$@" >>"$PRETEND_LOG"
-for i in 1 2 3 4; do echo "[$i/4] Building thing $i"; sleep "$PRETEND_SECONDS"; done
+for i in 1 2 3 4; do echo "[$i/4] Building thing $i"; if [ "$i" = 2 ] && [ -n "${PRETEND_DOOR:-}" ]; then read -r _ <"$PRETEND_DOOR"; fi; done
 [ -z "${PRETEND_FAILURE:-}" ] || { echo "thing.cpp:1: error: pretended"; exit 1; }
 """
 WEFT = '#!/usr/bin/env bash\necho "weft got $*"\n'
@@ -29,12 +29,12 @@ def program(path, text):
     path.chmod(0o755)
 
 
-def on_terminal(command, **options):
-    """What a terminal gets of standard error, and standard output apart."""
+def on_terminal(command, door, until, **options):
+    """What a terminal gets of standard error, and standard output apart. The build waits at its door until `until` was shown."""
     ours, theirs = pty.openpty()
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs, **options) as process:
         os.close(theirs)
-        out, seen = process.stdout.read(), b""
+        seen = b""
         while True:
             try:
                 part = os.read(ours, 4096)
@@ -43,12 +43,23 @@ def on_terminal(command, **options):
             if not part:
                 break
             seen += part
+            if door and until in seen:
+                door = door.write_text("go on\n") and None
+        out = process.stdout.read()
     os.close(ours)
     return process.returncode, out.decode(), seen.decode()
 
 
+def leads_into(path, folder):
+    """False also for what others remove meanwhile."""
+    try:
+        return os.readlink(path).startswith(folder)
+    except OSError:
+        return False
+
+
 def links_to(folder):
-    return [path for path in pathlib.Path("/tmp").glob("weft_*") if path.is_symlink() and os.readlink(path).startswith(str(folder))]
+    return [path for path in pathlib.Path("/tmp").glob("weft_*") if leads_into(path, str(folder))]
 
 
 def odd_folder(report, folder, environment):
@@ -59,7 +70,7 @@ def odd_folder(report, folder, environment):
         shutil.copy(TOP / name, top / name)
     program(top / "build/release/app/weft", WEFT)
     log = folder / "told"
-    environment = {key: value for key, value in environment.items() if key != "WEFT_BUILD"} | {"PRETEND_SECONDS": "0", "PRETEND_LOG": str(log)}
+    environment = {key: value for key, value in environment.items() if key != "WEFT_BUILD"} | {"PRETEND_LOG": str(log)}
     try:
         for time in ("first", "second"):
             done = subprocess.run([str(top / "run"), "check", 'a "b".json'], capture_output=True, text=True, env=environment, cwd=folder)
@@ -93,17 +104,22 @@ def main():
         environment = dict(os.environ, PATH=f"{folder / 'bin'}:{os.environ['PATH']}", WEFT_BUILD=str(folder / "build"))
         command = ["bash", str(folder / "run"), "check", "a b.json"]
 
-        quick = subprocess.run(command, capture_output=True, text=True, env=dict(environment, PRETEND_SECONDS="0"), cwd=folder)
+        quick = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=folder)
         report.check((quick.returncode, quick.stdout, quick.stderr) == (0, "weft got check a b.json\n", ""), f"quick: {quick}")
-        slow = dict(environment, PRETEND_SECONDS="1")
-        code, out, seen = on_terminal(command, env=slow, cwd=folder)
+        os.mkfifo(folder / "door")
+        slow = dict(environment, PRETEND_DOOR=str(folder / "door"))
+        code, out, seen = on_terminal(command, folder / "door", b"2 of 4 (50 %)", env=slow, cwd=folder)
         report.check(code == 0 and out == "weft got check a b.json\n", f"slow: {code} {out}")
         report.check("run: building, 2 of 4 (50 %)" in seen and "\n" not in seen, f"on a terminal: {seen!r}")
         report.check(seen.endswith("\r\033[K"), f"the line is not taken away: {seen!r}")
-        plain = subprocess.run(command, capture_output=True, text=True, env=slow, cwd=folder)
-        report.check(plain.returncode == 0 and not plain.stderr, f"without a terminal, for four seconds: {plain}")
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env=slow, cwd=folder) as plain:
+            line = plain.stderr.readline()
+            (folder / "door").write_text("go on\n")
+            rest = plain.stderr.read()
+        lines = (line + rest).decode().splitlines()
+        report.check(plain.returncode == 0 and lines and set(lines) == {"run: building, 2 of 4 (50 %)"}, f"without a terminal, a line now and then: {lines}")
         bad = subprocess.run(command, capture_output=True, text=True, cwd=folder,
-                             env=dict(environment, PRETEND_SECONDS="0", PRETEND_FAILURE="1"))
+                             env=dict(environment, PRETEND_FAILURE="1"))
         report.check(bad.returncode == 1 and "error: pretended" in bad.stderr and "the build failed" in bad.stderr and not bad.stdout,
                      f"a build that fails: {bad}")
         odd_folder(report, folder, environment)

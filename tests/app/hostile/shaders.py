@@ -174,11 +174,18 @@ def viewer(weft, folder, report):
             live.process.send_signal(signal.SIGKILL)
             live.process.wait()
             end = time.monotonic() + 120
-            while time.monotonic() < end and any(pathlib.Path(f"/proc/{p}").exists() and "\nState:\tZ" not in pathlib.Path(f"/proc/{p}/status").read_text() for p in begun):
+            while time.monotonic() < end and any(map(runs, begun)):
                 time.sleep(0.05)
             report.check(time.monotonic() < end, "the process goes on without the viewer")
     finally:
         live.stop()
+
+
+def runs(pid):
+    try:
+        return "\nState:\tZ" not in pathlib.Path(f"/proc/{pid}/status").read_text()
+    except OSError:  # it has ended
+        return False
 
 
 def main():

@@ -6,7 +6,7 @@
 
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
-#include "engine/base/files/file.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::app;
@@ -26,26 +26,15 @@ PassRecords threePasses() {
           {}};
 }
 
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text) {
-    path = (std::filesystem::temp_directory_path() / ("weft_record_" + std::to_string(std::rand()))).string();
-    base::Diagnostics ignored;
-    base::writeFile(path, text, ignored);
-  }
-  ~TemporaryFile() { std::filesystem::remove(path); }
-  std::string path;
-};
-
 }  // namespace
 
 TEST_CASE("a record is the same after it was written and read") {
   PassRecords records = threePasses();
   records.frames.push_back({7, {{.pass = "sort", .resource = "keys", .hash = ~0ull, .signature = {}}}});
   records.frames[0].steps[0].signature->broken = 0.25f;
-  const TemporaryFile file(toText(records));
+  const TemporaryFolder folder;
   base::Diagnostics diagnostics;
-  const auto read = readRecords(file.path, diagnostics);
+  const auto read = readRecords(folder.write("record", toText(records)), diagnostics);
   REQUIRE_MESSAGE(read.has_value(), diagnostics.text());
   CHECK(toText(*read) == toText(records));
   CHECK(read->frames[1].frame == 7);
@@ -61,9 +50,9 @@ TEST_CASE("a damaged record is refused at its line") {
         std::tuple("0000000000000002\t", "000000000000000g\t", 5u), std::tuple("\tglow\n", "\n", 5u)}) {
     std::string text = good;
     text.replace(text.find(from), std::string(from).size(), to);
-    const TemporaryFile file(text);
+    const TemporaryFolder folder;
     base::Diagnostics diagnostics;
-    CHECK_FALSE(readRecords(file.path, diagnostics).has_value());
+    CHECK_FALSE(readRecords(folder.write("record", text), diagnostics).has_value());
     REQUIRE(diagnostics.size() == 1);
     CHECK(diagnostics.items()[0].place.line == line);
   }

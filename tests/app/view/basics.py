@@ -14,6 +14,11 @@ from program import TOP, Report, run, temporary_folder
 from window import display
 
 
+def said(done):
+    """But for how files are watched, which depends on what else runs."""
+    return [d for d in done.diagnostics if d["code"] != "W205"]
+
+
 def main():
     weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
     if "--window" in sys.argv:
@@ -41,7 +46,7 @@ def in_window(weft, compare, report):
                        "--wait-for-assets",
                        "--program-cache", "none", env=environment)
             report.check(done.code == 0, f"{graph}: exit code {done.code}\n{done.err}")
-            report.check(not done.diagnostics, f"{graph}: {done.err}")
+            report.check(not said(done), f"{graph}: {done.err}")
             if not report.check(shot.exists(), f"{graph}: no screenshot"):
                 continue
             mean = run(compare, "--describe", shot)
@@ -79,7 +84,7 @@ def wide_parameters(weft, folder, environment, report):
     (folder / "shaders/wide.frag.glsl").write_text(WIDE_SHADER)
     (folder / "wide.json").write_text(WIDE)
     done = run(weft, "view", "wide.json", "--size", "640x480", "--max-frames", "4", "--program-cache", "none", env=environment, folder=folder)
-    report.check(done.code == 0 and not done.diagnostics, f"wide parameters: exit code {done.code}\n{done.err}")
+    report.check(done.code == 0 and not said(done), f"wide parameters: exit code {done.code}\n{done.err}")
 
 
 def recording(weft, compare, folder, environment, report):

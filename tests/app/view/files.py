@@ -3,6 +3,7 @@
 while an environment's pipe has no writer. Without inotify, really used up, saves are found by looking, which is said once."""
 import os
 import subprocess
+import sys
 
 from window import Session, edit, run_parts, save
 
@@ -70,4 +71,4 @@ def without_inotify(weft, folder, report):
         live.stop()
 
 
-run_parts(__file__, becomes_a_pipe, waits_for_a_pipe, without_inotify)
+run_parts(__file__, *([without_inotify] if "--without-inotify" in sys.argv else [becomes_a_pipe, waits_for_a_pipe]))

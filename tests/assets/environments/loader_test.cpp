@@ -13,7 +13,7 @@
 
 #include "engine/assets/images/half.h"
 #include "engine/base/files/file_access.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::assets;

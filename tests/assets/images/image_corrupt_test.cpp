@@ -9,7 +9,7 @@
 
 #include "engine/assets/images/image.h"
 #include "engine/base/files/file.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::assets;

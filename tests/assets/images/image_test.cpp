@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/assets/images/half.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::assets;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/assets/models/model_file.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 namespace weft::test {
 

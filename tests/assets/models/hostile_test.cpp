@@ -7,7 +7,7 @@
 #include "engine/assets/models/model_file.h"
 #include "tests/assets/models/failure.h"
 #include "tests/assets/models/gltf_maker.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::assets;

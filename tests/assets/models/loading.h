@@ -9,7 +9,7 @@
 #include "engine/assets/models/model_file.h"
 #include "tests/assets/models/gltf_maker.h"
 #include "tests/assets/models/matrices.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 namespace weft::test {
 

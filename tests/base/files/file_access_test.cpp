@@ -7,13 +7,13 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "engine/base/files/file.h"
+#include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace weft::base;
@@ -21,17 +21,14 @@ using namespace weft::base;
 namespace {
 
 struct Folder {
-  fs::path path = fs::temp_directory_path() / ("weft_access_" + std::to_string(::getpid()));
+  TemporaryFolder temporary;
+  const fs::path& path = temporary.path();
   Folder() {
     resetFileAccess();
-    fs::remove_all(path);
     fs::create_directories(path / "in/below");
     fs::create_directories(path / "out");
   }
-  ~Folder() {
-    fs::remove_all(path);
-    resetFileAccess();
-  }
+  ~Folder() { resetFileAccess(); }
   std::string operator/(const char* name) const { return (path / name).string(); }
 };
 

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "tests/temporary_folder.h"
+
 using namespace weft::base;
 
 TEST_CASE("a missing file, a directory and an unwritable place are told apart") {
@@ -27,7 +29,8 @@ TEST_CASE("a device is not read: /dev/zero has no end") {
 
 TEST_CASE("a file above 4 GiB is refused before it is read") {
   namespace fs = std::filesystem;
-  const fs::path path = fs::temp_directory_path() / "weft_file_test_large.bin";
+  const TemporaryFolder folder;
+  const fs::path path = folder.at("large.bin");
   Diagnostics all;
   REQUIRE(writeFile(path, std::string_view("x"), all));
   fs::resize_file(path, (std::uintmax_t{4} << 30) + 1);  // takes no room: it has a hole
@@ -42,14 +45,12 @@ TEST_CASE("a file above 4 GiB is refused before it is read") {
   REQUIRE(all.size() == 1);
   CHECK(all.items()[0].code == Code::unreadableImage);
   CHECK(all.items()[0].message.ends_with("it is larger than 4 GiB"));
-  fs::remove(path);
 }
 
 TEST_CASE("writing keeps permissions, and a link leads to what was written") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "weft_file_test_link";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   Diagnostics all;
   REQUIRE(writeFile(folder / "real", std::string_view("old"), all));
   fs::permissions(folder / "real", fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_write);
@@ -59,14 +60,13 @@ TEST_CASE("writing keeps permissions, and a link leads to what was written") {
   CHECK(readFile(folder / "real", all) == "new");
   CHECK(fs::status(folder / "real").permissions() ==
         (fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_write));
-  fs::remove_all(folder);
 }
 
 TEST_CASE("what is written is read back") {
-  const std::string path = (std::filesystem::temp_directory_path() / "weft_file_test.bin").string();
+  const TemporaryFolder folder;
+  const std::string path = folder.at("some.bin");
   Diagnostics all;
   const std::string bytes("a\0b", 3);
   REQUIRE(writeFile(path, bytes, all));
   CHECK(readFile(path, all) == bytes);
-  std::filesystem::remove(path);
 }

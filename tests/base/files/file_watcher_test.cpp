@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/temporary_folder.h"
+
 namespace fs = std::filesystem;
 using weft::base::FileWatcher;
 using Names = std::vector<std::string>;
@@ -15,9 +17,8 @@ using Names = std::vector<std::string>;
 namespace {
 
 struct WatchedFolder {
-  fs::path path = fs::temp_directory_path() / ("weft_watch_" + std::to_string(::getpid()));
-  WatchedFolder() { fs::remove_all(path), fs::create_directories(path); }
-  ~WatchedFolder() { fs::remove_all(path); }
+  TemporaryFolder temporary;
+  const fs::path& path = temporary.path();
   std::string operator/(const char* name) const { return (path / name).string(); }
 };
 

@@ -8,6 +8,7 @@
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/dom.h"
 #include "engine/base/limits.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft::base;
 
@@ -62,21 +63,21 @@ TEST_CASE("values are counted, of every type and in every depth") {
 TEST_CASE("a text beyond the limit is refused before it is parsed, a file before it is read") {
   const LimitOf limit(Limit::json_bytes, 100'000);
   checkRefused(std::string(100'001, '!'), "t.json: ", "(limit json_bytes)");
-  const auto path = std::filesystem::temp_directory_path() / "weft_json_limits_test.json";
-  std::ofstream(path) << "{}";
+  const TemporaryFolder folder;
+  const std::string path = folder.write("large.json", "{}");
   std::filesystem::resize_file(path, std::uintmax_t{1} << 40);  // a hole: nobody reads to its end
   Diagnostics diagnostics;
-  CHECK(!readTextFile(path.string(), diagnostics));
-  std::filesystem::remove(path);
+  CHECK(!readTextFile(path, diagnostics));
   REQUIRE(diagnostics.size() == 1);
   CHECK(diagnostics.items()[0].code == Code::limitExceeded);
   CHECK(diagnostics.items()[0].found == "1099511627776 bytes");
-  CHECK(*diagnostics.items()[0].place.file == path.string());
+  CHECK(*diagnostics.items()[0].place.file == path);
 }
 
 TEST_CASE("Weft's own data has at least the defaults, unless the person named the file") {
   const LimitOf bytes(Limit::json_bytes, 10), values(Limit::json_values, 2), names(Limit::name_bytes, 3);
-  const auto folder = std::filesystem::temp_directory_path() / "weft_json_limits_own";
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   std::filesystem::create_directories(folder / "own");
   allowFolder((folder / "own").string());
   const auto reads = [&](const std::string& name) {
@@ -93,7 +94,6 @@ TEST_CASE("Weft's own data has at least the defaults, unless the person named th
   CHECK_FALSE(reads("own/c.json"));
   resetFileAccess();
   CHECK_FALSE(reads("own/a.json"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("pointers of long keys in depth are cut, not multiplied") {

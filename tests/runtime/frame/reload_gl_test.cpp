@@ -1,11 +1,10 @@
 // A running graph and its file: reordering, changed parameters, resizing, broken files.
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "tests/runtime/stage.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::runtime::test;
@@ -15,20 +14,15 @@ namespace {
 // A graph file beside tests/runtime/graphs' shaders, in a folder of its own that goes with it.
 class TemporaryGraph {
  public:
-  TemporaryGraph()
-      : folder_(std::filesystem::temp_directory_path() / ("weft_reload_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-    std::filesystem::copy(sourcePath("tests/runtime/shaders"), folder_ / "shaders",
+  TemporaryGraph() {
+    std::filesystem::copy(sourcePath("tests/runtime/shaders"), folder_.path() / "shaders",
                           std::filesystem::copy_options::recursive);
   }
-  ~TemporaryGraph() { std::filesystem::remove_all(folder_); }
-  TemporaryGraph(const TemporaryGraph&) = delete;
-  TemporaryGraph& operator=(const TemporaryGraph&) = delete;
-  std::string path() const { return (folder_ / "graph.json").string(); }
+  std::string path() const { return folder_.at("graph.json"); }
   void write(const std::string& text) const { std::ofstream(path()) << text; }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 const std::string kHead =

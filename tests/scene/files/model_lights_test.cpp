@@ -7,7 +7,7 @@
 #include "engine/scene/files/scene_file.h"
 #include "engine/scene/frame/mesh_frame.h"
 #include "tests/assets/models/gltf_maker.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::scene;

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "engine/base/files/file.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::scene;

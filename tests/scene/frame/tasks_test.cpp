@@ -56,14 +56,18 @@ TEST_CASE("time of processors counts what other threads did of a task") {
   tasks.run(2);
   CHECK(tasks.processorSeconds()[0] == 0);  // nobody asked
   tasks.measureProcessors(true);
-  tasks.run(1);
-  const double alone = tasks.processorSeconds()[0];
-  CHECK(alone > 0);
-  CHECK(alone <= tasks.seconds()[0] * 1.01 + 1e-4);
-  tasks.run(2);
-  // About as much work, whoever did it; on two threads at most twice what the clock says.
-  CHECK(tasks.processorSeconds()[0] > 0.5 * alone);
-  CHECK(tasks.processorSeconds()[0] <= 2 * tasks.seconds()[0] * 1.01 + 1e-4);
+  double alone = 1e9, both = 0;  // a machine that does other things only adds to a run
+  for (int i = 0; i < 5; ++i) {
+    tasks.run(1);
+    CHECK(tasks.processorSeconds()[0] > 0);
+    CHECK(tasks.processorSeconds()[0] <= tasks.seconds()[0] * 1.01 + 1e-4);
+    alone = std::min(alone, tasks.processorSeconds()[0]);
+    tasks.run(2);
+    // On two threads at most twice what the clock says.
+    CHECK(tasks.processorSeconds()[0] <= 2 * tasks.seconds()[0] * 1.01 + 1e-4);
+    both = std::max(both, tasks.processorSeconds()[0]);
+  }
+  CHECK(both > 0.5 * alone);  // about as much work, whoever did it
 }
 
 TEST_CASE("random tasks give the same tables on 1, 2 and 4 threads, run after run") {

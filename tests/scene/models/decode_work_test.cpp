@@ -10,7 +10,7 @@
 
 #include "engine/assets/models/model_file.h"
 #include "tests/assets/models/gltf_maker.h"
-#include "tests/assets/temporary.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using weft::test::GltfMaker;
