@@ -1,5 +1,7 @@
 // Damaged and hostile files: no crash, no endless work, and a diagnostic with a place for each that is refused. What
 // is taken is a graph that Weft reads.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <random>
 
@@ -109,4 +111,33 @@ TEST_CASE("user shaders that want too much are refused, each for its reason") {
   CHECK(said("//!TEXTURE T\n//!SIZE 16384 16384 16384\n//!FORMAT rgba32f\n00\n" + hook + body) == "W225 ");
   CHECK(said("//!TEXTURE T\n//!SIZE 100000\n//!FORMAT r8\n00\n" + hook + body) == "W225 ");
   CHECK(said(repeated(hook + body, 300)).starts_with("W225 "));
+}
+
+TEST_CASE("conditions that each pass takes over from two before it are each written once") {
+  // 2^60 ways lead to the last.
+  std::string text =
+      "//!PARAM p\n//!TYPE float\n1\n"
+      "//!HOOK MAIN\n//!BIND HOOKED\n//!SAVE X0\n//!WHEN p 1 =\nvec4 hook() { return HOOKED_texOff(0); }\n"
+      "//!HOOK MAIN\n//!BIND HOOKED\n//!SAVE Y0\n//!WHEN p 2 =\nvec4 hook() { return HOOKED_texOff(0); }\n";
+  for (int i = 1; i < 60; ++i)
+    for (const char* save : {"X", "Y"})
+      text += fmt::format(
+          "//!HOOK MAIN\n//!BIND HOOKED\n//!BIND X{0}\n//!BIND Y{0}\n//!SAVE {1}{2}\n{3}"
+          "vec4 hook() {{ return HOOKED_texOff(0) + X{0}_texOff(0) + Y{0}_texOff(0); }}\n",
+          i - 1, save, i, i % 2 ? "//!WHEN p 3 <\n" : "");
+  base::Diagnostics diagnostics;
+  const auto converted = convertMpvText(text, diagnostics);
+  REQUIRE_MESSAGE(converted, diagnostics.text());
+  std::string why;
+  CHECK_MESSAGE(isSound(*converted, why, true), why);
+
+  // As many different ones are no expression that Weft reads.
+  std::string much = "//!PARAM p\n//!TYPE float\n1\n";
+  for (int i = 0; i < 100; ++i)
+    much += fmt::format(
+        "//!HOOK MAIN\n//!BIND HOOKED\n{}//!SAVE Z{}\n//!WHEN p {} >\nvec4 hook() {{ return "
+        "HOOKED_texOff(0){}; }}\n",
+        i ? fmt::format("//!BIND Z{}\n", i - 1) : "", i, i, i ? fmt::format(" + Z{}_texOff(0)", i - 1) : "");
+  CHECK_FALSE(convertMpvText(much, diagnostics));
+  CHECK(codesOf(diagnostics).starts_with("W226 "));
 }

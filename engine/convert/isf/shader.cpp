@@ -112,32 +112,38 @@ class ShaderTranslator {
     // Version 1.
     text.rename("vv_FragNormCoord", "isf_FragNormCoord");
     text.rename("vv_vertShaderInit", "isf_vertShaderInit");
-    dropDeclarations(text);
+    dropDeclarations(text, file);
     return text.changed();
   }
 
   // Some files declare again what ISF declares for them.
-  void dropDeclarations(GlslText& text) {
+  void dropDeclarations(GlslText& text, const std::shared_ptr<const std::string>& file) {
     const auto& tokens = text.tokens();
     for (std::size_t i = 0; i + 3 < tokens.size(); ++i) {
       if (!tokens[i].is("uniform") || text.isDirective(i)) continue;
       std::size_t end = i + 1;
       while (end < tokens.size() && !tokens[end].is(";") && !tokens[end].is("{")) ++end;
       if (end >= tokens.size() || tokens[end].is("{")) continue;
-      const std::string name(tokens[end - 1].text);
-      const bool known = names_.all().contains(name) || name == "TIME" || name == "RENDERSIZE" ||
-                         name == "PASSINDEX" || name == "DATE" || name == "TIMEDELTA" || name == "FRAMEINDEX";
-      if (known) {
-        text.replaceRange(text.offsetOf(i), text.offsetOf(end) + 1, "");
-      } else {
-        auto& d = diagnostics_.error(
-            base::Code::glslNotMapped,
-            {std::make_shared<const std::string>(source_.fragmentFile), tokens[i].line, tokens[i].column},
-            fmt::format("the shader has a uniform '{}' that is no input", name));
+      bool known = true;
+      for (std::size_t at = i + 2; at < end; ++at) {
+        const auto& next = tokens[at + 1];
+        if (!text.isName(at) || !(next.is(",") || next.is(";") || next.is("[") || next.is("="))) continue;
+        const std::string name(tokens[at].text);
+        if (isDeclared(name)) continue;
+        known = false;
+        auto& d = diagnostics_.error(base::Code::glslNotMapped, {file, tokens[at].line, tokens[at].column},
+                                     fmt::format("the shader has a uniform '{}' that is no input", name));
         d.expected = "uniforms only as INPUTS of the header";
         d.hint = "add it to INPUTS";
       }
+      if (known) text.replaceRange(text.offsetOf(i), text.offsetOf(end) + 1, "");
     }
+  }
+
+  // By the prelude: an input, or a variable of ISF.
+  bool isDeclared(const std::string& name) const {
+    return names_.all().contains(name) || name == "TIME" || name == "RENDERSIZE" || name == "PASSINDEX" ||
+           name == "DATE" || name == "TIMEDELTA" || name == "FRAMEINDEX";
   }
 
   void note(const GlslText& text) {

@@ -1,6 +1,7 @@
 #include "engine/convert/mpv/graph.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -26,6 +27,8 @@ constexpr std::array<std::string_view, 7> kStages{"RGB",    "NATIVE",    "MAINPR
 constexpr std::array<std::string_view, 12> kOtherStages{
     "LUMA",   "CHROMA",  "ALPHA",     "XYZ",        "CHROMA_SCALED", "ALPHA_SCALED",
     "LINEAR", "SIGMOID", "PREKERNEL", "POSTKERNEL", "LUMA_SCALED",   "XYZ_SCALED"};
+
+constexpr std::size_t kMostOperators = 200;
 
 class MpvGraphWriter {
  public:
@@ -59,8 +62,8 @@ class MpvGraphWriter {
  private:
   struct Named {
     std::string resource, filter = " as linear";
-    std::string width, height;  // expressions
-    std::string condition;      // that something wrote it; empty: always
+    std::string width, height;            // expressions
+    std::vector<std::string> conditions;  // of which all must hold, so that something wrote it
   };
 
   std::string fresh(std::string wanted) {
@@ -125,7 +128,7 @@ class MpvGraphWriter {
     }
     const std::string resource = fresh(texture.name);
     resources_.add(resource, fmt::format(R"({{"import": "image", "file": {}}})",
-                                         quoteJson(imageOf(texture, "images/" + name_).path)));
+                                         quoteJson(imagePathOf(texture, "images/" + name_))));
     std::string filter = texture.linear ? " as linear" : " as nearest";
     if (texture.repeat) filter += " wrap";
     names_[texture.name] = {.resource = resource,
@@ -179,14 +182,23 @@ class MpvGraphWriter {
                       diagnostics_);
   }
 
-  static std::string both(const std::string& a, const std::string& b) {
-    return a.empty() || a == b ? b : b.empty() ? a : fmt::format("({}) && ({})", a, b);
+  static void require(std::vector<std::string>& all, const std::string& condition) {
+    if (std::ranges::find(all, condition) == all.end()) all.push_back(condition);
+  }
+  static std::string joined(const std::vector<std::string>& all) {
+    return all.size() == 1 ? all[0] : all.empty() ? "" : fmt::format("({})", fmt::join(all, ") && ("));
+  }
+  // As many as Weft reads in one expression, or fewer.
+  static std::size_t operatorsIn(std::string_view expression) {
+    return static_cast<std::size_t>(std::ranges::count_if(expression, [](char c) {
+      return std::string_view("+-*/%<>=!&|?:(,").find(c) != std::string_view::npos;
+    }));
   }
 
   void addPass(std::size_t index, const std::string& stage) {
     const MpvHook& hook = file_.hooks[index];
     const Named hooked = names_["HOOKED"];
-    std::string condition;
+    std::vector<std::string> conditions;
     JsonObjectText reads;
     for (const MpvText& bind : hook.binds) {
       const Named* named = bind.text == stage ? &hooked : find(bind.text);
@@ -205,12 +217,22 @@ class MpvGraphWriter {
           std::ranges::any_of(file_.textures, [&](const MpvTexture& t) { return t.name == bind.text; });
       reads.addText(ofFile ? bind.text : bind.text + "_raw", named->resource + named->filter);
       (ofFile ? out_.textures : out_.bound).insert(bind.text);
-      if (bind.text != "HOOKED" && bind.text != stage) condition = both(condition, named->condition);
+      if (bind.text != "HOOKED" && bind.text != stage)
+        for (const std::string& each : named->conditions) require(conditions, each);
     }
     if (hook.when) {
       const auto when = expressionOf(*hook.when);
       if (!when) return;
-      condition = both(condition, fmt::format("{} != 0", *when));
+      require(conditions, fmt::format("{} != 0", *when));
+    }
+    const std::string condition = joined(conditions);
+    if (operatorsIn(condition) > kMostOperators) {
+      auto& d = diagnostics_.error(base::Code::mpvNotMapped, hook.when ? hook.when->place : hook.place,
+                                   "the pass depends on too many //!WHEN of passes before it");
+      d.expected = fmt::format("conditions of at most {} operators together", kMostOperators);
+      d.found = fmt::format("{} in {} conditions", operatorsIn(condition), conditions.size());
+      d.hint = "give fewer passes a //!WHEN";
+      return;
     }
     std::string width = hooked.width, height = hooked.height;
     if (hook.width) width = expressionOf(*hook.width).value_or("1");
@@ -228,7 +250,7 @@ class MpvGraphWriter {
     Named result{.resource = resource,
                  .width = fmt::format("size({}).x", resource),
                  .height = fmt::format("size({}).y", resource),
-                 .condition = condition};
+                 .conditions = conditions};
     addStanza(index, stage, reads, resource, condition);
     if (saves) {
       names_[hook.save->text] = result;

@@ -83,12 +83,16 @@ std::string readTextureBytes(MpvTexture& texture, std::string_view hex) {
   return {};
 }
 
+std::string imagePathOf(const MpvTexture& texture, const std::string& folder) {
+  const bool bytes = formatOf(texture.format)->kind == Kind::byte;
+  return fmt::format("{}/{}.{}", folder, texture.name, bytes ? "png" : "exr");
+}
+
 ConvertedImage imageOf(const MpvTexture& texture, const std::string& folder) {
   const Format format = *formatOf(texture.format);
   const bool bytes = format.kind == Kind::byte;
-  ConvertedImage image{.path = fmt::format("{}/{}.{}", folder, texture.name, bytes ? "png" : "exr"),
-                       .width = texture.size[0],
-                       .height = texture.size[1]};
+  ConvertedImage image{
+      .path = imagePathOf(texture, folder), .width = texture.size[0], .height = texture.size[1]};
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
   for (std::size_t row = 0; row < height; ++row)
     for (std::size_t x = 0; x < width; ++x)

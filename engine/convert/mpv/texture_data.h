@@ -15,6 +15,7 @@ std::string readTextureBytes(MpvTexture& texture, std::string_view hex);
 
 // The picture file that stands for it. Its lowest row is the first of the data, since Weft counts rows from below. A
 // texture of three dimensions has no picture: not to be called with one.
+std::string imagePathOf(const MpvTexture& texture, const std::string& folder);
 ConvertedImage imageOf(const MpvTexture& texture, const std::string& folder);
 
 }  // namespace weft::convert

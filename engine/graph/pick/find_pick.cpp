@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <unordered_set>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/language/suffix.h"
@@ -40,9 +41,10 @@ bool writesResource(const FlatGraph& graph, std::uint32_t pass, std::uint32_t re
 
 std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
   std::vector<std::string> names;  // each once
+  std::unordered_set<std::string_view> known;
   for (const std::string& name : graph.resourceNames)
-    if (const std::string shared(sharedName(name)); std::ranges::find(names, shared) == names.end())
-      names.push_back(shared);
+    if (const std::string_view shared = sharedName(name); known.insert(shared).second)
+      names.emplace_back(shared);
   const std::vector<std::size_t> matches = suffixMatches(names, pick.name);
   if (matches.size() != 1) {
     auto& d =

@@ -76,7 +76,8 @@ bool isWholeGraph(const JsonValue& root) {
   const JsonValue* passes = root.find("passes");
   if (!passes || passes->items.empty()) return false;
   return std::ranges::all_of(passes->items, [](const JsonValue& stanza) {
-    return (stanza.find("type") || stanza.find("include")) && !stanza.find("before") && !stanza.find("after");
+    return (stanza.find("type") || stanza.find("include") || stanza.find("like")) && !stanza.find("before") &&
+           !stanza.find("after");
   });
 }
 
@@ -175,7 +176,7 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
     source.removed = base->removed;
     for (std::size_t i = 1; i < below.size(); ++i) {
       const std::string over = pathBeside(*below[i]);
-      good = mayExtend(*below[i], over) && layOver(source, over, below[i], false) && good;
+      good = extendBy(source, over, *below[i], false) && good;
     }
     if (source.root.is(Type::object)) {
       source.root.place = root.place;
@@ -226,6 +227,13 @@ std::shared_ptr<const Source> SourceLoader::withPreset(const Source& source, con
   return std::make_shared<const Source>(std::move(made));
 }
 
+bool SourceLoader::extendBy(Source& made, const std::string& path, const JsonValue& written, bool preset) {
+  if (broken_.contains(identityOf(path))) return false;
+  if (mayExtend(written, path) && layOver(made, path, &written, preset)) return true;
+  broken_.insert(identityOf(path));
+  return false;
+}
+
 bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValue* written, bool preset) {
   const std::shared_ptr<const std::string> bytes = bytesOf(path, written ? written->place : base::Place{});
   if (!bytes) return false;
@@ -261,7 +269,7 @@ bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValu
       const bool there = std::ranges::any_of(
           made.files, [&](const std::string& known) { return identityOf(known) == identity; });
       if (there && !isOpen(identity)) continue;  // it is below already
-      good = mayExtend(*each, file) && layOver(made, file, each, preset) && good;
+      good = extendBy(made, file, *each, preset) && good;
     }
   }
   good = good && mayCopy(made, root->place);

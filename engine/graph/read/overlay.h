@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,9 +67,13 @@ class SourceLoader {
   // Lays the overlay in `path`, and first those that it extends, over `made`. `written`: what names it; null: the command line.
   bool layOver(Source& made, const std::string& path, const base::JsonValue* written, bool preset);
 
+  // layOver() for what "extends" names. What failed once is not tried again: its mistakes are said.
+  bool extendBy(Source& made, const std::string& path, const base::JsonValue& written, bool preset);
+
   base::Diagnostics& diagnostics_;
   const FileTexts* given_ = nullptr;
   FileTexts texts_;
+  std::set<std::string> broken_;                                // identities of overlays that failed
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed
   std::vector<std::pair<std::string, std::string>> open_;       // identity and path of such overlays
   std::uint64_t values_ = 0;                                    // of all files and copies so far

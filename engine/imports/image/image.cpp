@@ -76,6 +76,10 @@ std::uint32_t numberAt(const std::vector<std::uint32_t>& numbers, std::uint64_t 
   return after == numbers.begin() ? numbers.front() : *(after - 1);
 }
 
+std::uint64_t wantedOf(const ImageRequest& request) {
+  return static_cast<std::uint64_t>(std::min(request.frame, 1e15));
+}
+
 // Which number of a playing sequence a frame shows.
 std::uint32_t numberNow(const std::vector<std::uint32_t>& numbers, const ImageRequest& request,
                         const FrameInput& input) {
@@ -119,7 +123,7 @@ class ImageProvider : public Provider {
 
  private:
   std::uint32_t numberOf(const Frame& frame) const {
-    return request_.frame >= 0 ? numberAt(numbers_, static_cast<std::uint64_t>(request_.frame))
+    return request_.frame >= 0 ? numberAt(numbers_, wantedOf(request_))
                                : numberNow(numbers_, request_, frame.input);
   }
 
@@ -192,7 +196,7 @@ std::string firstFileOf(const ImageRequest& request, Files& files, base::Diagnos
   for (const std::uint32_t number : numbers) files.touch(pattern->nameOf(number));
   files.touch(pattern->nameOf(numbers.back() + 1));
   if (request.frame < 0) return pattern->nameOf(numbers.front());
-  const std::uint32_t nearest = numberAt(numbers, static_cast<std::uint64_t>(request.frame));
+  const std::uint32_t nearest = numberAt(numbers, wantedOf(request));
   if (nearest != std::floor(request.frame)) {
     base::Diagnostic& d =
         diagnostics.error(base::Code::badImportArgument, {},

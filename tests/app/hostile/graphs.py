@@ -41,6 +41,7 @@ CASES = {
     "64 extends in a row": (lambda: extends_in_a_row(64), [], None, ""),
     "65 extends in a row": (lambda: extends_in_a_row(65), [], "W201", "(limit extends_depth)"),
     "256 extends in a row, the most": (lambda: extends_in_a_row(256), L("extends_depth", 256), None, ""),
+    "2^60 ways through extends to nothing": (lambda: extends_of_two(60), [], "W001", "60.json"),
     "60 copies of 100,000 values": (lambda: extends_of_much(60, 100_000), [], "W201", "json_values"),
     "overlay of 20,000 entries": (lambda: overlay_of_much(20_000, 20_000), [], "W201", "the overlay changes too much"),
     "overlay of 300 entries": (lambda: overlay_of_much(3000, 300), [], None, ""),

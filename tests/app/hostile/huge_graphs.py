@@ -62,6 +62,12 @@ def extends_in_a_row(n):
     return {"g.json": {"extends": "f1.json"}, **files, f"f{n}.json": graph()}
 
 
+def extends_of_two(n):
+    """2^n ways through lists that end in files that are not there."""
+    files = {f"{name}{i}.json": {"extends": [f"a{i + 1}.json", f"b{i + 1}.json"], "set": {}} for i in range(1, n) for name in "ab"}
+    return {"g.json": {"extends": ["f.json", "a1.json"]}, "f.json": graph(), **files}
+
+
 def extends_of_much(n, values):
     files = extends_in_a_row(n)
     files[f"f{n}.json"]["let"] = {f"l{i}": 1 for i in range(values)}
