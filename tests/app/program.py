@@ -14,6 +14,8 @@ SLOWER = 5 if SANITIZED else 1
 # small one takes up to three times its size), shadow of an eighth of everything, and 256 MB that were freed and are kept to find late uses.
 MEMORY_BYTES = (2 if SANITIZED else 1) << 30
 TOP = pathlib.Path(__file__).resolve().parents[2]
+# Where graphs are: the bundled ones, and those of tests and tutorials.
+GRAPH_FOLDERS = ("graphs", "tests/theory", "tests/runtime/graphs", "tests/imports/graphs", "tests/docs/embed", "tests/golden", "tests/app/lsp/workspace", "docs/tutorials")
 REAL_HDR = TOP / "scenes/environments/spiaggia_di_mondello_1k.hdr"
 DIAGNOSTIC = re.compile(r"^(?:(?P<place>.*?)(?::(?P<line>\d+)(?::(?P<column>\d+))?)?: )?(?P<severity>error|warning|note)\[(?P<code>W\d{3})\]: (?P<text>.*)$")
 

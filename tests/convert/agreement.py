@@ -50,6 +50,8 @@ def main():
             rows.append(f"| `{case['file']}` | {case['shows']} | {mean:.3f} | {largest} |")
             if mean > case["mean"] or largest > case["largest"]:
                 problems.append(f"{name}: mean difference {mean:.3f} (at most {case['mean']}), largest {largest} (at most {case['largest']})")
+    page = (FOLDER.parents[1] / "docs/importing.md").read_text()
+    problems += [f"docs/importing.md has no row for {case['file']}" for case in manifest["cases"] if f"| `{case['file']}` | {case['shows']} |" not in page]
     if "--table" in sys.argv or problems:
         print("\n".join(rows))
     print("\n".join(problems))

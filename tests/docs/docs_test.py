@@ -90,6 +90,8 @@ class Sandbox:
         self.env.pop("DISPLAY", None)
 
     def shell(self, script):
+        # "! COMMAND" in a page says that it ends with 1; any other code, of a crash too, is a mistake.
+        script = re.sub(r"^! (.*)$", r"{ \1 && exit 1; } || [ $? = 1 ]", script, flags=re.M)
         result = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=self.root, env=self.env, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=600)
         return None if result.returncode == 0 else f"exit {result.returncode}\n{result.stdout[-3000:]}"
@@ -279,7 +281,7 @@ def main():
             text = page.read_text()
             if "pages" in WANTED:
                 problems += [f"{name}: {p}" for p in check_references(page, text)]
-            here = folder / page.stem
+            here = folder / str(pages.index(page))
             here.mkdir()
             sandbox = Sandbox(here) if {"run", "view", "references"} & set(WANTED) else None
             for number, match in enumerate(FENCE.finditer(text)):

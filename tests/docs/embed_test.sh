@@ -12,7 +12,7 @@ cmake --build "$folder/build" >"$folder/log" || { cat "$folder/log"; exit 1; }
 grep -q '^passes\|^plan sky' "$folder/plan"
 grep -q 'framebuffer 1280x720 color ldr' "$folder/plan"
 # The core is the core: no OpenGL, no window library.
-! ldd "$folder/build/embed" | grep -Ei 'libGL|EGL|OSMesa|glfw'
+if ldd "$folder/build/embed" | grep -Ei 'libGL|EGL|OSMesa|glfw'; then echo "the core links OpenGL" >&2; exit 1; fi
 # The same by pkg-config: the program says the same.
 pc_folder=$(dirname "$(find "$folder/prefix" -name weft-graph.pc)")
 by_pkg_config() {
@@ -20,6 +20,12 @@ by_pkg_config() {
   g++ -std=c++20 "$source/tests/docs/embed/$1.cpp" -o "$folder/$1_pc" $(PKG_CONFIG_PATH=$pc_folder pkg-config --cflags --libs "$2")
 }
 by_pkg_config embed weft-graph
+if ldd "$folder/embed_pc" | grep -Ei 'libGL|EGL|OSMesa|glfw'; then echo "weft-graph.pc links OpenGL" >&2; exit 1; fi
+# Whatever is installed is named by a .pc file.
+for library in "${pc_folder%/pkgconfig}"/libweft_*.a; do
+  name=$(basename "$library" .a)
+  grep -q -- "-l${name#lib}" "$pc_folder"/weft*.pc || { echo "no .pc file names $name" >&2; exit 1; }
+done
 "$folder/embed_pc" >"$folder/plan_pc"
 cmp "$folder/plan" "$folder/plan_pc"
 # With the runtime: an import and a pass type of the program's own.

@@ -74,6 +74,11 @@ std::optional<std::string> outsideOf(std::span<const fs::path> candidates) {
 
 // One expansion: the text built so far, the files met, and the chain of includes that leads to the current
 // one.
+struct FileState {
+  std::int64_t time = 0;
+  std::uint64_t bytes = 0;
+};
+
 class IncludeExpander {
  public:
   IncludeExpander(const std::vector<std::string>& roots, ShaderNames& names, Diagnostics& diagnostics)
@@ -93,13 +98,16 @@ class IncludeExpander {
   }
 
   const std::vector<std::string>& paths() const { return paths_; }
+  // Of each of these but the first, as they were before they were read: what changes meanwhile is read again next time.
+  const std::vector<FileState>& states() const { return states_; }
   // Where includes that were not found would have been.
   const std::vector<std::string>& missing() const { return missing_; }
 
  private:
-  std::size_t addFile(const std::string& path) {
+  std::size_t addFile(const std::string& path, FileState state = {}) {
     source_->files.push_back(std::make_shared<const std::string>(path));
     paths_.push_back(path);
+    states_.push_back(state);
     unconditional_.push_back(false);
     return source_->files.size() - 1;
   }
@@ -174,6 +182,7 @@ class IncludeExpander {
       if (unconditional_[number]) return;
     }
     const std::uint64_t room = kMostText - std::min(source_->text.size(), kMostText);
+    const FileState state{timeOf(*path), bytesOf(*path)};
     std::uint64_t bytes = 0;
     const std::optional<std::string> text =
         readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
@@ -186,7 +195,7 @@ class IncludeExpander {
       return;
     }
     if (!text) return;
-    if (!known) number = addFile(*path);
+    if (!known) number = addFile(*path, state);
     unconditional_[number] = depth == 0;
     // A text inside an #if may not be taken, so it sets a guard instead of making later ones superfluous; the
     // first text outside every #if asks for that guard and makes all later ones superfluous.
@@ -245,6 +254,7 @@ class IncludeExpander {
   Diagnostics& diagnostics_;
   std::shared_ptr<ShaderSource> source_ = std::make_shared<ShaderSource>();
   std::vector<std::string> paths_;  // by file number
+  std::vector<FileState> states_;   // likewise
   std::vector<std::string> missing_;
   std::vector<bool> unconditional_;  // by file number: stands in the text outside every #if
   std::vector<std::size_t> stack_;   // file numbers, from the stage's own to the current one
@@ -343,7 +353,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   if (found.hasErrors()) return nullptr;
   Entry entry{expander.finish(), {own}};
   for (std::size_t i = 1; i < expander.paths().size(); ++i)
-    entry.stamps.push_back({expander.paths()[i], timeOf(expander.paths()[i]), bytesOf(expander.paths()[i])});
+    entry.stamps.push_back({expander.paths()[i], expander.states()[i].time, expander.states()[i].bytes});
   return (cache_[*where] = std::move(entry)).source;
 }
 
@@ -360,7 +370,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::loadText(std::string_view text
   if (found.hasErrors()) return nullptr;
   Entry entry{expander.finish(), {}};
   for (std::size_t i = 1; i < expander.paths().size(); ++i)
-    entry.stamps.push_back({expander.paths()[i], timeOf(expander.paths()[i]), bytesOf(expander.paths()[i])});
+    entry.stamps.push_back({expander.paths()[i], expander.states()[i].time, expander.states()[i].bytes});
   return (cache_[key] = std::move(entry)).source;
 }
 

@@ -20,7 +20,7 @@ base::Diagnostics diagnoseText(const std::string& text) {
   return diagnostics;
 }
 
-// A brokenChain: pass i reads what pass i-1 wrote. Every tenth has a mistake, of five kinds in turn.
+// A chain: pass i reads what pass i-1 wrote. Every tenth has a mistake, of five kinds in turn.
 std::string brokenChain(int count) {
   std::string resources = R"("ldr": { "texture": "rgba8", "size": 8 })", passes;
   for (int i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ TEST_CASE("of 1,000 passes with 100 mistakes each mistake is named, and nothing 
   CHECK(codes == expected);
 }
 
-TEST_CASE("a brokenChain without mistakes says nothing") {
+TEST_CASE("a chain without mistakes says nothing") {
   std::string text = brokenChain(5);
   CHECK_MESSAGE(diagnoseText(text).empty(), diagnoseText(text).text());
 }
@@ -89,7 +89,7 @@ TEST_CASE("a value of the program's own is told from a parameter") {
   CHECK(said.items()[0].hint == "write 'screen', without the '$'");
 }
 
-TEST_CASE("levels that nobody reads are told of, unless the brokenChain is read in part") {
+TEST_CASE("levels that nobody reads are told of, unless the chain is read in part") {
   const auto chainRead = [](const char* read) {
     return diagnoseText(fmt::format(
         R"({{ "resources": {{ "ldr": {{ "texture": "rgba8", "size": 8 }}, "glow": {{ "texture": "rgba8", "size": 8, "mips": 4 }} }},

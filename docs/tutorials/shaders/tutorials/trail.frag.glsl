@@ -10,7 +10,7 @@ out vec4 mean;
 
 void main() {
   vec2 center = viewport * (0.5 + 0.3 * vec2(cos(6.0 * time), sin(6.0 * time)));
-  float inside = smoothstep(2.0, 0.0, distance(gl_FragCoord.xy, center) - 0.06 * viewport.y);
+  float inside = 1.0 - smoothstep(0.0, 2.0, distance(gl_FragCoord.xy, center) - 0.06 * viewport.y);
   vec3 now = inside * vec3(1.0, 0.6, 0.2);
   mean = vec4(max(now, keep * texelFetch(before, ivec2(gl_FragCoord.xy), 0).rgb), 1.0);
 }
