@@ -255,6 +255,30 @@ def check_hostile(weft, report, folder):
     report.check(editor.process.wait(timeout=60) == 1, "the input ended without shutdown")
 
 
+def check_bounds(weft, report, folder):
+    """What grows faster than the text, or without end, in files that no person writes."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+
+    def spent(name, where):
+        """Processor seconds for the definition of what stands there."""
+        editor.settle(name)
+        before = cpu_seconds(editor)
+        answer = editor.ask("textDocument/definition", editor.at(name, where))
+        report.check("result" in answer, f"{name}: {answer}")
+        return cpu_seconds(editor) - before
+
+    # Two ways on at each step, again and again: as many look-ups as there are names, not as there are ways.
+    name = "a." * 6 + "b"
+    circle = '{{"extends": "circle.json", "passes": [{{"include": "circle.json", "as": "a"}}{}], {}}}'
+    for what, text in {"resource": circle.format("", f'"present": "{name}"'), "parameter": circle.format("", f'"let": {{"c": "${name}"}}'),
+                       "pass": circle.format(f', {{"name": "c", "after": "{name}"}}', '"let": {}')}.items():
+        editor.open("circle.json", text)
+        seconds = spent("circle.json", f"0:{text.index(name) + len(name)}")
+        report.check(seconds < 2, f"a {what} in a circle of files took {seconds} s of processor time")
+    editor.end()
+
+
 def byte_of(text, where):
     """Of a position, in a text of ASCII up to there."""
     lines = text.split("\n")
@@ -358,6 +382,8 @@ def main():
         check_session(weft, report, pathlib.Path(folder).resolve())
         pathlib.Path(folder, "bundled").mkdir()
         check_renames(weft, report, pathlib.Path(folder, "bundled").resolve())
+        pathlib.Path(folder, "bounds").mkdir()
+        check_bounds(weft, report, pathlib.Path(folder, "bounds").resolve())
         pathlib.Path(folder, "odd").mkdir()
         check_hostile(weft, report, pathlib.Path(folder, "odd").resolve())
     report.end()
