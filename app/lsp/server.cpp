@@ -58,6 +58,26 @@ std::string pathOf(const Json& parameters) {
   return path;
 }
 
+// Brackets around one another that a message may have: what reads and copies JSON recurses.
+constexpr int kMostDepth = 500;
+
+bool isTooDeep(std::string_view text) {
+  int depth = 0;
+  bool inString = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (inString && c == '\\')
+      ++i;
+    else if (c == '"')
+      inString = !inString;
+    else if (!inString && (c == '[' || c == '{') && ++depth > kMostDepth)
+      return true;
+    else if (!inString && (c == ']' || c == '}'))
+      --depth;
+  }
+  return false;
+}
+
 }  // namespace
 
 void Server::fail(const Json& id, int code, const std::string& message) {
@@ -69,6 +89,9 @@ void Server::refuse(const std::string& problem) {
 }
 
 void Server::take(std::string_view text) {
+  if (isTooDeep(text))
+    return refuse(fmt::format("the message is nested too deeply: more than {} brackets around one another",
+                              kMostDepth));
   const Json message = Json::parse(text, nullptr, false);
   if (message.is_discarded()) return refuse("the message is no JSON");
   if (!message.is_object()) return fail(nullptr, kInvalidRequest, "a message is an object");
@@ -82,7 +105,8 @@ void Server::take(std::string_view text) {
   if (method == message.end() || !method->is_string())
     return fail(asks ? *id : Json(nullptr), kInvalidRequest, "\"method\": expected a string");
   const auto found = message.find("params");
-  const Json parameters = found == message.end() ? Json::object() : *found;
+  static const Json kNothing = Json::object();
+  const Json& parameters = found == message.end() ? kNothing : *found;
   const std::string& name = method->get_ref<const std::string&>();
   try {
     if (asks)
@@ -210,7 +234,8 @@ void Server::notify(const std::string& method, const Json& parameters) {
     changed_.insert(path);
   } else if (method == "workspace/didChangeWatchedFiles") {
     const Json& changes = member(parameters, "changes");
-    for (const Json& each : changes.is_array() ? changes : Json::array())
+    if (!changes.is_array()) throw WrongParameters{"\"changes\": expected an array"};
+    for (const Json& each : changes)
       if (const std::string path = pathOfUri(textOf(each, "uri")); !path.empty()) changed_.insert(path);
   }
 }

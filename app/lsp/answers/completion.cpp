@@ -365,7 +365,7 @@ class Completer {
     gl::ShaderNames names;
     const std::vector<std::string>& all = names.below(context_.project.shaderFolders(text_.path()));
     for (const std::string& path : all) {
-      if (!stem && path.ends_with(".json")) add(path, ItemKind::file);
+      if (!stem && path.ends_with(ending)) add(path, ItemKind::file);
       if (stem && path.ends_with(".vert.glsl")) {
         const std::string both = path.substr(0, path.size() - 10);
         if (std::ranges::binary_search(all, both + ".frag.glsl")) add(both, ItemKind::file);

@@ -81,7 +81,7 @@ void Analysis::look(const std::string& path, Graph& graph) {
   graph.current = false;
   loaded_.clear();
   const auto file = project_.index(path);
-  if (file && file->isPreset) {
+  if (file && project_.isPreset(path)) {
     base::parseJson(file->text->bytes(), std::make_shared<const std::string>(path), graph.said);
     return;
   }

@@ -25,6 +25,7 @@ class Indexer {
   void run() {
     const Node& root = out_.text->json().root();
     if (root.type != Type::object) return;
+    if (const Node* below = root.find("extends")) extends(*below);  // first: stanzas depend on it
     for (const auto& member : root.children) {
       out_.isGraph |= isOneOf(member->key, {"passes", "resources", "parameters", "let", "extends", "present",
                                             "outputs"}) ||
@@ -36,11 +37,18 @@ class Indexer {
   }
 
  private:
+  void extends(const Node& below) {
+    const auto name = [&](const Node& written) {
+      if (written.type != Type::string) return;
+      out_.extends.push_back(beside(written.text));
+      add(Kind::file, written.inside(), std::string(written.text));
+    };
+    name(below);
+    for (const auto& each : below.children) name(*each);
+  }
+
   void top(const Node& member) {
-    if (member.key == "extends" && member.type == Type::string) {
-      out_.extends = beside(member.text);
-      add(Kind::file, member.inside(), std::string(member.text));
-    } else if (isOneOf(member.key, {"parameters", "let"})) {
+    if (isOneOf(member.key, {"parameters", "let"})) {
       for (const auto& child : member.children) {
         declare(out_.variables, Kind::variable, *child);
         if (child->type == Type::object)
@@ -100,8 +108,9 @@ class Indexer {
     if (const Node* name = nameNode(node)) {
       const std::string own = prefix.empty() ? std::string(name->text) : prefix;
       // A stanza of an overlay that has no type is about a pass of the file below.
-      const bool declares = !prefix.empty() || node.find("type") || node.find("like") || out_.extends.empty();
-      if (declares) out_.passes.try_emplace(own, name->inside());
+      const bool typed = !prefix.empty() || node.find("type") || node.find("like");
+      const bool declares = typed || out_.extends.empty();
+      if (declares) (typed ? out_.passes : out_.untyped).try_emplace(own, name->inside());
       if (name->key != "include") add(Kind::pass, lastPart(name->inside(), name->text), own, declares);
     }
     for (const auto& member : node.children) stanzaMember(node, *member, prefix);
@@ -227,6 +236,10 @@ class Indexer {
 };
 
 }  // namespace
+
+bool FileIndex::doesExtend(const std::string& path) const {
+  return std::ranges::find(extends, path) != extends.end();
+}
 
 const Mention* FileIndex::at(std::size_t offset) const {
   const Mention* found = nullptr;

@@ -32,14 +32,16 @@ struct Mention {
 
 struct FileIndex {
   std::shared_ptr<const Text> text;
-  bool isGraph = false;   // has a key that only graphs, overlays and presets have
-  bool isPreset = false;  // has no passes of its own and extends nothing
-  std::string extends;    // absolute, or ""
+  bool isGraph = false;              // has a key that only graphs, overlays and presets have
+  bool isPreset = false;             // sets values, shows no picture and extends nothing
+  std::vector<std::string> extends;  // absolute paths: the file below, then what is laid over it
   std::map<std::string, std::string, std::less<>> includes;  // absolute paths by prefix
   std::map<std::string, Range, std::less<>> resources, variables, passes;
-  std::vector<const Node*> stanzas;  // passes and includes
-  std::vector<Mention> mentions;     // in the order of the text
+  std::map<std::string, Range, std::less<>> untyped;  // stanzas without a type, where nothing is extended
+  std::vector<const Node*> stanzas;                   // passes and includes
+  std::vector<Mention> mentions;                      // in the order of the text
 
+  bool doesExtend(const std::string& path) const;
   const Mention* at(std::size_t offset) const;
   const Node* stanza(std::string_view name) const;
 };

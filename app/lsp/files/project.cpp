@@ -16,7 +16,7 @@ namespace {
 
 using Kind = Mention::Kind;
 
-constexpr int kMostSteps = 32;
+constexpr int kMostSteps = 256;    // from one file to the next, for one name
 constexpr int kMostFiles = 20000;  // looked at in a folder
 
 using Names = std::map<std::string, Range, std::less<>>;
@@ -61,8 +61,7 @@ std::vector<std::string> Project::closure(const std::string& path) const {
   for (std::size_t i = 0; i < all.size() && all.size() < 1000; ++i) {
     const auto file = index(all[i]);
     if (!file) continue;
-    std::vector<std::string> next;
-    if (!file->extends.empty()) next.push_back(file->extends);
+    std::vector<std::string> next = file->extends;
     for (const auto& [prefix, included] : file->includes) next.push_back(included);
     for (std::string& each : next)
       if (std::ranges::find(all, each) == all.end()) all.push_back(std::move(each));
@@ -95,8 +94,7 @@ const std::vector<std::string>& Project::includersOf(const std::string& path) co
     for (const std::string& each : graphFiles()) {
       const auto file = index(each);
       if (!file) continue;
-      std::set<std::string> below;
-      if (!file->extends.empty()) below.insert(file->extends);
+      std::set<std::string> below(file->extends.begin(), file->extends.end());
       for (const auto& [prefix, included] : file->includes) below.insert(included);
       for (const std::string& one : below) (*includers_)[one].push_back(each);
     }
@@ -114,19 +112,58 @@ std::optional<std::string> Project::prefixIn(const std::string& root, const std:
     if (!seen.insert(at).second) continue;
     const auto file = index(at);
     if (!file) continue;
-    if (!file->extends.empty()) work.emplace_back(file->extends, prefix);
+    for (const std::string& below : file->extends) work.emplace_back(below, prefix);
     for (const auto& [name, included] : file->includes) work.emplace_back(included, prefix + name + ".");
   }
   return std::nullopt;
 }
 
+bool Project::isPreset(const std::string& path) const {
+  std::set<std::string> seen;
+  std::shared_ptr<const FileIndex> file = index(path);
+  while (file && !file->extends.empty() && seen.insert(file->text->path()).second)
+    file = index(file->extends.front());
+  return file && file->isPreset;
+}
+
 // ---- names ----
 
-std::optional<Definition> Project::findBelow(const FileIndex& from, const std::string& name,
-                                             Kind kind) const {
+std::vector<std::string> Project::listedBefore(const FileIndex& from) const {
+  std::vector<std::string> found, work{from.text->path()};
+  std::set<std::string> seen(work.begin(), work.end());
+  for (std::size_t i = 0; i < work.size(); ++i)
+    for (const std::string& includer : includersOf(work[i])) {
+      const auto file = index(includer);
+      if (!file || !file->doesExtend(work[i])) continue;
+      for (const std::string& each : file->extends) {
+        if (each == work[i]) break;
+        if (std::ranges::find(found, each) == found.end()) found.push_back(each);
+      }
+      if (seen.insert(includer).second) work.push_back(includer);
+    }
+  return found;
+}
+
+std::vector<Project::File> Project::layersBelow(const FileIndex& from, int depth) const {
+  std::vector<std::string> paths = from.extends;
+  if (depth == 0)
+    for (std::string& each : listedBefore(from))
+      if (!from.doesExtend(each)) paths.push_back(std::move(each));
+  std::vector<File> found;
+  for (const std::string& path : paths)
+    if (File file = index(path)) found.push_back(std::move(file));
+  return found;
+}
+
+std::optional<Definition> Project::findInside(const FileIndex& from, const std::string& name,
+                                              Kind kind) const {
   const std::string leaf = name.substr(name.rfind('.') + 1);
+  std::vector<std::string> paths = closure(from.text->path());
+  for (const std::string& each : listedBefore(from))
+    for (std::string& path : closure(each))
+      if (std::ranges::find(paths, path) == paths.end()) paths.push_back(std::move(path));
   std::vector<Definition> found;
-  for (const std::string& path : closure(from.text->path())) {
+  for (const std::string& path : paths) {
     const auto file = index(path);
     if (!file) continue;
     for (const std::string& wanted : {name, leaf})
@@ -138,68 +175,80 @@ std::optional<Definition> Project::findBelow(const FileIndex& from, const std::s
   return found.size() == 1 ? std::optional(found[0]) : std::nullopt;
 }
 
+bool Project::isNew(Seen& seen, const FileIndex& from, const std::string& name, bool up, int depth) {
+  return depth <= kMostSteps && seen.emplace(from.text->path(), name, up).second;
+}
+
 std::optional<Definition> Project::findResource(const FileIndex& from, const std::string& name, bool import,
-                                                int depth) const {
-  if (depth > kMostSteps) return std::nullopt;
-  const auto base = from.extends.empty() ? nullptr : index(from.extends);
-  if (base)  // what an overlay changes is declared below
-    if (auto found = findResource(*base, name, import, depth + 1)) return found;
+                                                Seen& seen, int depth) const {
+  if (!isNew(seen, from, name, import, depth)) return std::nullopt;
+  const std::vector<File> below = layersBelow(from, depth);
+  for (const File& file : below)  // what an overlay changes is declared below
+    if (auto found = findResource(*file, name, import, seen, depth + 1)) return found;
   if (const auto own = from.resources.find(name); own != from.resources.end())
-    if (!base || own->first.find('.') == std::string::npos)
+    if (below.empty() || own->first.find('.') == std::string::npos)
       return Definition{Kind::resource, from.text->path(), own->second, name};
   const std::size_t dot = name.find('.');
   if (dot != std::string::npos)
     if (const auto include = from.includes.find(name.substr(0, dot)); include != from.includes.end())
       if (const auto file = index(include->second))
-        return findResource(*file, name.substr(dot + 1), import, depth + 1);
+        return findResource(*file, name.substr(dot + 1), import, seen, depth + 1);
   if (import)
     for (const std::string& includer : includersOf(from.text->path()))
-      if (const auto file = index(includer); file && file->extends != from.text->path())
-        if (auto found = findResource(*file, name, true, depth + 8)) return found;
-  return base ? findBelow(from, name, Kind::resource) : std::nullopt;
+      if (const auto file = index(includer); file && !file->doesExtend(from.text->path()))
+        if (auto found = findResource(*file, name, true, seen, depth + 1)) return found;
+  return below.empty() ? std::nullopt : findInside(from, name, Kind::resource);
 }
 
 std::optional<Definition> Project::findVariable(const FileIndex& from, const std::string& name, bool up,
-                                                int depth) const {
-  if (depth > kMostSteps) return std::nullopt;
+                                                Seen& seen, int depth) const {
+  if (!isNew(seen, from, name, up, depth)) return std::nullopt;
+  for (const File& file : layersBelow(from, depth))
+    if (auto found = findVariable(*file, name, false, seen, depth + 1)) return found;
   if (const auto own = from.variables.find(name); own != from.variables.end())
     return Definition{Kind::variable, from.text->path(), own->second, name};
-  if (const auto base = from.extends.empty() ? nullptr : index(from.extends))
-    if (auto found = findVariable(*base, name, false, depth + 1)) return found;
   const std::size_t dot = name.find('.');
   if (dot != std::string::npos)
     if (const auto include = from.includes.find(name.substr(0, dot)); include != from.includes.end())
       if (const auto file = index(include->second))
-        if (auto found = findVariable(*file, name.substr(dot + 1), false, depth + 1)) return found;
+        if (auto found = findVariable(*file, name.substr(dot + 1), false, seen, depth + 1)) return found;
   if (up)
     for (const std::string& includer : includersOf(from.text->path()))
-      if (const auto file = index(includer); file && file->extends != from.text->path())
-        if (auto found = findVariable(*file, name, true, depth + 8)) return found;
-  return depth == 0 ? findBelow(from, name, Kind::variable) : std::nullopt;
+      if (const auto file = index(includer); file && !file->doesExtend(from.text->path()))
+        if (auto found = findVariable(*file, name, true, seen, depth + 1)) return found;
+  return depth == 0 ? findInside(from, name, Kind::variable) : std::nullopt;
 }
 
-std::optional<Definition> Project::findPass(const FileIndex& from, const std::string& name, int depth) const {
-  if (depth > kMostSteps) return std::nullopt;
+std::optional<Definition> Project::findPass(const FileIndex& from, const std::string& name, Seen& seen,
+                                            int depth) const {
+  if (!isNew(seen, from, name, false, depth)) return std::nullopt;
   if (const auto own = from.passes.find(name); own != from.passes.end())
     return Definition{Kind::pass, from.text->path(), own->second, name};
-  if (const auto base = from.extends.empty() ? nullptr : index(from.extends))
-    if (auto found = findPass(*base, name, depth + 1)) return found;
+  for (const File& file : layersBelow(from, depth))
+    if (auto found = findPass(*file, name, seen, depth + 1)) return found;
   const std::size_t dot = name.find('.');
   if (dot != std::string::npos)
     if (const auto include = from.includes.find(name.substr(0, dot)); include != from.includes.end())
-      if (const auto file = index(include->second)) return findPass(*file, name.substr(dot + 1), depth + 1);
-  return depth == 0 ? findBelow(from, name, Kind::pass) : std::nullopt;
+      if (const auto file = index(include->second))
+        return findPass(*file, name.substr(dot + 1), seen, depth + 1);
+  if (depth > 0) return std::nullopt;
+  if (auto found = findInside(from, name, Kind::pass)) return found;
+  const auto own = from.untyped.find(name);
+  return own == from.untyped.end()
+             ? std::nullopt
+             : std::optional(Definition{Kind::pass, from.text->path(), own->second, name});
 }
 
 std::optional<Definition> Project::resolve(const FileIndex& from, const Mention& mention) const {
+  Seen seen;
   switch (mention.kind) {
     case Kind::resource:
     case Kind::import:
-      return findResource(from, mention.name, mention.kind == Kind::import, 0);
+      return findResource(from, mention.name, mention.kind == Kind::import, seen);
     case Kind::variable:
-      return findVariable(from, mention.name, true, 0);
+      return findVariable(from, mention.name, true, seen);
     case Kind::pass:
-      return findPass(from, mention.name, 0);
+      return findPass(from, mention.name, seen);
     case Kind::slot:
     case Kind::parameter:
     case Kind::define: {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/lsp/files/file_index.h"
@@ -46,7 +47,9 @@ class Project {
 
   // Null for what is no JSON file, or is not there.
   std::shared_ptr<const FileIndex> index(const std::string& path) const;
-  // `path` with all that it includes and extends.
+  // Whether it is a preset, or extends one: a graph to lay it over is missing.
+  bool isPreset(const std::string& path) const;
+  // `path` with all that it includes and extends; at most as many as a graph may include.
   std::vector<std::string> closure(const std::string& path) const;
   // All graph files: those that are open, those of the folders, with their closures.
   const std::vector<std::string>& graphFiles() const;
@@ -79,14 +82,23 @@ class Project {
   std::optional<Definition> findInShaders(const Program& program, std::string_view name) const;
 
  private:
+  using File = std::shared_ptr<const FileIndex>;
+  // In whom, for which name, and whether upwards, too: files may include each other in a circle, or one file many times.
+  using Seen = std::set<std::tuple<std::string, std::string, bool>>;
+  static bool isNew(Seen& seen, const FileIndex& from, const std::string& name, bool up, int depth);
   std::optional<Definition> findResource(const FileIndex& from, const std::string& name, bool import,
-                                         int depth) const;
-  std::optional<Definition> findVariable(const FileIndex& from, const std::string& name, bool up,
-                                         int depth) const;
-  std::optional<Definition> findPass(const FileIndex& from, const std::string& name, int depth) const;
-  // The only one below `from` whose dotted name ends in `name`.
-  std::optional<Definition> findBelow(const FileIndex& from, const std::string& name,
-                                      Mention::Kind kind) const;
+                                         Seen& seen, int depth = 0) const;
+  std::optional<Definition> findVariable(const FileIndex& from, const std::string& name, bool up, Seen& seen,
+                                         int depth = 0) const;
+  std::optional<Definition> findPass(const FileIndex& from, const std::string& name, Seen& seen,
+                                     int depth = 0) const;
+  // What `from` is laid over where somebody lists it: all that stands before it in a list of "extends".
+  std::vector<std::string> listedBefore(const FileIndex& from) const;
+  // What `from` extends; at the beginning of a look-up also what stands before it in lists.
+  std::vector<File> layersBelow(const FileIndex& from, int depth) const;
+  // The only one in all that `from` includes and is laid over whose dotted name ends in `name`.
+  std::optional<Definition> findInside(const FileIndex& from, const std::string& name,
+                                       Mention::Kind kind) const;
 
   const Texts& texts_;
   std::vector<std::string> folders_;

@@ -199,6 +199,10 @@ HOSTILE = [  # bytes, the code of the error that answers
     (framed('{"jsonrpc":"2.0","id":{"a":1},"method":"shutdown"}'), -32600),
     (framed('{"jsonrpc":"2.0","id":1,"method":17}'), -32600),
     (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":{}}'), -32601),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":' + "[" * 200_000 + "]" * 200_000 + "}"), -32700),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":' + '{"a":' * 200_000 + "0" + "}" * 200_000 + "}"), -32700),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":' + "[" * 499 + "]" * 499 + "}"), -32601),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":["\\\\\\"' + "[" * 1000 + '"]}'), -32601),
     (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover"}'), -32602),
     (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover","params":[1,2]}'), -32602),
     (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover","params":{"textDocument":{"uri":"http://x/y"},"position":{"line":0,"character":0}}}'), -32602),
@@ -212,6 +216,8 @@ IGNORED = [  # notifications have no answer
     framed('{"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///never/opened.json"},"contentChanges":[{"text":"{}"}]}}'),
     framed('{"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///never/opened.json"},"contentChanges":17}}'),
     framed('{"jsonrpc":"2.0","method":"no/such","params":null}'),
+    framed('{"jsonrpc":"2.0","method":"workspace/didChangeWatchedFiles","params":{"changes":' + "[" * 400 + "]" * 400 + "}}"),
+    framed('{"jsonrpc":"2.0","method":"workspace/didChangeWatchedFiles","params":{"changes":{"uri":7}}}'),
     framed('{"jsonrpc":"2.0","method":"$/cancelRequest","params":{"id":7}}'),
     framed('{"jsonrpc":"2.0","id":3,"result":null}'),
 ]
@@ -247,6 +253,30 @@ def check_hostile(weft, report, folder):
     editor = Editor(weft, folder)
     editor.process.stdin.close()
     report.check(editor.process.wait(timeout=60) == 1, "the input ended without shutdown")
+
+
+def check_bounds(weft, report, folder):
+    """What grows faster than the text, or without end, in files that no person writes."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+
+    def spent(name, where):
+        """Processor seconds for the definition of what stands there."""
+        editor.settle(name)
+        before = cpu_seconds(editor)
+        answer = editor.ask("textDocument/definition", editor.at(name, where))
+        report.check("result" in answer, f"{name}: {answer}")
+        return cpu_seconds(editor) - before
+
+    # Two ways on at each step, again and again: as many look-ups as there are names, not as there are ways.
+    name = "a." * 6 + "b"
+    circle = '{{"extends": "circle.json", "passes": [{{"include": "circle.json", "as": "a"}}{}], {}}}'
+    for what, text in {"resource": circle.format("", f'"present": "{name}"'), "parameter": circle.format("", f'"let": {{"c": "${name}"}}'),
+                       "pass": circle.format(f', {{"name": "c", "after": "{name}"}}', '"let": {}')}.items():
+        editor.open("circle.json", text)
+        seconds = spent("circle.json", f"0:{text.index(name) + len(name)}")
+        report.check(seconds < 2, f"a {what} in a circle of files took {seconds} s of processor time")
+    editor.end()
 
 
 def byte_of(text, where):
@@ -352,6 +382,8 @@ def main():
         check_session(weft, report, pathlib.Path(folder).resolve())
         pathlib.Path(folder, "bundled").mkdir()
         check_renames(weft, report, pathlib.Path(folder, "bundled").resolve())
+        pathlib.Path(folder, "bounds").mkdir()
+        check_bounds(weft, report, pathlib.Path(folder, "bounds").resolve())
         pathlib.Path(folder, "odd").mkdir()
         check_hostile(weft, report, pathlib.Path(folder, "odd").resolve())
     report.end()
