@@ -13,10 +13,10 @@ out vec4 result;
 
 // Nearer things have larger discs: how much a disc lies over one of the radius `own`, and how much behind it. In between is one surface.
 float liesOver(float disc, float own) {
-  return smoothstep(1.3 * own, 1.8 * own, disc);
+  return own > 0.0 ? smoothstep(1.3 * own, 1.8 * own, disc) : step(1e-6, disc);
 }
 float liesBehind(float disc, float own) {
-  return 1.0 - smoothstep(0.55 * own, 0.75 * own, disc);
+  return own > 0.0 ? 1.0 - smoothstep(0.55 * own, 0.75 * own, disc) : 0.0;
 }
 
 float per_ring = 1.0;
