@@ -135,6 +135,84 @@ TEST_CASE("OBJ: a library that is missing is a warning") {
   CHECK(diagnostics.items()[0].severity == base::Severity::warning);
 }
 
+TEST_CASE("OBJ: the vertex colours are sRGB, and equal places with other colours stay apart") {
+  const TemporaryFolder folder;
+  // 0.735357 is half of the light: IEC 61966-2-1.
+  const Model model = loadGood(
+      folder.write("m.obj",
+                   "v 0 0 0 1 0 0\nv 1 0 0 0.735357 0.04045 2\nv 1 1 0 0.5 0.5 0.5 # grey\n"
+                   "v 0 1 0 0 0 -1\nv 0 0 0 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nf 5//1 2//1 3//1\n"));
+  REQUIRE(model.vertices.size() == 5);
+  REQUIRE(model.colors.size() == 5);
+  const std::vector<std::pair<Float3, Float3>> wanted = {{{0, 0, 0}, {1, 0, 0}},
+                                                         {{1, 0, 0}, {0.5f, 0.04045f / 12.92f, 1}},
+                                                         {{1, 1, 0}, {0.2140411f, 0.2140411f, 0.2140411f}},
+                                                         {{0, 1, 0}, {0, 0, 0}},
+                                                         {{0, 0, 0}, {0, 1, 0}}};
+  for (const auto& [position, color] : wanted) {
+    CAPTURE(color[0]);
+    const auto isThis = [&](std::size_t v) {
+      bool same = model.vertices[v].position == position && model.colors[v][3] == 1;
+      for (std::size_t c = 0; c < 3; ++c) same = same && std::abs(model.colors[v][c] - color[c]) < 1e-6;
+      return same;
+    };
+    std::size_t found = 0;
+    for (std::size_t v = 0; v < 5; ++v) found += isThis(v) ? 1 : 0;
+    CHECK(found == 1);
+  }
+  // Faces without colours have none.
+  CHECK(loadGood(folder.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).colors.empty());
+}
+
+TEST_CASE("OBJ: where some vertices have no colour, all are left out, with a warning") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  const auto model = loadModel(
+      folder.write("m.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\no second\nf 1 2 4\n"),
+      diagnostics);
+  REQUIRE_MESSAGE(model, diagnostics.text());
+  CHECK(model->colors.empty());
+  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+  const base::Diagnostic& d = diagnostics.items()[0];
+  CHECK(d.code == Code::modelPartLeftOut);
+  CHECK(d.severity == base::Severity::warning);
+  CHECK(d.place.line == 3);
+  CHECK(d.message.find("vertex colours") != std::string::npos);
+  CHECK(!d.expected.empty());
+  CHECK(!d.hint.empty());
+}
+
+TEST_CASE("FBX: the vertex colours are sRGB, with alpha as it is") {
+  const TemporaryFolder folder;
+  test::GltfMaker maker;
+  maker.square();
+  const std::vector<float> colors = {1, 0, 0, 1, 0, 0.735357f, 0, 0.5f, 0, 0, 0.5f, 0.25f, 0.5f, 0.25f, 1, 0};
+  maker.document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = maker.floats(colors, 4);
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(folder.write("m.gltf", maker.gltf()), 0);
+  REQUIRE(scene);
+  Assimp::Exporter exporter;
+  REQUIRE(exporter.Export(scene, "fbxa", folder.at("m.fbx")) == aiReturn_SUCCESS);
+  const Model model = loadGood(folder.at("m.fbx"));
+  const Model linear = loadGood(folder.at("m.gltf"));
+  REQUIRE(model.colors.size() == model.vertices.size());
+  REQUIRE(linear.colors.size() == 4);
+  std::size_t found = 0;
+  for (std::size_t v = 0; v < model.vertices.size(); ++v)
+    for (std::size_t w = 0; w < 4; ++w) {
+      if (model.vertices[v].position != linear.vertices[w].position) continue;
+      ++found;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double stored = linear.colors[w][c];
+        CHECK(model.colors[v][c] ==
+              doctest::Approx(stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4))
+                  .epsilon(1e-5));
+      }
+      CHECK(model.colors[v][3] == linear.colors[w][3]);
+    }
+  CHECK(found == model.vertices.size());
+}
+
 TEST_CASE("FBX, binary and text: the fox, its nodes, weights and animations") {
   const TemporaryFolder folder;
   const Model wanted = loadGood(kModels + "Fox.glb");

@@ -294,6 +294,7 @@ TEST_CASE("OBJ files that lie") {
   CHECK(codeOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n") == Code::badModelValue);
   CHECK(codeOf("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n") == Code::badModelValue);
   CHECK(codeOf("v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n") == Code::badModelValue);
+  CHECK(codeOf("v 0 0 0 0 0 0\nv 1 0 0 0 nan 0\nv 0 1 0 0 0 0\nf 1 2 3\n") == Code::badModelValue);
   CHECK(codeOf("v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n") == Code::badModelValue);
   const base::Diagnostic far = failureOf(folder, "m.obj", "v 0 0 0\nv 1 0 0\n\nv 0 1 0\n\nf 1 2 7\n");
   CHECK(far.place.line == 6);

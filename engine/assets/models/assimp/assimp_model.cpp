@@ -30,7 +30,8 @@ bool isObj(const std::string& path) {
   return extension == ".obj";
 }
 
-bool checkBefore(const std::string& bytes, bool obj, ModelFiles& files, Diagnostics& diagnostics) {
+bool checkBefore(const std::string& bytes, bool obj, ModelCounts& counts, ModelFiles& files,
+                 Diagnostics& diagnostics) {
   const bool text = obj || !isBinaryFbx(bytes);
   if (text && bytes.size() > base::limitOf(base::Limit::model_text_bytes)) {
     base::reportLimit(diagnostics, base::Limit::model_text_bytes, files.place(),
@@ -38,7 +39,6 @@ bool checkBefore(const std::string& bytes, bool obj, ModelFiles& files, Diagnost
         .found = fmt::format("{} bytes", bytes.size());
     return false;
   }
-  ModelCounts counts;
   const ModelProblem problem = obj ? checkObj(bytes, counts) : checkFbx(bytes, counts);
   if (!problem.message.empty()) {
     base::Place place = files.place();
@@ -69,7 +69,8 @@ bool hasEndlessFace(const aiScene& scene) {
 bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& observer,
                     const DecodeRunner& decode, Diagnostics& diagnostics, Model& model) {
   const bool obj = isObj(files.path());
-  if (!checkBefore(bytes, obj, files, diagnostics)) return false;
+  ModelCounts counts;
+  if (!checkBefore(bytes, obj, counts, files, diagnostics)) return false;
   const std::size_t before = diagnostics.errorCount();
   Assimp::Importer importer;  // owns what is set here
   const std::string name = obj ? "model.obj" : "model.fbx";
@@ -92,7 +93,7 @@ bool readWithAssimp(std::string bytes, ModelFiles& files, const LoadObserver& ob
   if (hasEndlessFace(*scene)) return unreadable("a face of it has more than 4096 corners");
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene) return unreadable(importer.GetErrorString());
-  return readAssimpScene(*scene, files, observer, decode, diagnostics, model);
+  return readAssimpScene(*scene, counts.colorlessLine, files, observer, decode, diagnostics, model);
 }
 
 }  // namespace weft::assets

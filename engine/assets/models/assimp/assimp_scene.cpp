@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "engine/assets/models/parts/decompose.h"
 #include "engine/assets/models/parts/mesh_builder.h"
@@ -33,8 +34,10 @@ Matrix4 toMatrix(const aiMatrix4x4& m) {
 
 class AssimpReader {
  public:
-  AssimpReader(const aiScene& scene, ModelFiles& files, Diagnostics& diagnostics, Model& model)
+  AssimpReader(const aiScene& scene, std::uint32_t colorlessLine, ModelFiles& files, Diagnostics& diagnostics,
+               Model& model)
       : scene_(scene),
+        colorlessLine_(colorlessLine),
         files_(files),
         diagnostics_(diagnostics),
         model_(model),
@@ -228,6 +231,26 @@ class AssimpReader {
     return true;
   }
 
+  // Assimp 5.2.5 gives the colours of an OBJ file, in their order, to its first vertices.
+  bool hasColors(const aiMesh& mesh) {
+    if (!mesh.HasVertexColors(0)) return false;
+    if (colorlessLine_ == 0) return true;
+    if (std::exchange(saidColorless_, true)) return false;
+    base::Place place = files_.place();
+    place.line = colorlessLine_;
+    base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, place,
+                                               "the vertex colours were left out: some vertices have none");
+    d.expected = "three numbers of colour behind the position in every line 'v', or in none";
+    d.found = "a line without them";
+    d.hint = "export the mesh again, with a colour for every vertex";
+    return false;
+  }
+  // Neither format says what its colours are; other programs take them for sRGB (Blender 3.4 and later, three.js).
+  static Float4 toLinear(const aiColor4D& color) {
+    const auto linear = [](float c) { return decodeSrgb(std::clamp(c, 0.0f, 1.0f)); };
+    return {linear(color.r), linear(color.g), linear(color.b), std::clamp(color.a, 0.0f, 1.0f)};
+  }
+
   std::optional<std::uint32_t> readMesh(const aiMesh& from, unsigned index) {
     const std::uint64_t corners = std::uint64_t{from.mNumFaces} * 3;
     if (!builder_.hasRoom(from.HasNormals() ? from.mNumVertices : corners, corners, files_.place(),
@@ -236,10 +259,13 @@ class AssimpReader {
     RawMesh mesh;
     mesh.name = from.mName.C_Str();
     mesh.join = true;
+    const bool colored = hasColors(from);
     for (unsigned v = 0; v < from.mNumVertices; ++v) {
       const Float3 position = toFloat3(from.mVertices[v]);
       const aiVector3D uv = from.HasTextureCoords(0) ? from.mTextureCoords[0][v] : aiVector3D();
-      for (const float c : {position[0], position[1], position[2], uv.x, uv.y})
+      const aiColor4D color = colored ? from.mColors[0][v] : aiColor4D();
+      for (const float c :
+           {position[0], position[1], position[2], uv.x, uv.y, color.r, color.g, color.b, color.a})
         if (!(std::abs(c) <= kFarthestVertex)) {
           base::Diagnostic& d =
               fail(fmt::format("vertex {} of mesh '{}' is no number that can be used", v, mesh.name));
@@ -251,6 +277,7 @@ class AssimpReader {
       mesh.positions.push_back(position);
       if (from.HasNormals()) mesh.normals.push_back(toFloat3(from.mNormals[v]));
       if (from.HasTextureCoords(0)) mesh.uvs.push_back({uv.x, 1 - uv.y});  // Assimp's v goes up
+      if (colored) mesh.colors.push_back(toLinear(color));
     }
     for (unsigned f = 0; f < from.mNumFaces; ++f) {
       const aiFace& face = from.mFaces[f];
@@ -340,6 +367,7 @@ class AssimpReader {
   }
 
   const aiScene& scene_;
+  std::uint32_t colorlessLine_;
   ModelFiles& files_;
   Diagnostics& diagnostics_;
   Model& model_;
@@ -349,13 +377,15 @@ class AssimpReader {
   std::map<std::string, std::uint32_t, std::less<>> rowByName_;
   std::map<std::string, std::uint32_t> images_;  // numbers in the pool
   std::map<unsigned, std::uint32_t> meshes_, skins_;
+  bool saidColorless_ = false;
 };
 
 }  // namespace
 
-bool readAssimpScene(const aiScene& scene, ModelFiles& files, const LoadObserver& observer,
-                     const DecodeRunner& decode, Diagnostics& diagnostics, Model& model) {
-  return AssimpReader(scene, files, diagnostics, model).read(observer, decode);
+bool readAssimpScene(const aiScene& scene, std::uint32_t colorlessLine, ModelFiles& files,
+                     const LoadObserver& observer, const DecodeRunner& decode, Diagnostics& diagnostics,
+                     Model& model) {
+  return AssimpReader(scene, colorlessLine, files, diagnostics, model).read(observer, decode);
 }
 
 }  // namespace weft::assets

@@ -9,8 +9,10 @@ struct aiScene;
 
 namespace weft::assets {
 
-// False after errors, or when `observer` gave up. The scene's faces are triangles, lines and points.
-bool readAssimpScene(const aiScene& scene, ModelFiles& files, const LoadObserver& observer,
-                     const DecodeRunner& decode, base::Diagnostics& diagnostics, Model& model);
+// False after errors, or when `observer` gave up. The scene's faces are triangles, lines and points. `colorlessLine`: of a file
+// whose vertices have colours in part, where the first of the others stands.
+bool readAssimpScene(const aiScene& scene, std::uint32_t colorlessLine, ModelFiles& files,
+                     const LoadObserver& observer, const DecodeRunner& decode, base::Diagnostics& diagnostics,
+                     Model& model);
 
 }  // namespace weft::assets

@@ -25,6 +25,14 @@ std::string_view nextWord(std::string_view& line) {
   return word;
 }
 
+// Up to a comment.
+std::size_t countWords(std::string_view line) {
+  line = line.substr(0, line.find('#'));
+  std::size_t words = 0;
+  while (!nextWord(line).empty()) ++words;
+  return words;
+}
+
 template <class T>
 T load(std::string_view bytes, std::size_t at) {
   T value;
@@ -80,7 +88,10 @@ ModelProblem checkObj(std::string_view bytes, ModelCounts& counts) {
       return {"a line of it is too long", fmt::format("lines of at most {} bytes", kLongestLine),
               fmt::format("{} bytes", line.size()), number};
     const std::string_view key = nextWord(line);
-    if (key == "v") ++counts.vertices;
+    if (key == "v") {
+      ++counts.vertices;
+      if (counts.colorlessLine == 0 && countWords(line) != 6) counts.colorlessLine = number;
+    }
     if (key != "f") continue;
     std::size_t corners = 0;
     for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {

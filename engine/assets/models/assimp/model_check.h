@@ -18,7 +18,8 @@ struct ModelProblem {
 
 struct ModelCounts {
   std::uint64_t vertices = 0, corners = 0;
-  std::uint64_t unpacked = 0;  // bytes that packed arrays hold
+  std::uint64_t unpacked = 0;       // bytes that packed arrays hold
+  std::uint32_t colorlessLine = 0;  // of an OBJ file: of the first vertex without a colour
 };
 
 ModelProblem checkObj(std::string_view bytes, ModelCounts& counts);
