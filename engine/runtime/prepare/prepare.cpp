@@ -14,6 +14,7 @@ using graph::Access;
 using graph::FlatResource;
 using graph::FlatUse;
 using graph::Kind;
+using graph::kNone;
 using graph::PassSpec;
 using graph::SlotSpec;
 
@@ -100,7 +101,7 @@ class Preparer {
       for (std::uint32_t k = 0; k < slot.useCount; ++k) {
         const std::uint32_t index = slot.firstUse + k;
         if (slot.access != Access::read && !isAttached(index)) continue;
-        good &= bindUse(slot, index, k);
+        good &= bindUse(slot, index, k) && bindFirst(slot, index, k);
       }
     }
     const gl::Block* instances =
@@ -112,6 +113,19 @@ class Preparer {
       takeLayout(*instances, instanceColumnsOf(spec_), binding);
       out_.buffers.push_back(binding);
     }
+    return good;
+  }
+
+  // Of a read of @-n: what `first` of the resource names, in the same place.
+  bool bindFirst(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
+    if (slot.firstValue == kNone) return true;
+    const std::size_t textures = out_.textures.size(), images = out_.images.size(),
+                      buffers = out_.buffers.size();
+    const bool good = bindUse(slot, slot.firstValue, element);
+    const FirstOf firstOf{graph_.uses[index].resource, graph_.uses[index].history};
+    for (std::size_t i = textures; i < out_.textures.size(); ++i) out_.textures[i].firstOf = firstOf;
+    for (std::size_t i = images; i < out_.images.size(); ++i) out_.images[i].firstOf = firstOf;
+    for (std::size_t i = buffers; i < out_.buffers.size(); ++i) out_.buffers[i].firstOf = firstOf;
     return good;
   }
 
@@ -202,6 +216,16 @@ class Preparer {
     return true;
   }
 
+  FlatUse wholeOf(const FlatUse& use) const {
+    FlatUse whole = use;
+    whole.mip = 0;
+    whole.mips = graph_.resources[use.resource].mips;
+    whole.layer = 0;
+    whole.layers = graph_.resources[use.resource].layers;
+    whole.planes = 1;
+    return whole;
+  }
+
   // Attachments go through a view of the whole resource, so that equal storage gives equal framebuffers.
   bool attach(std::uint32_t index, GLenum point) {
     const FlatUse& use = graph_.uses[index];
@@ -211,13 +235,7 @@ class Preparer {
     const bool plain = resource.target == graph::Target::texture_2d ||
                        resource.target == graph::Target::texture_2d_multisample;
     binding.layer = plain || use.layers > 1 || resource.target == graph::Target::texture_3d ? -1 : use.layer;
-    FlatUse whole = use;
-    whole.mip = 0;
-    whole.mips = resource.mips;
-    whole.layer = 0;
-    whole.layers = resource.layers;
-    whole.planes = 1;
-    binding.textures = viewsOf(whole, 0);
+    binding.textures = viewsOf(wholeOf(use), 0);
     out_.width = std::max(1u, resource.width >> use.mip);
     out_.height = std::max(1u, resource.height >> use.mip);
     out_.encodesSrgb |= resource.format == graph::Format::srgb8_a8;
@@ -231,6 +249,8 @@ class Preparer {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
       const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
       if (slot.useCount > 0) uses.emplace_back(&slot, graph_.uses[slot.firstUse]);
+      if (slot.useCount > 0 && slot.firstValue != kNone)
+        uses.emplace_back(&slot, graph_.uses[slot.firstValue]);
     }
     for (const auto& [slot, use] : uses) {
       const bool from = slot->access == Access::read;
@@ -244,7 +264,8 @@ class Preparer {
           .source = from, .resource = use.resource, .history = use.history, .views = viewsOf(span, 0)};
       const FlatResource& resource = graph_.resources[use.resource];
       binding.mip = use.mip;
-      binding.layer = use.layer;
+      if (use.layers < resource.layers && use.layers == 1) binding.layer = use.layer;
+      if (out_.framebuffers) binding.textures = viewsOf(wholeOf(use), 0);
       passes::BoundTexture& bound = from ? out_.context.source : out_.context.destination;
       bound.width = std::max(1u, resource.width >> use.mip);
       bound.height = std::max(1u, resource.height >> use.mip);
@@ -252,7 +273,10 @@ class Preparer {
                      : graph::hasStencil(resource.format) ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT
                                                           : GL_DEPTH_BUFFER_BIT;
       if (from) out_.context.linear = slot->sampler.linear;
-      if (!complete(binding.views)) return false;
+      const FlatUse& read = graph_.uses[slot->firstUse];
+      if (use.resource != read.resource || use.history != read.history)
+        binding.firstOf = {read.resource, read.history};
+      if (!complete(binding.views) || !complete(binding.textures)) return false;
       out_.fixed.push_back(std::move(binding));
     }
     return true;
