@@ -10,7 +10,7 @@ out vec4 near;
 #ifdef HAS_FAR
 out vec4 far;
 #endif
-out float disc;
+out vec2 disc;
 
 vec4 meanOf(sampler2D source) {
   vec2 texel = 1.0 / vec2(textureSize(source, 0)), at = 2.0 * gl_FragCoord.xy * texel,
@@ -26,5 +26,5 @@ void main() {
 #elif defined HAS_FAR
   far = vec4(0.0);
 #endif
-  disc = meanOf(disc_source).r;
+  disc = meanOf(disc_source).rg;
 }
