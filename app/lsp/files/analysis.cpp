@@ -29,6 +29,14 @@ std::string pathOf(const base::Diagnostic& diagnostic, const std::string& root) 
   return diagnostic.place.file && diagnostic.place.line > 0 ? pathKey(*diagnostic.place.file) : root;
 }
 
+// Of a pass, described or expanded.
+template <class Pass>
+std::vector<std::string> shaderFilesOf(const Pass& pass, graph::ShaderShape shape) {
+  if (!pass.vertexShader.empty()) return {pass.shader, pass.vertexShader};
+  if (shape == graph::ShaderShape::draw) return {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+  return {pass.shader};
+}
+
 }  // namespace
 
 Analysis::Analysis(const Options& options, const Texts& texts, const Project& project)
@@ -37,20 +45,22 @@ Analysis::Analysis(const Options& options, const Texts& texts, const Project& pr
       project_(project),
       registry_(runtime::makeRegistry({}, factsOf(options))) {}
 
-// Graphs that are open and that no other open one includes or extends.
+// Graphs that are open and that no other open one includes or extends; of those that include each other in a circle, all.
 std::set<std::string> Analysis::roots() const {
-  std::set<std::string> roots, below;
+  std::map<std::string, std::set<std::string>> closures;
   for (const auto& [path, opened] : texts_.opened()) {
     const auto file = project_.index(path);
     if (!file || !file->isGraph) continue;
-    roots.insert(path);
-    for (const std::string& each : project_.closure(path))
-      if (each != path) below.insert(each);
+    std::vector<std::string> closure = project_.closure(path);
+    closures[path] = {closure.begin(), closure.end()};
   }
-  // Files that include each other in a circle are all looked at.
-  std::set<std::string> outer;
-  std::ranges::set_difference(roots, below, std::inserter(outer, outer.end()));
-  return outer.empty() ? roots : outer;
+  std::set<std::string> roots;
+  for (const auto& [path, files] : closures)
+    if (std::ranges::none_of(closures, [&](const auto& other) {
+          return other.second.contains(path) && !files.contains(other.first);
+        }))
+      roots.insert(path);
+  return roots;
 }
 
 std::set<std::string> Analysis::refresh(const std::set<std::string>& changed) {
@@ -76,6 +86,7 @@ std::set<std::string> Analysis::refresh(const std::set<std::string>& changed) {
 }
 
 void Analysis::look(const std::string& path, Graph& graph) {
+  base::takeUncompared();  // a new budget for nearest names: each look is a run of its own
   graph.said.clear();
   graph.files = {path};
   graph.current = false;
@@ -120,13 +131,9 @@ void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
     const graph::PassSpec& spec = flat.specs[step.pass];
     const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
-    std::vector<std::string> files{spec.shader};
-    if (!spec.vertexShader.empty())
-      files.push_back(spec.vertexShader);
-    else if (type->shader == graph::ShaderShape::draw)
-      files = {spec.shader + ".vert.glsl", spec.shader + ".frag.glsl"};
     std::vector<std::shared_ptr<const gl::ShaderSource>> stages;
-    for (const std::string& each : files) stages.push_back(source(graph, each, spec.shaderPlace));
+    for (const std::string& each : shaderFilesOf(spec, type->shader))
+      stages.push_back(source(graph, each, spec.shaderPlace));
     if (std::ranges::find(stages, nullptr) != stages.end()) continue;
     const auto mentions = [&](const std::string& name) {
       return std::ranges::any_of(stages, [&](const auto& stage) { return stage->mentions(name); });
@@ -173,12 +180,7 @@ void Analysis::checkFiles(Graph& graph, const graph::GraphDesc& desc) {
     if (pass.include && pass.include->graph) checkFiles(graph, *pass.include->graph);
     const auto type = std::ranges::find(registry_.passTypes, pass.type, &graph::PassType::name);
     if (pass.shader.empty() || type == registry_.passTypes.end()) continue;
-    std::vector<std::string> files{pass.shader};
-    if (!pass.vertexShader.empty())
-      files.push_back(pass.vertexShader);
-    else if (type->shader == graph::ShaderShape::draw)
-      files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
-    for (const std::string& each : files) source(graph, each, pass.shaderPlace);
+    for (const std::string& each : shaderFilesOf(pass, type->shader)) source(graph, each, pass.shaderPlace);
   }
 }
 
