@@ -163,6 +163,18 @@ def check_files(weft, report, folder):
     write_cases(folder, [{"name": "glow", "graph": GLOW, "mask": "none.png"}])
     test("--accept", says="none.png")
 
+    # Of two frames that are far from each other only those two run, where nothing is remembered; else the limits hold.
+    far, studio = [0, 4294967295], str(TOP / "graphs/studio.json")
+    write_cases(folder, [{"name": "far", "graph": GLOW, "frames": far}])
+    test("--accept", code=0, says="1 written")
+    report.check({"far_0000.png", "far_4294967295.png"} <= {f.name for f in folder.iterdir()}, f"{list(folder.iterdir())}")
+    write_cases(folder, [{"name": "many", "graph": GLOW, "frames": list(range(10))}])
+    limited = test("--limit", "texture_bytes=92159", says="the pictures of 10 frames take 92160 bytes")
+    report.check(limited.codes() == ["W201"], limited.err)
+    write_cases(folder, [{"name": "far", "graph": studio, "frames": far, "set": {"auto_exposure": True}}])
+    limited = test(says="4294967296 frames would run, because the graph remembers what came before")
+    report.check(limited.codes() == ["W201"] and "some.cases.json:" in limited.err, limited.err)
+
     # A picture of NaN has a warning, and so differs.
     nan = {"resources": {"picture": {"texture": "rgba16f", "size": [8, 8]}}, "present": "picture",
            "passes": [{"name": "nan", "type": "fullscreen", "shader": "nan.frag.glsl", "write": {"result": "picture"}}]}
