@@ -221,6 +221,13 @@ std::string TestCase::goldenOf(std::uint32_t frame) const {
   return folder + (frames.size() == 1 ? name : fmt::format("{}_{:04}", name, frame)) + ".png";
 }
 
+std::vector<std::string> TestCase::acceptedFiles() const {
+  if (plan) return {planGolden()};
+  std::vector<std::string> files{recordFile()};
+  for (const std::uint32_t frame : frames) files.push_back(goldenOf(frame));
+  return files;
+}
+
 std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
   std::error_code ignored;

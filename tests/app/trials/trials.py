@@ -4,6 +4,7 @@
     trials.py WEFT
 """
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -162,6 +163,45 @@ def check_files(weft, report, folder):
     shutil.rmtree(forged)
     write_cases(folder, [{"name": "glow", "graph": GLOW, "mask": "none.png"}])
     test("--accept", says="none.png")
+
+    # --accept writes over no golden of another case, no mask, no picture or text that a graph reads, and nothing of cases that do not run.
+    shown = {"resources": {"photo": {"import": "image", "file": "sky.png"}, "ldr": {"texture": "rgba8", "size": "screen"}},
+             "passes": [{"name": "show", "type": "blit", "read": {"source": "photo"}, "write": {"destination": "ldr"}}], "present": "ldr"}
+    shown = write_graph(folder, "shown", json.dumps(shown), {})
+    shown.rename(folder / "shown.json")
+    write_mask(folder / "sky.png", 64, 36, lambda x, y: True)
+    (folder / "over.txt").write_text(json.dumps({"extends": GLOW, "set": {"threshold": 2}}))
+    (folder / "top.json").write_text(json.dumps({"extends": "over.txt", "set": {"bloom": False}}))
+    sky = {"name": "sky", "graph": "shown.json"}
+    for cases, code, only in (([{"name": "a", "graph": GLOW, "frames": [0, 1]}, {"name": "a_0001", "graph": GLOW, "frame": 1}], "W009", []),
+                              ([{"name": "sky", "graph": GLOW, "mask": "sky.png"}], "W180", []), ([sky], "W180", []),
+                              ([{"name": "over", "graph": "top.json", "plan": True}], "W180", []),
+                              ([{"name": "sky", "graph": GLOW}, {"name": "other", "graph": GLOW, "mask": "sky.png"}], "W180", ["--only", "sky"])):
+        write_cases(folder, cases)
+        before = {f.name: f.read_bytes() for f in folder.iterdir() if f.is_file()}
+        refused = test("--accept", *only)
+        report.check(refused.codes() == [code] and before == {f.name: f.read_bytes() for f in folder.iterdir() if f.is_file()}, f"{cases}: {refused.err}")
+    write_cases(folder, [{**sky, "name": "elsewhere"}])
+    test("--accept", code=0)
+    # A golden plan that cannot be read is written anew, as a picture is.
+    write_cases(folder, [{"name": "plan", "graph": GLOW, "plan": True}])
+    with temporary_folder() as elsewhere:
+        (folder / "plan.txt").symlink_to(f"{elsewhere}/plan.txt")
+        (folder / "plan.txt").write_text("another plan\n")
+        test("--confine", folder, says="W200")
+        test("--accept", "--confine", folder, code=0, says="could not be read, and is written anew")
+        test(code=0)
+    (folder / "plan.txt").unlink()
+
+    # Records and plans move no cursor, however they came about.
+    write_cases(folder, [{"name": "forged", "graph": GLOW}])
+    test("--accept", code=0)
+    write_cases(folder, [{"name": "forged", "graph": GLOW, "set": {"threshold": 0.25}}, {"name": "long", "graph": GLOW, "plan": True}])
+    (folder / "long.txt").write_text("x" * 100000 + "\n")
+    record = (folder / "forged.passes").read_text()
+    (folder / "forged.passes").write_text(record.replace("frame 0\n", f"frame 0\n{'0' * 16}\t-\t\x1b]0;title\x07\thdr\n"))
+    result = test(code=1, says="\\x1b]0;title")
+    report.check(not set("\x1b\x07") & set(result.out) and len(result.out) < 4000, f"{len(result.out)} {result.out[:4000]!r}")
 
     # Of two frames that are far from each other only those two run, where nothing is remembered; else the limits hold.
     far, studio = [0, 4294967295], str(TOP / "graphs/studio.json")
