@@ -193,6 +193,21 @@ def check_files(weft, report, folder):
         test(code=0)
     (folder / "plan.txt").unlink()
 
+    # Words of a person's own folder, and of the one where the command is started, are no presets of a case.
+    (folder / "own/weft/presets").mkdir(parents=True)
+    (folder / "own/weft/presets/mine.json").write_text('{ "set": { "threshold": 7 } }')
+    own = {"folder": folder, "env": {**os.environ, "XDG_CONFIG_HOME": str(folder / "own")}}
+    preset = {"name": "preset", "graph": str(TOP / "graphs/studio.json"), "plan": True}
+    write_cases(folder, [{**preset, "preset": ["plain"]}])
+    test("--accept", code=0)
+    for place in ("plain", "own/weft/presets/plain.json"):
+        (folder / place).write_text('{ "set": {} }')
+    result = run(weft, "test", folder, **own)
+    report.check(result.code == 0, f"a case's preset depends on who runs it: {result.out}{result.err}")
+    write_cases(folder, [{**preset, "preset": ["mine"]}])
+    result = run(weft, "test", folder, **own)
+    report.check(result.code == 2 and result.codes() == ["W001"], f"a preset that only one person has: {result.out}{result.err}")
+
     # Records and plans move no cursor, however they came about.
     write_cases(folder, [{"name": "forged", "graph": GLOW}])
     test("--accept", code=0)
