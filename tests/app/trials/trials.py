@@ -317,6 +317,9 @@ def check_fuzz(weft, report, folder):
     report.check(result.code == 1 and "--poison none" in result.out and "double" in result.out, result.out + result.err)
     report.check("--order 1:2" in result.out, f"only the two passes are left: {result.out}")
     repeat_it(weft, report, result)
+    result = run(weft, "fuzz", half, "--size", SIZE, "--runs", "1", "--backend", "osmesa", "--limit", "include_files=7", "--program-cache", "none")
+    report.check(result.code == 1 and "--backend osmesa --program-cache none --limit include_files=7" in result.out, result.out + result.err)
+    repeat_it(weft, report, result)
     report.check(run(weft, "fuzz", order, "--size", SIZE, "--seed", "0", "--poison", "none").code == 0, "in the declared order there is nothing to find")
 
 
@@ -343,6 +346,11 @@ def check_new(weft, report, folder):
             report.check(pictures[0] != pictures[1] == pictures[2], f"{graph}: the pass does what it says")
     again = run(weft, "new", "pass", "tint", "-o", here)
     report.check(again.code == 1 and "W180" in again.err, f"nothing is written over: {again.code}\n{again.err}")
+    # A file that JSON, which is UTF-8, cannot name.
+    strange = os.fsencode(folder) + b"/g\xff.json"
+    shutil.copy(GLOW, strange)
+    result = run(weft, "new", "pass", "tint", "--graph", os.fsdecode(strange), "-o", folder / "strange")
+    report.check(result.code == 1 and result.codes() == ["W180"] and "\\xff" in result.err and not (folder / "strange").exists(), f"{result.code}\n{result.err}")
     for name, code in (("9lives", "W012"), ("sky", "W009")):
         wrong = run(weft, "new", "pass", name, "-o", folder / "wrong")
         report.check(wrong.code == 1 and code in wrong.err and not (folder / "wrong").exists(), f"{name}: {wrong.err}")
