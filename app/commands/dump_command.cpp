@@ -8,6 +8,7 @@
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
 #include "app/session/device_session.h"
+#include "app/session/frame_limit.h"
 #include "app/session/pick_outputs.h"
 #include "app/session/session.h"
 #include "engine/base/files/file.h"
@@ -85,7 +86,13 @@ int runDump(const Options& options) {
   runtime::Capture capture(renderer.device());
   std::vector<std::string> names(items.size());
   const std::uint32_t begin = execution.remembers(world) ? 0 : options.lastFrame;
-  for (std::uint32_t frame = begin; frame <= options.lastFrame && !diagnostics.hasErrors(); ++frame) {
+  if (!checkFrameCount(std::uint64_t{options.lastFrame} - begin + 1,
+                       graph::placeOfOption(fmt::format("--frames {}", options.lastFrame)), kRemembers,
+                       diagnostics))
+    return report(diagnostics);
+  // 64 bits, so that the last frame there is ends it.
+  for (std::uint64_t next = begin; next <= options.lastFrame && !diagnostics.hasErrors(); ++next) {
+    const auto frame = static_cast<std::uint32_t>(next);
     base::Diagnostics said;
     if (frame == options.lastFrame)
       capture.start(execution, items, [&](std::size_t item, runtime::Inspector& inspector) {

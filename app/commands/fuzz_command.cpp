@@ -3,6 +3,7 @@
 
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
+#include "app/session/command_line.h"
 #include "app/session/option_checks.h"
 #include "app/session/option_parts.h"
 #include "app/trials/device_run.h"
@@ -12,6 +13,7 @@
 #include "engine/assets/images/compare.h"
 #include "engine/assets/images/flip.h"
 #include "engine/base/counted.h"
+#include "engine/base/limits.h"
 #include "engine/base/printable.h"
 
 namespace weft::app {
@@ -134,9 +136,7 @@ class Fuzzer {
         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                "_-./=:,+@%") == std::string::npos)
       return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
+    return quotedForShell(word);
   }
 
   std::string settingsText() const {
@@ -151,6 +151,11 @@ class Fuzzer {
     for (const std::string& preset : options_.presets) add("--preset", preset);
     for (const std::string& pass : options_.disables) add("--disable", pass);
     for (const graph::Setting& set : options_.sets) add("--set", set.name + "=" + set.text);
+    if (options_.backend != "auto") add("--backend", options_.backend);
+    add("--program-cache", options_.cacheFolder);
+    for (const base::LimitInfo& limit : base::allLimits())
+      if (const std::uint64_t value = base::limitOf(limit.limit); value != limit.initial)
+        add("--limit", fmt::format("{}={}", limit.name, value));
     return text;
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -104,13 +105,13 @@ struct Preset {
 // Of all folders; of two of one name that which --preset finds.
 std::vector<Preset> knownPresets(const std::string& own, base::Diagnostics& diagnostics) {
   std::vector<Preset> presets;
+  std::set<std::string> seen;  // also of files that cannot be read: --preset takes those, too
   for (const std::string& folder : presetFolders(own)) {
     std::error_code ec;
     for (auto entry = std::filesystem::directory_iterator(folder, ec);
          !ec && entry != std::filesystem::directory_iterator(); entry.increment(ec)) {
       const std::string path = entry->path().string(), name = entry->path().stem().string();
-      if (entry->path().extension() != ".json" || std::ranges::count(presets, name, &Preset::name) > 0)
-        continue;
+      if (entry->path().extension() != ".json" || !seen.insert(name).second) continue;
       const auto text = base::readTextFile(path, diagnostics);
       const auto root = text ? base::parseJson(*text, std::make_shared<const std::string>(path), diagnostics)
                              : std::nullopt;

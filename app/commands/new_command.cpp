@@ -9,6 +9,7 @@
 #include "app/output/file_batch.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
+#include "engine/base/json/edit.h"
 #include "engine/base/printable.h"
 #include "engine/graph/read/read.h"
 
@@ -50,6 +51,7 @@ std::optional<Anchor> findAnchor(const Options& options, const std::string& name
   return std::nullopt;
 }
 
+// `base` as JSON.
 std::string stanzaText(const std::string& name, const std::string& base, const Anchor& anchor) {
   return fmt::format(R"({{
   // An overlay: the graph below with one pass more. Run it with: weft view {0}.json
@@ -69,7 +71,7 @@ std::string stanzaText(const std::string& name, const std::string& base, const A
   ]
 }}
 )",
-                     name, nlohmann::json(base).dump(), anchor.after, anchor.texture);
+                     name, base, anchor.after, anchor.texture);
 }
 
 std::string shaderText(const std::string& name) {
@@ -121,15 +123,24 @@ int runNew(const Options& wanted) {
   if (!anchor) return report(diagnostics);
   const fs::path folder = options.trial.folder.empty() ? "." : options.trial.folder;
   std::error_code failed;
-  const fs::path base = fs::relative(options.graph, folder, failed);
+  const fs::path beside = fs::relative(options.graph, folder, failed);
   const std::string graphFile = (folder / (name + ".json")).lexically_normal().string();
   const std::string shaderFile =
       (folder / "shaders" / name / (name + ".frag.glsl")).lexically_normal().string();
-  const std::string extended = failed || base.empty() ? fs::absolute(options.graph).string() : base.string();
+  const std::string extended =
+      failed || beside.empty() ? fs::absolute(options.graph).string() : beside.string();
+  const std::string quoted = base::quoteJson(extended);
+  if (!nlohmann::json::accept(quoted)) {
+    base::Diagnostic& d =
+        diagnostics.error(base::Code::outputNotWritten, {std::make_shared<const std::string>(options.graph)},
+                          "the new graph cannot name this file: JSON is UTF-8, and its path is not");
+    d.hint = "give the file, or the folder it is in, another name";
+    return report(diagnostics);
+  }
   const bool free = isFree(graphFile, diagnostics);
   FileBatch batch;
   if (isFree(shaderFile, diagnostics) && free &&
-      batch.writeText(graphFile, stanzaText(name, extended, *anchor), diagnostics) &&
+      batch.writeText(graphFile, stanzaText(name, quoted, *anchor), diagnostics) &&
       batch.writeText(shaderFile, shaderText(name), diagnostics) && batch.publish(diagnostics)) {
     const std::string graph = base::printable(graphFile);
     print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, base::printable(shaderFile), graph, name));

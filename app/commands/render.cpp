@@ -13,9 +13,9 @@
 #include "app/output/standard_streams.h"
 #include "app/output/trace_recorder.h"
 #include "app/session/device_session.h"
+#include "app/session/frame_limit.h"
 #include "app/session/pick_outputs.h"
 #include "app/session/session.h"
-#include "engine/base/limits.h"
 
 namespace weft::app {
 
@@ -25,19 +25,10 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Whether so many frames may run: the limit `frames`. `why`: more than asked for.
-bool checkFrameCount(const Options& options, std::uint64_t count, const char* why,
-                     base::Diagnostics& diagnostics) {
-  const std::uint64_t limit = base::limitOf(base::Limit::frames);
-  if (count <= limit) return true;
-  auto& d = diagnostics.error(
-      base::Code::limitExceeded,
-      graph::placeOfOption(options.firstFrame == options.lastFrame
-                               ? fmt::format("--frames {}", options.firstFrame)
-                               : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame)),
-      fmt::format("{} frames would run{}, the limit 'frames' is {}", count, why, limit));
-  d.hint = base::hintToRaise(base::Limit::frames, count);
-  return false;
+base::Place placeOfFrames(const Options& options) {
+  return graph::placeOfOption(options.firstFrame == options.lastFrame
+                                  ? fmt::format("--frames {}", options.firstFrame)
+                                  : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame));
 }
 
 }  // namespace
@@ -49,7 +40,8 @@ int runRender(const Options& options) {
   if (whole)
     checkOutput(options.output, options.firstFrame, options.lastFrame > options.firstFrame, diagnostics);
   PickOutputs(options).check(diagnostics);
-  checkFrameCount(options, std::uint64_t{options.lastFrame} - options.firstFrame + 1, "", diagnostics);
+  checkFrameCount(std::uint64_t{options.lastFrame} - options.firstFrame + 1, placeOfFrames(options), {},
+                  diagnostics);
   int exitCode = 0;
   auto opened = openGraph(options, diagnostics, exitCode);
   if (!opened) return exitCode;
@@ -71,7 +63,7 @@ int runRender(const Options& options) {
   std::vector<OutputFile> outputs = {{"-o", options.output, options.firstFrame, options.lastFrame},
                                      {"--trace", options.trace}};
   picks.append(outputs);
-  if (!checkFrameCount(options, total, ", because the graph remembers what came before", diagnostics) ||
+  if (!checkFrameCount(total, placeOfFrames(options), kRemembers, diagnostics) ||
       !checkDistinct(outputs, filesReadBy(options, session->renderer, world), diagnostics) ||
       !makeFolders(options.output, options.firstFrame, options.lastFrame, diagnostics) ||
       !picks.makeAllFolders(diagnostics) || !picks.start(session->renderer, diagnostics))

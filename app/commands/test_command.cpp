@@ -28,7 +28,9 @@ const char* wordOf(State state) {
 void printResult(const TestCase& test, const CaseResult& result) {
   print(fmt::format("{:8}{}\n", wordOf(result.state), test.name));
   for (const std::string& line : result.lines) print(fmt::format("        {}\n", base::printable(line)));
-  if (result.first) print(fmt::format("        first that differs: {}\n", result.first->text()));
+  if (result.first)
+    print(fmt::format("        first that differs: {}\n",
+                      base::shortened(base::printable(result.first->text()))));
   flushPrinted();
 }
 
@@ -38,22 +40,31 @@ bool isWanted(const TestCase& test, const std::vector<std::string>& only) {
          });
 }
 
-// The cases to run; what is wrong with any of them ends the run.
-std::vector<TestCase> chooseCases(const Options& options, base::Diagnostics& diagnostics) {
+struct Cases {
   std::vector<TestCase> all, wanted;
+};
+
+// The cases to run; what is wrong with any of them ends the run.
+Cases chooseCases(const Options& options, base::Diagnostics& diagnostics) {
+  Cases cases;
+  std::vector<TestCase>&all = cases.all, &wanted = cases.wanted;
   for (const std::string& file : findCaseFiles(options.trial.folder, diagnostics))
     readCases(file, options, all, diagnostics);
   std::vector<std::string> names;
   std::map<std::string, const TestCase*> goldens;
   for (const TestCase& test : all) {
     names.push_back(test.name);
-    const auto [known, fresh] = goldens.emplace(test.plan ? test.planGolden() : test.recordFile(), &test);
-    if (!fresh)
+    for (const std::string& file : test.acceptedFiles()) {
+      const auto [known, fresh] = goldens.emplace(file, &test);
+      if (fresh) continue;
+      const TestCase& other = *known->second;
       diagnostics
           .error(base::Code::duplicateName, test.place,
-                 fmt::format("'{}' is also a case of '{}', and both have one golden", test.name,
-                             known->second->place.file ? *known->second->place.file : ""))
+                 fmt::format("the cases '{}' and '{}' of '{}' have one golden, '{}'", test.name, other.name,
+                             other.place.file ? *other.place.file : "", file))
           .hint = "give one of them another name";
+      break;
+    }
     if (isWanted(test, options.trial.only)) wanted.push_back(test);
   }
   if (wanted.empty() && !diagnostics.hasErrors()) {
@@ -62,7 +73,7 @@ std::vector<TestCase> chooseCases(const Options& options, base::Diagnostics& dia
         all.empty() ? "there are no cases" : "no case has such a name");
     if (!all.empty()) d.hint = base::nearestHint(options.trial.only.front(), names);
   }
-  return wanted;
+  return cases;
 }
 
 // Without ".png": where -o puts the picture of a case.
@@ -71,23 +82,29 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
                      test.frames.size() > 1 ? fmt::format("_{:04}", frame) : "");
 }
 
-// That what --report and -o write is none of the files that the cases are made of, and each picture another file.
-bool checkOutputs(const Options& options, const std::vector<TestCase>& cases,
-                  base::Diagnostics& diagnostics) {
+// That what --report, -o and --accept write is none of the files that the cases are made of, also of those that do not run, and
+// each picture another file. What a graph names is known when it is loaded: CaseRunner looks at that.
+bool checkOutputs(const Options& options, const Cases& cases, base::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
   std::vector<std::string> inputs, made;
   if (!options.trial.report.empty()) outputs.push_back({"--report", options.trial.report});
-  for (const TestCase& test : cases) {
+  for (const TestCase& test : cases.all) {
     inputs.insert(inputs.end(),
                   {test.options.graph, test.options.scene, test.options.materials, test.options.environment});
     inputs.insert(inputs.end(), {test.mask, test.place.file ? *test.place.file : std::string()});
-    inputs.insert(inputs.end(), {test.planGolden(), test.recordFile()});
-    if (options.trial.accept) made.push_back(test.plan ? test.planGolden() : test.recordFile());
+    inputs.insert(inputs.end(), test.options.presets.begin(), test.options.presets.end());
+    const std::vector<std::string> goldens = test.acceptedFiles();
+    if (!options.trial.accept || !isWanted(test, options.trial.only))
+      inputs.insert(inputs.end(), goldens.begin(), goldens.end());
+  }
+  for (const TestCase& test : cases.wanted) {
+    if (options.trial.accept)
+      for (const std::string& file : test.acceptedFiles()) {
+        made.push_back(file);
+        outputs.push_back({"--accept", file});
+      }
     for (const std::uint32_t frame : test.frames) {
-      inputs.push_back(test.goldenOf(frame));
-      if (test.plan) continue;
-      if (options.trial.accept) made.push_back(test.goldenOf(frame));
-      if (options.output.empty()) continue;
+      if (options.output.empty() || test.plan) continue;
       for (const char* end : {".png", "_flip.png"}) {
         made.push_back(leftName(options.output, test, frame) + end);
         outputs.push_back({"-o", made.back()});
@@ -119,8 +136,9 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
 
 int runTest(const Options& options) {
   base::Diagnostics diagnostics;
-  const std::vector<TestCase> cases = chooseCases(options, diagnostics);
-  if (diagnostics.hasErrors() || !checkOutputs(options, cases, diagnostics)) {
+  const Cases chosen = chooseCases(options, diagnostics);
+  const std::vector<TestCase>& cases = chosen.wanted;
+  if (diagnostics.hasErrors() || !checkOutputs(options, chosen, diagnostics)) {
     report(diagnostics);
     return 2;
   }

@@ -22,23 +22,14 @@ void readType(const std::string& type, OptionText& option) {
       at = end + 1;
     }
   const std::size_t colon = type.find(':');
-  option.value = colon == std::string::npos || !option.choices.empty() ? "VALUE" : type.substr(colon + 1);
+  const bool named =
+      option.choices.empty() && (colon != std::string::npos || type == "FILE" || type == "FOLDER");
+  option.value = !named ? "VALUE" : colon == std::string::npos ? type : type.substr(colon + 1);
+  option.kind = option.value == "FILE" ? "file" : option.value == "FOLDER" ? "folder" : "";
 }
 
-// What the words of a description say of the value, for shells: a file, a folder.
-const char* kindOf(const OptionText& option) {
-  const std::string& name = option.names.empty() ? option.value : option.names[0];
-  if (option.value == "FOLDER" || name == "--program-cache") return "folder";
-  for (const char* file : {"--scene", "--environment", "--materials", "--output", "--trace", "--screenshot",
-                           "--record", "--preset", "--workload", "--frame", "--edit"})
-    if (name == file) return "file";
-  return option.names.empty() && option.value != "name" ? "file" : "";
-}
-
-std::string quotedForShell(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
+bool isInner(const CommandText& command) {
+  return command.name.find(' ') != std::string::npos;
 }
 
 std::string namesOf(const CommandText& command) {
@@ -49,42 +40,53 @@ std::string namesOf(const CommandText& command) {
 }
 
 std::string bashScript(const std::vector<CommandText>& commands) {
-  std::string names, options, values;
+  std::string names, nested, options, values;
   for (const CommandText& command : commands) {
-    names += (names.empty() ? "" : " ") + command.name;
-    options += fmt::format("    {}) options={} ;;\n", command.name, quotedForShell(namesOf(command)));
+    const std::string quoted = quotedForShell(command.name);
+    if (isInner(command))
+      nested += fmt::format("        {}) command={} ;;\n", quoted, quoted);
+    else
+      names += (names.empty() ? "" : " ") + command.name;
+    options += fmt::format("    {}) options={} inner={} ;;\n", quoted, quotedForShell(namesOf(command)),
+                           quotedForShell(fmt::format("{}", fmt::join(command.inner, " "))));
     for (const OptionText& option : command.options) {
       if (option.names.empty() || option.value.empty()) continue;
       std::string patterns;
       for (const std::string& name : option.names)
-        patterns += fmt::format("{}{}:{}", patterns.empty() ? "" : " | ", command.name, name);
-      const std::string kind = kindOf(option);
+        patterns +=
+            fmt::format("{}{}", patterns.empty() ? "" : " | ", quotedForShell(command.name + ":" + name));
       const std::string action =
           !option.choices.empty()
               ? fmt::format("words={}", quotedForShell(fmt::format("{}", fmt::join(option.choices, " "))))
-          : kind == "file"   ? "files=yes"
-          : kind == "folder" ? "folders=yes"
-                             : "any=yes";
+          : option.kind == "file"   ? "files=yes"
+          : option.kind == "folder" ? "folders=yes"
+                                    : "any=yes";
       values += fmt::format("    {}) {} ;;\n", patterns, action);
     }
   }
   return fmt::format(R"(# bash completion of weft, made by `weft completion bash`.
 _weft() {{
-  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} command= options= words= files= folders= any= i
+  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} command= options= inner= words= files= folders= any= i
   # --option=value comes in three words.
   if [ "$current" = = ]; then current=; elif [ "$previous" = = ]; then previous=${{COMP_WORDS[COMP_CWORD-2]}}; fi
   for ((i = 1; i < COMP_CWORD; ++i)); do
-    case ${{COMP_WORDS[i]}} in -*) ;; *) command=${{COMP_WORDS[i]}}; break ;; esac
+    case ${{COMP_WORDS[i]}} in -*) continue ;; esac
+    if [ -z "$command" ]; then
+      command=${{COMP_WORDS[i]}}
+    else
+      case "$command ${{COMP_WORDS[i]}}" in
+{}      esac
+    fi
   done
   COMPREPLY=()
   if [ -z "$command" ]; then
     COMPREPLY=($(compgen -W {} -- "$current"))
     return
   fi
-  case $command in
+  case "$command" in
 {}    *) return ;;
   esac
-  case $command:$previous in
+  case "$command:$previous" in
 {}  esac
   if [ -n "$words" ]; then
     COMPREPLY=($(compgen -W "$words" -- "$current"))
@@ -95,6 +97,8 @@ _weft() {{
     :
   elif [ -z "$files" ] && [ "${{current#-}}" != "$current" ]; then
     COMPREPLY=($(compgen -W "$options" -- "$current"))
+  elif [ -z "$files" ] && [ -n "$inner" ]; then
+    COMPREPLY=($(compgen -W "$inner" -- "$current"))
   else
     compopt -o filenames 2>/dev/null || true
     mapfile -t COMPREPLY < <(compgen -f -- "$current")
@@ -102,7 +106,7 @@ _weft() {{
 }}
 complete -F _weft weft
 )",
-                     quotedForShell(names + " --help --version"), options, values);
+                     nested, quotedForShell(names + " --help --version"), options, values);
 }
 
 std::string withoutBrackets(const std::string& text) {
@@ -113,18 +117,21 @@ std::string withoutBrackets(const std::string& text) {
 }
 
 std::string zshScript(const std::vector<CommandText>& commands) {
-  std::string list, cases;
+  std::string list, nested, cases;
   for (const CommandText& command : commands) {
-    list += fmt::format("    {}\n",
-                        quotedForShell(fmt::format("{}:{}", command.name, withoutBrackets(command.doc))));
+    if (isInner(command))
+      nested += fmt::format("          {0}) name={0}; shift words; (( --CURRENT )) ;;\n",
+                            quotedForShell(command.name));
+    else
+      list += fmt::format("    {}\n",
+                          quotedForShell(fmt::format("{}:{}", command.name, withoutBrackets(command.doc))));
     std::string specs;
     int position = 0;
     for (const OptionText& option : command.options) {
-      const std::string kind = kindOf(option);
       const std::string action = !option.choices.empty() ? fmt::format("({})", fmt::join(option.choices, " "))
-                                 : kind == "file"        ? "_files"
-                                 : kind == "folder"      ? "_files -/"
-                                                         : "";
+                                 : option.kind == "file" ? "_files"
+                                 : option.kind == "folder" ? "_files -/"
+                                                           : "";
       if (option.names.empty()) {
         specs += fmt::format(
             " \\\n        {}",
@@ -141,7 +148,10 @@ std::string zshScript(const std::vector<CommandText>& commands) {
                     ? ""
                     : fmt::format(":{}:{}", withoutBrackets(option.value), action.empty() ? " " : action))));
     }
-    cases += fmt::format("      {}) _arguments{} ;;\n", command.name, specs);
+    if (!command.inner.empty())
+      specs += fmt::format(" \\\n        {}",
+                           quotedForShell(fmt::format("1:command:({})", fmt::join(command.inner, " "))));
+    cases += fmt::format("      {}) _arguments{} ;;\n", quotedForShell(command.name), specs);
   }
   return fmt::format(R"(#compdef weft
 # zsh completion of weft, made by `weft completion zsh`.
@@ -154,34 +164,47 @@ _weft() {{
   case $state in
     command) _describe command commands ;;
     argument)
-      case $line[1] in
+      local name=$line[1]
+      # A command of a command: its words begin there.
+      if (( CURRENT > 2 )); then
+        case "$name $words[2]" in
+{}        esac
+      fi
+      case $name in
 {}      esac ;;
   esac
 }}
 _weft "$@"
 )",
-                     list, cases);
+                     list, nested, cases);
 }
 
 std::string fishScript(const std::vector<CommandText>& commands) {
   std::string text = "# fish completion of weft, made by `weft completion fish`.\n";
-  for (const CommandText& command : commands)
-    text += fmt::format("complete -c weft -f -n __fish_use_subcommand -a {} -d {}\n", command.name,
-                        quotedForShell(command.doc));
+  for (const CommandText& command : commands) {
+    const std::size_t space = command.name.find(' ');
+    const std::string outer = command.name.substr(0, space);
+    text += fmt::format(
+        "complete -c weft -f -n {} -a {} -d {}\n",
+        isInner(command) ? fmt::format("'__fish_seen_subcommand_from {}'", outer) : "__fish_use_subcommand",
+        isInner(command) ? command.name.substr(space + 1) : outer, quotedForShell(command.doc));
+  }
   for (const CommandText& command : commands)
     for (const OptionText& option : command.options) {
       if (option.names.empty()) continue;
-      text += fmt::format("complete -c weft -n '__fish_seen_subcommand_from {}'", command.name);
+      std::string condition = "__fish_seen_subcommand_from " + command.name;
+      if (const std::size_t space = condition.find(' ', condition.find(' ') + 1); space != std::string::npos)
+        condition.replace(space, 1, "; and __fish_seen_subcommand_from ");
+      text += fmt::format("complete -c weft -n {}", quotedForShell(condition));
       for (const std::string& name : option.names)
         text += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2))
                                        : fmt::format(" -s {}", name.substr(1));
-      const std::string kind = kindOf(option);
       if (!option.choices.empty())
         text += fmt::format(" -x -a {}", quotedForShell(fmt::format("{}", fmt::join(option.choices, " "))));
-      else if (kind == "folder")
+      else if (option.kind == "folder")
         text += " -x -a '(__fish_complete_directories)'";
       else if (!option.value.empty())
-        text += kind == "file" ? " -r" : " -x";
+        text += option.kind == "file" ? " -r" : " -x";
       text += fmt::format(" -d {}\n", quotedForShell(option.doc));
     }
   return text;
@@ -203,17 +226,37 @@ std::string roff(const std::string& text) {
 
 }  // namespace
 
-std::vector<CommandText> describeCommands(const CLI::App& app) {
+std::string quotedForShell(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::vector<CLI::App*> allCommands(CLI::App& app) {
+  std::vector<CLI::App*> commands;
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    commands.push_back(command);
+    const std::vector<CLI::App*> inner = allCommands(*command);
+    commands.insert(commands.end(), inner.begin(), inner.end());
+  }
+  return commands;
+}
+
+std::vector<CommandText> describeCommands(CLI::App& app) {
   std::vector<CommandText> commands;
-  for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (CLI::App* each : allCommands(app)) {
     CommandText command{.name = each->get_name(),
                         .doc = each->get_description(),
                         .footer = each->get_footer(),
-                        .options = {}};
+                        .options = {},
+                        .inner = {}};
+    if (each->get_parent() != &app) command.name = each->get_parent()->get_name() + " " + command.name;
+    for (const CLI::App* inner : allCommands(*each)) command.inner.push_back(inner->get_name());
     for (const CLI::Option* written : each->get_options()) {
       OptionText option{.names = {},
                         .value = {},
                         .choices = {},
+                        .kind = {},
                         .doc = written->get_description(),
                         .required = written->get_required()};
       for (const std::string& name : written->get_lnames()) option.names.push_back("--" + name);
@@ -222,7 +265,6 @@ std::vector<CommandText> describeCommands(const CLI::App& app) {
       if (takesValue) readType(written->get_type_name(), option);
       option.repeatable = written->get_items_expected_max() > 1;
       if (option.names.empty()) option.value = written->get_name(true);
-      if (option.value == "VALUE" && kindOf(option) == std::string_view("file")) option.value = "FILE";
       command.options.push_back(std::move(option));
     }
     commands.push_back(std::move(command));

@@ -44,15 +44,23 @@ std::string shown(const std::string& text) {
 // Whether there was one.
 bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  std::string title = command.get_name();
+  const auto take = [&](const CLI::App& part) {
+    for (const CLI::Option* option : part.get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  };
+  take(command);
+  for (const CLI::App* inner : command.get_subcommands()) {  // what was written: "pass" behind "new"
+    take(*inner);
+    title += " " + inner->get_name();
+  }
   bool told = false;
   for (int i = 2; i < argc; ++i) {
     const std::string argument = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
     if (!argument.starts_with("--") || std::ranges::find(names, argument) != names.end()) continue;
     const std::string near = base::nearestName(argument, names);
     printError(
-        fmt::format("weft {}: unknown option '{}'; {}\n", command.get_name(), shown(argument),
+        fmt::format("weft {}: unknown option '{}'; {}\n", title, shown(argument),
                     near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near)));
     told = true;
   }
@@ -127,6 +135,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
                    "image to write, .png or .exr; for several frames a pattern: f_%04d.png; NAME=FILE writes "
                    "a texture of "
                    "the graph: depth=depth.png, 'glow.mip[2]=glow.exr'; repeatable")
+      ->type_name("FILE")
       ->required();
   render->add_option(
       "--present", raw.present,
@@ -148,7 +157,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
           "name", options.patterns,
           "names of resources, or any suffix of theirs; * stands for any letters; hdr#2 is a version")
       ->required();
-  dump->add_option("-o,--output", options.output, "folder to write to")->required();
+  dump->add_option("-o,--output", options.output, "folder to write to")->required()->type_name("FOLDER");
   dump->add_option("--frames", raw.frames, "the frame to look at")
       ->check(CLI::Validator(checkFrame, "FRAME"));
   dump->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
@@ -171,9 +180,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   view->add_flag("--events", options.events, "say on standard output what happens, a line each, for scripts");
   view->add_flag("!--no-ui", options.ui, "no panels over the picture");
   view->add_option("--screenshot", options.screenshot,
-                   "picture to write of the last frame before closing, .png or .exr");
+                   "picture to write of the last frame before closing, .png or .exr")
+      ->type_name("FILE");
   view->add_option("--record", options.record,
-                   "write every frame from the first on, at a fixed step: f_%04d.png, or .exr");
+                   "write every frame from the first on, at a fixed step: f_%04d.png, or .exr")
+      ->type_name("FILE");
   view->add_option("--fps", options.fps, "frames per second of recordings")->check(numberFrom(1, 1000));
   view->add_flag("!--no-vsync", options.vsync, "do not wait for the screen's refresh");
   view->add_flag("--idle", options.idle, "draw only when something changed");
@@ -208,7 +219,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   CLI::App* diff = app.add_subcommand(
       "diff", "say how the plan of another graph differs: passes, barriers, bytes; exit 1 when it does");
   addGraphOptions(*diff, options, raw);
-  diff->add_option("other", options.otherGraph, "the other graph file")->required();
+  diff->add_option("other", options.otherGraph, "the other graph file")->required()->type_name("FILE");
 
   CLI::App* params =
       app.add_subcommand("params", "list the parameters of a graph: name, type, value, range, label");
@@ -236,14 +247,17 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   plan->add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
 
   CLI::App* bench = app.add_subcommand("bench", "measure; prints JSON");
-  bench->add_option("--workload", options.workloads,
-                    "neutral workload files ({textures, passes}); repeatable");
+  bench
+      ->add_option("--workload", options.workloads, "neutral workload files ({textures, passes}); repeatable")
+      ->type_name("FILE");
   bench
       ->add_option("--frame", options.frameGraph, "a graph file: the cost of its frame in full-screen copies")
+      ->type_name("FILE")
       ->excludes("--workload");
   bench
       ->add_option("--edit", options.editGraph,
                    "a graph file: what a changed parameter and a saved file cost before the next frame")
+      ->type_name("FILE")
       ->excludes("--workload")
       ->excludes("--frame");
   bench
@@ -254,25 +268,29 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       ->excludes("--workload")
       ->excludes("--frame")
       ->excludes("--edit");
-  bench->add_option("--environment", options.environment,
-                    "environment map for --frame and --edit, .hdr or .exr");
-  bench->add_option("--scene", options.scene, "scene file for --frame, --edit and --tasks");
+  bench
+      ->add_option("--environment", options.environment,
+                   "environment map for --frame and --edit, .hdr or .exr")
+      ->type_name("FILE");
+  bench->add_option("--scene", options.scene, "scene file for --frame, --edit and --tasks")
+      ->type_name("FILE");
   bench->add_option("--camera", options.camera, "camera of the scene for --frame, --edit and --tasks");
-  bench->add_option("--materials", options.materials, "material library for --frame and --edit");
+  bench->add_option("--materials", options.materials, "material library for --frame and --edit")
+      ->type_name("FILE");
   bench->add_option("--size", raw.size, "size of the screen for --frame and --edit")
       ->check(CLI::Validator(checkSize, "WxH"));
-  bench->add_option("--backend", options.backend, "where OpenGL comes from, for --frame and --edit")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
+  addBackendOptions(*bench, options);
 
   CLI::App* format =
       app.add_subcommand("format", "give graph files, overlays and presets the one layout, comments kept");
-  format->add_option("file", options.files, "JSON files")->required();
+  format->add_option("file", options.files, "JSON files")->required()->type_name("FILE");
   format->add_flag("--check", options.checkOnly,
                    "write nothing; exit 1 and name the first line that differs");
 
   CLI::App* lsp = app.add_subcommand(
       "lsp", "language server for editors, on standard input and output (docs/editors.md); needs no OpenGL");
-  lsp->add_option("--scene", options.scene, "scene that graphs are checked with (default: the bundled one)");
+  lsp->add_option("--scene", options.scene, "scene that graphs are checked with (default: the bundled one)")
+      ->type_name("FILE");
   lsp->add_option("--size", raw.size, "size of the screen")->check(CLI::Validator(checkSize, "WxH"));
   lsp->add_flag("--stdio", options.stdio, "as editors say it; there is no other way");
   lsp->footer("Example, for Neovim: vim.lsp.start({ name = 'weft', cmd = { 'weft', 'lsp' } })");
@@ -288,19 +306,22 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   addTrialCommands(app, options, raw);
   CLI::App* import = app.add_subcommand(
       "import", "make a graph and its shaders of an ISF file (.fs) or a user shader of mpv (.glsl, .hook)");
-  import->add_option("file", options.foreignFile, "the file; a .vs beside a .fs is read, too")->required();
+  import->add_option("file", options.foreignFile, "the file; a .vs beside a .fs is read, too")
+      ->required()
+      ->type_name("FILE");
   import->add_option("-o,--output", options.folder, "folder to write into; made where it is missing")
-      ->required();
+      ->required()
+      ->type_name("FOLDER");
   import->add_option("--image", options.images, "a picture for an input of the file; repeatable")
       ->check(CLI::Validator(checkSet, "NAME=FILE"));
   import->add_option("--name", options.newName, "name of the graph (default: that of the file)");
   import->add_flag("--overwrite", options.overwrite, "replace files that are there");
-  import->footer("example: weft import glow.fs -o glow --image inputImage=photo.png");
+  import->footer("Example: weft import glow.fs -o glow --image inputImage=photo.png");
 
   app.add_subcommand("schema", "print the JSON Schema of graph files");
   app.add_subcommand("types", "print the pass types and imports a graph may use");
 
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+  for (CLI::App* command : allCommands(app)) {
     command
         ->add_option("--confine", raw.folders,
                      "read only below this folder and those named on the command line, whatever files name; "

@@ -44,7 +44,8 @@ std::vector<std::string> presetFolders(const std::string& own) {
 std::string presetFile(const std::string& preset, const std::string& own) {
   std::error_code ignored;
   const bool name = !preset.empty() && preset.find_first_of("/.") == std::string::npos;
-  if (!name || std::filesystem::exists(preset, ignored)) return preset;
+  const auto here = std::filesystem::status(preset, ignored);
+  if (!name || (std::filesystem::exists(here) && !std::filesystem::is_directory(here))) return preset;
   std::string file;
   for (const std::string& folder : presetFolders(own)) {
     file = folder + "/" + preset + ".json";

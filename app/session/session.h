@@ -26,7 +26,7 @@ std::string presetsFolder();
 // ($XDG_CONFIG_HOME/weft/presets, else ~/.config/weft/presets), the bundled ones. They need not be there.
 std::vector<std::string> presetFolders(const std::string& own);
 
-// The file of a preset. A word that is no file is a name in one of the folders; of one that is in none, the message has the
+// The file of a preset. A word that is no file here, or a folder, is a name in one of the folders; of one that is in none, the message has the
 // nearest bundled one.
 std::string presetFile(const std::string& preset, const std::string& own);
 

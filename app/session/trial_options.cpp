@@ -32,14 +32,17 @@ void addTest(CLI::App& app, Options& options) {
       "test",
       "render the cases of *.cases.json and compare them with their goldens; exit 1 when one differs");
   test->add_option("folder", options.trial.folder, "a folder with *.cases.json, or one such file")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   test->add_option("--only", options.trial.only, "run the cases whose name contains this; repeatable");
   test->add_flag("--accept", options.trial.accept,
                  "write what is rendered as the goldens, and say what changed");
   test->add_option("--report", options.trial.report,
-                   "write a page of the failures: picture, golden, difference, first pass that differs");
+                   "write a page of the failures: picture, golden, difference, first pass that differs")
+      ->type_name("FILE");
   test->add_option("-o,--output", options.output,
-                   "folder for the picture and the difference of each case that fails");
+                   "folder for the picture and the difference of each case that fails")
+      ->type_name("FOLDER");
   addBackendOptions(*test, options);
   test->footer("Example: weft test tests/golden --report out/report.html");
 }
@@ -48,13 +51,16 @@ void addBisect(CLI::App& app, Options& options, RawOptions& raw) {
   CLI::App* bisect = addTrial(
       app, "bisect", "find the first pass whose output differs between two graphs, or two settings of one",
       options, raw);
-  bisect->add_option("other", options.otherGraph, "the other graph file (default: the same)");
+  bisect->add_option("other", options.otherGraph, "the other graph file (default: the same)")
+      ->type_name("FILE");
   bisect->add_option("--other-set", raw.otherSets, "set a parameter in the other graph alone; repeatable")
       ->check(CLI::Validator(checkSet, "NAME=VALUE"));
   bisect->add_option("--other-disable", options.trial.otherDisables,
                      "disable a pass in the other graph alone; repeatable");
-  bisect->add_option("--other-preset", options.trial.otherPresets,
-                     "lay an overlay over the other graph alone; repeatable");
+  bisect
+      ->add_option("--other-preset", options.trial.otherPresets,
+                   "lay an overlay over the other graph alone; repeatable")
+      ->type_name("FILE");
   bisect->footer("Example: weft bisect graphs/studio.json --size 320x180 --other-set threshold=2");
 }
 
@@ -97,8 +103,10 @@ void addNew(CLI::App& app, Options& options) {
   CLI::App* pass = made->add_subcommand(
       "pass", "write a graph with a pass of that name behind an existing graph, and its shader, commented");
   pass->add_option("name", options.name, "name of the pass: letters, digits and _")->required();
-  pass->add_option("--graph", options.graph, "the graph to extend (default: the bundled graphs/glow.json)");
-  pass->add_option("-o,--output", options.trial.folder, "folder to write into (default: here)");
+  pass->add_option("--graph", options.graph, "the graph to extend (default: the bundled graphs/glow.json)")
+      ->type_name("FILE");
+  pass->add_option("-o,--output", options.trial.folder, "folder to write into (default: here)")
+      ->type_name("FOLDER");
   pass->footer("Example: weft new pass tint -o out/tint");
 }
 

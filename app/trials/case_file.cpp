@@ -133,8 +133,10 @@ class CaseReader {
     readSize(fields, options);
     readFrames(fields, test);
     readNames(fields, "preset", [&](const JsonValue& item) {
+      // A word is a bundled preset whoever runs the case, and where: what lies here or is a person's own does not count.
       const bool word = item.text.find_first_of("/.") == std::string::npos;
-      options.presets.push_back(word ? presetFile(item.text, {}) : besideFile(item.textPlace(), item.text));
+      options.presets.push_back(word ? presetsFolder() + "/" + item.text + ".json"
+                                     : besideFile(item.textPlace(), item.text));
     });
     readNames(fields, "disable", [&](const JsonValue& item) {
       options.disables.push_back(item.text);
@@ -219,6 +221,13 @@ class CaseReader {
 
 std::string TestCase::goldenOf(std::uint32_t frame) const {
   return folder + (frames.size() == 1 ? name : fmt::format("{}_{:04}", name, frame)) + ".png";
+}
+
+std::vector<std::string> TestCase::acceptedFiles() const {
+  if (plan) return {planGolden()};
+  std::vector<std::string> files{recordFile()};
+  for (const std::uint32_t frame : frames) files.push_back(goldenOf(frame));
+  return files;
 }
 
 std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostics& diagnostics) {

@@ -22,6 +22,7 @@ struct Tolerance {
 
 struct TestCase {
   std::string name;
+  std::string folder;  // of the case file, with a slash behind it, or ""
   base::Place place;
   Options options;    // graph, scene, settings, size; paths as seen from here
   bool plan = false;  // compares the plan as text, not pictures
@@ -35,7 +36,8 @@ struct TestCase {
   std::string goldenOf(std::uint32_t frame) const;
   std::string planGolden() const { return folder + name + ".txt"; }
   std::string recordFile() const { return folder + name + ".passes"; }
-  std::string folder;  // of the case file, with a slash behind it, or ""
+  // All that --accept writes.
+  std::vector<std::string> acceptedFiles() const;
 };
 
 // The *.cases.json of a folder and those below it, by name; or the one file that `path` is. Empty after an error.

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 
+#include "app/output/output_files.h"
 #include "app/session/session.h"
 #include "engine/assets/images/compare.h"
 #include "engine/base/counted.h"
 #include "engine/base/files/file.h"
+#include "engine/base/printable.h"
 #include "engine/graph/print/text.h"
 
 namespace weft::app {
@@ -89,7 +91,7 @@ std::string firstLineOfDifference(const std::string& before, const std::string& 
   for (std::size_t i = 0; i < before.size() && i < after.size() && before[i] == after[i]; ++i)
     if (before[i] == '\n') ++line, begin = i + 1;
   const auto lineOf = [&](const std::string& text) {
-    return text.substr(begin, text.find('\n', begin) - begin);
+    return base::shortened(text.substr(begin, text.find('\n', begin) - begin));
   };
   return fmt::format("line {} is '{}', not '{}'", line, lineOf(after), lineOf(before));
 }
@@ -119,11 +121,16 @@ CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnost
   if (!plan || diagnostics.hasErrors()) return result;
   const std::string text = graph::dumpText(*plan), file = test.planGolden();
   const bool known = isThere(file);
-  const auto golden = known ? base::readFile(file, diagnostics) : std::nullopt;
+  base::Diagnostics unreadable;  // which ends with being written anew
+  const auto golden = known ? base::readFile(file, accept ? unreadable : diagnostics) : std::nullopt;
+  if (known && !golden && accept)
+    result.lines.push_back(fmt::format("'{}' could not be read, and is written anew", file));
   const bool same = golden && *golden == text;
   if (golden && !same) result.lines.push_back(firstLineOfDifference(*golden, text));
   if (!known) result.lines.push_back(fmt::format("there is no golden plan '{}' yet", file));
   if (accept) {
+    const OutputFile written{"--accept", file};
+    if (!checkDistinct({&written, 1}, plan->graph->files, diagnostics)) return result;
     result.state = same ? State::kept : State::written;
     if (!same) base::writeFile(file, text, diagnostics);
   } else {
@@ -204,6 +211,11 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diag
   if (!shot) return result;
   const PassRecords records = recordsOf(*shot, context_->device().driverKey);
   const std::string record = test.recordFile();
+  if (accept) {
+    std::vector<OutputFile> outputs;
+    for (const std::string& file : test.acceptedFiles()) outputs.push_back({"--accept", file});
+    if (!checkDistinct(outputs, shot->files, diagnostics)) return result;
+  }
   bool same = true;
   for (const auto& [frame, picture] : shot->pictures) {
     const bool fits = accept ? !acceptPair(test, frame, picture, result, diagnostics)

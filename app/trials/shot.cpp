@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/frame_limit.h"
 #include "app/session/session.h"
 #include "engine/base/counted.h"
 #include "engine/base/limits.h"
@@ -22,13 +23,19 @@ bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Di
   return false;
 }
 
-bool checkReach(std::uint32_t frame, base::Diagnostics& diagnostics) {
-  const std::uint64_t limit = base::limitOf(base::Limit::frames);
-  if (frame < limit) return true;
+// Whether the pictures of all frames may be held at once: the limit `texture_bytes`.
+bool checkPictures(const Options& options, std::uint64_t count, runtime::Renderer& renderer,
+                   base::Diagnostics& diagnostics) {
+  const gl::TextureDesc& desc = renderer.execution()->presented().desc;
+  const std::uint64_t limit = base::limitOf(base::Limit::texture_bytes);
+  const std::uint64_t bytes = count * desc.width * desc.height * 4;
+  if (count == 1 || bytes <= limit) return true;
   diagnostics
-      .error(base::Code::limitExceeded, {},
-             fmt::format("frame {} is beyond what one command runs, the limit 'frames' is {}", frame, limit))
-      .hint = base::hintToRaise(base::Limit::frames, std::uint64_t{frame} + 1);
+      .error(base::Code::limitExceeded, {std::make_shared<const std::string>(options.graph), 0, 0},
+             fmt::format("the pictures of {} frames take {} bytes, the limit 'texture_bytes' is {}", count,
+                         bytes, limit))
+      .hint = "compare fewer frames in a case, or smaller ones; " +
+              base::hintToRaise(base::Limit::texture_bytes, bytes);
   return false;
 }
 
@@ -76,7 +83,6 @@ void measure(runtime::Renderer& renderer, const runtime::World& world, const Opt
 
 std::optional<Shot> takeShot(gl::Context& context, const Options& options, const runtime::World& world,
                              const ShotWish& wish, base::Diagnostics& diagnostics) {
-  if (!checkReach(wish.frames.back(), diagnostics)) return std::nullopt;
   runtime::Renderer::Options wanted = rendererOptionsOf(options);
   wanted.compile = wish.compile;
   runtime::Renderer renderer(context, options.graph, std::move(wanted));
@@ -85,10 +91,23 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
   runtime::Execution& execution = *renderer.execution();
   Shot shot;
   shot.plan = std::make_shared<const graph::Plan>(execution.plan());
+  shot.files = filesReadBy(options, renderer, world);
   runtime::StepRecorder recorder;
   if (!wish.keep.first.empty()) recorder.keep(wish.keep.first, wish.keep.second);
-  const std::uint32_t first = execution.remembers(world) ? 0 : wish.frames.front();
-  for (std::uint64_t frame = first; frame <= wish.frames.back(); ++frame) {
+  const bool remembers = execution.remembers(world);
+  const std::uint32_t first = remembers ? 0 : wish.frames.front(), last = wish.frames.back();
+  const std::uint64_t count = remembers ? std::uint64_t{last} + 1 : wish.frames.size();
+  if (!checkFrameCount(count, graph::placeOfOption(fmt::format("--frame {}", last)),
+                       remembers ? kRemembers : "", diagnostics) ||
+      !checkPictures(options, wish.frames.size(), renderer, diagnostics))
+    return std::nullopt;
+  // Where nothing is remembered, those between the frames to look at need not run.
+  const auto frameAfter = [&](std::uint64_t frame) -> std::uint64_t {
+    if (remembers) return frame + 1;
+    const auto next = std::ranges::upper_bound(wish.frames, static_cast<std::uint32_t>(frame));
+    return next == wish.frames.end() ? std::uint64_t{last} + 1 : *next;
+  };
+  for (std::uint64_t frame = first; frame <= last; frame = frameAfter(frame)) {
     const auto number = static_cast<std::uint32_t>(frame);
     const bool shown = std::ranges::find(wish.frames, number) != wish.frames.end();
     const bool keeps = !wish.keep.first.empty() && number == wish.keepFrame;

@@ -38,6 +38,7 @@ struct Shot {
   std::vector<FrameRecord> records;
   std::optional<runtime::WrittenTexels> kept;
   std::shared_ptr<const graph::Plan> plan;
+  std::vector<std::string> files;                  // that were read
   double milliseconds = 0;                         // of the fastest frame that was measured
   std::map<std::string, double> passMilliseconds;  // by declared name, of that frame
 };

@@ -11,9 +11,9 @@
 #include "app/live/live_environment.h"
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
+#include "app/session/frame_limit.h"
 #include "app/session/session.h"
 #include "app/view/viewer.h"
-#include "engine/base/limits.h"
 #include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
@@ -38,14 +38,8 @@ bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
 
 // Before the window opens. The frames of a recording have no end unless --max-frames gives one.
 bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
-  const std::uint64_t limit = base::limitOf(base::Limit::frames);
-  if (options.maxFrames > limit)
-    diagnostics
-        .error(base::Code::limitExceeded,
-               graph::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
-               fmt::format("{} frames would run, the limit 'frames' is {}", options.maxFrames, limit))
-        .hint = base::hintToRaise(base::Limit::frames, options.maxFrames) +
-                ", or leave --max-frames out: the window then stays until it is closed";
+  checkFrameCount(options.maxFrames, graph::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
+                  {}, diagnostics, ", or leave --max-frames out: the window then stays until it is closed");
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
   if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);
   return !diagnostics.hasErrors();

@@ -70,6 +70,15 @@ def main():
                 report.check(ran.code == 2 and says in ran.err and wrong in ran.err, f"{command[0]} --preset-folder {wrong}: {ran.code} {ran.err}")
         missing = run(weft, "check", graph, "--preset", "cinma", env=environment)
         report.check(missing.code == 1 and missing.codes() == ["W001"] and "cinema" in missing.err, f"a name that nobody has: {missing.err}")
+        # A folder where the command is started hides no preset; a file that cannot be read hides the bundled one here and there.
+        write("dim/x.json", "{}")
+        ran = run(weft, "check", graph, "--no-shaders", "--preset", "dim", folder=folder, env=environment)
+        report.check(ran.code == 0, f"a folder of a preset's name: {ran.code} {ran.err}")
+        (folder / "mine/evening.json").write_text("{")
+        listed = run(weft, "presets", "--json", "--preset-folder", folder / "mine", env=environment)
+        names = [each["name"] for each in json.loads(listed.out)]
+        ran = run(weft, "check", graph, "--no-shaders", "--preset-folder", folder / "mine", "--preset", "evening", env=environment)
+        report.check("evening" not in names and "negative" in names and "mine/evening.json" in listed.err and "mine/evening.json" in ran.err, f"{names} {listed.err} {ran.err}")
     report.end()
 
 

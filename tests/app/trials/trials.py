@@ -167,6 +167,72 @@ def check_files(weft, report, folder):
     write_cases(folder, [{"name": "glow", "graph": GLOW, "mask": "none.png"}])
     test("--accept", says="none.png")
 
+    # --accept writes over no golden of another case, no mask, no picture or text that a graph reads, and nothing of cases that do not run.
+    shown = {"resources": {"photo": {"import": "image", "file": "sky.png"}, "ldr": {"texture": "rgba8", "size": "screen"}},
+             "passes": [{"name": "show", "type": "blit", "read": {"source": "photo"}, "write": {"destination": "ldr"}}], "present": "ldr"}
+    shown = write_graph(folder, "shown", json.dumps(shown), {})
+    shown.rename(folder / "shown.json")
+    write_mask(folder / "sky.png", 64, 36, lambda x, y: True)
+    (folder / "over.txt").write_text(json.dumps({"extends": GLOW, "set": {"threshold": 2}}))
+    (folder / "top.json").write_text(json.dumps({"extends": "over.txt", "set": {"bloom": False}}))
+    sky = {"name": "sky", "graph": "shown.json"}
+    for cases, code, only in (([{"name": "a", "graph": GLOW, "frames": [0, 1]}, {"name": "a_0001", "graph": GLOW, "frame": 1}], "W009", []),
+                              ([{"name": "sky", "graph": GLOW, "mask": "sky.png"}], "W180", []), ([sky], "W180", []),
+                              ([{"name": "over", "graph": "top.json", "plan": True}], "W180", []),
+                              ([{"name": "sky", "graph": GLOW}, {"name": "other", "graph": GLOW, "mask": "sky.png"}], "W180", ["--only", "sky"])):
+        write_cases(folder, cases)
+        before = {f.name: f.read_bytes() for f in folder.iterdir() if f.is_file()}
+        refused = test("--accept", *only)
+        report.check(refused.codes() == [code] and before == {f.name: f.read_bytes() for f in folder.iterdir() if f.is_file()}, f"{cases}: {refused.err}")
+    write_cases(folder, [{**sky, "name": "elsewhere"}])
+    test("--accept", code=0)
+    # A golden plan that cannot be read is written anew, as a picture is.
+    write_cases(folder, [{"name": "plan", "graph": GLOW, "plan": True}])
+    with temporary_folder() as elsewhere:
+        (folder / "plan.txt").symlink_to(f"{elsewhere}/plan.txt")
+        (folder / "plan.txt").write_text("another plan\n")
+        test("--confine", folder, says="W200")
+        test("--accept", "--confine", folder, code=0, says="could not be read, and is written anew")
+        test(code=0)
+    (folder / "plan.txt").unlink()
+
+    # Words of a person's own folder, and of the one where the command is started, are no presets of a case.
+    (folder / "own/weft/presets").mkdir(parents=True)
+    (folder / "own/weft/presets/mine.json").write_text('{ "set": { "threshold": 7 } }')
+    own = {"folder": folder, "env": {**os.environ, "XDG_CONFIG_HOME": str(folder / "own")}}
+    preset = {"name": "preset", "graph": str(TOP / "graphs/studio.json"), "plan": True}
+    write_cases(folder, [{**preset, "preset": ["plain"]}])
+    test("--accept", code=0)
+    for place in ("plain", "own/weft/presets/plain.json"):
+        (folder / place).write_text('{ "set": {} }')
+    result = run(weft, "test", folder, **own)
+    report.check(result.code == 0, f"a case's preset depends on who runs it: {result.out}{result.err}")
+    write_cases(folder, [{**preset, "preset": ["mine"]}])
+    result = run(weft, "test", folder, **own)
+    report.check(result.code == 2 and result.codes() == ["W001"], f"a preset that only one person has: {result.out}{result.err}")
+
+    # Records and plans move no cursor, however they came about.
+    write_cases(folder, [{"name": "forged", "graph": GLOW}])
+    test("--accept", code=0)
+    write_cases(folder, [{"name": "forged", "graph": GLOW, "set": {"threshold": 0.25}}, {"name": "long", "graph": GLOW, "plan": True}])
+    (folder / "long.txt").write_text("x" * 100000 + "\n")
+    record = (folder / "forged.passes").read_text()
+    (folder / "forged.passes").write_text(record.replace("frame 0\n", f"frame 0\n{'0' * 16}\t-\t\x1b]0;title\x07\thdr\n"))
+    result = test(code=1, says="\\x1b]0;title")
+    report.check(not set("\x1b\x07") & set(result.out) and len(result.out) < 4000, f"{len(result.out)} {result.out[:4000]!r}")
+
+    # Of two frames that are far from each other only those two run, where nothing is remembered; else the limits hold.
+    far, studio = [0, 4294967295], str(TOP / "graphs/studio.json")
+    write_cases(folder, [{"name": "far", "graph": GLOW, "frames": far}])
+    test("--accept", code=0, says="1 written")
+    report.check({"far_0000.png", "far_4294967295.png"} <= {f.name for f in folder.iterdir()}, f"{list(folder.iterdir())}")
+    write_cases(folder, [{"name": "many", "graph": GLOW, "frames": list(range(10))}])
+    limited = test("--limit", "texture_bytes=92159", says="the pictures of 10 frames take 92160 bytes")
+    report.check(limited.codes() == ["W201"], limited.err)
+    write_cases(folder, [{"name": "far", "graph": studio, "frames": far, "set": {"auto_exposure": True}}])
+    limited = test(says="4294967296 frames would run, because the graph remembers what came before")
+    report.check(limited.codes() == ["W201"] and "some.cases.json:" in limited.err, limited.err)
+
     # A picture of NaN has a warning, and so differs.
     nan = {"resources": {"picture": {"texture": "rgba16f", "size": [8, 8]}}, "present": "picture",
            "passes": [{"name": "nan", "type": "fullscreen", "shader": "nan.frag.glsl", "write": {"result": "picture"}}]}
@@ -261,6 +327,9 @@ def check_fuzz(weft, report, folder):
     report.check(result.code == 1 and "--poison none" in result.out and "double" in result.out, result.out + result.err)
     report.check("--order 1:2" in result.out, f"only the two passes are left: {result.out}")
     repeat_it(weft, report, result)
+    result = run(weft, "fuzz", half, "--size", SIZE, "--runs", "1", "--backend", "osmesa", "--limit", "include_files=7", "--program-cache", "none")
+    report.check(result.code == 1 and "--backend osmesa --program-cache none --limit include_files=7" in result.out, result.out + result.err)
+    repeat_it(weft, report, result)
     report.check(run(weft, "fuzz", order, "--size", SIZE, "--seed", "0", "--poison", "none").code == 0, "in the declared order there is nothing to find")
 
 
@@ -287,6 +356,11 @@ def check_new(weft, report, folder):
             report.check(pictures[0] != pictures[1] == pictures[2], f"{graph}: the pass does what it says")
     again = run(weft, "new", "pass", "tint", "-o", here)
     report.check(again.code == 1 and "W180" in again.err, f"nothing is written over: {again.code}\n{again.err}")
+    # A file that JSON, which is UTF-8, cannot name.
+    strange = os.fsencode(folder) + b"/g\xff.json"
+    shutil.copy(GLOW, strange)
+    result = run(weft, "new", "pass", "tint", "--graph", os.fsdecode(strange), "-o", folder / "strange")
+    report.check(result.code == 1 and result.codes() == ["W180"] and "\\xff" in result.err and not (folder / "strange").exists(), f"{result.code}\n{result.err}")
     for name, code in (("9lives", "W012"), ("sky", "W009")):
         wrong = run(weft, "new", "pass", name, "-o", folder / "wrong")
         report.check(wrong.code == 1 and code in wrong.err and not (folder / "wrong").exists(), f"{name}: {wrong.err}")
