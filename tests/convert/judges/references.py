@@ -16,8 +16,8 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from pictures import read_png, write_png  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "app"))
+from pictures import png, read_png  # noqa: E402
 
 FOLDER = pathlib.Path(__file__).resolve().parents[1]
 PICTURES = FOLDER / "pictures"
@@ -34,8 +34,8 @@ def ask_isf(modules, chromium, case, size, out):
                    check=True, timeout=180)
     rgba, (width, height) = raw.read_bytes(), size
     raw.unlink()
-    rows = [rgba[4 * width * y:4 * width * (y + 1)] for y in reversed(range(height))]
-    write_png(out, width, height, b"".join(row[4 * x:4 * x + 3] for row in rows for x in range(width)))
+    texel = [tuple(rgba[at:at + 3]) for at in range(0, len(rgba), 4)]
+    out.write_bytes(png([texel[width * y:width * (y + 1)] for y in reversed(range(height))]))
 
 
 def ask_mpv(case, size, out):
@@ -76,9 +76,9 @@ def ask_mpv(case, size, out):
         finally:
             if player.poll() is None:
                 player.terminate()
-        width, height, rgb = read_png(shot)
-        assert [width, height] == size, (width, height)
-        write_png(out, width, height, rgb)
+        rows = read_png(shot.read_bytes())
+        assert [len(rows[0]), len(rows)] == size, (len(rows[0]), len(rows))
+        out.write_bytes(png([[texel[:3] for texel in row] for row in rows]))
 
 
 def main():
