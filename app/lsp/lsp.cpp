@@ -1,5 +1,6 @@
 #include "app/lsp/lsp.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "app/lsp/server.h"
@@ -17,7 +18,11 @@ int runLsp(const Options& options) {
   while (!server.ended()) {
     if (!reader.hasMore()) server.settle();
     const lsp::Incoming incoming = reader.next();
-    if (incoming.state == lsp::Incoming::State::ended) return 1;
+    if (incoming.state == lsp::Incoming::State::ended) {
+      printError(fmt::format("weft lsp: {}; editors end the server by 'shutdown' and 'exit'\n",
+                             incoming.text.empty() ? "the input ended without 'exit'" : incoming.text));
+      return 1;
+    }
     if (incoming.state == lsp::Incoming::State::broken)
       server.refuse(incoming.text);
     else

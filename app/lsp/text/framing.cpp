@@ -29,6 +29,10 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+Incoming cutOff(std::string_view what, const std::string& where) {
+  return {Incoming::State::ended, fmt::format("the input ended within {}{}", what, where)};
+}
+
 }  // namespace
 
 bool FrameReader::fill() {
@@ -90,7 +94,12 @@ Incoming FrameReader::next() {
   bool any = false;
   for (;;) {
     bool tooLong = false;
-    if (!readLine(line, tooLong)) return {};
+    if (!readLine(line, tooLong)) {
+      if (line.empty() && !any) return {};
+      return cutOff(
+          "the header of a message",
+          line.empty() ? "" : fmt::format(", which begins '{}'", base::printable(base::shortened(line))));
+    }
     if (tooLong && problem.empty()) problem = "a header line is too long";
     if (line.empty() && !any) continue;  // what is left over between messages
     if (line.empty()) break;
@@ -113,14 +122,15 @@ Incoming FrameReader::next() {
                             base::printable(base::shortened(std::string(digits))));
   }
   if (length && *length > kMostBytes) {
-    if (!skip(*length)) return {};
+    if (!skip(*length)) return cutOff("a message", fmt::format(" of {} bytes", *length));
     return {Incoming::State::broken,
             fmt::format("a message of {} bytes; the most are {}", *length, kMostBytes)};
   }
   if (!length)
     return {Incoming::State::broken, problem.empty() ? "a message without Content-Length" : problem};
   while (buffer_.size() - at_ < *length)
-    if (!fill()) return {};
+    if (!fill())
+      return cutOff("a message", fmt::format(", after {} of {} bytes", buffer_.size() - at_, *length));
   Incoming message{Incoming::State::message, buffer_.substr(at_, *length)};
   at_ += *length;
   return message;

@@ -12,7 +12,7 @@ namespace weft::app::lsp {
 struct Incoming {
   enum class State { message, broken, ended };
   State state = State::ended;
-  std::string text;  // the JSON; of a broken one what is wrong
+  std::string text;  // the JSON; of a broken one what is wrong; of an ended one what was cut off, or nothing
 };
 
 class FrameReader {

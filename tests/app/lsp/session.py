@@ -218,6 +218,8 @@ IGNORED = [  # notifications have no answer
 TEXTS = ["", "{", '{"passes": [{"name": "', "[" * 50_000, '{"a":' * 50_000, "\0\0\0", '{"passes": [' + '{"name": "a", "type": "fullscreen", "shader": "a", "read": {"x": "@@[[", "y": ".", "z": "a.."}},' * 50,
          '{"resources": {"a": ["a", "b"], "b": "a"}, "passes": [], "present": "a.b.c.mip[$"}', '{"extends": "odd.json"}', '{"passes": [{"include": "odd.json"}]}',
          '{"passes": [{"name": "a", "like": "b", "read": {"s": "x"}}, {"name": "b", "like": "a"}]}', '"\\', '{"passes": 7, "resources": 7, "let": []}', "é😀" * 1000]
+ENDS = [(b"", "without 'exit'"), (b"Content-Len", "within the header of a message, which begins 'Content-Len'"), (b"Content-Length: 5\r\n", "within the header"),
+        (b"Content-Length: 50\r\n\r\n{", "after 1 of 50 bytes"), (b"Content-Length: 99999999999\r\n\r\n{", "of 99999999999 bytes")]
 
 
 def check_hostile(weft, report, folder):
@@ -243,10 +245,12 @@ def check_hostile(weft, report, folder):
     editor.change("odd.json", [("5:0-2:0", "x"), ("0:1-0:1", "\"passes\": []")])
     editor.settle("odd.json")
     report.check(editor.published["odd.json"]["version"] == 2 and editor.end() == 0, f"{editor.published}")
-    # Without shutdown the end of the input is an error.
-    editor = Editor(weft, folder)
-    editor.process.stdin.close()
-    report.check(editor.process.wait(timeout=60) == 1, "the input ended without shutdown")
+    # Without shutdown the end of the input is an error, and a sentence says where it came.
+    for data, says in ENDS:
+        count_run()
+        ended = subprocess.run([weft, "lsp"], input=data, capture_output=True, timeout=60)
+        text = ended.stderr.decode()
+        report.check(ended.returncode == 1 and says in text and text.count("\n") == 1, f"the input {data!r} ends: {ended.returncode} {text}")
 
 
 def byte_of(text, where):
