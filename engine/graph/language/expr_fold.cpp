@@ -63,6 +63,7 @@ ExprPtr foldNode(const ExprPtr& node, EvalScope& scope, base::Diagnostics& diagn
   if (node->op == ExprOp::fact) {
     const std::optional<std::uint32_t> key = scope.ageKey(node->name);
     if (!key) {
+      if (scope.fact(Fact::age, node->name, node->place)) return nullptr;  // reported
       auto& d = diagnostics.error(Code::unknownVariable, node->place,
                                   fmt::format("age() of unknown resource '{}'", node->name));
       d.hint = base::nearestHint(node->name, scope.candidates(EvalScope::NameKind::fact_argument));

@@ -119,6 +119,8 @@ class Judge {
     const std::string thing = what(missing), subject = who(missing);
     const bool slot = missing.pass != kNone;
     if (missing.cause == MissingRead::Cause::condition) {
+      if (model_.toInclude)
+        return;  // what the reference stands for is bound by the file that includes this one
       if (auto* d = report(missing, Code::conditionLeavesSlotEmpty,
                            fmt::format("{}: slot '{}' is left empty, the condition of '{}' is false", subject,
                                        missing.slot, missing.ref->text)))

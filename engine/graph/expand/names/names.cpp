@@ -120,15 +120,17 @@ std::optional<Value> Names::builtin(std::string_view name) {
 }
 
 std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Place& place) {
-  if (fact == Fact::age) return std::nullopt;
   std::uint32_t index = findEntity(model_, scope_, resource, false);
-  if (index == kNone) index = findEntity(model_, scope_, resource, true);
+  // An input with nothing behind it is no import of its name.
+  if (index == kNone && !scope_.resources.contains(resource))
+    index = findEntity(model_, scope_, resource, true);
   if (index == kNone) {
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
     if (isUnread(scope_, resource) || scope_.resources.contains(resource)) return Value{};
     if (isUnincluded(model_, scope_, resource, place, kAsksOf)) return Value{};
     return std::nullopt;
   }
+  if (fact == Fact::age) return std::nullopt;  // known when the frame runs
   if (live && model_.entities[index].kind != ResourceDesc::Kind::alternatives &&
       model_.entities[index].state != Progress::done) {
     failed = true;
@@ -224,7 +226,8 @@ std::vector<std::string> Names::candidates(NameKind kind) {
 
 std::optional<std::uint32_t> Names::ageKey(std::string_view resource) {
   std::uint32_t index = findEntity(model_, scope_, resource, false);
-  if (index == kNone) index = findEntity(model_, scope_, resource, true);
+  if (index == kNone && !scope_.resources.contains(resource))
+    index = findEntity(model_, scope_, resource, true);
   if (index != kNone) index = staticTarget(model_, index);
   if (index == kNone || !ensureShape(model_, index)) return std::nullopt;
   return currentResource(model_, index, 0);
