@@ -9,6 +9,7 @@
 #include "app/trials/device_run.h"
 #include "app/trials/divergence.h"
 #include "engine/assets/images/flip.h"
+#include "engine/base/counted.h"
 
 namespace weft::app {
 
@@ -27,8 +28,8 @@ Options otherOf(const Options& options) {
 // "96 of 100 texels differ (96 %), by at most 0.5, on average by 0.2"
 std::string compareTexels(const runtime::WrittenTexels& a, const runtime::WrittenTexels& b) {
   if (a.values.size() != b.values.size() || a.stride != b.stride || a.width != b.width)
-    return fmt::format("{} texels, {} texels: another size or format", a.values.size() / a.stride,
-                       b.values.size() / b.stride);
+    return fmt::format("{}, {}: another size or format", base::counted(a.values.size() / a.stride, "texel"),
+                       base::counted(b.values.size() / b.stride, "texel"));
   std::size_t differ = 0, broken = 0;
   double most = 0, sum = 0;
   for (std::size_t i = 0; i < a.values.size(); i += a.stride) {
@@ -48,7 +49,8 @@ std::string compareTexels(const runtime::WrittenTexels& a, const runtime::Writte
   }
   const std::size_t texels = a.values.size() / a.stride;
   return fmt::format(
-      "{} of {} texels differ ({:.3g} %), by at most {:.4g}, on average by {:.4g}{}", differ, texels,
+      "{} of {} {} ({:.3g} %), by at most {:.4g}, on average by {:.4g}{}", differ,
+      base::counted(texels, "texel"), differ == 1 ? "differs" : "differ",
       100.0 * static_cast<double>(differ) / static_cast<double>(std::max<std::size_t>(1, texels)), most,
       sum / static_cast<double>(std::max<std::size_t>(1, a.values.size())),
       broken ? fmt::format("; {} of them are infinite or no number in one of the two", broken) : "");
@@ -64,7 +66,8 @@ std::string countSame(const Shot& shot, const Divergence& found) {
         before += !passed;
         ++all;
       }
-  return fmt::format("{} of {} results come before it and are the same", before, all);
+  return fmt::format("{} of {} {} before it and {} the same", before, base::counted(all, "result"),
+                     before == 1 ? "comes" : "come", before == 1 ? "is" : "are");
 }
 
 class Bisection {
@@ -79,7 +82,7 @@ class Bisection {
     const std::string& driver = context_.device().driverKey;
     const auto found = findDivergence(recordsOf(*a, driver), recordsOf(*b, driver));
     if (!found) {
-      print(fmt::format("no pass differs in {} frames\n", b->records.size()));
+      print(fmt::format("no pass differs in {}\n", base::counted(b->records.size(), "frame")));
       return 0;
     }
     print(fmt::format("first that differs: {}\n    {}\n", found->text(), countSame(*b, *found)));

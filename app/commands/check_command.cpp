@@ -13,6 +13,7 @@
 #include "app/commands/shader_check.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
+#include "engine/base/counted.h"
 #include "engine/base/files/file_watcher.h"
 #include "engine/base/printable.h"
 #include "engine/base/report.h"
@@ -88,8 +89,8 @@ std::string matrixText(const Options& options, const Checked& checked) {
   const graph::Matrix& matrix = *checked.matrix;
   std::string text;
   if (options.matrix) {
-    text = fmt::format("matrix: {} passes and {} pairs disabled, {} values set\n", matrix.passes,
-                       matrix.pairs, matrix.values);
+    text = fmt::format("matrix: {} and {} disabled, {} set\n", base::counted(matrix.passes, "pass"),
+                       base::counted(matrix.pairs, "pair"), base::counted(matrix.values, "value"));
     for (const graph::RefusedVariation& needed : matrix.needed)
       text += fmt::format("  needed: {}: {}\n",
                           base::printable(fmt::format("{}", fmt::join(needed.variation.disables, " or "))),
@@ -99,7 +100,7 @@ std::string matrixText(const Options& options, const Checked& checked) {
                 : fmt::format("  {} of these are refused without saying so\n", matrix.broken.size());
   }
   if (options.allVariants && options.shaders)
-    text += fmt::format("shaders: {} variants compiled\n", checked.variants);
+    text += fmt::format("shaders: {} compiled\n", base::counted(checked.variants, "variant"));
   return text;
 }
 
@@ -107,9 +108,10 @@ int tellText(const Options& options, Checked& checked) {
   const int code = report(checked.diagnostics);
   if (checked.matrix) print(matrixText(options, checked));
   if (code == 0)
-    print(fmt::format("{}: {} passes, {} run, {} textures share {} of {} declared bytes\n",
-                      base::printable(options.graph), checked.plan->graph->passes.size(),
-                      checked.plan->steps.size(), checked.plan->storages.size(), checked.plan->bytesAllocated,
+    print(fmt::format("{}: {}, {} run, {} {} {} of {} declared bytes\n", base::printable(options.graph),
+                      base::counted(checked.plan->graph->passes.size(), "pass"), checked.plan->steps.size(),
+                      base::counted(checked.plan->storages.size(), "texture"),
+                      checked.plan->storages.size() == 1 ? "takes" : "share", checked.plan->bytesAllocated,
                       checked.plan->bytesDeclared));
   return code;
 }
@@ -197,7 +199,8 @@ int runCheck(const Options& options) {
     if (options.watch) watcher.watch(checked.files);
     const int code = tell(options, checked);
     if (!options.watch) return code;
-    if (options.format == "text") print(fmt::format("watching {} files\n", checked.files.size()));
+    if (options.format == "text")
+      print(fmt::format("watching {}\n", base::counted(checked.files.size(), "file")));
     flushPrinted();
     std::vector<std::string> changed = savedSince(checked.files, began);
     if (changed.empty())

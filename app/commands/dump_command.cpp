@@ -11,6 +11,7 @@
 #include "app/session/pick_outputs.h"
 #include "app/session/session.h"
 #include "engine/base/files/file.h"
+#include "engine/base/printable.h"
 #include "engine/graph/language/suffix.h"
 #include "engine/graph/pick/find_pick.h"
 #include "engine/runtime/inspection/capture.h"
@@ -71,18 +72,24 @@ int runDump(const Options& options) {
   runtime::Execution& execution = *renderer.execution();
   const graph::Plan& plan = execution.plan();
   reportNoMatch(plan, options.patterns, diagnostics);
-  const std::string folder = options.output + "/";
-  if (diagnostics.hasErrors() || !makeFolderOf(folder + "picture", diagnostics)) return report(diagnostics);
+  const std::vector<runtime::CaptureItem> items = runtime::captureItems(plan, options.patterns);
+  std::vector<std::string> stems, written;
+  for (const runtime::CaptureItem& item : items) {
+    stems.push_back(options.output + "/" + fileNameOf(item, plan));
+    for (const char* kind : {".png", ".exr", ".bin"}) written.push_back(stems.back() + kind);
+  }
+  if (diagnostics.hasErrors() || !makeFolderOf(options.output + "/picture", diagnostics) ||
+      !checkMadeFiles(written, filesReadBy(options, renderer, world), "-o", diagnostics))
+    return report(diagnostics);
 
   runtime::Capture capture(renderer.device());
-  const std::vector<runtime::CaptureItem> items = runtime::captureItems(plan, options.patterns);
   std::vector<std::string> names(items.size());
   const std::uint32_t begin = execution.remembers(world) ? 0 : options.lastFrame;
   for (std::uint32_t frame = begin; frame <= options.lastFrame && !diagnostics.hasErrors(); ++frame) {
     base::Diagnostics said;
     if (frame == options.lastFrame)
       capture.start(execution, items, [&](std::size_t item, runtime::Inspector& inspector) {
-        const std::string path = folder + fileNameOf(items[item], plan);
+        const std::string& path = stems[item];
         if (inspector.picture().id == 0) {
           const std::vector<std::byte> bytes = inspector.bytes(0, inspector.bufferBytes());
           base::writeFile(path + ".bin", {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, said);
@@ -99,7 +106,9 @@ int runDump(const Options& options) {
   capture.stop(execution);
   for (std::size_t i = 0; i < items.size() && !options.quiet; ++i)
     if (!names[i].empty())
-      print(fmt::format("{}  {} after {}\n", names[i], items[i].target.resource, items[i].target.pass));
+      print(base::printable(
+                fmt::format("{}  {} after {}", names[i], items[i].target.resource, items[i].target.pass)) +
+            "\n");
   return report(diagnostics, !options.quiet);
 }
 

@@ -11,6 +11,8 @@
 #include "app/trials/work_lines.h"
 #include "engine/assets/images/compare.h"
 #include "engine/assets/images/flip.h"
+#include "engine/base/counted.h"
+#include "engine/base/printable.h"
 
 namespace weft::app {
 
@@ -24,7 +26,7 @@ class Fuzzer {
   // Returns the exit code.
   int run(base::Diagnostics& diagnostics) {
     base_ = shoot({}, diagnostics);
-    if (!base_) return 2;
+    if (!base_ || !checkOrder(diagnostics)) return 2;
     const std::vector<FuzzTrial> trials = trialsOf(options_.trial);
     WorkLines lines(trials.size(), "runs");
     for (const FuzzTrial& trial : trials) {
@@ -38,8 +40,9 @@ class Fuzzer {
       tell(trial);
       return 1;
     }
-    print(fmt::format("{} runs of {} passes in {} orders: every picture is the same\n", trials.size(),
-                      base_->plan->steps.size(), options_.trial.seed ? 1 : options_.trial.runs + 1));
+    print(fmt::format("{} of {} in {}: every picture is the same\n", base::counted(trials.size(), "run"),
+                      base::counted(base_->plan->steps.size(), "pass"),
+                      base::counted(options_.trial.seed ? 1 : options_.trial.runs + 1, "order")));
     return 0;
   }
 
@@ -61,6 +64,20 @@ class Fuzzer {
     std::uint32_t first = 0, last = ~0u;
     if (!wanted.order.empty()) parsePair(wanted.order, ':', first, last);
     return listTrials(seeds, first, last, shares, poisons);
+  }
+
+  // That the places of --order are places of the plan.
+  bool checkOrder(base::Diagnostics& diagnostics) const {
+    std::uint32_t first = 0, last = 0;
+    const std::size_t places = base_->plan->steps.size();
+    if (!parsePair(options_.trial.order, ':', first, last) || last < places) return true;
+    base::Diagnostic& d = diagnostics.error(base::Code::numberOutOfRange,
+                                            graph::placeOfOption("--order " + options_.trial.order),
+                                            fmt::format("the plan has {}", base::counted(places, "pass")));
+    d.expected = fmt::format("places from 0 to {}", places - 1);
+    d.found = fmt::format("{}", last);
+    d.hint = "weft plan lists them in their order";
+    return false;
   }
 
   std::optional<Shot> shoot(const FuzzTrial& trial, base::Diagnostics& diagnostics) {
@@ -89,15 +106,16 @@ class Fuzzer {
     const assets::Image8 &picture = pictureOf(*last_), &expected = pictureOf(*base_);
     const assets::Comparison bytes = assets::compareImages(picture, expected);
     const assets::FlipSummary flip = assets::summarizeFlip(assets::computeFlip(expected, picture));
-    print(fmt::format("a picture differs: {} pixels, by up to {:.0f} of 255 (at {},{}); FLIP {:.4f}\n",
-                      bytes.differingPixels, bytes.maxDifference, bytes.worstX, bytes.worstY, flip.mean));
+    print(fmt::format("a picture differs: {}, by up to {:.0f} of 255 (at {},{}); FLIP {:.4f}\n",
+                      base::counted(bytes.differingPixels, "pixel"), bytes.maxDifference, bytes.worstX,
+                      bytes.worstY, flip.mean));
     const std::string& driver = context_.device().driverKey;
     if (const auto first = findDivergence(recordsOf(*base_, driver), recordsOf(*last_, driver)))
       print(fmt::format("    first that differs: {}\n", first->text()));
     print(fmt::format("    found with {}\n", found.arguments()));
     if (trial.seed != 0) print("    in this order: " + reordered() + "\n");
-    print(fmt::format("    repeat: weft fuzz {} --frame {} {}{}\n", quote(options_.graph), options_.lastFrame,
-                      trial.arguments(), settingsText()));
+    print(fmt::format("    repeat: weft fuzz {} --frame {} {}{}\n", base::printable(quote(options_.graph)),
+                      options_.lastFrame, trial.arguments(), settingsText()));
   }
 
   // The passes that do not stand where they are declared.

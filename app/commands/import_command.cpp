@@ -6,14 +6,16 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/output/file_batch.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/assets/images/image.h"
+#include "engine/assets/images/stored_image.h"
 #include "engine/base/chars.h"
-#include "engine/base/files/file.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/printable.h"
 #include "engine/convert/convert.h"
+#include "engine/imports/image/image_sequence.h"
 
 namespace weft::app {
 
@@ -44,28 +46,48 @@ bool writeImage(const std::string& path, const convert::ConvertedImage& image, D
   return assets::saveExr(path, floats, diagnostics);
 }
 
-// Nothing is written unless everything can be.
+// Whether no file that is there would be replaced unasked.
 bool mayWrite(const Options& options, const convert::Converted& made, Diagnostics& diagnostics) {
-  std::vector<std::string> paths;
-  for (const convert::ConvertedText& text : made.texts) paths.push_back(text.path);
-  for (const convert::ConvertedImage& image : made.images) paths.push_back(image.path);
   std::error_code ec;
-  for (const std::string& path : paths) {
+  const auto look = [&](const std::string& path) {
     const fs::path whole = fs::path(options.folder) / path;
     if (!options.overwrite && fs::exists(whole, ec))
       refuse(diagnostics, whole.string(), "the file is there already",
              "choose another folder or --name, or replace it with --overwrite");
+  };
+  for (const convert::ConvertedText& text : made.texts) look(text.path);
+  for (const convert::ConvertedImage& image : made.images) look(image.path);
+  return !diagnostics.hasErrors();
+}
+
+// All files, or none after an error.
+bool writeAll(const Options& options, const convert::Converted& made, Diagnostics& diagnostics) {
+  FileBatch batch;
+  const auto pathOf = [&](const std::string& path) { return (fs::path(options.folder) / path).string(); };
+  bool good = true;
+  for (const convert::ConvertedText& text : made.texts)
+    good = good && batch.writeText(pathOf(text.path), text.text, diagnostics);
+  for (const convert::ConvertedImage& image : made.images)
+    good =
+        good && batch.write(
+                    pathOf(image.path),
+                    [&](const std::string& path, Diagnostics& said) { return writeImage(path, image, said); },
+                    diagnostics);
+  return good && batch.publish(diagnostics);
+}
+
+// That the picture of `--image NAME=FILE`, or the sequence of pictures, can be read.
+void checkPicture(const std::string& option, const std::string& file, Diagnostics& diagnostics) {
+  Diagnostics said;
+  if (!base::mayRead(file)) return;
+  if (const auto pattern = imports::sequencePatternOf(file))
+    imports::numbersOf(*pattern, said);
+  else
+    assets::loadStoredHeader(file, said);
+  for (base::Diagnostic each : said.items()) {
+    each.place = graph::placeOfOption("--image " + option);
+    diagnostics.add(std::move(each));
   }
-  if (diagnostics.hasErrors()) return false;
-  for (const std::string& path : paths) {
-    const fs::path folder = (fs::path(options.folder) / path).parent_path();
-    fs::create_directories(folder, ec);
-    if (ec || !fs::is_directory(folder)) {
-      refuse(diagnostics, folder.string(), "the folder cannot be made", "name a folder that may be written");
-      return false;
-    }
-  }
-  return true;
 }
 
 bool isName(const std::string& name) {
@@ -99,18 +121,12 @@ int runImport(const Options& options) {
   wanted.sourceFolder = seenFrom(options.folder, parent.empty() ? "." : parent);
   for (const std::string& image : options.images) {
     const std::size_t at = image.find('=');
+    checkPicture(image, image.substr(at + 1), diagnostics);
     wanted.images.emplace_back(image.substr(0, at), seenFrom(options.folder, image.substr(at + 1)));
   }
   const auto made = convert::convertFile(options.foreignFile, wanted, diagnostics);
-  if (made && mayWrite(options, *made, diagnostics)) {
-    const auto pathOf = [&](const std::string& path) { return (fs::path(options.folder) / path).string(); };
-    bool good = true;
-    for (const convert::ConvertedText& text : made->texts)
-      good = good && base::writeFile(pathOf(text.path), text.text, diagnostics);
-    for (const convert::ConvertedImage& image : made->images)
-      good = good && writeImage(pathOf(image.path), image, diagnostics);
-    if (good) print(base::printable(pathOf(made->graph)) + "\n");
-  }
+  if (made && mayWrite(options, *made, diagnostics) && writeAll(options, *made, diagnostics))
+    print(base::printable((fs::path(options.folder) / made->graph).string()) + "\n");
   return report(diagnostics);
 }
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
-#include "app/output/output_files.h"
+#include "app/output/file_batch.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
-#include "engine/base/files/file.h"
+#include "engine/base/printable.h"
 #include "engine/graph/read/read.h"
 
 namespace weft::app {
@@ -91,7 +91,7 @@ void main() {{
                      name);
 }
 
-bool writeNew(const std::string& path, const std::string& text, base::Diagnostics& diagnostics) {
+bool isFree(const std::string& path, base::Diagnostics& diagnostics) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) {
     diagnostics
@@ -100,7 +100,7 @@ bool writeNew(const std::string& path, const std::string& text, base::Diagnostic
         .hint = "remove it, or choose another name or another folder with -o";
     return false;
   }
-  return makeFolderOf(path, diagnostics) && base::writeFile(path, text, diagnostics);
+  return true;
 }
 
 }  // namespace
@@ -126,9 +126,14 @@ int runNew(const Options& wanted) {
   const std::string shaderFile =
       (folder / "shaders" / name / (name + ".frag.glsl")).lexically_normal().string();
   const std::string extended = failed || base.empty() ? fs::absolute(options.graph).string() : base.string();
-  if (writeNew(graphFile, stanzaText(name, extended, *anchor), diagnostics) &&
-      writeNew(shaderFile, shaderText(name), diagnostics))
-    print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graphFile, shaderFile, graphFile, name));
+  const bool free = isFree(graphFile, diagnostics);
+  FileBatch batch;
+  if (isFree(shaderFile, diagnostics) && free &&
+      batch.writeText(graphFile, stanzaText(name, extended, *anchor), diagnostics) &&
+      batch.writeText(shaderFile, shaderText(name), diagnostics) && batch.publish(diagnostics)) {
+    const std::string graph = base::printable(graphFile);
+    print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, base::printable(shaderFile), graph, name));
+  }
   return report(diagnostics);
 }
 

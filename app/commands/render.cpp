@@ -40,16 +40,6 @@ bool checkFrameCount(const Options& options, std::uint64_t count, const char* wh
   return false;
 }
 
-// What is read: none of it is to be written over.
-std::vector<std::string> inputsOf(const Options& options, const runtime::Renderer& renderer,
-                                  const runtime::World& world) {
-  std::vector<std::string> files = renderer.files();
-  files.insert(files.end(), world.scene().files.begin(), world.scene().files.end());
-  for (const std::string& file : {options.graph, scenePathOf(options), options.environment})
-    files.push_back(file);
-  return files;
-}
-
 }  // namespace
 
 int runRender(const Options& options) {
@@ -82,7 +72,7 @@ int runRender(const Options& options) {
                                      {"--trace", options.trace}};
   picks.append(outputs);
   if (!checkFrameCount(options, total, ", because the graph remembers what came before", diagnostics) ||
-      !checkDistinct(outputs, inputsOf(options, session->renderer, world), diagnostics) ||
+      !checkDistinct(outputs, filesReadBy(options, session->renderer, world), diagnostics) ||
       !makeFolders(options.output, options.firstFrame, options.lastFrame, diagnostics) ||
       !picks.makeAllFolders(diagnostics) || !picks.start(session->renderer, diagnostics))
     return report(diagnostics);

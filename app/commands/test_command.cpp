@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "app/trials/case_run.h"
 #include "app/trials/report_page.h"
+#include "engine/base/counted.h"
 #include "engine/base/files/file.h"
 #include "engine/base/nearest.h"
 #include "engine/base/printable.h"
@@ -74,22 +75,28 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
 bool checkOutputs(const Options& options, const std::vector<TestCase>& cases,
                   base::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
-  std::vector<std::string> inputs;
+  std::vector<std::string> inputs, made;
   if (!options.trial.report.empty()) outputs.push_back({"--report", options.trial.report});
   for (const TestCase& test : cases) {
     inputs.insert(inputs.end(),
                   {test.options.graph, test.options.scene, test.options.materials, test.options.environment});
     inputs.insert(inputs.end(), {test.mask, test.place.file ? *test.place.file : std::string()});
     inputs.insert(inputs.end(), {test.planGolden(), test.recordFile()});
+    if (options.trial.accept) made.push_back(test.plan ? test.planGolden() : test.recordFile());
     for (const std::uint32_t frame : test.frames) {
       inputs.push_back(test.goldenOf(frame));
-      if (options.output.empty() || test.plan) continue;
-      for (const char* end : {".png", "_flip.png"})
-        outputs.push_back({"-o", leftName(options.output, test, frame) + end});
+      if (test.plan) continue;
+      if (options.trial.accept) made.push_back(test.goldenOf(frame));
+      if (options.output.empty()) continue;
+      for (const char* end : {".png", "_flip.png"}) {
+        made.push_back(leftName(options.output, test, frame) + end);
+        outputs.push_back({"-o", made.back()});
+      }
     }
   }
   std::erase(inputs, "");
-  return checkDistinct(outputs, inputs, diagnostics);
+  const bool plain = checkMadeFiles(made, {}, "-o", diagnostics);
+  return checkDistinct(outputs, inputs, diagnostics) && plain;
 }
 
 // The picture and the difference of what failed.
@@ -135,7 +142,7 @@ int runTest(const Options& options) {
   for (const State state : {State::same, State::kept, State::written, State::different, State::broken})
     if (const std::size_t count = counts[static_cast<std::size_t>(state)])
       sum += fmt::format("{}{} {}", sum.empty() ? "" : ", ", count, wordOf(state));
-  print(fmt::format("{} cases: {}\n", cases.size(), sum));
+  print(fmt::format("{}: {}\n", base::counted(cases.size(), "case"), sum));
   if (!options.trial.report.empty() && makeFolderOf(options.trial.report, diagnostics))
     base::writeFile(options.trial.report, reportPage(results), diagnostics);
   const bool written = report(diagnostics) == 0;

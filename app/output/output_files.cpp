@@ -78,6 +78,19 @@ void visitExisting(const OutputFile& output, const Visit& visit) {
 
 constexpr const char* kNameAnother = "name another file";
 
+std::map<FileId, std::string> filesByIdOf(std::span<const std::string> paths) {
+  std::map<FileId, std::string> files;
+  for (const std::string& path : paths)
+    if (const auto id = idOf(path)) files.emplace(*id, path);
+  return files;
+}
+
+void refuseInput(const std::string& path, const std::string& option, const std::string& input,
+                 base::Diagnostics& diagnostics) {
+  refuse(path, fmt::format("{} would write over '{}', which this run reads", option, input), kNameAnother,
+         diagnostics);
+}
+
 }  // namespace
 
 std::optional<std::string> outputNameOf(const std::string& pattern, std::uint32_t frame) {
@@ -157,9 +170,7 @@ bool makeFolders(const std::string& pattern, std::uint32_t first, std::uint32_t 
 bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
                    base::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  std::map<FileId, std::string> read;
-  for (const std::string& input : inputs)
-    if (const auto id = idOf(input)) read.emplace(*id, input);
+  const std::map<FileId, std::string> read = filesByIdOf(inputs);
   std::map<FileId, const OutputFile*> written;  // what is there already
   std::vector<OutputFile> seen;                 // by their plain names
   for (const OutputFile& output : outputs) {
@@ -174,9 +185,7 @@ bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::str
       const auto id = idOf(path);
       if (!id || found > 0) return;
       if (const auto input = read.find(*id); input != read.end()) {
-        refuse(path,
-               fmt::format("{} would write over '{}', which this run reads", output.option, input->second),
-               kNameAnother, diagnostics);
+        refuseInput(path, output.option, input->second, diagnostics);
         ++found;
       } else if (const auto other = written.emplace(*id, &output).first; other->second != &output) {
         twice(*other->second);
@@ -200,6 +209,27 @@ bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::str
       }
     }
     seen.push_back(std::move(plain));
+  }
+  return diagnostics.errorCount() == before;
+}
+
+bool checkMadeFiles(std::span<const std::string> paths, std::span<const std::string> inputs,
+                    const std::string& option, base::Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errorCount();
+  const std::map<FileId, std::string> read = filesByIdOf(inputs);
+  for (const std::string& path : paths) {
+    struct stat found {};
+    if (::stat(path.c_str(), &found) != 0) continue;
+    if (!S_ISREG(found.st_mode)) {
+      refuse(path,
+             fmt::format("{} stands where a file would be written", S_ISFIFO(found.st_mode)   ? "a pipe"
+                                                                    : S_ISDIR(found.st_mode)  ? "a folder"
+                                                                    : S_ISSOCK(found.st_mode) ? "a socket"
+                                                                                              : "a device"),
+             "remove it, or name another folder", diagnostics);
+    } else if (const auto input = read.find(FileId{found.st_dev, found.st_ino}); input != read.end()) {
+      refuseInput(path, option, input->second, diagnostics);
+    }
   }
   return diagnostics.errorCount() == before;
 }

@@ -40,4 +40,9 @@ struct OutputFile {
 bool checkDistinct(std::span<const OutputFile> outputs, std::span<const std::string> inputs,
                    base::Diagnostics& diagnostics);
 
+// Files whose names a command makes itself, for the option `option`: each is nothing yet or a plain file, so that no pipe is
+// waited for and no device written to, and none of the files that the run reads. False after W180.
+bool checkMadeFiles(std::span<const std::string> paths, std::span<const std::string> inputs,
+                    const std::string& option, base::Diagnostics& diagnostics);
+
 }  // namespace weft::app

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/output/output_files.h"
+#include "engine/base/counted.h"
 
 namespace weft::app {
 
@@ -64,8 +65,8 @@ void PictureWriter::tell(base::Diagnostics& diagnostics) {
   auto& d = diagnostics.warning(
       base::Code::pictureNotFinite, {std::make_shared<const std::string>(first_.path), 0, 0},
       fmt::format("{} of the picture {} NaN or infinite, the first at x {}, y {} from the upper left",
-                  first_.pixels == 1 ? "1 pixel" : fmt::format("{} pixels", first_.pixels),
-                  first_.pixels == 1 ? "is" : "are", first_.x, first_.y));
+                  base::counted(first_.pixels, "pixel"), first_.pixels == 1 ? "is" : "are", first_.x,
+                  first_.y));
   d.resource = first_.resource;
   d.expected = "finite numbers";
   d.found = fmt::format("NaN in {} and infinity in {}", first_.nan, first_.infinite);

@@ -6,6 +6,8 @@
 
 #include "app/output/output_files.h"
 #include "app/output/standard_streams.h"
+#include "engine/base/counted.h"
+#include "engine/base/printable.h"
 
 namespace weft::app {
 
@@ -23,7 +25,7 @@ bool Recorder::start(const std::string& pattern, base::Diagnostics& diagnostics)
 void Recorder::stop(base::Diagnostics& diagnostics) {
   if (!active_) return;
   active_ = false;
-  print(fmt::format("wrote {} frames to {}\n", frames_, pattern_));
+  print(fmt::format("wrote {} to {}\n", base::counted(frames_, "frame"), base::printable(pattern_)));
   flushPrinted();
   writer_.tell(diagnostics);
 }

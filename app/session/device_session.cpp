@@ -76,6 +76,15 @@ std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagn
   return Opened{*std::move(world), std::move(session)};
 }
 
+std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
+                                     const runtime::World& world) {
+  std::vector<std::string> files = renderer.files();
+  files.insert(files.end(), world.scene().files.begin(), world.scene().files.end());
+  for (const std::string& file : {options.graph, scenePathOf(options), options.environment})
+    files.push_back(file);
+  return files;
+}
+
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times) {
   const gl::ProgramCacheStats& programs = session.renderer.device().programs.stats();
   const gl::DeviceInfo& device = session.context->device();

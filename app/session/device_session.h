@@ -4,6 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/session/options.h"
 #include "engine/gl/context/context.h"
@@ -30,6 +32,10 @@ struct Opened {
   std::unique_ptr<DeviceSession> session;
 };
 std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagnostics, int& exitCode);
+
+// What the run reads, once the graph is loaded: none of it is to be written over.
+std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,
+                                     const runtime::World& world);
 
 // --stats: one JSON object. Waits for the outputs of the last frame.
 nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json times);

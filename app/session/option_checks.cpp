@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 
 #include "engine/base/files/file_access.h"
 #include "engine/base/limits.h"
@@ -48,7 +49,9 @@ std::string checkFrames(const std::string& text) {
 
 std::string checkFrame(const std::string& text) {
   std::uint32_t frame = 0;
-  return parseNumber(text, frame) ? "" : fmt::format("expected a frame number, found '{}'", text);
+  return parseNumber(text, frame)
+             ? ""
+             : fmt::format("expected a frame number from 0 to {}, found '{}'", ~0u, text);
 }
 
 std::string checkCount(const std::string& text) {
@@ -68,6 +71,14 @@ std::string takeLimit(const std::string& text) {
 // Confines reading, for this process.
 std::string takeConfinement(const std::string& folder) {
   return base::confineTo(folder).value_or("");
+}
+
+std::string checkFolder(const std::string& path) {
+  std::error_code ec;
+  if (std::filesystem::is_directory(path, ec)) return "";
+  return fmt::format(
+      "{} '{}'",
+      std::filesystem::exists(path, ec) ? "expected a folder, found the file" : "there is no folder", path);
 }
 
 std::string checkSet(const std::string& text) {

@@ -4,13 +4,6 @@
 
 namespace weft::app {
 
-namespace {
-
-constexpr const char* kPresetFolderHelp =
-    "look for the names of presets here first, then in ~/.config/weft/presets, then in graphs/presets";
-
-}  // namespace
-
 CLI::Option* addGraphOptions(CLI::App& command, Options& options, RawOptions& raw) {
   CLI::Option* graph = command.add_option("graph", options.graph, "graph file (JSON)")->required();
   command.add_option("--scene", options.scene, "scene file (default: the bundled scenes/spheres.json)");
@@ -24,12 +17,20 @@ CLI::Option* addGraphOptions(CLI::App& command, Options& options, RawOptions& ra
   command.add_option(
       "--preset", options.presets,
       "lay an overlay over the graph: a file, or the name of one that 'weft presets' lists; repeatable");
-  command.add_option("--preset-folder", options.presetFolder, kPresetFolderHelp);
+  addPresetFolder(command, options);
   command.add_option("--disable", options.disables,
                      "disable a pass (any unique suffix of its name); repeatable");
   command.add_option("--set", raw.sets, "set a parameter (any unique suffix of its name); repeatable")
       ->check(CLI::Validator(checkSet, "NAME=VALUE"));
   return graph;
+}
+
+void addPresetFolder(CLI::App& command, Options& options) {
+  command
+      .add_option(
+          "--preset-folder", options.presetFolder,
+          "look for the names of presets here first, then in ~/.config/weft/presets, then in graphs/presets")
+      ->check(CLI::Validator(checkFolder, "FOLDER"));
 }
 
 void addBackendOptions(CLI::App& command, Options& options) {

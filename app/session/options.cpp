@@ -70,15 +70,23 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
   return code;
 }
 
+// Whether what stands before a '=' names a texture, and is not the beginning of a path.
+bool isMeantAsName(const std::string& text) {
+  return !text.empty() && text.find('/') == std::string::npos &&
+         (text.find('.') == std::string::npos || text.find_first_of("#[@") != std::string::npos ||
+          graph::parsePick(text));
+}
+
 // `-o FILE`, `-o NAME=FILE` and `--present NAME`. What is wrong with them, or nothing.
 std::string takeOutputs(const RawOptions& raw, Options& options) {
   for (const std::string& text : raw.outputs) {
     const std::size_t at = text.find('=');
-    std::optional<graph::Pick> pick;
-    if (at != std::string::npos) pick = graph::parsePick(std::string_view(text).substr(0, at));
-    if (pick) {
-      pick->option = "-o";
-      options.picked.push_back({std::move(*pick), text.substr(at + 1)});
+    const std::string name = at == std::string::npos ? "" : text.substr(0, at);
+    if (isMeantAsName(name)) {
+      // What is spelled in another way is the name of nothing: then the graph's names tell which is near.
+      graph::Pick pick = graph::parsePick(name).value_or(graph::Pick{.text = name, .name = name, .pass = {}});
+      pick.option = "-o";
+      options.picked.push_back({std::move(pick), text.substr(at + 1)});
     } else if (options.output.empty()) {
       options.output = text;
     } else {
@@ -144,9 +152,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   dump->add_option("--frames", raw.frames, "the frame to look at")
       ->check(CLI::Validator(checkFrame, "FRAME"));
   dump->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
-  dump->add_option("--backend", options.backend, "where OpenGL comes from")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
-  dump->add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'");
+  addBackendOptions(*dump, options);
   dump->add_flag("--quiet", options.quiet, "no list of files and no notes");
 
   CLI::App* view =
@@ -211,7 +217,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
 
   CLI::App* presets = app.add_subcommand("presets", "list the presets that --preset finds by name");
   presets->add_flag_callback("--json", asJson, "as JSON");
-  presets->add_option("--preset-folder", options.presetFolder, kPresetFolderHelp);
+  addPresetFolder(*presets, options);
 
   CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
   CLI::Option* drawn = addGraphOptions(*dot, options, raw);

@@ -8,11 +8,6 @@ namespace weft::app {
 
 namespace {
 
-std::string checkFrameText(const std::string& text) {
-  std::uint32_t frame = 0;
-  return parseNumber(text, frame) ? "" : "expected a frame number from 0 to 4294967295, found '" + text + "'";
-}
-
 std::string checkWindow(const std::string& text) {
   std::uint32_t first = 0, last = 0;
   return parsePair(text, ':', first, last) && first <= last
@@ -22,9 +17,14 @@ std::string checkWindow(const std::string& text) {
                    text + "'";
 }
 
-void addFrame(CLI::App& command, RawOptions& raw) {
-  command.add_option("--frame", raw.frames, "number of the frame to look at (default: 0)")
-      ->check(CLI::Validator(checkFrameText, "FRAME"));
+// A command that renders a graph again and again.
+CLI::App* addTrial(CLI::App& app, const char* name, const char* doc, Options& options, RawOptions& raw) {
+  CLI::App* trial = app.add_subcommand(name, doc);
+  addGraphOptions(*trial, options, raw);
+  trial->add_option("--frame", raw.frames, "number of the frame to look at (default: 0)")
+      ->check(CLI::Validator(checkFrame, "FRAME"));
+  addBackendOptions(*trial, options);
+  return trial;
 }
 
 void addTest(CLI::App& app, Options& options) {
@@ -45,9 +45,9 @@ void addTest(CLI::App& app, Options& options) {
 }
 
 void addBisect(CLI::App& app, Options& options, RawOptions& raw) {
-  CLI::App* bisect = app.add_subcommand(
-      "bisect", "find the first pass whose output differs between two graphs, or two settings of one");
-  addGraphOptions(*bisect, options, raw);
+  CLI::App* bisect = addTrial(
+      app, "bisect", "find the first pass whose output differs between two graphs, or two settings of one",
+      options, raw);
   bisect->add_option("other", options.otherGraph, "the other graph file (default: the same)");
   bisect->add_option("--other-set", raw.otherSets, "set a parameter in the other graph alone; repeatable")
       ->check(CLI::Validator(checkSet, "NAME=VALUE"));
@@ -55,31 +55,26 @@ void addBisect(CLI::App& app, Options& options, RawOptions& raw) {
                      "disable a pass in the other graph alone; repeatable");
   bisect->add_option("--other-preset", options.trial.otherPresets,
                      "lay an overlay over the other graph alone; repeatable");
-  addFrame(*bisect, raw);
-  addBackendOptions(*bisect, options);
   bisect->footer("Example: weft bisect graphs/studio.json --size 320x180 --other-set threshold=2");
 }
 
 void addAblate(CLI::App& app, Options& options, RawOptions& raw) {
-  CLI::App* ablate = app.add_subcommand(
-      "ablate", "what each pass costs and does: milliseconds, bytes and picture difference without it");
-  addGraphOptions(*ablate, options, raw);
-  addFrame(*ablate, raw);
+  CLI::App* ablate = addTrial(
+      app, "ablate", "what each pass costs and does: milliseconds, bytes and picture difference without it",
+      options, raw);
   ablate->add_option("--repeats", options.trial.repeats, "frames to measure; the fastest counts")
       ->check(CLI::Range(1u, 1000u));
   ablate->add_option("--format", options.format, "text, json or html")
       ->check(CLI::IsMember({"text", "json", "html"}));
-  addBackendOptions(*ablate, options);
   ablate->footer("Example: weft ablate graphs/glow.json --size 320x180");
 }
 
 void addFuzz(CLI::App& app, Options& options, RawOptions& raw) {
-  CLI::App* fuzz = app.add_subcommand(
-      "fuzz",
-      "render in random legal orders, with shared storage and without, with poisoned transients; "
-      "exit 1 when a picture differs");
-  addGraphOptions(*fuzz, options, raw);
-  addFrame(*fuzz, raw);
+  CLI::App* fuzz =
+      addTrial(app, "fuzz",
+               "render in random legal orders, with shared storage and without, with poisoned transients; "
+               "exit 1 when a picture differs",
+               options, raw);
   fuzz->add_option("--runs", options.trial.runs, "how many random orders to try")
       ->check(CLI::Range(1u, 100000u));
   fuzz->add_option("--seed", options.trial.seed,
@@ -93,7 +88,6 @@ void addFuzz(CLI::App& app, Options& options, RawOptions& raw) {
   fuzz->add_option("--poison", options.trial.poison,
                    "what transients hold before they are written: nan, large, none, or both (nan and large)")
       ->check(CLI::IsMember({"nan", "large", "none", "both"}));
-  addBackendOptions(*fuzz, options);
   fuzz->footer("Example: weft fuzz graphs/glow.json --size 64x36");
 }
 

@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "app/trials/report_page.h"
 #include "app/trials/work_lines.h"
+#include "engine/base/counted.h"
 
 namespace weft::app {
 
@@ -76,9 +77,10 @@ std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& o
 std::string ablationText(const AblationTable& table) {
   std::size_t width = 4;
   for (const Ablation& row : table.rows) width = std::max(width, row.pass.size());
-  std::string text = fmt::format(
-      "{} passes run, {:.2f} ms, {} bytes\n\n{:{}}  {:>8}  {:>8}  {:>12}  {:>5}  {:>7}  {:>7}\n", table.steps,
-      table.ms, table.bytes, "pass", width, "own ms", "saved ms", "saved bytes", "steps", "FLIP", "at most");
+  std::string text =
+      fmt::format("{} run, {:.2f} ms, {} bytes\n\n{:{}}  {:>8}  {:>8}  {:>12}  {:>5}  {:>7}  {:>7}\n",
+                  base::counted(table.steps, "pass"), table.ms, table.bytes, "pass", width, "own ms",
+                  "saved ms", "saved bytes", "steps", "FLIP", "at most");
   for (const Ablation& row : table.rows)
     text += fmt::format("{:{}}  {:8.2f}  ", row.pass, width, row.ownMs) +
             (row.needed.empty() ? fmt::format("{:8.2f}  {:12}  {:5}  {:7.4f}  {:7.3f}\n", row.savedMs,
@@ -110,9 +112,9 @@ std::string ablationJson(const AblationTable& table) {
 
 std::string ablationPage(const AblationTable& table, const std::string& graph) {
   std::string page = pageHead("weft ablate");
-  page += fmt::format(
-      "<h1>{}: what each pass costs and does</h1>\n<p>{} passes run, {:.2f} ms, {} bytes</p>\n{}\n",
-      escapeHtml(graph), table.steps, table.ms, table.bytes, imageTag(table.picture, "the whole frame"));
+  page += fmt::format("<h1>{}: what each pass costs and does</h1>\n<p>{} run, {:.2f} ms, {} bytes</p>\n{}\n",
+                      escapeHtml(graph), base::counted(table.steps, "pass"), table.ms, table.bytes,
+                      imageTag(table.picture, "the whole frame"));
   page +=
       "<table>\n<tr><th>pass</th><th>own ms</th><th>saved ms</th><th>saved "
       "bytes</th><th>steps</th><th>FLIP</th>"

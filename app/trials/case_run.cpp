@@ -6,6 +6,7 @@
 
 #include "app/session/session.h"
 #include "engine/assets/images/compare.h"
+#include "engine/base/counted.h"
 #include "engine/base/files/file.h"
 #include "engine/graph/print/text.h"
 
@@ -39,10 +40,11 @@ struct Found {
   }
   std::string text() const {
     return fmt::format(
-        "FLIP {:.4f}, at most {:.3f} (at {},{}); {} pixels differ ({:.3g} %), by up to {:.0f} of 255 (at "
+        "FLIP {:.4f}, at most {:.3f} (at {},{}); {} {} ({:.3g} %), by up to {:.0f} of 255 (at "
         "{},{})",
-        flip.mean, flip.peak, flip.x, flip.y, bytes.differingPixels, 100 * share, bytes.maxDifference,
-        bytes.worstX, bytes.worstY);
+        flip.mean, flip.peak, flip.x, flip.y, base::counted(bytes.differingPixels, "pixel"),
+        bytes.differingPixels == 1 ? "differs" : "differ", 100 * share, bytes.maxDifference, bytes.worstX,
+        bytes.worstY);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/session/session.h"
+#include "engine/base/counted.h"
 #include "engine/base/limits.h"
 
 namespace weft::app {
@@ -43,7 +44,8 @@ void warnOfBrokenValues(const Options& options, runtime::Renderer& renderer, bas
   if (pixels == 0) return;
   base::Diagnostic& d = diagnostics.warning(
       base::Code::pictureNotFinite, {std::make_shared<const std::string>(options.graph), 0, 0},
-      fmt::format("{} pixels of the picture are NaN or infinite", pixels));
+      fmt::format("{} of the picture {} NaN or infinite", base::counted(pixels, "pixel"),
+                  pixels == 1 ? "is" : "are"));
   d.expected = "finite numbers";
   d.hint = "the texture inspector of `weft view` marks them";
 }

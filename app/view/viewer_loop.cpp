@@ -14,8 +14,10 @@
 #include "app/session/session.h"
 #include "app/view/screens.h"
 #include "app/view/viewer.h"
+#include "engine/base/counted.h"
 #include "engine/base/hash.h"
 #include "engine/base/message_choice.h"
+#include "engine/base/printable.h"
 
 namespace weft::app {
 
@@ -140,7 +142,7 @@ std::string Viewer::modes() const {
   std::string text;
   const auto add = [&](const std::string& mode) { text += (text.empty() ? "" : "  |  ") + mode; };
   if (rig_.mode() == CameraRig::Mode::fly) add("flying (Esc lets go)");
-  if (recorder_.active()) add(fmt::format("recording, {} frames", recorder_.frames()));
+  if (recorder_.active()) add("recording, " + base::counted(recorder_.frames(), "frame"));
   if (panels_.tracing()) add("tracing");
   if (idle_) add("idle");
   if (renderScale_ != 1) add(fmt::format("render scale {}", renderScale_));
@@ -287,7 +289,7 @@ void Viewer::saveScreenshots() {
   const std::string name = screenshotName(frame_, screenshot_.c_str());
   screenshot_.clear();
   if (live_.running() && writer_.save(renderer_, name, diagnostics_)) {
-    print(fmt::format("wrote {}\n", name));
+    print(fmt::format("wrote {}\n", base::printable(name)));
     flushPrinted();
   }
   writer_.tell(diagnostics_);

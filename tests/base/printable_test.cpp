@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/counted.h"
 #include "engine/base/diagnostic.h"
 
 using namespace weft::base;
@@ -67,4 +68,11 @@ TEST_CASE("JSON for a terminal means what it meant") {
   const std::string text = printableJson(value.dump(2));
   CHECK(nlohmann::json::parse(text) == value);
   for (const char* raw : {"\x1b", "\x7f", "\u009b", "\u202e"}) CHECK(text.find(raw) == std::string::npos);
+}
+
+TEST_CASE("one thing and several") {
+  CHECK(counted(1, "case") == "1 case");
+  CHECK(counted(0, "case") == "0 cases");
+  CHECK(counted(2, "pass") == "2 passes");
+  CHECK(counted(12, "patch") == "12 patches");
 }

@@ -6,6 +6,7 @@ messages of the shader compiler keep the lines of the original, and that reading
 """
 import os
 import pathlib
+import resource
 import sys
 import tempfile
 
@@ -75,7 +76,37 @@ def main():
         missing = run(WEFT, "import", top / "no.fs", "-o", top / "none")
         assert missing.code == 1 and missing.codes() == ["W001"], missing.err
         wrong = run(WEFT, "import", "tests/convert/isf/negative.fs", "-o", top / "none", "--image", "imputImage=x.png")
-        assert wrong.code == 1 and wrong.codes() == ["W044"] and "inputImage" in wrong.err, wrong.err
+        assert wrong.code == 1 and wrong.codes() == ["W044", "W150"] and "inputImage" in wrong.err, wrong.err
+        # A picture that is not there is an error on the command line, and a warning where the file names it.
+        for picture in ("x.png", "x.####.png"):
+            missing = run(WEFT, "import", "tests/convert/isf/negative.fs", "-o", top / "none", "--image", f"inputImage={picture}")
+            assert missing.code == 1 and missing.codes() == ["W150"] and f"command line: --image inputImage={picture}: " in missing.err, missing.err
+        (top / "stamp.fs").write_text((TOP / "tests/convert/isf/stamp.fs").read_text())
+        warned = run(WEFT, "import", top / "stamp.fs", "-o", top / "stamp")
+        assert warned.code == 0 and warned.codes("warning") == ["W150"] and "stamp.fs:5:" in warned.err and "card.png" in warned.err, warned.err
+        (top / "stamp.fs").unlink()
+
+        # On a full disk there is nothing, also no folder; what was there stays. The files are of 500 to 3000 bytes.
+        def limited():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        full = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", top / "full/deep", preexec_fn=limited)
+        assert full.code == 1 and full.codes() == ["W180"] and "File too large" in full.err and ".new" not in full.err and not (top / "full").exists(), full.err
+        before = {name: (out / name).read_bytes() for name in files_in(out)}
+        full = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--overwrite", preexec_fn=limited)
+        assert full.code == 1 and before == {name: (out / name).read_bytes() for name in files_in(out)}, full.err
+        # A link still leads to its file, which keeps its permissions; a pipe is not waited for.
+        (top / "far.json").write_text("mine")
+        (top / "far.json").chmod(0o640)
+        (out / "corners.json").unlink()
+        (out / "corners.json").symlink_to(top / "far.json")
+        linked = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--overwrite")
+        assert linked.code == 0 and (out / "corners.json").is_symlink() and (top / "far.json").read_bytes() == before["corners.json"], linked.err
+        assert (top / "far.json").stat().st_mode & 0o777 == 0o640
+        (out / "corners.json").unlink()
+        os.mkfifo(out / "corners.json")
+        pipe = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--overwrite", timeout=60)
+        assert pipe.code == 1 and pipe.codes() == ["W180"] and "a pipe" in pipe.err, pipe.err
         assert not (top / "none").exists()
 
         # Messages keep the lines.

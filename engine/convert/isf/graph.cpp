@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
+#include "engine/base/files/file.h"
+#include "engine/base/files/file_access.h"
 #include "engine/base/json/edit.h"
 #include "engine/convert/isf/size_expression.h"
 #include "engine/convert/text/glsl_text.h"
@@ -175,9 +178,20 @@ class IsfGraphWriter {
 
   void addImported(const IsfImported& imported) {
     std::string path = imported.path;
+    warnIfMissing(imported);
     if (!path.starts_with('/') && !options_.sourceFolder.empty()) path = options_.sourceFolder + "/" + path;
     if (path.starts_with('$')) path = "./" + path;
     addPicture(names_.of(imported.name), path);
+  }
+
+  void warnIfMissing(const IsfImported& imported) {
+    const std::string beside = base::besideFile(imported.place, imported.path);
+    std::error_code ignored;
+    if (!base::mayRead(beside) || std::filesystem::exists(beside, ignored)) return;
+    diagnostics_
+        .warning(base::Code::unreadableImage, imported.place,
+                 fmt::format("cannot read '{}': no such file", beside))
+        .hint = "put the picture there before the graph is rendered";
   }
 
   void addPicture(const std::string& name, const std::string& file) {

@@ -43,6 +43,15 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
   for (const std::string& name : graph.resourceNames)
     if (const std::string shared(sharedName(name)); std::ranges::find(names, shared) == names.end())
       names.push_back(shared);
+  constexpr const char* kPathHint = "a path with = in it is written ./a=b.png";
+  if (!parsePick(pick.text)) {
+    auto& d = complain(diagnostics, Code::unknownResource, pick,
+                       fmt::format("'{}' cannot name a resource", pick.text));
+    d.expected = "a name such as depth, hdr#1 or 'glow.mip[2]'";
+    const std::string near = suffixHint(pick.text.substr(0, pick.text.find_first_of(".#[@ ")), names);
+    d.hint = near + (near.empty() ? "" : "; ") + kPathHint;
+    return kNone;
+  }
   const std::vector<std::size_t> matches = suffixMatches(names, pick.name);
   if (matches.size() != 1) {
     auto& d =
@@ -53,6 +62,7 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
       d.hint = suffixHint(pick.name, names);
     else
       d.hint = fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
+    if (d.hint.empty() && pick.option == "-o") d.hint = kPathHint;
     return kNone;
   }
   std::uint32_t found = kNone, last = 0;

@@ -4,6 +4,7 @@ tests/app/pictures.py; also of textures that nothing else reads, of whole number
 
     dump.py WEFT
 """
+import os
 import pathlib
 import re
 import struct
@@ -143,12 +144,41 @@ def check_mistakes(bench):
     refuses("W180", ["is a buffer", "weft dump"], "render", "-o", f"table={file}")
     refuses("W180", ["unknown kind of image"], "render", "-o", f"hdr={bench.folder}/x.gif")
     refuses("W180", ["would write one file"], "render", "-o", f"hdr={file}", "-o", f"ids={file}")
+    refuses("W040", ["'hd-r' cannot name a resource", "did you mean 'hdr'", "./a=b.png"], "render", "-o", f"hd-r={file}")
+    refuses("W040", ["'hdr.mip[x]' cannot name a resource", "'glow.mip[2]'"], "render", "-o", f"hdr.mip[x]={file}")
     refuses("W040", ["'nothing*'"], "dump", "nothing*", "-o", bench.folder / "none")
     refuses("W040", ["no pass that runs writes", "'chain'"], "dump", "hdr", "chain", "-o", bench.folder / "none")
     refuses(None, ["NAME=FILE"], "render", "-o", "a.png", "-o", "b.png", exit_code=2)
     refuses(None, ["-o FILE"], "render", "--present", "hdr", "-o", f"ids={file}", exit_code=2)
     refuses(None, ["--present takes"], "render", "--present", "hdr.mip[x]", "-o", file, exit_code=2)
     bench.report.check(not file.exists(), "something was written after an error")
+    ran = bench.command("render", "-o", bench.folder / "a=b.exr")
+    bench.report.check(ran.code == 0 and (bench.folder / "a=b.exr").exists(), f"a path with = in it: {ran.code} {ran.err}")
+
+
+def check_places(bench):
+    """What dump finds in its folder is neither waited for nor an input that it writes over, and a name of a folder forges no line."""
+    folder = bench.folder / "places"
+
+    def dump(into):
+        return run(bench.weft, "dump", bench.folder / "graph.json", "hdr", "-o", into, timeout=60)
+
+    names = [pathlib.Path(line.split("  ")[0]).name for line in dump(folder).out.splitlines()]
+    bench.report.check(len(names) == 3 and all(name.endswith(".png") for name in names), f"{names}")
+    spot = folder / names[1]
+    before = (bench.folder / "shaders/double.frag.glsl").read_bytes()
+    for made, says in ((os.mkfifo, "a pipe"), (os.mkdir, "a folder"), (lambda path: os.symlink("/dev/null", path), "a device"),
+                       (lambda path: os.link(bench.folder / "shaders/double.frag.glsl", path), "which this run reads")):
+        spot.unlink()
+        made(spot)
+        ran = dump(folder)
+        bench.report.check(ran.code == 1 and ran.codes() == ["W180"] and says in ran.err and str(spot) in ran.err, f"{says} in the folder: {ran.code} {ran.err}")
+        if says == "a folder":
+            spot.rmdir()
+            spot.touch()
+    bench.report.check((bench.folder / "shaders/double.frag.glsl").read_bytes() == before, "dump wrote over a shader")
+    forged = dump(bench.folder / "a\x1b[31mb\nc")
+    bench.report.check(forged.code == 0 and "\x1b" not in forged.out and len(forged.out.splitlines()) == 3, f"{forged.out!r} {forged.err}")
 
 
 def check_progress(bench):
@@ -160,7 +190,7 @@ def main():
     report = Report()
     with temporary_folder() as name:
         bench = Bench(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(name), report)
-        for check in (check_outputs, check_present, check_dump, check_mistakes, check_progress):
+        for check in (check_outputs, check_present, check_dump, check_mistakes, check_places, check_progress):
             check(bench)
     report.end()
 

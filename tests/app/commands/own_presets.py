@@ -63,6 +63,11 @@ def main():
         found = {each["name"]: each["description"] for each in json.loads(listed.out)}
         report.check(found.get("dim") == "of the folder" and found.get("cinema") == "hides the bundled one" and "negative" in found and "evening" in found,
                      f"the list of presets: {found}")
+        (folder / "a_file").touch()
+        for command in (["check", graph, "--no-shaders"], ["presets"]):
+            for wrong, says in (("nowhere", "there is no folder"), ("a_file", "expected a folder")):
+                ran = run(weft, *command, "--preset-folder", folder / wrong, env=environment)
+                report.check(ran.code == 2 and says in ran.err and wrong in ran.err, f"{command[0]} --preset-folder {wrong}: {ran.code} {ran.err}")
         missing = run(weft, "check", graph, "--preset", "cinma", env=environment)
         report.check(missing.code == 1 and missing.codes() == ["W001"] and "cinema" in missing.err, f"a name that nobody has: {missing.err}")
     report.end()

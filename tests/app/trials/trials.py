@@ -4,13 +4,13 @@
     trials.py WEFT
 """
 import json
+import os
 import pathlib
 import re
 import shutil
-import struct
 import sys
-import zlib
 
+from pictures import png
 from program import TOP, Report, run, temporary_folder
 
 SIZE = "64x36"
@@ -22,12 +22,7 @@ def write_cases(folder, cases, **top):
 
 
 def write_mask(path, width, height, white):
-    rows = b"".join(b"\0" + bytes(255 if white(x, y) else 0 for x in range(width)) for y in range(height))
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows))
-                     + chunk(b"IEND", b""))
+    path.write_bytes(png([[(255 if white(x, y) else 0,) for x in range(width)] for y in range(height)]))
 
 
 def check_test(weft, report, folder):
@@ -58,7 +53,7 @@ def check_test(weft, report, folder):
     page, left = folder / "page.html", folder / "left"
     result = test("--report", page, "-o", left, "--only", "glow")
     report.check(result.code == 1 and "first that differs: pass 'glow_prefilter' writes another 'glow' in frame 0" in result.out, f"{result.code}\n{result.out}{result.err}")
-    report.check("1 cases: 1 FAILED" in result.out, result.out)
+    report.check("1 case: 1 FAILED" in result.out, result.out)
     text = page.read_text()
     report.check(text.count("data:image/png;base64,") == 5 and "glow_prefilter" in text and "http" not in text, f"page of {len(text)} bytes")
     report.check(sorted(f.name for f in left.iterdir()) == ["glow.png", "glow_flip.png"], f"{list(left.iterdir())}")
@@ -154,6 +149,15 @@ def check_files(weft, report, folder):
     (folder / "glow.png").write_bytes(b"")
     test("--accept", code=0, says="written anew")
     test(code=0)
+    # A pipe in the place of a golden is neither waited for nor written to.
+    for name in ("glow.png", "glow.passes"):
+        kept = (folder / name).read_bytes()
+        (folder / name).unlink()
+        os.mkfifo(folder / name)
+        result = run(weft, "test", folder, "--accept", timeout=120)
+        report.check(result.code == 2 and result.codes() == ["W180"] and "a pipe" in result.err and name in result.err, f"{name} is a pipe: {result.code}\n{result.out}{result.err}")
+        (folder / name).unlink()
+        (folder / name).write_bytes(kept)
     forged = folder / "a\x1b[31mb\nok      all"
     forged.mkdir()
     shutil.copy(folder / "some.cases.json", forged / "other.cases.json")
@@ -239,11 +243,18 @@ def check_fuzz(weft, report, folder):
     for graph in (GLOW, TOP / "tests/golden/vignette.json"):
         result = run(weft, "fuzz", graph, "--size", SIZE, "--runs", "2")
         report.check(result.code == 0 and "12 runs of" in result.out and "every picture is the same" in result.out, f"{graph}: {result.out}{result.err}")
+    for order in ("0:13", "90:99"):
+        result = run(weft, "fuzz", GLOW, "--size", SIZE, "--runs", "1", "--order", order)
+        report.check(result.code == 2 and result.codes() == ["W048"] and "from 0 to 12" in result.err, f"--order {order}: {result.code} {result.out}{result.err}")
     # A pass that promises to write everything and writes half of it.
     half = write_graph(folder, "half", HALF, HALF_SHADERS)
     result = run(weft, "fuzz", half, "--size", SIZE, "--runs", "1")
     report.check(result.code == 1 and "pass 'half' writes another 'picture'" in result.out and "--poison nan" in result.out, result.out + result.err)
     repeat_it(weft, report, result)
+    (half.parent / "shaders/half.frag.glsl").write_text(HALF_SHADERS["half.frag.glsl"].replace("if (uv.y > 0.5) discard; ", ""))
+    half.write_text(HALF.replace('"present": "ldr"', '"present": "picture"'))
+    result = run(weft, "fuzz", half, "--size", SIZE, "--seed", "0", "--share", "on", "--poison", "nan")
+    report.check(result.code == 0 and result.out == "1 run of 1 pass in 1 order: every picture is the same\n", result.out + result.err)
     # Passes that depend on each other without saying so.
     order = write_graph(folder, "order", ORDER, ORDER_SHADERS)
     result = run(weft, "fuzz", order, "--size", SIZE, "--runs", "6", "--poison", "none", "--share", "on")
