@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""Every command on every file of graphs/ and on every broken graph of tests/bad_graphs: none crashes, each exits as docs/limits.md says, and what is
+wrong is said with a place. Prints a table, a line for each file: what each command ended with, and the codes of what it said.
+
+    every_graph.py WEFT [--all] [--cpu] [--only PART]
+
+A graph that `check` takes is taken by all commands; one that it refuses is refused by all, with the same codes. The manifest of the broken graphs says
+which code is told at which place. --all: all files and the commands that draw, which takes a while; else a few files. --cpu: nothing is drawn.
+--only: files with this in their path.
+"""
+import argparse
+import importlib.util
+import json
+import pathlib
+import re
+import sys
+
+from program import TOP, Report, run, temporary_folder
+
+CRASH = re.compile(r"terminate called|Assertion|Segmentation|Aborted|what\(\):|AddressSanitizer|runtime error")
+SMALL = ["--size", "64x36"]
+GLOW = "graphs/glow.json"
+# Commands that compare end with 2 where a graph is wrong.
+WRONG = {"diff": 2, "diff to": 2, "bisect": 2, "bisect set": 2, "fuzz": 2}
+FEW_BAD, FEW_GOOD = 12, {GLOW, "graphs/gi.json", "graphs/presets/cinema.json"}
+
+
+class Sheet:
+    """The runs of one file, and its line of the table."""
+
+    def __init__(self, weft, report, path, more=()):
+        self.weft, self.report, self.path, self.more, self.cells = weft, report, path, list(more), {}
+
+    def run(self, column, *arguments):
+        done = run(self.weft, *arguments)
+        name = f"{column} of {self.path}"
+        self.report.check(0 <= done.code <= 3 and not CRASH.search(done.err), f"{name}: crash, {done.code}\n{done.err[-3000:]}")
+        codes = done.codes("error") + done.codes("warning")
+        self.cells[column] = " ".join([str(done.code), *codes])
+        self.report.check(bool(done.codes("error")) == (done.code != 0) or column in ("diff to", "bisect set"), f"{name}: exit code {done.code} with {codes}\n{done.err[-3000:]}")
+        for said in done.diagnostics:
+            placed = said["place"] and (said["line"] or said["place"].startswith("command line") or said["code"] == "W001")
+            self.report.check(said["severity"] == "note" or placed, f"{name}: no place in {said}")
+        return done
+
+    def graph(self, column, command, *arguments, code=0, sound=True):
+        """A command on the graph: it ends with `code`, or as the command does where a graph is wrong."""
+        done = self.run(column, *command.split(), self.path, *arguments, *self.more)
+        expected = code if sound else (WRONG.get(column, 1),)
+        expected = expected if isinstance(expected, tuple) else (expected,)
+        self.report.check(done.code in expected, f"{column} of {self.path}: exit code {done.code}, not {expected}\n{done.out[-2000:]}{done.err[-3000:]}")
+        return done
+
+    def text(self):
+        return f"{self.path}: " + ", ".join(f"{column} {cell}" for column, cell in self.cells.items())
+
+
+def other_setting(parameters):
+    """One parameter set to another value that it may have."""
+    for p in parameters:
+        if p["type"] == "bool":
+            return f"{p['name']}={json.dumps(not p['value'])}"
+        if p["type"] == "float" and "min" in p and "max" in p:
+            return f"{p['name']}={p['min'] if p['value'] != p['min'] else p['max']}"
+        if p["type"] == "choice":
+            return f"{p['name']}={next(word for word in p['choices'] if word != p['value'])}"
+    return None
+
+
+def names_of(sheet):
+    """A pass, a resource and a parameter of a sound graph, and a setting that changes it."""
+    plan = json.loads(run(sheet.weft, "plan", sheet.path, "--format", "json", *sheet.more).out)
+    parameters = json.loads(run(sheet.weft, "params", sheet.path, "--json", *sheet.more).out)
+    names = [step["pass"] for step in plan["steps"][:1]] + [r["name"] for r in plan["resources"][:1]] + [p["name"] for p in parameters[:1]]
+    return names, other_setting(parameters), bool(plan["steps"]) and bool(plan.get("present"))
+
+
+def run_on_cpu(sheet, folder, sound):
+    sheet.graph("matrix", "check --no-shaders --matrix", sound=sound)
+    names, other, shown = names_of(sheet) if sound else (["composite"], None, False)
+    for name in names:
+        sheet.graph("explain", "explain", name, sound=sound)
+    sheet.graph("diff", "diff", sheet.path, sound=sound)
+    sheet.graph("diff to", "diff", GLOW, code=(0, 1), sound=sound)
+    expanded = sheet.graph("expand", "expand", sound=sound)
+    if sound:
+        file = pathlib.Path(folder, "expanded.json")
+        file.write_text(expanded.out)
+        again = run(sheet.weft, "check", "--no-shaders", file, *sheet.more)
+        sheet.report.check(again.code == 0, f"{sheet.path}: its expanded form is refused\n{again.err[-3000:]}")
+    for column, command in (("plan", "plan"), ("plan json", "plan --format json --explain"), ("dot", "dot"), ("params", "params")):
+        done = sheet.graph(column, command, sound=sound)
+        sheet.report.check(bool(done.out) == sound, f"{column} of {sheet.path} prints {done.out[:200]!r}")
+    return other, shown
+
+
+def run_on_device(sheet, folder, other, shown):
+    sheet.graph("check all", "check --all")
+    # What presents nothing cannot be shown or compared.
+    for column, command, more in (("render", "render", ["--quiet", "-o", f"{folder}/picture.png"]), ("fuzz", "fuzz", ["--runs", "1"]),
+                                  ("ablate", "ablate", ["--repeats", "1"]), ("bisect", "bisect", [])):
+        sheet.graph(column, command, *more, *SMALL, code=0 if shown else WRONG.get(column, 1))
+    if other:
+        sheet.graph("bisect set", "bisect", "--other-set", other, *SMALL, code=(0, 1) if shown else 2)
+    dumped = sheet.graph("dump", "dump", "*", "-o", f"{folder}/dump", *SMALL)
+    files = [line.split("  ")[0] for line in dumped.out.splitlines()]
+    sheet.report.check(files and all(pathlib.Path(file).stat().st_size > 0 for file in files), f"dump of {sheet.path}: {files[:3]}")
+
+
+def check_new(sheet, folder, sound):
+    """`new pass` behind this graph. Only what it reads of the file can be wrong: a mistake that shows later does not refuse it."""
+    target = pathlib.Path(folder, "new")
+    done = sheet.run("new pass", "new", "pass", "every_one", "--graph", sheet.path, "-o", target)
+    sheet.report.check(done.code == 0 or not target.exists(), f"new pass behind {sheet.path} leaves files")
+    if done.code == 0 and sound:
+        again = run(sheet.weft, "check", "--no-shaders", target / "every_one.json", *sheet.more)
+        sheet.report.check(again.code == 0, f"{sheet.path} with a new pass: {again.err[-3000:]}")
+
+
+def look_at(weft, report, path, draws, more=(), told=None):
+    """`told`: the code of a broken graph and its place, as the manifest has them."""
+    sheet = Sheet(weft, report, path, more)
+    with temporary_folder() as folder:
+        on_cpu = told is None or told["stage"] not in ("shader", "render")
+        checked = sheet.run("check", "check", "--no-shaders", path, *more)
+        sound = checked.code == 0
+        if told and on_cpu:
+            place = (f"tests/bad_graphs/{told.get('in', told['file'])}", told["line"], told["column"], told["code"])
+            found = [("" if told["line"] == 0 else d["place"], int(d["line"] or 0), int(d["column"] or 0), d["code"]) for d in checked.diagnostics]
+            report.check((place if told["line"] else ("", 0, 0, told["code"])) in found, f"{path}: {place} is not told, but {found}")
+        elif told:
+            report.check(sound and not checked.codes(), f"{path}: without shaders, {checked.code} {checked.err}")
+        other, shown = run_on_cpu(sheet, folder, sound)
+        check_new(sheet, folder, sound)
+        formatted = sheet.run("format", "format", "--check", path)
+        if told is None:
+            report.check(formatted.code == 0, f"{path} is laid out: {formatted.err}")
+        if draws and told and not on_cpu:
+            drawn = sheet.run("check all", "render" if told["stage"] == "render" else "check", path, *more, *(["-o", f"{folder}/a.png"] if told["stage"] == "render" else []))
+            report.check(drawn.code == 1 and told["code"] in drawn.codes(), f"{path}: {told['code']} is not told\n{drawn.err}")
+        elif draws and told is None and sound:
+            run_on_device(sheet, folder, other, shown)
+    return sheet
+
+
+def valid_by_schema(weft, report, paths):
+    if not importlib.util.find_spec("jsonschema"):
+        print("the schema is not tried: python3-jsonschema is not installed")
+        return
+    import jsonschema
+
+    import schema
+    validator = jsonschema.Draft202012Validator(json.loads(run(weft, "schema").out))
+    for path in paths:
+        errors = [e.message[:200] for e in validator.iter_errors(schema.read(TOP / path))]
+        report.check(not errors, f"{path}, by the schema: {errors[:3]}")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("weft", type=pathlib.Path)
+    for flag in ("--all", "--cpu", "--sanitized"):
+        parser.add_argument(flag, action="store_true")
+    parser.add_argument("--only", default="")
+    options, report = parser.parse_args(), Report()
+    weft = options.weft.resolve()
+    good = [str(path.relative_to(TOP)) for path in sorted((TOP / "graphs").rglob("*.json"))]
+    bad = [entry for entry in json.loads((TOP / "tests/bad_graphs/manifest.json").read_text())["files"]]
+    good = [path for path in good if options.only in path and (options.all or path in FEW_GOOD)]
+    bad = [entry for entry in bad if options.only in f"tests/bad_graphs/{entry['file']}"]
+    bad = bad if options.all else bad[5::max(1, len(bad) // FEW_BAD)]
+    report.check(good or bad, f"no file has '{options.only}' in its path")
+    valid_by_schema(weft, report, good)
+    for path in good:
+        print(look_at(weft, report, path, options.all and not options.cpu).text(), flush=True)
+    for entry in bad:
+        more = [word for option in ("set", "disable") for value in entry.get(option, []) for word in (f"--{option}", value)]
+        print(look_at(weft, report, f"tests/bad_graphs/{entry['file']}", options.all and not options.cpu, more, entry).text(), flush=True)
+    print(f"{len(good)} files of graphs/, {len(bad)} broken graphs")
+    report.end()
+
+
+if __name__ == "__main__":
+    main()
