@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds README.md, CONTRIBUTING.md, docs/*.md and docs/tutorials/*.md against the program: every fenced snippet is executed or compared.
+"""Holds README.md, CONTRIBUTING.md, docs/*.md, docs/tutorials/*.md and docs/gallery/*.md against the program: every fenced snippet is executed or compared.
 
 Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [--references FOLDER] [PAGE...]
 
@@ -272,7 +272,7 @@ def main():
     skip_what_cannot_run()
     if OPTIONS.clone:
         return run_in_clone()
-    pages = [TOP / p for p in OPTIONS.pages] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *sorted((TOP / "docs").glob("*.md")), *sorted((TOP / "docs/tutorials").glob("*.md"))]
+    pages = [TOP / p for p in OPTIONS.pages] or [TOP / "README.md", TOP / "CONTRIBUTING.md", *(page for folder in ("docs", "docs/tutorials", "docs/gallery") for page in sorted((TOP / folder).glob("*.md")))]
     problems, counts = [], {}
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
