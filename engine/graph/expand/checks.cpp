@@ -10,11 +10,11 @@
 
 namespace weft::graph::expansion {
 
-namespace {
-
 bool isTexture(const FlatResource& shape) {
   return shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
 }
+
+namespace {
 
 // What the draw or dispatch command itself fetches from a buffer.
 bool isCommandInput(Kind kind) {

@@ -6,6 +6,8 @@
 
 namespace weft::graph::expansion {
 
+bool isTexture(const FlatResource& shape);
+
 // What `outer`, of a slot, says of sampling, and where it says nothing, `inner` of the alternative that it means.
 Sampler layOver(const Sampler& outer, const Sampler& inner);
 

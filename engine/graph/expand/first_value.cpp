@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/subresource.h"
@@ -11,10 +12,6 @@
 namespace weft::graph::expansion {
 
 namespace {
-
-bool isTexture(const FlatResource& shape) {
-  return shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
-}
 
 // What a sampler type of GLSL is about.
 enum class Numbers : std::uint8_t { real, natural, whole };
