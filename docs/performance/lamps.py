@@ -5,7 +5,7 @@
 
 A floor with rocks fills the picture. `near`: lamps over the same floor that reach 0.35 each, so more of them are denser; `everywhere`: each lamp
 reaches every pixel, clusters have nothing to rule out. `touched` is how many lamps a pixel goes through, on average, read from a picture
-with show_lamps. With --spheres, ray-traced spheres fill the picture instead, whose pass is lit.spheres.
+with show_lamps, whose scale ends at 64: where more than one pixel in a hundred is at its end, it is null, and `touched_over_64` is their share. With --spheres, ray-traced spheres fill the picture instead, whose pass is lit.spheres.
 """
 import argparse
 import json
@@ -46,14 +46,19 @@ def linear(byte):
 
 
 def touched_in(path):
-    """The mean number of lamps, from the colours of show_lamps: log2 of it by 3, from blue (0) by green (1) to red (2)."""
+    """The mean number of lamps and the share of pixels at the end of the scale, from the colours of show_lamps: log2 of the number by 3, from
+    blue (0) by green (1) to red (2). None of these has both red and blue, as the sky has: such pixels are left out."""
     channels, texels = read_png(path)
-    total, pixels = 0.0, len(texels) // channels
+    total, pixels, at_end = 0.0, 0, 0
     for i in range(0, len(texels), channels):
         red, green, blue = (linear(c) for c in texels[i:i + 3])
+        if min(red, blue) > 0.1:
+            continue
+        pixels += 1
+        at_end += red > 0.995
         if max(red, green, blue) > 0.1:  # else none
             total += 2 ** (3 * (1 - blue if blue > red else 1 + red))
-    return total / pixels
+    return total / pixels, at_end / pixels
 
 
 def run_weft(weft, *line):
@@ -66,15 +71,17 @@ def run_weft(weft, *line):
 def measure(weft, size, lamps, everywhere, spheres, folder):
     scene, picture = folder / "scene.json", folder / "touched.png"
     scene.write_text(json.dumps(scene_of(lamps, everywhere, spheres)))
-    touched = lamps if everywhere else None
+    touched, over = (lamps, 0) if everywhere else (None, 0)
     if not everywhere:
         sets = ["show_lamps=true", "bloom=false", "fxaa=false", "dither=false", "curve=linear", "composite.white=1"]
         run_weft(weft, "render", GRAPH, "--scene", scene, "--size", size, "--quiet", "-o", picture, *(w for s in sets for w in ("--set", s)))
-        touched = touched_in(picture)
+        touched, over = touched_in(picture)
     bench = json.loads(run_weft(weft, "bench", "--frame", GRAPH, "--scene", scene, "--size", size))
     plain = next(each for each in bench["variants"] if each["name"] == "plain")
-    row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": touched and round(touched, 2),
+    row = {"lamps": lamps, "reach": "everywhere" if everywhere else "near", "touched": round(touched, 2) if over <= 0.01 else None,
            "frame_copies": plain["copies"], "passes": {each["pass"]: each["copies"] for each in plain["passes"]}}
+    if over > 0.01:
+        row["touched_over_64"] = round(over, 2)
     if "cpu_copies" in plain:
         row["frame_cpu_copies"] = plain["cpu_copies"]
     return bench["device"], bench["copy_ms"], row
