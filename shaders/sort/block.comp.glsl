@@ -1,17 +1,23 @@
-// Keys of all instances, and each block of 1024 sorted in shared memory: the first ten stages of the bitonic sort.
+// Keys of all instances, and each block of 2^SPAN sorted in shared memory: the first SPAN stages of the bitonic sort.
 // read    instances  draw list
 // write   keys       uvec2 per element, pow2ceil(count) of them; the rest is padded with the greatest key
 // params  count      instances
+// define  SPAN   1 to 10, default 10; less for fewer elements than 1024, which then cost less
 // threads: half the elements. Merges of larger blocks follow in sort/merge.comp.glsl.
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "order.glsl"
 
-layout(local_size_x = 512) in;
+#ifndef SPAN
+#define SPAN 10
+#endif
+const uint kHalf = 1u << (SPAN - 1);
+
+layout(local_size_x = 1 << (SPAN - 1)) in;
 layout(std430) writeonly buffer keys { uvec2 element[]; };
 layout(std140) uniform Parameters { uint count; };
 
-shared uvec2 block[1024];
+shared uvec2 block[2u * kHalf];
 
 uvec2 elementOf(uint index) {
   if (index >= count) return uvec2(kPadding.x, index);
@@ -29,11 +35,11 @@ void compareAndSwap(uint low, uint high) {
 }
 
 void main() {
-  uint t = gl_LocalInvocationID.x, first = groupIndex() * 1024u;
+  uint t = gl_LocalInvocationID.x, first = groupIndex() * 2u * kHalf;
   block[t] = elementOf(first + t);
-  block[t + 512u] = elementOf(first + t + 512u);
+  block[t + kHalf] = elementOf(first + t + kHalf);
   barrier();
-  for (uint k = 1u; k <= 10u; ++k) {
+  for (uint k = 1u; k <= uint(SPAN); ++k) {
     uint half_size = 1u << (k - 1u);
     // Mirrored first step: both halves are ascending, so every merge is.
     uint base = (t >> (k - 1u)) << k, offset = t & (half_size - 1u);
@@ -47,5 +53,5 @@ void main() {
   }
   uint size = uint(element.length());
   if (first + t < size) element[first + t] = block[t];
-  if (first + t + 512u < size) element[first + t + 512u] = block[t + 512u];
+  if (first + t + kHalf < size) element[first + t + kHalf] = block[t + kHalf];
 }
