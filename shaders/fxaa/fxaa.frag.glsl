@@ -1,32 +1,33 @@
 // Fast approximate anti-aliasing of display-referred, encoded values, after the tone curve (Lottes, FXAA 3.11): the
 // pixels that fxaa/edges found, moved along their edge towards the other side.
 // read    source   a copy of the encoded picture, `as linear`
+//         texels   the same, not `as linear`: a nearest lookup costs less than a fetch in software
 // modify  result   the picture
 //         edges    depth: 0 at edges; "depth_test": "equal" keeps every other pixel from being shaded at all
 // params  subpixel   how much single pixels are softened, 0..1
 #include "luma.glsl"
 
-uniform sampler2D source;
+uniform sampler2D source, texels;
 layout(std140) uniform Parameters { float subpixel; };
-in vec2 uv;
+noperspective in vec2 uv;
 out vec4 result;
 
 const int kSteps = 5;
 const float kStride[5] = float[5](1.0, 1.5, 2.0, 4.0, 12.0);
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
-  float m = luma(texelFetch(source, at, 0).rgb);
-  float n = luma(texelFetch(source, ivec2(at.x, min(at.y + 1, last.y)), 0).rgb);
-  float s = luma(texelFetch(source, ivec2(at.x, max(at.y - 1, 0)), 0).rgb);
-  float e = luma(texelFetch(source, ivec2(min(at.x + 1, last.x), at.y), 0).rgb);
-  float w = luma(texelFetch(source, ivec2(max(at.x - 1, 0), at.y), 0).rgb);
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), low_uv = uv - texel, high_uv = uv + texel;
+  float m = luma(textureLod(texels, uv, 0.0).rgb);
+  float n = luma(textureLod(texels, vec2(uv.x, high_uv.y), 0.0).rgb);
+  float s = luma(textureLod(texels, vec2(uv.x, low_uv.y), 0.0).rgb);
+  float e = luma(textureLod(texels, vec2(high_uv.x, uv.y), 0.0).rgb);
+  float w = luma(textureLod(texels, vec2(low_uv.x, uv.y), 0.0).rgb);
   float high = max(max(max(n, s), max(e, w)), m), low = min(min(min(n, s), min(e, w)), m);
   float range = max(high - low, 1e-4);
-  float ne = luma(texelFetch(source, min(at + 1, last), 0).rgb);
-  float sw = luma(texelFetch(source, max(at - 1, ivec2(0)), 0).rgb);
-  float nw = luma(texelFetch(source, ivec2(max(at.x - 1, 0), min(at.y + 1, last.y)), 0).rgb);
-  float se = luma(texelFetch(source, ivec2(min(at.x + 1, last.x), max(at.y - 1, 0)), 0).rgb);
+  float ne = luma(textureLod(texels, high_uv, 0.0).rgb);
+  float sw = luma(textureLod(texels, low_uv, 0.0).rgb);
+  float nw = luma(textureLod(texels, vec2(low_uv.x, high_uv.y), 0.0).rgb);
+  float se = luma(textureLod(texels, vec2(high_uv.x, low_uv.y), 0.0).rgb);
 
   float average = (2.0 * (n + s + e + w) + ne + nw + se + sw) / 12.0;
   float blur = clamp(abs(average - m) / range, 0.0, 1.0);
@@ -41,7 +42,6 @@ void main() {
   float other = toward < 0.0 ? before : after;
   float contrast = 0.25 * abs(other - m), edge_luma = 0.5 * (other + m);
 
-  vec2 texel = 1.0 / vec2(last + 1);
   vec2 across = is_horizontal ? vec2(0.0, texel.y) : vec2(texel.x, 0.0);
   vec2 along = is_horizontal ? vec2(texel.x, 0.0) : vec2(0.0, texel.y);
   vec2 start = uv + across * toward * 0.5;
