@@ -3,14 +3,19 @@
 #ifndef BLOOM_BRIGHT_GLSL
 #define BLOOM_BRIGHT_GLSL
 
-// What lies above `threshold` in the largest channel, the hue kept; `knee` is the width of the soft start as a fraction of
-// the threshold. At threshold 0 all of it.
-vec3 brightPart(vec3 color, float threshold, float knee) {
-  float peak = max(max(color.r, color.g), max(color.b, 1e-6));
+// What lies above the threshold in the largest channel, the hue kept; `knee` is the width of the soft start as a fraction of
+// the threshold. At threshold 0 all of it. The threshold, half the width of the start, and how steep that is.
+vec3 brightOf(float threshold, float knee) {
   float soft = threshold * knee;
-  float ramp = clamp(peak - threshold + soft, 0.0, 2.0 * soft);
-  ramp = ramp * ramp / max(4.0 * soft, 1e-6);
-  return color * (max(ramp, peak - threshold) / peak);
+  return vec3(threshold, soft, 1.0 / max(4.0 * soft, 1e-6));
+}
+
+float peakOf(vec3 color) { return max(max(color.r, color.g), max(color.b, 1e-6)); }
+
+// Of a colour with this peak: its bright part is color * brightPeak / peak.
+float brightPeak(float peak, vec3 bright) {
+  float ramp = clamp(peak - bright.x + bright.y, 0.0, 2.0 * bright.y);
+  return max(ramp * ramp * bright.z, peak - bright.x);
 }
 
 #endif

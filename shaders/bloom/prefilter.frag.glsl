@@ -30,16 +30,19 @@ void main() {
   vec2 a = middle - 0.5 * texel, b = middle + 0.5 * texel;
   vec3 c[4] = vec3[4](textureLod(source, a, 0.0).rgb, textureLod(source, vec2(b.x, a.y), 0.0).rgb,
                       textureLod(source, vec2(a.x, b.y), 0.0).rgb, textureLod(source, b, 0.0).rgb);
+  vec3 bright = brightOf(threshold, knee);
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < 4; ++i) {
-    vec3 bright = brightPart(finite(c[i]), threshold, knee);
+    vec3 color = finite(c[i]);
+    float peak = peakOf(color), above = brightPeak(peak, bright);
+    // The bright part is color * above / peak: one division for it and its weight.
 #if FIREFLY
-    float weight = 1.0 / (1.0 + dot(bright, vec3(0.2126, 0.7152, 0.0722)));
+    float share = 1.0 / (peak + above * dot(color, vec3(0.2126, 0.7152, 0.0722))), weight = peak * share;
 #else
-    float weight = 1.0;
+    float share = 1.0 / peak, weight = 1.0;
 #endif
-    sum += bright * weight;
+    sum += color * (above * share);
     weights += weight;
   }
   result = vec4(sum / weights, 1.0);

@@ -20,32 +20,18 @@
 //         grain           define: grain_strength; see grain.glsl
 //         dither          define, default 1: half a step of noise either way before rounding to 8 bits
 //                         (interleaved gradient noise, Jimenez, SIGGRAPH 2014; uniform, so means are kept)
+//         SETTINGS_ARE_FLAT   the vertex shader composite/composite.vert.glsl computes what is the same for all pixels
 #include "common/finite.glsl"
 #include "common/srgb.glsl"
-#include "tone_curve.glsl"
+#include "settings.glsl"
 
 #ifndef DITHER
 #define DITHER 1
 #endif
-#ifndef ABERRATION
-#define ABERRATION 0
-#endif
-#ifndef WHITE_BALANCE
-#define WHITE_BALANCE 0
-#endif
-#ifndef VIGNETTE
-#define VIGNETTE 0
-#endif
-#ifndef GRADING
-#define GRADING 0
-#endif
-#ifndef GRAIN
-#define GRAIN 0
+#ifndef SETTINGS_ARE_FLAT
+#define SETTINGS_ARE_FLAT 0
 #endif
 
-#ifdef HAS_BLOOM
-#include "bloom/bright.glsl"
-#endif
 #ifdef HAS_LUT
 #include "lut.glsl"
 #endif
@@ -67,58 +53,19 @@ uniform sampler2D shifted;
 #ifdef HAS_BLOOM
 uniform sampler2D bloom;
 #endif
-#ifdef HAS_EXPOSURE
-layout(std140) uniform exposure { vec4 adapted; };  // a storage block would cost three tenths of a copy in software
-#endif
 #ifdef HAS_LUT
 uniform sampler3D lut;
 #endif
-#if defined(HAS_EV) || defined(HAS_THRESHOLD) || defined(HAS_LUT) || ABERRATION || WHITE_BALANCE || VIGNETTE || GRADING || GRAIN
-layout(std140) uniform Parameters {
-#ifdef HAS_EV
-  float ev;
-  float bloom_strength;
-  float white;
-#endif
-#ifdef HAS_THRESHOLD
-  float threshold;
-  float knee;
-#endif
-#ifdef HAS_LUT
-  float lut_strength;
-#endif
-#if ABERRATION
-  float aberration_px;
-#endif
-#if WHITE_BALANCE
-  float temperature;
-  float tint;
-#endif
-#if VIGNETTE
-  float vignette_stops;
-#endif
-#if GRADING
-  float saturation;
-  float contrast;
-  vec3 lift;
-  vec3 gamma;
-  vec3 gain;
-#endif
-#if GRAIN
-  float grain_strength;
-#endif
-};
-#endif
-#ifndef HAS_EV
-const float ev = 0.0, bloom_strength = 0.05, white = 8.0;
-#endif
-#ifndef HAS_THRESHOLD
-const float threshold = 0.0, knee = 0.0;
+#if SETTINGS_ARE_FLAT
+flat in Settings settings;
 #endif
 noperspective in vec2 uv;
 out vec4 result;
 
 void main() {
+#if !SETTINGS_ARE_FLAT
+  Settings settings = settingsOf();
+#endif
   vec3 c = textureLod(color, uv, 0.0).rgb;
   vec2 size = vec2(textureSize(color, 0)), pixel = floor(uv * size) + 0.5;  // gl_FragCoord would cost more in software
 #if ABERRATION || VIGNETTE
@@ -138,23 +85,23 @@ void main() {
 #endif
   c = finite(c);
 #ifdef HAS_BLOOM
-  c += bloom_strength * (textureLod(bloom, uv, 0.0).rgb - brightPart(c, threshold, knee));
+  float peak = peakOf(c);
+  c += settings.bloom * (textureLod(bloom, uv, 0.0).rgb - c * (brightPeak(peak, settings.bright) / peak));
 #endif
-  c *= exp2(ev);
-#ifdef HAS_EXPOSURE
-  if (adapted.x > 0.0) c *= adapted.x;
-#endif
+  c *= settings.exposure;
 #if WHITE_BALANCE
   c = whiteBalance(c, temperature, tint);
 #endif
 #if VIGNETTE
   c *= exp2(-vignette_stops * dot(from_centre, from_centre));
 #endif
+#if WHITE_BALANCE || defined HAS_BLOOM
   c = max(c, vec3(0.0));
+#endif
 #if GRADING
   c = gradeScene(c, saturation, contrast);
 #endif
-  c = clamp(toneCurve(c, white), 0.0, 1.0);
+  c = clamp(toneCurve(c, settings.white), 0.0, 1.0);
 #if GRADING
   c = clamp(gradeDisplay(c, lift, gamma, gain), 0.0, 1.0);
 #endif

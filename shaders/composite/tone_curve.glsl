@@ -51,24 +51,37 @@ vec3 neutral(vec3 color) {
 }
 #endif
 
-vec3 toneCurve(vec3 color, float white) {
+const float kFilmicGain = 3.0;  // puts middle grey, 0.18, near 0.18 for whites around 4 to 10
+
+// What toneCurve takes of `white`: the same for all pixels.
+float curveWhite(float white) {
+#if CURVE == CURVE_REINHARD
+  return 1.0 / (white * white);
+#elif CURVE == CURVE_ACES
+  return 6.6 / white;
+#elif CURVE == CURVE_FILMIC
+  return 1.0 / hable(vec3(white * kFilmicGain)).r;
+#else
+  return 1.0 / white;
+#endif
+}
+
+vec3 toneCurve(vec3 color, float curve_white) {
 #if CURVE == CURVE_LINEAR
-  return color / white;
+  return color * curve_white;
 #elif CURVE == CURVE_REINHARD
   // Reinhard et al. 2002, equation 4, per channel.
-  return color * (1.0 + color / (white * white)) / (1.0 + color);
+  return color * (1.0 + color * curve_white) / (1.0 + color);
 #elif CURVE == CURVE_ACES
   // Narkowicz 2015, a fit of the ACES reference transform; its own white is about 6.6.
-  color *= 6.6 / white;
+  color *= curve_white;
   return color * (2.51 * color + 0.03) / (color * (2.43 * color + 0.59) + 0.14);
 #elif CURVE == CURVE_AGX
   return agx(color);
 #elif CURVE == CURVE_NEUTRAL
   return neutral(color);
 #else
-  // The gain puts middle grey, 0.18, near 0.18 for whites around 4 to 10.
-  const float gain = 3.0;
-  return hable(color * gain) * (1.0 / hable(vec3(white * gain)).r);
+  return hable(color * kFilmicGain) * curve_white;
 #endif
 }
 
