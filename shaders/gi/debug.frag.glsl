@@ -22,7 +22,7 @@ out vec2 velocity;
 #endif
 
 vec3 ambient(vec3 direction) {
-  return sampleEquirect(irradiance, equirectUv(direction) - vec2(sky_turn, 0.0), equirectLookup(0.0, float(textureSize(irradiance, 0).y))).rgb;
+  return sampleEquirect(irradiance, equirectUv(direction) - vec2(sky_turn, 0.0), vec2(0.0, 0.5 / float(textureSize(irradiance, 0).y))).rgb;
 }
 
 void main() {

@@ -49,7 +49,7 @@ void main() {
   vec3 sky_seen = vec3(1.0);
   vec2 lights_seen = vec2(1.0);
 #ifdef HAS_IRRADIANCE
-  vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
+  vec2 lookup = vec2(0.0, 0.5 / float(textureSize(irradiance, 0).y));
   from_sky = sampleEquirect(irradiance, vec2(0.0), lookup).rgb;
 #ifdef HAS_BRIGHTEST
   from_spot = min(brightest_light.rgb * (max(towardsBrightest(sky_turn).y, 0.0) / kPi), from_sky);

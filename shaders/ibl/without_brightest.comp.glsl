@@ -13,7 +13,7 @@ layout(rgba16f) uniform writeonly image2D result;
 float most(vec3 color) { return max(color.r, max(color.g, color.b)); }
 
 vec3 environmentAt(vec2 map_uv, float level) {
-  return sampleEquirect(environment, map_uv, equirectLookup(level, float(textureSize(environment, 0).y))).rgb;
+  return sampleEquirect(environment, map_uv, equirectLookup(level, 0.5 / float(textureSize(environment, 0).y))).rgb;
 }
 
 void main() {

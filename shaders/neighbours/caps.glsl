@@ -2,7 +2,7 @@
 #ifndef NEIGHBOURS_CAPS_GLSL
 #define NEIGHBOURS_CAPS_GLSL
 
-#include "common/equirect.glsl"
+#include "common/fast_atan.glsl"
 
 // acos with an error below 7e-5 (Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, 4.4.45).
 float arcCosine(float x) {

@@ -8,6 +8,7 @@
 // params  count       spheres
 //         cells       as that shader had it
 //         reach       in radii
+#include "common/fast_atan.glsl"
 #include "grid.glsl"
 #include "lists.glsl"
 #include "overlap.glsl"

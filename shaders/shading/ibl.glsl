@@ -2,7 +2,7 @@
 // back (Fdez-Aguera, JCGT 2019: exact for metals in a white furnace whatever the roughness) and a diffuse layer that
 // gets what the specular one leaves. A partial metal is that share of metal beside a dielectric. shading/light.glsl reads the environment's
 // maps by it.
-// Samplers: brdf (`as linear`), irradiance? (`as linear wrap`), and those of shading/lobe.glsl, where SPECULAR_AA is too.
+// Samplers: brdf (`as linear`) and those of shading/lobe.glsl, where SPECULAR_AA is too.
 // COMPENSATION 0 leaves the lost energy out.
 // Parameter sky_turn?: by how much of a full turn the environment is rotated. The includer declares the block Parameters before.
 #ifndef SHADING_IBL_GLSL
@@ -16,9 +16,6 @@
 #endif
 
 uniform sampler2D brdf;
-#ifdef HAS_IRRADIANCE
-uniform sampler2D irradiance;
-#endif
 
 struct Surface {
   vec3 albedo;

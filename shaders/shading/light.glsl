@@ -95,12 +95,11 @@ void main() {
   // What single scattering reflects of the environment.
   vec3 reflected = vec3(0.0);
 #ifdef HAS_SPECULAR
-  float near_spot = dot(point.mirror, lobe.spot), height = float(textureSize(specular, 0).y);
-  float level = min(lobe.maps.y + response.lobe.y * lobe.maps.w, float(textureQueryLevels(specular) - 1));
+  float near_spot = dot(point.mirror, lobe.spot), level = min(lobe.maps.y + response.lobe.y * lobe.maps.w, lobe.poles.w);
   vec2 axis = equirectUv(mix(point.mirror, point.n, response.lobe.x)) - vec2(sky_turn, 0.0);
-  reflected = sampleEquirect(specular, axis, equirectLookup(level, height)).rgb;
+  reflected = sampleEquirect(specular, axis, equirectLookup(level, lobe.poles.y)).rgb;
 #ifdef HAS_ENVIRONMENT
-  vec3 sharp = sampleEquirect(environment, axis, equirectLookup(lobe.maps.x, float(textureSize(environment, 0).y))).rgb;
+  vec3 sharp = sampleEquirect(environment, axis, vec2(lobe.maps.x, lobe.poles.x)).rgb;
 #ifdef HAS_BRIGHTEST
   // The spot is not to be seen twice.
   sharp -= (near_spot > kNearCosine ? lobe.cut.y : 0.0) * max(sharp - lobe.cut.x, 0.0);
@@ -112,7 +111,7 @@ void main() {
 #ifdef HAS_IRRADIANCE
   vec2 met = equirectUv(surround.mirror_facing) - vec2(sky_turn, 0.0);
   if (surround.mirror_seen < 0.999)
-    reflected += surround.mirror_albedo * sampleEquirect(irradiance, met, equirectLookup(0.0, float(textureSize(irradiance, 0).y))).rgb;
+    reflected += surround.mirror_albedo * sampleEquirect(irradiance, met, vec2(0.0, lobe.poles.z)).rgb;
 #endif
 #endif
   reflected *= response.single;
@@ -123,8 +122,8 @@ void main() {
   float masking = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
   float strength = spotDistribution(lobe.widths, max(h2 - (nv + nl) * (nv + nl), 0.0), h2, nl, max(masking, 1e-6));
 #if LOBE_IS_FLAT
-  vec2 grown = exp2(min(abs(gl_FragCoord.xy - lobe.glint) * lobe.shares.x, 60.0)), shared_by = lobe.shares.y + 0.5 * (grown + 1.0 / grown);
-  strength += lobe.shares.z / (shared_by.x * shared_by.y * max(coverage, 0.1));
+  vec2 g = exp2(-abs(gl_FragCoord.xy - lobe.glint) * lobe.shares.x), by = 1.0 + g * (lobe.shares.y + g);
+  strength += lobe.shares.z * g.x * g.y / (by.x * by.y * max(coverage, 0.1));
 #endif
   float m = 1.0 - 0.5 * sqrt(h2), m2 = m * m;
 #if SEES_NEIGHBOURS
@@ -136,7 +135,7 @@ void main() {
 
   vec3 around = vec3(0.0);
 #ifdef HAS_IRRADIANCE
-  vec2 lookup = equirectLookup(0.0, float(textureSize(irradiance, 0).y));
+  vec2 lookup = vec2(0.0, lobe.poles.z);
   vec3 facing = point.n;
 #if SEES_NEIGHBOURS
   facing = surround.bent;

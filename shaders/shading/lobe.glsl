@@ -1,5 +1,5 @@
 // Which part of the environment's maps a surface of some roughness reflects: all that vertex shaders need of shading/ibl.glsl.
-// Samplers: specular? and environment? (`as linear wrap`; the latter has the mips of a box filter and is what surfaces smoother than
+// Samplers: irradiance?, specular? and environment? (`as linear wrap`; the last has the mips of a box filter and is what surfaces smoother than
 // level 0 of the specular map reflect; without it they are as rough as that level). Block brightest? (`as uniform`): the spot that the
 // specular map lacks, see ibl/brightest.glsl; its reflection is in closed form.
 // Parameter sky_turn?: by how much of a full turn the environment is rotated. The includer declares the block Parameters before, see
@@ -25,6 +25,9 @@
 const float sky_turn = 0.0;
 #endif
 
+#ifdef HAS_IRRADIANCE
+uniform sampler2D irradiance;
+#endif
 #ifdef HAS_SPECULAR
 uniform sampler2D specular;
 #ifdef HAS_ENVIRONMENT
@@ -35,12 +38,13 @@ uniform sampler2D environment;
 // What a surface of one roughness reads of the maps, and how it sees the brightest spot. The same for a whole sphere.
 struct Lobe {
   vec4 maps;     // x level of the environment, y of the specular map, z weight of the latter, w by what Response::lobe.y changes y
+  vec4 poles;    // how close v may come to the poles: x of the environment, y of the specular map's level 0, z of the irradiance; w the specular map's last level
   vec3 spot;     // towards it, in the world
   vec4 widths;   // of its reflection, see ibl/brightest.glsl
   vec3 light;    // of it, as far as it is reflected in closed form, over 2 pi
   vec2 cut;      // what is above x near the spot is cut out of what is read of the environment, by the share y
   vec2 glint;    // of a small sphere: where the spot is seen, in pixels; see spheres/glint.glsl
-  vec3 shares;   // its share of a pixel at the distance d: z / ((y + cosh(x d.x)) (y + cosh(x d.y))), with x to the base of 2
+  vec3 shares;   // its share of a pixel at the distance d: z g.x g.y / ((1 + y g.x + g.x^2) (1 + y g.y + g.y^2)), g = exp2(-x |d|)
 };
 
 // `bend`: radians the normals of a sphere span in a pixel where they face the eye. In the plane of incidence the cone of reflected
@@ -50,7 +54,7 @@ struct Lobe {
 #if !defined LOBE_IS_FLAT || LOBE_IS_FLAT == 0
 #ifdef HAS_SPECULAR
 Lobe lobeOf(float roughness, float bend) {
-  Lobe lobe = Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0));
+  Lobe lobe = Lobe(vec4(0.0), vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0));
   int levels = textureQueryLevels(specular);
   float alpha = alphaOfRoughness(roughness);
   // Variance along each axis: 2 alpha^2 of the lobe, (2 bend)^2 / 12 of the pixel (a box).
@@ -62,7 +66,11 @@ Lobe lobeOf(float roughness, float bend) {
 #endif
   // The pixel's part of the width is the same all over a sphere; only the lobe's own changes with the view.
   float own = alpha * alpha / max(wider * wider, 1e-12);
-  lobe.maps = vec4(0.0, levelOfAlpha(wider, levels), 1.0, own * float(levels - 1));
+  lobe.poles.yw = vec2(0.5 / float(textureSize(specular, 0).y), levels - 1);
+  lobe.maps = vec4(0.0, levelOfAlpha(wider, levels), 1.0, own * lobe.poles.w);
+#ifdef HAS_IRRADIANCE
+  lobe.poles.z = 0.5 / float(textureSize(irradiance, 0).y);
+#endif
 #ifdef HAS_ENVIRONMENT
   // From half of level 0's roughness on the lobe takes over, or where the pixel is as wide as level 0; up to there and between, the
   // environment is as blurred as the lobe is wide.
@@ -76,6 +84,7 @@ Lobe lobeOf(float roughness, float bend) {
   float sharp = max(log2(size.y / float(textureSize(specular, 0).y)), equirectLevel(size.x, 2.0 * alpha));
 #endif
   lobe.maps.x = lobe.maps.z < 1.0 ? sharp : most;  // the cheapest to read where it does not count
+  lobe.poles.x = equirectLookup(lobe.maps.x, 0.5 / size.y).y;
 #endif
 #ifdef HAS_BRIGHTEST
   lobe.spot = towardsBrightest(sky_turn);
@@ -92,7 +101,13 @@ Lobe lobeOf(float roughness, float bend) {
   return lobe;
 }
 #else
-Lobe lobeOf(float roughness, float bend) { return Lobe(vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0)); }
+Lobe lobeOf(float roughness, float bend) {
+  Lobe lobe = Lobe(vec4(0.0), vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0));
+#ifdef HAS_IRRADIANCE
+  lobe.poles.z = 0.5 / float(textureSize(irradiance, 0).y);
+#endif
+  return lobe;
+}
 #endif
 #endif
 

@@ -22,7 +22,7 @@ flat out vec3 spot_light;  // times spotDistribution and the cosine: radiance
 
 vec2 lookupOf(sampler2D map, float least) {
   vec2 size = vec2(textureSize(map, 0));
-  return equirectLookup(max(equirectLevel(size.x, lookupAngle()), least), size.y);
+  return equirectLookup(max(equirectLevel(size.x, lookupAngle()), least), 0.5 / size.y);
 }
 
 void main() {

@@ -12,7 +12,8 @@ const float kLeastBlur = 0.1;  // of the border between two pixels, pixels
 
 // `bend` as in lobeOf. The spot's size and the surface's roughness blur the reflection, measured here in pixels. Up to one the pixels' squares
 // count, from two on the lobe is smooth enough by itself. The square's share of a spot with the blur s at the distance x along an axis
-// is (tanh(a (x + 1/2)) - tanh(a (x - 1/2))) / 2 = sinh(a) / (cosh(a) + cosh(2 a x)), with a = 0.907 / s.
+// is (tanh(a (x + 1/2)) - tanh(a (x - 1/2))) / 2 = sinh(a) / (cosh(a) + cosh(2 a x)), with a = 0.907 / s. With g = exp(-2 a |x|) that is
+// 2 sinh(a) g / (1 + 2 cosh(a) g + g^2).
 void addGlint(inout Lobe lobe, vec3 center, float radius, float bend) {
 #if defined HAS_BRIGHTEST && SPECULAR_AA
   vec3 away = eye - center;
@@ -32,7 +33,7 @@ void addGlint(inout Lobe lobe, vec3 center, float radius, float bend) {
   float steep = 0.907 / max(blur, kLeastBlur), e = exp(steep), sh = 0.5 * (e - 1.0 / e);
   float slant = sqrt(far2) / max(dot(away, transpose(mat3(view))[2]), 1e-6);  // pixels off the axis see less of a solid angle
   float strength = share * (1.0 - lobe.widths.x / lobe.widths.y) * 0.5 * kPi * slant / (bend * bend);
-  lobe.shares = vec3(2.0 * steep / log(2.0), 0.5 * (e + 1.0 / e), strength * sh * sh);
+  lobe.shares = vec3(2.0 * steep / log(2.0), e + 1.0 / e, 4.0 * strength * sh * sh);
   lobe.widths.z *= 1.0 - share;
 #endif
 }
