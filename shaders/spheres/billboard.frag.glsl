@@ -48,7 +48,8 @@ out vec2 velocity;
 float halfPlane(float inside, vec2 normal) {
   float a = max(normal.x, normal.y), b = min(normal.x, normal.y);
   float corner = max(0.5 * (a + b) - abs(inside), 0.0);
-  float beyond = abs(inside) <= 0.5 * (a - b) ? 0.5 - abs(inside) / a : corner * corner / max(2.0 * a * b, 1e-9);
+  bool ramp = abs(inside) <= 0.5 * (a - b);
+  float beyond = (ramp ? 0.5 * a - abs(inside) : corner * corner) / (ramp ? a : max(2.0 * a * b, 1e-9));
   return inside > 0.0 ? 1.0 - beyond : beyond;
 }
 
