@@ -1,10 +1,15 @@
 // The next coarser level of the two fields and of the discs: a mean of four by four texels that weighs 1, 3, 3, 1, so that what is small stays
 // exactly where it is, and nothing beats with the pixels that read it.
-// read    near_source, far_source, disc_source   a level, `as linear`
-// write   near, far, disc                        the next one, half as wide and high
-uniform sampler2D near_source, far_source, disc_source;
+// read    near_source, far_source?, disc_source   a level, `as linear`
+// write   near, far?, disc                        the next one, half as wide and high; far only where something reads it
+uniform sampler2D near_source, disc_source;
+#ifdef HAS_FAR_SOURCE
+uniform sampler2D far_source;
+#endif
 out vec4 near;
+#ifdef HAS_FAR
 out vec4 far;
+#endif
 out float disc;
 
 vec4 meanOf(sampler2D source) {
@@ -16,6 +21,10 @@ vec4 meanOf(sampler2D source) {
 
 void main() {
   near = meanOf(near_source);
+#if defined HAS_FAR && defined HAS_FAR_SOURCE
   far = meanOf(far_source);
+#elif defined HAS_FAR
+  far = vec4(0.0);
+#endif
   disc = meanOf(disc_source).r;
 }

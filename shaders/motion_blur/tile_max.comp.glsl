@@ -33,7 +33,8 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(result)))) return;
   ivec2 size = textureSize(velocity, 0), first = at * tile, end = min(first + tile, size);
-  vec2 longest = farthest(vec2(0.0), first, end, vec2(size));
-  vec2 other = longest == vec2(0.0) ? longest : farthest(longest, first, end, vec2(size));
+  vec2 longest = farthest(vec2(0.0), first, end, vec2(size)), pixels = longest * vec2(size);
+  // Of a tile that moves less than a hundredth of a pixel, as by rounding, all motions are alike.
+  vec2 other = dot(pixels, pixels) < 1e-4 ? longest : farthest(longest, first, end, vec2(size));
   imageStore(result, at, vec4(longest, other));
 }
