@@ -3,10 +3,12 @@
 // reads it.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -36,10 +38,31 @@ enum class Kind : std::uint8_t {
 };
 enum class Cadence : std::uint8_t { always, on_change, once };
 
+// What a lookup outside 0..1 finds: the texel at the edge, the texture again, its mirror image, or Sampler::color.
+enum class Wrap : std::uint8_t { clamp, repeat, mirror, border };
+
+enum class Compare : std::uint8_t {
+  never,
+  less,
+  equal,
+  less_equal,
+  greater,
+  not_equal,
+  greater_equal,
+  always
+};
+// As "depth_test" and `as compare(…)` spell them, in the order of Compare.
+constexpr std::array<std::string_view, 8> kCompareNames = {
+    "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
+
 struct Sampler {
-  bool linear = false;   // else nearest; with more than one level the levels are filtered the same way
-  bool wrap = false;     // repeat in s, t and r; else clamp to edge
-  bool compare = false;  // depth comparison; implies linear
+  bool linear = false;      // else nearest; with more than one level the levels are filtered the same way
+  Wrap wrap = Wrap::clamp;  // in s, t and r
+  std::array<float, 4> color{};  // of the border
+  bool compare = false;          // depth comparison; implies linear
+  std::optional<Compare>
+      function;  // of the comparison; absent: that of the pass's depth test, else less_equal
+  friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 
 // `a..b` inside a selector; both ends inclusive; absent ends mean the first and the last.

@@ -150,16 +150,6 @@ struct DefineSpec {
 };
 
 enum class Blend : std::uint8_t { none, add, alpha, premultiplied, multiply, min, max };
-enum class Compare : std::uint8_t {
-  never,
-  less,
-  equal,
-  less_equal,
-  greater,
-  not_equal,
-  greater_equal,
-  always
-};
 enum class Cull : std::uint8_t { none, front, back };
 
 struct StateSpec {

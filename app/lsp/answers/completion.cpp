@@ -12,6 +12,7 @@
 #include "engine/graph/language/format.h"
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
+#include "engine/graph/read/ref_words.h"
 
 namespace weft::app::lsp {
 
@@ -269,9 +270,14 @@ class Completer {
     if (condition != std::string_view::npos && (as == std::string_view::npos || as < condition))
       return expression(node);
     if (as != std::string_view::npos) {
+      if (const std::size_t open = before.rfind('('); open != std::string_view::npos && open > as) {
+        if (before.substr(0, open).ends_with("compare")) addWords(graph::kCompareNames, ItemKind::keyword);
+        return;
+      }
       addWords(std::initializer_list<const char*>{"sampled", "image", "uniform", "storage", "color", "depth",
-                                                  "copy", "linear", "nearest", "wrap", "clamp", "compare"},
+                                                  "copy"},
                ItemKind::keyword);
+      addWords(graph::kSamplerWords, ItemKind::keyword);
       return;
     }
     resources();

@@ -34,6 +34,14 @@ const PassType* findPassType(const Registry& registry, std::string_view name) {
   return nullptr;
 }
 
+Sampler layOver(const Sampler& outer, const Sampler& inner) {
+  Sampler both = outer.wrap == Wrap::clamp ? inner : outer;  // with the colour of the border
+  both.linear = outer.linear || inner.linear;
+  both.compare = outer.compare || inner.compare;
+  both.function = outer.function ? outer.function : inner.function;
+  return both;
+}
+
 Kind defaultKind(const PassType* type, Access access, const FlatResource& shape) {
   if (!type) return Kind::copy;
   if (!isTexture(shape)) return Kind::storage;
@@ -103,12 +111,12 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     return formatMisfit("a format that images can have");
   if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
   const Sampler& sampler = work.sampler;
-  const bool blit =
-      kind == Kind::copy && shader == ShaderShape::none && !sampler.wrap && !sampler.compare;  // may filter
-  if ((sampler.linear || sampler.wrap || sampler.compare) && kind != Kind::sampled && !blit)
+  const bool blit = kind == Kind::copy && shader == ShaderShape::none && sampler.wrap == Wrap::clamp &&
+                    !sampler.compare;  // may filter
+  if ((sampler.linear || sampler.wrap != Wrap::clamp || sampler.compare) && kind != Kind::sampled && !blit)
     return report(Code::badKind,
                   fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
-                  "linear, wrap and compare for sampled textures");
+                  "linear, wrap, mirror, border and compare for sampled textures");
   if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format))
     return formatMisfit("a depth format for compare");
   if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2))

@@ -6,6 +6,9 @@
 
 namespace weft::graph::expansion {
 
+// What `outer`, of a slot, says of sampling, and where it says nothing, `inner` of the alternative that it means.
+Sampler layOver(const Sampler& outer, const Sampler& inner);
+
 // The kind of a use whose reference names none.
 Kind defaultKind(const PassType* type, Access access, const FlatResource& shape);
 

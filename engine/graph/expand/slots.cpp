@@ -125,9 +125,7 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
-  leaf.sampler.linear = leaf.sampler.linear || ref.sampler.linear;
-  leaf.sampler.wrap = leaf.sampler.wrap || ref.sampler.wrap;
-  leaf.sampler.compare = leaf.sampler.compare || ref.sampler.compare;
+  leaf.sampler = layOver(leaf.sampler, ref.sampler);
   leaf.history += ref.history;
   const Entity& entity = model.entities[leaf.entity];
   if (entity.kind != ResourceDesc::Kind::alternatives) {

@@ -124,8 +124,7 @@ class SpecFiller {
   }
 
   void addState(const NamedExpr& state) {
-    static const std::vector<std::string> kCompare = {"never",   "less",      "equal",         "less_equal",
-                                                      "greater", "not_equal", "greater_equal", "always"};
+    static const std::vector<std::string> kCompare(kCompareNames.begin(), kCompareNames.end());
     StateSpec& s = spec_.state;
     if (state.name == "blend" || state.name.starts_with("blend.")) {
       addBlend(state);

@@ -266,10 +266,17 @@ class FileWriter {
       if (slot.useCount == 0) continue;
       std::string text = textOf(graph_.uses[slot.firstUse], slot.array) + " as " + nameOf(slot.kind);
       if (slot.sampler.compare)
-        text += " compare";
+        text +=
+            slot.sampler.function
+                ? fmt::format(" compare({})", kCompareNames[static_cast<std::size_t>(*slot.sampler.function)])
+                : " compare";
       else if (slot.sampler.linear)
         text += " linear";
-      if (slot.sampler.wrap) text += " wrap";
+      const std::array<float, 4>& color = slot.sampler.color;
+      if (slot.sampler.wrap == Wrap::repeat) text += " wrap";
+      if (slot.sampler.wrap == Wrap::mirror) text += " mirror";
+      if (slot.sampler.wrap == Wrap::border)
+        text += fmt::format(" border({}, {}, {}, {})", color[0], color[1], color[2], color[3]);
       json[nameOf(slot.access)][slot.name] = text;
     }
   }
@@ -293,14 +300,12 @@ class FileWriter {
 
   static void addState(const PassSpec& spec, Json& json) {
     constexpr const char* kBlends[] = {"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
-    constexpr const char* kCompares[] = {"never",   "less",      "equal",         "less_equal",
-                                         "greater", "not_equal", "greater_equal", "always"};
     constexpr const char* kCulls[] = {"none", "front", "back"};
     const StateSpec& state = spec.state;
     Json out;
     for (const auto& [slot, blend] : state.blend)
       out["blend"][slot] = kBlends[static_cast<std::size_t>(blend)];
-    if (state.depthTest) out["depth_test"] = kCompares[static_cast<std::size_t>(state.depthCompare)];
+    if (state.depthTest) out["depth_test"] = kCompareNames[static_cast<std::size_t>(state.depthCompare)];
     if (!state.depthWrite) out["depth_write"] = false;
     if (state.cull != Cull::none) out["cull"] = kCulls[static_cast<std::size_t>(state.cull)];
     if (state.lines) out["polygon"] = "line";

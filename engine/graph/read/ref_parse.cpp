@@ -1,15 +1,13 @@
 #include "engine/graph/read/ref_parse.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
-#include "engine/graph/subresource.h"
+#include "engine/graph/read/ref_words.h"
 
 namespace weft::graph {
 
@@ -223,63 +221,8 @@ class RefParser {
     skipSpace();
     if (peekWord(at_) != "as") return true;
     at_ += 2;
-    bool nearest = false, clamp = false, any = false;
-    const auto samplerAt = [&](std::string_view word, bool& flag, bool& opposite, std::size_t offset) {
-      if (opposite)
-        return fail(offset, fmt::format("'{}' contradicts an earlier word", word), "keep one of them");
-      flag = true;
-      return true;
-    };
-    while (true) {
-      skipSpace();
-      const std::size_t start = at_;
-      const std::string_view word = peekWord(at_);
-      if (word.empty() || word == "if") {
-        if (any) return true;
-        return fail(start, "'as' without a word",
-                    "say a kind or a filter, such as 'as depth' or 'as linear wrap'");
-      }
-      at_ += word.size();
-      any = true;
-      bool good = true;
-      if (word == "linear")
-        good = samplerAt(word, ref_.sampler.linear, nearest, start);
-      else if (word == "nearest")
-        good = samplerAt(word, nearest, ref_.sampler.linear, start);
-      else if (word == "wrap")
-        good = samplerAt(word, ref_.sampler.wrap, clamp, start);
-      else if (word == "clamp")
-        good = samplerAt(word, clamp, ref_.sampler.wrap, start);
-      else if (word == "compare")
-        ref_.sampler.compare = true;
-      else
-        good = parseKind(word, start);
-      if (!good) return false;
-      const bool samples =
-          nearest || clamp || ref_.sampler.linear || ref_.sampler.wrap || ref_.sampler.compare;
-      if (samples && ref_.kind && *ref_.kind != Kind::sampled)
-        return fail(start, "filters belong to sampled textures only", "drop the kind or the filter");
-      if (ref_.sampler.compare && !nearest) ref_.sampler.linear = true;
-    }
-  }
-
-  bool parseKind(std::string_view word, std::size_t start) {
-    std::vector<std::string> known;
-    for (std::size_t kind = 0; kind < kKindNames.size(); ++kind) {
-      known.emplace_back(kKindNames[kind]);
-      if (word != known.back()) continue;
-      if (ref_.kind) return fail(start, fmt::format("a second kind, '{}'", word), "a use has one kind");
-      ref_.kind = static_cast<Kind>(kind);
-      return true;
-    }
-    for (const std::string_view name : kSamplerWords) known.emplace_back(name);
-    std::string hint = base::nearestHint(word, known);
-    if (const std::string meant = base::hintForForeign(base::Foreign::sampling, word); !meant.empty())
-      hint = meant;
-    if (hint.empty())
-      hint = fmt::format("kinds are {}, filters are linear nearest wrap clamp compare",
-                         fmt::join(kKindNames, " "));
-    return fail(start, fmt::format("unknown word '{}' after 'as'", word), hint);
+    const auto mistake = parseAsWords(text_, at_, ref_);
+    return !mistake || fail(mistake->at, mistake->message, mistake->hint);
   }
 
   bool parseCondition() {

@@ -3,7 +3,6 @@
 // exist.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,9 +12,6 @@
 #include "engine/graph/desc.h"
 
 namespace weft::graph {
-
-// The words that may follow `as`, besides kKindNames (subresource.h).
-constexpr std::array<std::string_view, 5> kSamplerWords = {"linear", "nearest", "wrap", "clamp", "compare"};
 
 // `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the
 // first.

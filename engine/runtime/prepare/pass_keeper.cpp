@@ -33,12 +33,8 @@ bool sameImport(const FlatGraph& a, std::uint32_t x, const FlatGraph& b, std::ui
   return a.imports[x].request == b.imports[y].request && a.imports[x].kind == b.imports[y].kind;
 }
 
-bool sameSampler(const graph::Sampler& a, const graph::Sampler& b) {
-  return a.linear == b.linear && a.wrap == b.wrap && a.compare == b.compare;
-}
-
 bool sameSlot(const SlotSpec& a, const SlotSpec& b) {
-  return a.name == b.name && a.access == b.access && a.kind == b.kind && sameSampler(a.sampler, b.sampler) &&
+  return a.name == b.name && a.access == b.access && a.kind == b.kind && a.sampler == b.sampler &&
          a.useCount == b.useCount && a.array == b.array && a.optional == b.optional;
 }
 

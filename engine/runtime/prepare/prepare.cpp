@@ -139,7 +139,9 @@ class Preparer {
         if (!sampler) return true;
         TextureBinding binding{
             .unit = sampler->unit + element, .resource = use.resource, .history = use.history, .views = {}};
-        binding.sampler = c_.samplers.get(slot.sampler, use.mips > 1, spec_.state.depthCompare);
+        const graph::TexelKind texels =
+            use.planes == 2 ? graph::TexelKind::unsigned_integer : graph::infoOf(resource.format).kind;
+        binding.sampler = c_.samplers.get(slot.sampler, use.mips > 1, spec_.state.depthCompare, texels);
         binding.views = viewsOf(use, opaqueTypeOf(sampler->type).target);
         out_.textures.push_back(std::move(binding));
         return complete(out_.textures.back().views);

@@ -1,6 +1,7 @@
 // Sampler objects by what a slot asks for. They live across plans; equal wishes share one object.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/gl/objects/objects.h"
@@ -10,15 +11,24 @@ namespace weft::runtime {
 
 class SamplerCache {
  public:
-  // The sampler's name. `mipmapped`: the view has more than one level. `compare`: of a shadow sampler;
-  // `always` means "less or equal".
-  GLuint get(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare);
+  // The sampler's name. `mipmapped`: the view has more than one level. `compare`: of a shadow sampler that names none;
+  // `always` means "less or equal". `texels`: of the texture; the colour of a border is of the same kind.
+  GLuint get(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare, graph::TexelKind texels);
 
  private:
+  // What lies outside 0..1, in numbers of the texture's kind.
+  struct Border {
+    std::array<float, 4> color{};
+    graph::TexelKind texels = graph::TexelKind::none;
+    friend bool operator==(const Border&, const Border&) = default;
+  };
   struct Entry {
     gl::SamplerDesc desc;
+    Border border;
     gl::SamplerObject object;
   };
+  static void setBorder(GLuint sampler, const Border& border);
+
   std::vector<Entry> entries_;
 };
 

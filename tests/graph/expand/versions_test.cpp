@@ -166,7 +166,7 @@ TEST_CASE("alternatives of an import that may be missing, with a part of another
   const Expanded e = expandText(text, {}, testRegistry({.environment = false}));
   CHECK(e.useText("sum", "env") == "sky mip 1");
   CHECK(e.spec("sum").threads[1] == 16);
-  CHECK(e.slot("sum", "env").sampler.wrap);
+  CHECK(e.slot("sum", "env").sampler.wrap == Wrap::repeat);
 }
 
 TEST_CASE("a false condition disconnects an optional slot and starves a plain one") {

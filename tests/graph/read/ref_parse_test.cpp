@@ -89,10 +89,10 @@ TEST_CASE("history, words, conditions, optional") {
   const RefDesc resolved = parse("resolved@-1 as linear");
   CHECK(resolved.history == 1);
   CHECK(resolved.sampler.linear);
-  CHECK(!resolved.sampler.wrap);
+  CHECK(resolved.sampler.wrap == Wrap::clamp);
   const RefDesc sky = parse("ibl.environment as linear wrap");
   CHECK(sky.sampler.linear);
-  CHECK(sky.sampler.wrap);
+  CHECK(sky.sampler.wrap == Wrap::repeat);
   CHECK(parse("depth as depth").kind == Kind::depth);
   CHECK(parse("map as compare ?").sampler.compare);
   CHECK(parse("map as compare").sampler.linear);
@@ -109,6 +109,40 @@ TEST_CASE("history, words, conditions, optional") {
   CHECK(!parse("a if $b ? $c : $d").optional);
   CHECK(parse("a if $b ? $c : $d ?").optional);
   CHECK(parse("cpu_order if $sort != gpu_bitonic").condition.text() == "$sort != gpu_bitonic");
+}
+
+TEST_CASE("words with arguments behind 'as'") {
+  CHECK(parse("a as mirror").sampler.wrap == Wrap::mirror);
+  CHECK(parse("a as border").sampler == Sampler{.wrap = Wrap::border});
+  CHECK(parse("a as border(0.5)").sampler ==
+        Sampler{.wrap = Wrap::border, .color = {0.5f, 0.5f, 0.5f, 0.5f}});
+  const RefDesc map = parse("a as linear border( 1,-2.5 , 3e2, 0 ) if $b ?");
+  CHECK(map.sampler == Sampler{.linear = true, .wrap = Wrap::border, .color = {1, -2.5f, 300, 0}});
+  CHECK(map.condition.text() == "$b");
+  CHECK(map.optional);
+  CHECK(!parse("a as compare").sampler.function);
+  for (std::size_t i = 0; i < kCompareNames.size(); ++i) {
+    const RefDesc ref = parse("a as compare(" + std::string(kCompareNames[i]) + ") mirror");
+    CHECK(
+        ref.sampler ==
+        Sampler{.linear = true, .wrap = Wrap::mirror, .compare = true, .function = static_cast<Compare>(i)});
+  }
+  for (const char* text : {"a as border()", "a as border(1, 2)", "a as border(1, 2, 3)",
+                           "a as border(1,,2,3)", "a as border(1, 2, 3, 4, 5)", "a as border(red)",
+                           "a as border(inf)", "a as border(1e99)", "a as border($x)", "a as border(1 2)"}) {
+    const RefFailure d = refFailure(text);
+    CHECK_MESSAGE(d.code == Code::badReference, text);
+    CHECK_MESSAGE(d.column == 6, text);
+    CHECK_MESSAGE(d.hint.find("border(0, 0, 0, 1)") != std::string::npos, text);
+  }
+  CHECK(refFailure("a as compare(lesser)").hint == "did you mean 'less'?");
+  CHECK(refFailure("a as compare(lequal)").hint == "write 'less_equal'");
+  CHECK(refFailure("a as compare()").hint.starts_with("the comparisons are never less equal"));
+  CHECK(refFailure("a as compare(less").column == 13);
+  CHECK(refFailure("a as border(1").hint == "close it with ')'");
+  CHECK(refFailure("a as mirror border").column == 13);
+  CHECK(refFailure("a as border(1) image").column == 16);
+  CHECK(refFailure("a as mirrored_repeat").hint == "write 'mirror'");
 }
 
 TEST_CASE("errors carry column and fix") {
