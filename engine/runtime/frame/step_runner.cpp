@@ -174,7 +174,11 @@ void StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base
   bound.name = viewOf(pool_[binding.resource], binding.views, binding.history, pass.group);
   if (!pass.framebuffers) return;
   const GLenum point = attachmentPointOf(plan_.graph->resources[binding.resource].format);
-  const gl::Attachment attachment{.point = point, .texture = bound.name};
+  const gl::Attachment attachment{
+      .point = point,
+      .texture = viewOf(pool_[binding.resource], binding.textures, binding.history, pass.group),
+      .mip = binding.mip,
+      .layer = binding.layer};
   bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);
 }
 

@@ -202,6 +202,16 @@ class Preparer {
     return true;
   }
 
+  FlatUse wholeOf(const FlatUse& use) const {
+    FlatUse whole = use;
+    whole.mip = 0;
+    whole.mips = graph_.resources[use.resource].mips;
+    whole.layer = 0;
+    whole.layers = graph_.resources[use.resource].layers;
+    whole.planes = 1;
+    return whole;
+  }
+
   // Attachments go through a view of the whole resource, so that equal storage gives equal framebuffers.
   bool attach(std::uint32_t index, GLenum point) {
     const FlatUse& use = graph_.uses[index];
@@ -211,13 +221,7 @@ class Preparer {
     const bool plain = resource.target == graph::Target::texture_2d ||
                        resource.target == graph::Target::texture_2d_multisample;
     binding.layer = plain || use.layers > 1 || resource.target == graph::Target::texture_3d ? -1 : use.layer;
-    FlatUse whole = use;
-    whole.mip = 0;
-    whole.mips = resource.mips;
-    whole.layer = 0;
-    whole.layers = resource.layers;
-    whole.planes = 1;
-    binding.textures = viewsOf(whole, 0);
+    binding.textures = viewsOf(wholeOf(use), 0);
     out_.width = std::max(1u, resource.width >> use.mip);
     out_.height = std::max(1u, resource.height >> use.mip);
     out_.encodesSrgb |= resource.format == graph::Format::srgb8_a8;
@@ -244,7 +248,8 @@ class Preparer {
           .source = from, .resource = use.resource, .history = use.history, .views = viewsOf(span, 0)};
       const FlatResource& resource = graph_.resources[use.resource];
       binding.mip = use.mip;
-      binding.layer = use.layer;
+      if (use.layers < resource.layers && use.layers == 1) binding.layer = use.layer;
+      if (out_.framebuffers) binding.textures = viewsOf(wholeOf(use), 0);
       passes::BoundTexture& bound = from ? out_.context.source : out_.context.destination;
       bound.width = std::max(1u, resource.width >> use.mip);
       bound.height = std::max(1u, resource.height >> use.mip);
@@ -252,7 +257,7 @@ class Preparer {
                      : graph::hasStencil(resource.format) ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT
                                                           : GL_DEPTH_BUFFER_BIT;
       if (from) out_.context.linear = slot->sampler.linear;
-      if (!complete(binding.views)) return false;
+      if (!complete(binding.views) || !complete(binding.textures)) return false;
       out_.fixed.push_back(std::move(binding));
     }
     return true;

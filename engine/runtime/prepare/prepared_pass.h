@@ -62,9 +62,12 @@ struct AttachmentBinding {
 // The source or destination of a pass type without a shader.
 struct FixedBinding {
   bool source = true;
-  std::uint32_t resource = 0, mip = 0, layer = 0;
+  std::uint32_t resource = 0, mip = 0;
+  std::int32_t layer = -1;  // -1: all
   std::uint8_t history = 0;
   std::vector<GLuint> views;  // per copy, of exactly the levels and layers
+  std::vector<GLuint>
+      textures;  // per copy, the whole, for framebuffers: Mesa's blits do not see where a view begins
 };
 
 struct ClearCommand {
