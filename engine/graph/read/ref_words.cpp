@@ -134,7 +134,6 @@ class WordParser {
       std::string hint = base::hintForForeign(base::Foreign::state_word, word);
       if (hint.empty())
         hint = base::nearestHint(word, std::vector<std::string>(kCompareNames.begin(), kCompareNames.end()));
-      if (hint.empty()) hint = fmt::format("the comparisons are {}", fmt::join(kCompareNames, " "));
       return fail(start_, fmt::format("'{}' is no comparison", text_.substr(start_, at_ - start_)),
                   std::move(hint));
     }

@@ -137,7 +137,7 @@ TEST_CASE("words with arguments behind 'as'") {
   }
   CHECK(refFailure("a as compare(lesser)").hint == "did you mean 'less'?");
   CHECK(refFailure("a as compare(lequal)").hint == "write 'less_equal'");
-  CHECK(refFailure("a as compare()").hint.starts_with("the comparisons are never less equal"));
+  CHECK(refFailure("a as compare()").hint.find("greater_equal") != std::string::npos);
   CHECK(refFailure("a as compare(less").column == 13);
   CHECK(refFailure("a as border(1").hint == "close it with ')'");
   CHECK(refFailure("a as mirror border").column == 13);
