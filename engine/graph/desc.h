@@ -132,12 +132,13 @@ struct ResourceDesc {
   Place viewPlace;
   // buffer
   Expr bytes;
-  // both
-  Expr clear;                      // version zero
-  Expr history;                    // depth n, absent: 0
-  Expr first;                      // what @-n holds before n publications
-  std::vector<RefDesc> resetRefs;  // "@cut", "camera if $progressive"
-  std::vector<Expr> resetValues;   // "size(hdr)"
+  // both; an input has history, first and reset
+  Expr clear;                       // version zero
+  Expr history;                     // depth n, absent: 0
+  Expr first;                       // what @-n holds before n publications
+  std::optional<RefDesc> firstRef;  // a texture or buffer that is read in its place until then
+  std::vector<RefDesc> resetRefs;   // "@cut", "camera if $progressive"
+  std::vector<Expr> resetValues;    // "size(hdr)"
   // others
   ImportDesc import;
   std::string input;  // "texture" or "buffer"

@@ -124,6 +124,9 @@ struct SlotSpec {
   bool array = false;          // true when the resource was declared with "array", even of one element
   bool optional = false;
   Place place;
+  // Of a read of @-n: the use of what `first` names, which is bound while the n-th publication before is not there. kNone:
+  // `first` is a value.
+  std::uint32_t firstValue = kNone;
 };
 
 struct UniformSpec {
@@ -221,6 +224,7 @@ struct ParameterSpec {
 struct HistorySpec {  // per FlatResource with history > 0
   std::uint32_t resource = 0;
   Value first;
+  FlatUse firstUse{.resource = kNone};  // what is read in its place; of no resource when `first` is a value
   std::vector<std::uint32_t> resetImports;    // imports whose change resets it ("@cut", camera)
   std::vector<std::uint32_t> resetResources;  // resources whose new version resets it
   std::vector<Value> resetValues;             // a change of any resets it

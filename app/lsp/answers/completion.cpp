@@ -190,7 +190,7 @@ class Completer {
       addWords(graph::kViewWords);
     } else if (key == "input") {
       addWords(graph::kInputWords);
-    } else if (key == "reset") {
+    } else if (key == "reset" || key == "first") {
       reference(node);
     } else if (key == "list") {
       addWords(registry_.drawLists);

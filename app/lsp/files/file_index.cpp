@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/graph/language/names.h"
+#include "engine/graph/read/ref_parse.h"
 
 namespace weft::app::lsp {
 
@@ -88,6 +89,8 @@ class Indexer {
     for (const auto& child : member.children) {
       if (child->key == "reset")
         references(*child);
+      else if (child->key == "first" && child->type == Type::string && graph::looksLikeRef(child->text))
+        reference(*child);
       else if (!isOneOf(child->key, {"texture", "import", "input", "view"}))
         expressions(*child, child->key);
     }

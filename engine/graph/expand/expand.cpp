@@ -33,6 +33,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
     else if (kind != ResourceDesc::Kind::alternatives)
       ensureShape(model, i);
   }
+  takeInputHistories(model);
   std::vector<DeferredUniform> deferred;
   if (!isOver(model)) expandPasses(model, deferred);
   if (!isOver(model)) finishGraph(model, deferred);

@@ -93,6 +93,36 @@ void resolveOutputs(Model& model) {
     }
 }
 
+// What `entity`, a resource or an input that stands for it, says resets the history.
+void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
+  Names names(model, *entity.scope);
+  for (const Expr& value : entity.desc->resetValues) {
+    markStructural(model, *entity.scope, value);
+    spec.resetValues.push_back(value.evaluate(names, model.diagnostics));
+  }
+  for (const RefDesc& ref : entity.desc->resetRefs) {
+    markStructural(model, *entity.scope, ref);
+    const auto holds =
+        evaluateCondition(names, ref.condition, true, fmt::format("a reset of '{}'", entity.name));
+    const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
+                                                   fmt::format("the reset of '{}' names the", entity.name));
+    if (found == kNone) continue;
+    mention(model, found, kNone);
+    if (!holds || !*holds) continue;
+    // An import that has nothing now may have something later.
+    const std::uint32_t target =
+        model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);
+    if (target == kNone || !ensureShape(model, target)) continue;
+    const Entity& reset = model.entities[target];
+    if (reset.import != kNone) {
+      spec.resetImports.push_back(reset.import);
+    } else {
+      for (const Element& element : reset.elements)
+        if (element.resource != kNone) spec.resetResources.push_back(element.resource);
+    }
+  }
+}
+
 void resolveHistories(Model& model) {
   FlatGraph& graph = model.graph;
   for (const Model::HistoryUse& use : model.historyUses)
@@ -100,34 +130,11 @@ void resolveHistories(Model& model) {
   for (std::uint32_t index = 0; index < model.entities.size(); ++index) {
     Entity& entity = model.entities[index];
     if (entity.depth == 0 || entity.state != Progress::done) continue;
-    Names names(model, *entity.scope);
     HistorySpec spec;
     spec.first = entity.first.type == Value::Type::none ? Value::number(0) : entity.first;
-    for (const Expr& value : entity.desc->resetValues) {
-      markStructural(model, *entity.scope, value);
-      spec.resetValues.push_back(value.evaluate(names, model.diagnostics));
-    }
-    for (const RefDesc& ref : entity.desc->resetRefs) {
-      markStructural(model, *entity.scope, ref);
-      const auto holds =
-          evaluateCondition(names, ref.condition, true, fmt::format("a reset of '{}'", entity.name));
-      const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
-                                                     fmt::format("the reset of '{}' names the", entity.name));
-      if (found == kNone) continue;
-      mention(model, found, kNone);
-      if (!holds || !*holds) continue;
-      // An import that has nothing now may have something later.
-      const std::uint32_t target =
-          model.entities[found].kind == ResourceDesc::Kind::import ? found : staticTarget(model, found);
-      if (target == kNone || !ensureShape(model, target)) continue;
-      const Entity& reset = model.entities[target];
-      if (reset.import != kNone) {
-        spec.resetImports.push_back(reset.import);
-      } else {
-        for (const Element& element : reset.elements)
-          if (element.resource != kNone) spec.resetResources.push_back(element.resource);
-      }
-    }
+    spec.firstUse = entity.firstUse;
+    addResets(model, entity, spec);
+    for (const std::uint32_t input : entity.inputs) addResets(model, model.entities[input], spec);
     for (const Element& element : entity.elements) {
       if (element.resource == kNone) continue;  // nobody touches it
       graph.resources[element.resource].history = static_cast<std::uint8_t>(entity.depth);

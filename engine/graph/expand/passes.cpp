@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/first_value.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/names/versions.h"
@@ -175,7 +176,8 @@ class PassWalk {
       if (slots.back().state == State::failed && slot.access != Access::read)
         leaveOutWrite(model_, *scope_, slot.ref);
     }
-    checkPassUses(context, *desc_, slots);
+    firsts_.resolve(context, slots, enabled ? pass : kNone);
+    checkPassUses(context, *desc_, firsts_.none() ? slots : firsts_.with(slots));
     if (isOver(model_)) return;
     if (!why->empty()) {
       disabledInstance(context, slots, name, *why);
@@ -316,6 +318,7 @@ class PassWalk {
         emitUses(work, pass);
       }
       slot.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - slot.firstUse;
+      if (slot.useCount > 0 && !firsts_.emit(model_, work, pass, slot)) return;
       graph_.slots.push_back(std::move(slot));
     }
     flat.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - flat.firstUse;
@@ -363,6 +366,7 @@ class PassWalk {
   const PassDesc* desc_ = nullptr;
   const PassType* type_ = nullptr;
   const std::vector<DisableRule>* rules_ = nullptr;
+  FirstValues firsts_;  // of the instance
   std::string declared_, scopeWhy_;
   StanzaCost cost_;
   std::uint32_t timing_ = 0;

@@ -263,7 +263,10 @@ bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, c
                : import                                                    ? "this import has no history"
                : depth == 0                                                ? "no history is declared"
                             : fmt::format("@-1 to @-{}", depth);
-  if (!import) d.hint = fmt::format("declare \"history\": {} on '{}'", history, entity.name);
+  const bool input = entity.scope != &context.names.scope() && ref.name.find('.') == std::string::npos;
+  if (import) return false;
+  d.hint = fmt::format("declare \"history\": {} on '{}'{}", history, entity.name,
+                       input ? ", or on this file's input" : "");
   return false;
 }
 

@@ -58,7 +58,8 @@ constexpr KeySpec kTexture[] = {
     {"view", "@view", "how it is laid out; from layers and size when absent"},
     {"clear", "@value", "version zero: what it holds before the first pass"},
     {"history", "@value", "how many previous publications are kept, for name@-n"},
-    {"first", "@value", "what @-n holds before n publications; needs history"},
+    {"first", "@value",
+     "what @-n holds before n publications: a value, or a texture that is read until then; needs history"},
     {"reset", "@resets", "what makes the history start again; needs history"},
 };
 
@@ -66,7 +67,8 @@ constexpr KeySpec kBuffer[] = {
     {"buffer", "@value", "bytes", true},
     {"clear", "@value", "version zero: what every word holds before the first pass"},
     {"history", "@value", "how many previous publications are kept, for name@-n"},
-    {"first", "@value", "what @-n holds before n publications; needs history"},
+    {"first", "@value",
+     "what @-n holds before n publications: a value, or a buffer that is read until then; needs history"},
     {"reset", "@resets", "what makes the history start again; needs history"},
 };
 
@@ -78,6 +80,10 @@ constexpr KeySpec kInput[] = {
     {"input", R"({"enum":["texture","buffer"]})", "bound by the file that includes this one", true},
     {"optional", R"({"type":"boolean"})",
      "may be left without a resource, and then has nothing: end references with ?"},
+    {"history", "@value", "how many previous publications this file reads, as name@-n"},
+    {"first", "@value",
+     "what @-n holds before n publications, unless the bound resource says; needs history"},
+    {"reset", "@resets", "what else makes the history start again; needs history"},
 };
 
 constexpr KeySpec kPass[] = {

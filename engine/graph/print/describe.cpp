@@ -186,6 +186,10 @@ class Describer {
       if (slot.access != Access::read && plan_.attached[u] == 0) text += ", not attached: nobody reads it";
       line(1, text);
     }
+    if (slot.firstValue != kNone)
+      line(2,
+           fmt::format("until there is one: {}{}", weft::graph::textOf(graph_, graph_.uses[slot.firstValue]),
+                       madeBy(slot.firstValue, pass)));
   }
 
   // ", made by 'sky', 'spheres'"

@@ -207,7 +207,8 @@ class FileWriter {
     for (const HistorySpec& history : graph_.histories) {
       if (history.resource != index) continue;
       json["history"] = r.history;
-      json["first"] = jsonOf(history.first);
+      json["first"] =
+          history.firstUse.resource == kNone ? jsonOf(history.first) : Json(textOf(history.firstUse, false));
       Json reset = Json::array();
       for (const std::uint32_t import : history.resetImports) reset.push_back("@" + importName(import));
       for (const std::uint32_t other : history.resetResources)

@@ -11,6 +11,8 @@ std::vector<std::string> slotNames(const FlatGraph& graph) {
   for (const SlotSpec& slot : graph.slots)
     for (std::uint32_t i = 0; i < slot.useCount && slot.firstUse + i < names.size(); ++i)
       names[slot.firstUse + i] = slot.array ? slot.name + "[" + std::to_string(i) + "]" : slot.name;
+  for (const SlotSpec& slot : graph.slots)
+    if (slot.firstValue != kNone) names[slot.firstValue] = slot.name + " (first)";
   return names;
 }
 

@@ -116,6 +116,7 @@ class ResourceReader {
     if (!word) return std::nullopt;
     out_.input = *word;
     out_.optional = context_.flag(value_.find("optional"), "\"optional\"");
+    readHistory();
     return std::move(out_);
   }
 
@@ -154,8 +155,12 @@ class ResourceReader {
   // Version zero and history, alike for textures and buffers.
   void readVersions() {
     out_.clear = context_.expr(value_.find("clear"), "\"clear\"");
+    readHistory();
+  }
+
+  void readHistory() {
     out_.history = context_.expr(value_.find("history"), "\"history\"");
-    out_.first = context_.expr(value_.find("first"), "\"first\"");
+    readFirst(value_.find("first"));
     for (const JsonValue* item : context_.strings(value_.find("reset"), "\"reset\"")) {
       if (!looksLikeRef(item->text)) {
         if (Expr expr = context_.expr(item, "\"reset\""); expr.present())
@@ -170,6 +175,27 @@ class ResourceReader {
             .error(Code::keysExclude, *value,
                    fmt::format("\"{}\" of '{}', which keeps no history", key, out_.name))
             .hint = "add \"history\": 1, or remove the key";
+  }
+
+  // A value, or what to read in its place.
+  void readFirst(const JsonValue* first) {
+    if (!first || !first->is(JsonValue::Type::string) || !looksLikeRef(first->text)) {
+      out_.first = context_.expr(first, "\"first\"");
+      return;
+    }
+    std::optional<RefDesc> ref = context_.ref(first, "\"first\"");
+    if (!ref) return;
+    const bool words = ref->kind || ref->sampler != Sampler{};
+    if (!words && ref->history == 0) {
+      out_.firstRef = *std::move(ref);
+      return;
+    }
+    auto& d = context_.error(Code::badReference, *first,
+                             fmt::format("\"first\" of '{}' says {}", out_.name,
+                                         words ? "how it is read" : "of which frame it is"));
+    d.found = fmt::format("\"{}\"", ref->text);
+    d.hint = words ? "leave out the words after 'as': it is read as the slot that reads the history says"
+                   : "leave out '@-n': it is read as it is when a frame has no history";
   }
 
   ReadContext& context_;

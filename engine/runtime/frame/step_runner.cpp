@@ -116,20 +116,28 @@ void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   if (pass.meshes) gatherMeshes(pass, diagnostics);
   if (pass.variant) states_.useProgram(pass.variant->program.id());
   if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
+  const auto holds = [&](const FirstOf& first) {
+    return first.resource == kNone || !pool_[first.resource].hasPublication(first.history, pass.group);
+  };
   for (const TextureBinding& binding : pass.textures) {
+    if (!holds(binding.firstOf)) continue;
     states_.bindTexture(binding.unit,
                         viewOf(pool_[binding.resource], binding.views, binding.history, pass.group));
     states_.bindSampler(binding.unit, binding.sampler);
   }
-  for (const ImageBinding& binding : pass.images)
+  for (const ImageBinding& binding : pass.images) {
+    if (!holds(binding.firstOf)) continue;
     states_.bindImage(binding.unit,
                       viewOf(pool_[binding.resource], binding.views, binding.history, pass.group),
                       binding.layered, binding.access, binding.format);
-  for (const BufferBinding& binding : pass.buffers) bindBuffer(binding, pass.group, diagnostics);
+  }
+  for (const BufferBinding& binding : pass.buffers)
+    if (holds(binding.firstOf)) bindBuffer(binding, pass.group, diagnostics);
   bindBlock(pass.parametersBlock, pass.parametersOffset);
   bindBlock(pass.viewBlock, pass.viewOffset);
   bindBlock(pass.sliceBlock, pass.sliceOffset);
-  for (const FixedBinding& binding : pass.fixed) bindFixed(binding, pass, diagnostics);
+  for (const FixedBinding& binding : pass.fixed)
+    if (holds(binding.firstOf)) bindFixed(binding, pass, diagnostics);
   if (pass.list >= 0 && !pass.meshes)
     pass.context.instances = device_.imports.tables().countOf(static_cast<scene::DrawList>(pass.list));
 }

@@ -35,7 +35,8 @@ bool sameImport(const FlatGraph& a, std::uint32_t x, const FlatGraph& b, std::ui
 
 bool sameSlot(const SlotSpec& a, const SlotSpec& b) {
   return a.name == b.name && a.access == b.access && a.kind == b.kind && a.sampler == b.sampler &&
-         a.useCount == b.useCount && a.array == b.array && a.optional == b.optional;
+         a.useCount == b.useCount && a.array == b.array && a.optional == b.optional &&
+         (a.firstValue == kNone) == (b.firstValue == kNone);
 }
 
 bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
@@ -152,16 +153,20 @@ PreparedPass PassKeeper::take(std::size_t step, std::uint32_t old, PreparedPass 
   };
   const FlatGraph& graph = *plan_.graph;
   const std::uint32_t pass = plan_.steps[step].pass;
-  for (TextureBinding& binding : prepared.textures) binding.resource = nowOf(binding.resource);
-  for (ImageBinding& binding : prepared.images) binding.resource = nowOf(binding.resource);
+  const auto rename = [&](auto& binding) {
+    binding.resource = nowOf(binding.resource);
+    binding.firstOf.resource = nowOf(binding.firstOf.resource);
+  };
+  for (TextureBinding& binding : prepared.textures) rename(binding);
+  for (ImageBinding& binding : prepared.images) rename(binding);
   for (BufferBinding& binding : prepared.buffers) {
     if (binding.list >= 0) continue;  // names no resource
-    binding.resource = nowOf(binding.resource);
+    rename(binding);
     if (binding.import != kNone) binding.import = graph.resources[binding.resource].import;
   }
   for (AttachmentBinding& binding : prepared.attachments)
     binding.resource = binding.use.resource = nowOf(binding.resource);
-  for (FixedBinding& binding : prepared.fixed) binding.resource = nowOf(binding.resource);
+  for (FixedBinding& binding : prepared.fixed) rename(binding);
   for (ClearCommand& clear : prepared.clears) clear.use.resource = nowOf(clear.use.resource);
   for (std::uint32_t& resource : prepared.written) resource = nowOf(resource);
   for (std::uint32_t& resource : prepared.read) resource = nowOf(resource);

@@ -14,6 +14,7 @@ using graph::Access;
 using graph::FlatResource;
 using graph::FlatUse;
 using graph::Kind;
+using graph::kNone;
 using graph::PassSpec;
 using graph::SlotSpec;
 
@@ -100,7 +101,7 @@ class Preparer {
       for (std::uint32_t k = 0; k < slot.useCount; ++k) {
         const std::uint32_t index = slot.firstUse + k;
         if (slot.access != Access::read && !isAttached(index)) continue;
-        good &= bindUse(slot, index, k);
+        good &= bindUse(slot, index, k) && bindFirst(slot, index, k);
       }
     }
     const gl::Block* instances =
@@ -112,6 +113,19 @@ class Preparer {
       takeLayout(*instances, instanceColumnsOf(spec_), binding);
       out_.buffers.push_back(binding);
     }
+    return good;
+  }
+
+  // Of a read of @-n: what `first` of the resource names, in the same place.
+  bool bindFirst(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
+    if (slot.firstValue == kNone) return true;
+    const std::size_t textures = out_.textures.size(), images = out_.images.size(),
+                      buffers = out_.buffers.size();
+    const bool good = bindUse(slot, slot.firstValue, element);
+    const FirstOf firstOf{graph_.uses[index].resource, graph_.uses[index].history};
+    for (std::size_t i = textures; i < out_.textures.size(); ++i) out_.textures[i].firstOf = firstOf;
+    for (std::size_t i = images; i < out_.images.size(); ++i) out_.images[i].firstOf = firstOf;
+    for (std::size_t i = buffers; i < out_.buffers.size(); ++i) out_.buffers[i].firstOf = firstOf;
     return good;
   }
 
@@ -235,6 +249,8 @@ class Preparer {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
       const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
       if (slot.useCount > 0) uses.emplace_back(&slot, graph_.uses[slot.firstUse]);
+      if (slot.useCount > 0 && slot.firstValue != kNone)
+        uses.emplace_back(&slot, graph_.uses[slot.firstValue]);
     }
     for (const auto& [slot, use] : uses) {
       const bool from = slot->access == Access::read;
@@ -257,6 +273,9 @@ class Preparer {
                      : graph::hasStencil(resource.format) ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT
                                                           : GL_DEPTH_BUFFER_BIT;
       if (from) out_.context.linear = slot->sampler.linear;
+      const FlatUse& read = graph_.uses[slot->firstUse];
+      if (use.resource != read.resource || use.history != read.history)
+        binding.firstOf = {read.resource, read.history};
       if (!complete(binding.views) || !complete(binding.textures)) return false;
       out_.fixed.push_back(std::move(binding));
     }

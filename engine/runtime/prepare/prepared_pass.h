@@ -23,11 +23,18 @@
 
 namespace weft::runtime {
 
+// A binding that holds only while the publication `history` before of a resource is not there: of what its `first` names.
+struct FirstOf {
+  std::uint32_t resource = graph::kNone;  // kNone: the binding holds always
+  std::uint8_t history = 0;
+};
+
 struct TextureBinding {
   std::uint32_t unit = 0, resource = 0;
   std::uint8_t history = 0;
   GLuint sampler = 0;
   std::vector<GLuint> views;  // per copy; empty: an import, bound by its resource's current texture
+  FirstOf firstOf{};          // such a binding stands behind the one in whose place it is
 };
 
 struct ImageBinding {
@@ -36,6 +43,7 @@ struct ImageBinding {
   GLenum access = GL_READ_WRITE, format = GL_NONE;
   GLboolean layered = GL_FALSE;
   std::vector<GLuint> views;  // per copy, of exactly the level and layers
+  FirstOf firstOf{};
 };
 
 struct BufferBinding {
@@ -47,6 +55,7 @@ struct BufferBinding {
   imports::RowLayout layout;            // of a table
   int list = -1;                        // scene::DrawList of the implicit `instances` block, else -1
   bool meshes = false;                  // of that list's meshes
+  FirstOf firstOf{};
 };
 
 struct AttachmentBinding {
@@ -68,6 +77,7 @@ struct FixedBinding {
   std::vector<GLuint> views;  // per copy, of exactly the levels and layers
   std::vector<GLuint>
       textures;  // per copy, the whole, for framebuffers: Mesa's blits do not see where a view begins
+  FirstOf firstOf{};
 };
 
 struct ClearCommand {

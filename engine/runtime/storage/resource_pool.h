@@ -83,6 +83,10 @@ struct GpuResource {
     const std::uint32_t newest = current + (group != graph::kNone && group == reader ? 1 : 0);
     return (newest + copies - history % copies) % copies;
   }
+  // Whether @-history, as passes of `reader` see it, was published since the first frame or the last reset.
+  bool hasPublication(std::uint32_t history, std::uint32_t reader) const {
+    return publications + (group != graph::kNone && group == reader ? 1 : 0) > history;
+  }
 };
 
 class ResourcePool {

@@ -66,6 +66,40 @@ TEST_CASE("history: two frames back") {
   }
 }
 
+TEST_CASE("history: a first value that is a texture, an image or a buffer is what the first frames read") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/first.json", 8, 8, kScene);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  struct Expected {
+    float sum, growing, copied, count;
+  };
+  std::uint32_t frame = 0;
+  const auto check = [&](runtime::FrameInput input, const Expected& expected) {
+    input.frame = frame++;
+    stage.run(input);
+    CHECK(stage.value() == expected.sum);
+    CHECK(stage.read("growing")[0] == expected.growing);
+    CHECK(stage.read("copied")[0] == expected.copied);
+    stage.execution().finishReadBack();
+    CHECK(stage.execution().output("count")->number(0) == expected.count);
+  };
+  runtime::FrameInput input = runtime::headlessFrame(stage.world, 0, 60);
+  check(input, {6, 10, 4, 8});
+  const std::vector<float> picture = stage.read("plain");
+  CHECK(picture[3] == 1);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(stage.read("kept")[i] == picture[i] + 1);
+  check(input, {7, 15, 5, 9});  // growing: 10 + 5
+  for (std::size_t i = 0; i < 4; ++i) CHECK(stage.read("kept")[i] == picture[i] + 2);
+  check(input, {8, 25, 6, 10});
+  // A reset begins with what the texture holds by then.
+  stage.settings.sets = {{"start", "20"}};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  check(input, {9, 40, 7, 11});
+  input.cutGeneration = 1;
+  check(input, {21, 40, 4, 8});
+  check(input, {22, 60, 5, 9});
+}
+
 TEST_CASE("history: age counts seconds since the publication, and is infinite from before headless frame 0") {
   const CleanScope clean;
   Stage headless("tests/runtime/graphs/age.json", 8, 8, kScene);

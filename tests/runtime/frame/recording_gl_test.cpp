@@ -192,4 +192,13 @@ TEST_CASE(
   CHECK(tally.barriers > 0);
 }
 
+TEST_CASE("the same where histories begin with a texture, an image and a buffer") {
+  const CleanScope clean;
+  Tally tally;
+  Stage stage("tests/runtime/graphs/first.json", 64, 64, "scenes/empty.json");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  recordFrames(stage, "first.json", tally);
+  CHECK(tally.stateCalls > 0);
+}
+
 }  // namespace weft::runtime::test

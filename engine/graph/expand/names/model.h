@@ -81,13 +81,17 @@ struct Entity {
   Progress state = Progress::fresh;
   FlatResource shape;
   Value clear, first;
-  std::uint32_t arrayCount = 0;   // 0: not an array
-  std::uint16_t writtenMips = 1;  // as the file says, before the clamp to the size
-  std::uint32_t depth = 0;        // of the history
-  std::uint32_t import = kNone;   // index into FlatGraph::imports
-  bool exists = true;             // imports only
-  bool fallback = false;          // imports only: a plain read may do without
-  double count = 0;               // imports only
+  std::uint32_t arrayCount = 0;         // 0: not an array
+  std::uint16_t writtenMips = 1;        // as the file says, before the clamp to the size
+  std::uint32_t depth = 0;              // of the history
+  std::vector<std::uint32_t> inputs{};  // that stand for it and ask for a history
+  const RefDesc* firstRef = nullptr;    // what is read in place of `first`, in the names of firstScope
+  Scope* firstScope = nullptr;
+  FlatUse firstUse{.resource = kNone};  // of it, once some pass reads it
+  std::uint32_t import = kNone;         // index into FlatGraph::imports
+  bool exists = true;                   // imports only
+  bool fallback = false;                // imports only: a plain read may do without
+  double count = 0;                     // imports only
   // input: what it stands for
   Progress bindState = Progress::fresh;
   std::uint32_t bound = kNone;

@@ -188,6 +188,18 @@ bool evaluateBuffer(Model& model, Names& names, Entity& entity) {
   return true;
 }
 
+// What `desc`, of the resource itself or of an input that stands for it, says of the time before the first publication.
+void takeFirst(Model& model, Entity& entity, const ResourceDesc& desc, Scope& scope) {
+  Names names(model, scope);
+  if (desc.firstRef) {
+    markStructural(model, scope, *desc.firstRef);
+    entity.firstRef = &*desc.firstRef;
+    entity.firstScope = &scope;
+  } else {
+    entity.first = evaluateTexel(names, desc.first, fmt::format("the first value of '{}'", entity.name));
+  }
+}
+
 bool evaluateDeclared(Model& model, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   Names names(model, *entity.scope);
@@ -203,7 +215,7 @@ bool evaluateDeclared(Model& model, Entity& entity) {
       evaluateWhole(names, desc.history, 0, 0, kMaxHistory, fmt::format("the history of '{}'", entity.name));
   const std::size_t before = model.diagnostics.errorCount();
   entity.clear = evaluateTexel(names, desc.clear, fmt::format("the clear value of '{}'", entity.name));
-  entity.first = evaluateTexel(names, desc.first, fmt::format("the first value of '{}'", entity.name));
+  takeFirst(model, entity, desc, *entity.scope);
   if (!shaped || !array || !depth || model.diagnostics.errorCount() > before) return false;
   entity.arrayCount = static_cast<std::uint32_t>(*array);
   entity.depth = static_cast<std::uint32_t>(*depth);
@@ -256,6 +268,42 @@ bool ensureShape(Model& model, std::uint32_t index) {
   // A cycle met on the way has failed it already.
   entity.state = good && entity.state == Progress::active ? Progress::done : Progress::failed;
   return entity.state == Progress::done;
+}
+
+namespace {
+
+// `input` wants `depth` publications of what is bound to it; of a list, of each that it may mean.
+void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32_t depth) {
+  Entity& entity = model.entities[target];
+  if (entity.kind == ResourceDesc::Kind::alternatives) {
+    for (std::size_t i = 0; i < entity.candidates.size(); ++i)
+      if (entity.candidates[i] != kNone && entity.desc->alternatives[i].history == 0)
+        deepen(model, entity.candidates[i], input, depth);
+    return;
+  }
+  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
+  if (!own || !ensureShape(model, target)) return;
+  entity.depth = std::max(entity.depth, depth);
+  entity.inputs.push_back(input);
+  const Entity& wish = model.entities[input];
+  if (entity.first.type == Value::Type::none && !entity.firstRef)
+    takeFirst(model, entity, *wish.desc, *wish.scope);
+}
+
+}  // namespace
+
+void takeInputHistories(Model& model) {
+  for (std::uint32_t i = 0; i < model.entities.size(); ++i) {
+    const Entity& entity = model.entities[i];
+    if (entity.kind != ResourceDesc::Kind::input || !entity.desc->history.present() || entity.bound == kNone)
+      continue;
+    Names names(model, *entity.scope);
+    markStructural(model, *entity.scope, entity.desc->history);
+    markStructural(model, *entity.scope, entity.desc->first);
+    const auto depth = evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory,
+                                     fmt::format("the history of '{}'", entity.name));
+    if (depth && *depth > 0) deepen(model, entity.bound, i, static_cast<std::uint32_t>(*depth));
+  }
 }
 
 std::uint32_t staticTarget(Model& model, std::uint32_t index, std::uint32_t* mip) {

@@ -14,6 +14,9 @@ bool ensureShape(Model& model, std::uint32_t entity);
 // The part of ensureShape for an import: its arguments, and what the registry says of it.
 bool evaluateImport(Model& model, Entity& entity);
 
+// Gives what is bound to inputs the history that they ask for. To be called when all shapes were asked for, before passes.
+void takeInputHistories(Model& model);
+
 // The index of an import in FlatGraph::imports; equal requests share one.
 std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind, const std::string& name);
 
