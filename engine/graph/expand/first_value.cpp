@@ -121,9 +121,12 @@ void FirstValues::resolve(const SlotContext& context, const std::vector<SlotWork
                           std::uint32_t pass) {
   works_.clear();
   slots_.clear();
-  slots_.reserve(slots.size());
+  const auto reads = [](const SlotWork& work) {
+    return work.state == SlotWork::State::connected && work.use.history > 0;
+  };
+  slots_.reserve(static_cast<std::size_t>(std::ranges::count_if(slots, reads)));  // none of them may move
   for (const SlotWork& work : slots) {
-    if (work.state != SlotWork::State::connected || work.use.history == 0) continue;
+    if (!reads(work)) continue;
     SlotWork first = resolveFirst(context, work, pass, slots_.emplace_back());
     if (first.state == SlotWork::State::connected) works_.emplace_back(work.slot, std::move(first));
   }
