@@ -22,9 +22,4 @@ const float kLeastRadius = 0.25;
 // How much a radius in pixels of the full picture counts as blur: below half a pixel the picture stays sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
 
-// The far field has this as alpha, and radiance multiplied by it. It is the weight in every filter, so that surfaces in focus are no
-// part of a mean with blurred ones. From a radius in pixels of the half size, and back.
-float farAlpha(float radius, int largest) { return max(radius, 0.005) * 2.0 / float(largest); }
-float farRadius(float alpha, int largest) { return alpha * 0.5 * float(largest); }
-
 #endif

@@ -25,9 +25,10 @@ float ownDisc(ivec2 pixel) {
   return texelFetch(discs, pixel, 0).r / max(texelFetch(source, pixel, 0).a, 0.25);
 }
 #else
-// In the far field it is the radius of the pixel's own disc, or, where something nearer hides the layer, of that thing's disc.
-float searchRadius(float own_alpha, ivec2 pixel, sampler2D discs, int largest) {
-  return own_alpha > 0.0 ? farRadius(own_alpha, largest) : texelFetch(discs, pixel, 0).r;
+// In the far field it is the radius of the pixel's own disc, or, where something nearer hides the layer, of that thing's disc. `own_discs`: what
+// split wrote there.
+float searchRadius(float own_share, vec2 own_discs) {
+  return own_share > 0.0 ? own_discs.g / own_share : own_discs.r;
 }
 #endif
 

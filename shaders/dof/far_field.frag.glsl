@@ -25,7 +25,7 @@ void main() {
   float radius = lens.x - lens.y * textureLod(depth, at, 0.0).r;
 #if NEAR
   // Small discs of the near field lie on the sharp picture, because their surface runs on into the focus and nothing else is behind.
-  float blur = smoothstep(kNearStart, 4.0, -radius);
+  float blur = smoothstep(kNearStart, 3.0, -radius);
 #else
   float blur = blurOf(radius);
 #endif

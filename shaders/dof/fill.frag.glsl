@@ -21,7 +21,7 @@ void main() {
   float radius = searchRadius(pixel), own = ownDisc(pixel);
   if (own > 0.0) radius = min(radius, 1.4 * own);
 #else
-  float radius = searchRadius(texelFetch(source, pixel, 0).a, pixel, discs, largest);
+  float radius = searchRadius(texelFetch(source, pixel, 0).a, texelFetch(discs, pixel, 0).rg);
 #endif
   float variance = fillVariance(radius, gapOf(radius, rings)), around = fillWeight(variance),
         stride = fillStride(variance);

@@ -5,7 +5,7 @@
 uniform sampler2D near_source, far_source, disc_source;
 out vec4 near;
 out vec4 far;
-out float disc;
+out vec2 disc;
 
 vec4 meanOf(sampler2D source) {
   vec2 texel = 1.0 / vec2(textureSize(source, 0)), at = 2.0 * gl_FragCoord.xy * texel,
@@ -17,5 +17,5 @@ vec4 meanOf(sampler2D source) {
 void main() {
   near = meanOf(near_source);
   far = meanOf(far_source);
-  disc = meanOf(disc_source).r;
+  disc = meanOf(disc_source).rg;
 }

@@ -23,8 +23,9 @@ float per_ring = 1.0;
 
 // Does a disc reach so far? Gradually over the gap between two rings, of which there are `per_ring` to a texel: else discs would jump from
 // ring to ring where the searched radius changes.
-float reaches(Search search, float disc, float across) {
-  return clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
+float reaches(Search search, bool each, float disc, float across) {
+  return each ? texelWithin(disc, across)
+              : clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
 }
 
 struct Gathered {
@@ -40,20 +41,19 @@ Gathered all;
 float own_radius = 0.0, own_reach = 0.0;
 bool over = true;
 
-void takePlace(Search search, vec2 at, float across, float share) {
-  vec4 c = textureLod(source, at, search.level);
-  float disc = textureLod(discs, at, search.level).r / max(c.a, 1e-4),
-        reach = sqrt(max(disc * disc - search.shared_variance, 0.25));
+void takePlace(Search search, bool each, vec2 at, float across, float share) {
+  vec4 c = readPlace(source, search, each, at);
+  float disc = readPlace(discs, search, each, at).r / max(c.a, 1e-4), reach = reachOf(search, disc);
   // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
-  float sharing = 0.0;
+  float sharing = each ? texelsWithin(reach) : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
-    sharing += max(5.0 * float(k), 1.0) * reaches(search, reach, ringRadius(search, k));
-  share *= blurOf(2.0 * disc) * reaches(search, reach, across) / sharing;
+    sharing += max(5.0 * float(k), 1.0) * reaches(search, false, reach, ringRadius(search, k));
+  share *= blurOf(2.0 * disc) * reaches(search, each, reach, across) / sharing;
   float is_over = liesOver(disc, own_radius);
   if (over) {
     all.spread += is_over * share * c;
   } else {
-    float is_behind = liesBehind(disc, own_radius), seen = reaches(search, own_reach, across);
+    float is_behind = liesBehind(disc, own_radius), seen = reaches(search, each, own_reach, across);
     all.spread += (1.0 - is_over - is_behind) * share * c;
     all.behind += seen * is_behind * c;
     all.farther += seen * (1.0 - c.a);
@@ -65,12 +65,9 @@ void takePlace(Search search, vec2 at, float across, float share) {
 void gather(float radius) {
   Search search = searchOver(radius, rings);
   per_ring = min(sqrt(search.samples / 2.5) / search.span, 1.0);
-  own_reach = sqrt(max(own_radius * own_radius - search.shared_variance, 0.25));
+  own_reach = reachOf(search, own_radius);
   all = Gathered(vec4(0.0), vec4(0.0), 0.0, 0.0);
-  float area = takePlaces(search, 1.0 / vec2(textureSize(discs, 0)));
-#if POLYGON
-  all.spread *= search.samples / max(area, 1e-4);
-#endif
+  all.spread *= takePlaces(search);
 }
 
 void main() {

@@ -7,7 +7,6 @@ layout(std140) uniform Parameters {
                 // fewer, large ones coarser levels
   int blades;   // of the aperture, for POLYGON
   int tile;     // pixels of the half size along a tile's side
-  int largest;  // limit of the radius, pixels of the full picture
 };
 
 #endif

@@ -1,5 +1,5 @@
-// The places on a disc at which the bokeh passes sample: rings of 5, 10, 15 ... around the middle, so that each place stands for the same
-// area. Four neighbouring pixels have four sets of places, and the mean of the fill takes as much of each: so its pixels see four times as
+// The places on a disc at which the bokeh passes sample. In small discs each texel is one, so that the disc is as true as the half size allows.
+// In others they are rings of 5, 10, 15 ... around the middle, so that each place stands for the same area. Four neighbouring pixels have four sets of places, and the mean of the fill takes as much of each: so its pixels see four times as
 // many places (interleaved sampling; Keller and Heidrich, EGWR 2001). Whoever includes this defines takePlace().
 #ifndef DOF_RINGS_GLSL
 #define DOF_RINGS_GLSL
@@ -10,21 +10,44 @@
 #define COARSEST 16.0
 #endif
 
+// Radius up to which each texel is a place: there the rings have no gaps to fill yet.
+const float kEachTexel = 2.96;
+
 // How a disc is searched.
 struct Search {
-  int outermost;          // ring
-  float samples;          // in all rings
+  int texels;             // each texel so far to either side; -1: rings
+  int outermost;          // ring; -1: each texel
+  float samples;          // in all rings, or about as many texels
   float level;            // to read: its texels are as large as the gaps between the places of four pixels
   float shared_variance;  // four times what filtering adds to the variance of a disc
   float differs;          // 1: the four sets differ, else 0
   float shift;            // of this pixel's set: across its ring, as a share of the ring's area
-  float
-      half_share;  // what a disc counts that ends where the place is: a half, in small discs more, so that they are flatter
+  float half_share;  // what a disc counts that ends where the place is: a half, in small discs more, so that they are flatter
   float span;  // radius of the area that the places stand for, pixels of the half size
 };
 
-// What the pass does with a place `across` pixels of the half size from the pixel; `share` is its area, 1 for a round aperture.
-void takePlace(Search search, vec2 at, float across, float share);
+// What the pass does with a place `across` pixels of the half size from the pixel; `share` is its area, 1 for a round aperture. `each`: it is a texel,
+// with its middle at `at`.
+void takePlace(Search search, bool each, vec2 at, float across, float share);
+
+vec4 readPlace(sampler2D field, Search search, bool each, vec2 at) {
+  ivec2 last = textureSize(field, 0) - 1;
+  return each ? texelFetch(field, clamp(ivec2(at), ivec2(0), last), 0)
+              : textureLod(field, at / vec2(last + 1), search.level);
+}
+
+// How much of a texel `across` from its middle a disc holds, and about how many texels that makes.
+float texelWithin(float radius, float across) {
+  return clamp(radius - across + 0.5, 0.0, 1.0);
+}
+float texelsWithin(float radius) {
+  return 3.14159265 * (radius * radius + 1.0 / 12.0);
+}
+
+// The radius at which a disc ends in the samples, for what filtering adds.
+float reachOf(Search search, float radius) {
+  return sqrt(max(radius * radius - search.shared_variance, 0.25));
+}
 
 // The set of this pixel, two numbers of 0 or 1. The first: in the outer half of the rings, and turned by a quarter of the step around the ring; as the
 // fields of a chessboard, because along rows or columns its rings and the pixels of a set would beat. The second: turned by two quarters.
@@ -35,8 +58,7 @@ vec2 whichSet() {
 
 Search searchOver(float radius, int rings) {
   Search search;
-  search.outermost = ringsFor(radius, rings);
-  search.samples = samplesTo(search.outermost);
+  bool each = radius <= kEachTexel;
   // Where a pixel's own places are too far apart, the sets differ. Then no level is finer than two pixels: the pixels of one set are as far
   // apart, and only so a texel counts for all sets alike.
   float gap = gapOf(radius, rings), variance = fillVariance(radius, gap);
@@ -45,8 +67,12 @@ Search searchOver(float radius, int rings) {
   search.shift = (whichSet().x - 0.5) * 0.5 * search.differs;
   search.half_share = 0.65 - 0.15 * clamp(0.5 * radius - 1.4, 0.0, 1.0);
   float texel = exp2(search.level);
-  search.shared_variance = 4.0 * variance + 1.7 + 0.667 * (2.0 * texel * texel - 1.0);
-  search.span = sqrt(max(radius * radius - search.shared_variance, 0.25)) + 0.5;
+  search.shared_variance = each ? 1.0 : 4.0 * variance + 1.7 + 0.667 * (2.0 * texel * texel - 1.0);
+  float reach = reachOf(search, radius);
+  search.span = reach + 0.5;
+  search.texels = each ? int(ceil(search.span)) - 1 : -1;
+  search.outermost = each ? -1 : ringsFor(radius, rings);
+  search.samples = each ? texelsWithin(reach) : samplesTo(search.outermost);
   return search;
 }
 
@@ -88,10 +114,22 @@ float outline(vec2 direction) {
 }
 #endif
 
-// Calls takePlace for all places; returns the sum of their shares. `to_uv`: of a pixel of the half size.
-float takePlaces(Search search, vec2 to_uv) {
-  vec2 odd = whichSet() * search.differs, middle = gl_FragCoord.xy * to_uv, start = kStart;
+// Calls takePlace for all places. Returns the number of places over what their shares add up to: by so much a disc is too dark else.
+float takePlaces(Search search) {
   float area = 0.0;
+  for (int y = -search.texels; y <= search.texels; ++y) {
+    int end = int(ceil(sqrt(search.span * search.span - float(y * y)))) - 1;
+    for (int x = -end; x <= end; ++x) {
+      vec2 offset = vec2(x, y);
+      float across = length(offset);
+#if POLYGON
+      across /= across > 0.0 ? outline(kUpright * offset) : 1.0;
+#endif
+      area += texelWithin(search.span - 0.5, across);
+      takePlace(search, true, gl_FragCoord.xy + offset, across, 1.0);
+    }
+  }
+  vec2 odd = whichSet() * search.differs, start = kStart;
   for (int ring = 0; ring <= search.outermost; ++ring) {
     int count = max(5 * ring, 1);
     float across = ringRadius(search, ring);
@@ -109,10 +147,10 @@ float takePlaces(Search search, vec2 to_uv) {
 #endif
       area += share;
       direction = turned(direction, kStep[ring]);
-      takePlace(search, middle + at * to_uv, across, share);
+      takePlace(search, false, gl_FragCoord.xy + at, across, share);
     }
   }
-  return area;
+  return search.samples / max(area, 1e-4);
 }
 
 #endif

@@ -2,8 +2,9 @@
 // read    color   radiance; both nearest
 //         depth   reversed-Z; the sky, 0, is infinitely far
 // write   near    radiance of the near field, premultiplied, and its share of the pixel: 0, a quarter, ... 1
-//         disc    radius of its disc in pixels of the half size, times that share
-//         far     the rest, premultiplied: see farAlpha; 0 where something nearer hides all of it
+//         disc    radius of the disc in pixels of the half size, times the share, of either field
+//         far     radiance of the nearest blurred surface of the rest, premultiplied, and its share of the pixel. What is in focus has next to
+//                 none, so that it is no part of a mean with blurred surfaces; 0 where the near field hides all of it
 //         idle    depth: 0 where bokeh has anything to do for `far`, else 1
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
@@ -18,37 +19,40 @@ layout(std140) uniform Parameters {
   int largest;
 };
 out vec4 near;
-out float disc;
+out vec2 disc;
 out vec4 far;
+
+// A surface of the far field ends where radii are larger than this, of the least radius in the pixel. What is behind it has larger discs, and is
+// seen in other pixels, too: so small things keep their own discs.
+float endOfSurface(float radius) { return 1.3 * radius + 0.5; }
 
 void main() {
   vec2 texel = 1.0 / vec2(textureSize(color, 0)), middle = gl_FragCoord.xy * 2.0 * texel;
-  vec4 near_mean = vec4(0.0), far_mean = vec4(0.0);
-  float near_weight = 0.0, far_weight = 0.0;
-  float near_count = 0.0, far_light = 0.0, far_radius = 0.0;
-  vec4 depths = textureGather(depth, middle).wzxy;
+  vec4 depths = textureGather(depth, middle).wzxy, radii;
+  float end = 1e9;
+  for (int i = 0; i < 4; ++i) {
+    radii[i] = cocRadius(depths[i], infinity, focus, float(largest) - 1.0);
+    if (radii[i] >= 1.0) end = min(end, endOfSurface(radii[i]));
+  }
+  vec4 near_mean = vec4(0.0);
+  float near_weight = 0.0, near_count = 0.0, far_disc = 0.0;
+  far = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
     vec2 at = middle + (vec2(i & 1, i >> 1) - 0.5) * texel;
-    float radius = cocRadius(depths[i], infinity, focus, float(largest) - 1.0), blur = blurOf(radius);
+    float radius = radii[i], blur = blurOf(radius);
     vec4 c = vec4(finite(textureLod(color, at, 0.0).rgb), abs(radius) * 0.5);
     bool nearer = radius < -0.5;
     float w = nearer ? blur : 0.0;
     near_mean += c * w;
     near_weight += w;
     near_count += float(nearer);
-    w = nearer ? 0.0 : max(radius > 0.0 ? blur : 0.0, 1e-3);
-    far_mean += c * w;
-    far_weight += w;
-    // Where surfaces share a pixel its disc is that of the light.
-    far_light += w;
-    far_radius += w * c.a;
+    w = nearer || radius > end ? 0.0 : 0.25 * max(radius > 0.0 ? blur : 0.0, 1e-3);
+    far += vec4(c.rgb, 1.0) * w;
+    far_disc += c.a * w;
   }
   float share = near_weight > 0.0 ? 0.25 * near_count : 0.0;
   near_mean /= max(near_weight, 1e-6);
   near = vec4(near_mean.rgb, 1.0) * share;
-  disc = near_mean.a * share;
-  far_mean = vec4(far_mean.rgb / max(far_weight, 1e-6), far_radius / max(far_light, 1e-10));
-  float alpha = far_weight > 0.0 ? farAlpha(far_mean.a, largest) : 0.0;
-  far = vec4(far_mean.rgb * alpha, alpha);
-  gl_FragDepth = (alpha > 0.0 ? far_mean.a : disc) > kLeastRadius ? 0.0 : 1.0;
+  disc = vec2(near_mean.a * share, far_disc);
+  gl_FragDepth = (far.a > 0.0 ? far_disc / far.a : disc.r) > kLeastRadius ? 0.0 : 1.0;
 }

@@ -148,22 +148,30 @@ TEST_CASE(
     CAPTURE(light.width);
     CAPTURE(shape.overlap);
     CAPTURE(shape.light);
-    // Measured for round ones: 0.67 to 0.75 at 6 pixels, 0.81 to 0.87 at 9, from 0.90 at 13, from 0.88 at 20, from 0.92 above; with blades 0.86 at
-    // 20, 0.89 at 26, from 0.92 above. The pictures of half size limit small ones.
+    // Measured for round ones from a square: 1.00 at 6 pixels, 0.87 at 9, from 0.91 at 13, from 0.88 at 20, from 0.91 above; with blades 0.86 at 20, 0.89 at
+    // 26, from 0.93 above; from a ball before the focus 0.81 at 6, from 0.85 at 9. A disc of 9 pixels cannot be truer: spread from texels of
+    // the half size by the exact area of each, and then sampled as linear, it has 0.76 to 0.87, because so much hangs on 8 pixels of its 64.
     const double d = light.diameter;
-    CHECK(shape.overlap > (d < 7      ? 0.65
-                           : d < 10   ? 0.8
+    const bool far_ball = light.ball && !light.near;
+    CHECK(shape.overlap > (far_ball   ? (d < 7      ? 0.7
+                                         : d < 10   ? 0.75
+                                         : d < 13.5 ? 0.77
+                                                    : 0.82)
+                           : d < 7    ? (light.ball ? 0.78 : 0.95)
+                           : d < 10   ? 0.84
                            : d < 13.5 ? 0.9
                            : d < 21   ? 0.85
                            : d < 27   ? 0.88
                                       : 0.9));
-    CHECK(shape.light == doctest::Approx(1).epsilon(light.ball && d < 7 ? 0.15 : 0.01));
+    // A ball behind the focus shares texels with the sky behind it, whose discs are half as large again.
+    CHECK(shape.light == doctest::Approx(1).epsilon(!far_ball ? 0.01 : d < 7 ? 0.15 : 0.09));
   };
   for (const double diameter : {6.0, 9.0, 13.0, 20.0, 26.0, 33.0, 48.0, 64.0})
     for (const std::uint32_t odd : {0u, 1u, 3u}) {
       check({.near = true, .diameter = diameter, .width = 160 + odd, .height = 120 + odd});
       check({.near = false, .diameter = diameter, .width = 160 + odd, .height = 120 + odd});
-      check({.near = true, .ball = true, .diameter = diameter, .width = 160 + odd, .height = 120 + odd});
+      for (const bool near : {true, false})
+        check({.near = near, .ball = true, .diameter = diameter, .width = 160 + odd, .height = 120 + odd});
       if (odd || diameter < 20) continue;
       for (const int blades : {5, 6, 8})
         for (const bool near : {false, true}) check({.near = near, .diameter = diameter, .blades = blades});
