@@ -150,6 +150,23 @@ TEST_CASE("--set and --disable of names that several things end in") {
   CHECK(expandText(text, with({}, {"on"})).of(Code::parameterNotPass).hint == "--set on=false");
 }
 
+TEST_CASE("has() of a pass is whether nothing disables all of it by name") {
+  const std::string text = R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 } }, "passes": [
+    { "name": "first", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "out" } },
+    { "name": "with", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "has(b)", "read": { "s": "out" }, "write": { "r": "out" } },
+    { "name": "b", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [0, 1] }, "read": { "s": "out" }, "write": { "r": "out" } } ], "present": "out" })J";
+  CHECK(expandText(text).names() == "first with b[0] b[1]");
+  CHECK(expandText(text, with({}, {"b"})).names() == "first");
+  CHECK(expandText(text, with({}, {"b[1]"})).names() == "first with b[0]");
+  CHECK(expandText(text, with({}, {"with"})).names() == "first b[0] b[1]");
+  std::string other = text;
+  other.replace(other.find("\"repeat\""), 0, "\"enabled\": false, ");
+  CHECK(expandText(other).names() == "first");
+  other = text;
+  other.replace(other.find("has(b)"), 6, "has(c)");
+  CHECK(expandText(other).has(Code::unknownResource));
+}
+
 TEST_CASE("--disable of a name in a file that is included twice means both, of two files neither") {
   const TestFolder folder("values_test_files");
   folder.write("in.json", R"J({ "resources": { "c": { "texture": "rgba8", "size": 8 } }, "passes": [

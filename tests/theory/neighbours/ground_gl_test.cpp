@@ -187,3 +187,30 @@ TEST_CASE("ground: in the studio spheres are drawn before it and take nothing of
     CHECK(lab.complaints() == "");
   }
 }
+
+TEST_CASE(
+    "ground: without its spheres nothing is spared for them, and their light is missing where they stood") {
+  Setup setup = studio({{.center = {0, 0.6f, 0}, .radius = 1, .albedo = glm::vec3(0)}});
+  setup.ground = kWhite;
+  Lab whole(setup);
+  setup.disables = {"lit.billboards"};
+  Lab bare(setup);
+  setup.disables = {"lit.billboards", "lit.ground_cover"};
+  Lab uncovered(setup);
+  for (Lab* lab : {&whole, &bare, &uncovered}) {
+    lab->frame();
+    CHECK(lab->complaints() == "");
+  }
+  CHECK(whole.passNames().find("lit.ground_cover\n") != std::string::npos);
+  CHECK(bare.passNames().find("lit.ground_cover\n") == std::string::npos);
+  const Picture without = bare.read("hdr"), same = uncovered.read("hdr");
+  CHECK(without.texels == same.texels);
+  const std::vector<Solid> solids = solidsOf(setup.balls);
+  int dark = 0;
+  forGround(setup, [&](std::uint32_t x, std::uint32_t y, const Ray& ray) {
+    if (glm::length(ray.onGround() - solids[0].center) > 1.2) return;
+    CHECK(without.at(x, y)[0] < 0.8);
+    ++dark;
+  });
+  CHECK(dark > 10);
+}

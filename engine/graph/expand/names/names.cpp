@@ -119,10 +119,28 @@ std::optional<Value> Names::builtin(std::string_view name) {
   return std::nullopt;
 }
 
+namespace {
+
+// Whether nothing disables the pass by name, nor its stanza by a plain `"enabled": false`, which is what the viewer writes. An expression is not
+// asked: it could ask back.
+bool isLeft(Names& names, const Model& model, const PassDesc& pass) {
+  if (pass.enabled.present() && pass.enabled.isConstant() &&
+      !evaluateCondition(names, pass.enabled, true, "'enabled' of a pass").value_or(true))
+    return false;
+  const auto rules = model.disables.find(names.scope().prefix + pass.name);
+  return rules == model.disables.end() ||
+         std::ranges::none_of(rules->second, [](const DisableRule& rule) { return rule.instance.empty(); });
+}
+
+}  // namespace
+
 std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Place& place) {
   if (fact == Fact::age) return std::nullopt;
   std::uint32_t index = findEntity(model_, scope_, resource, false);
   if (index == kNone) index = findEntity(model_, scope_, resource, true);
+  if (index == kNone && fact == Fact::has)
+    if (const PassDesc* pass = findPass(scope_, resource))
+      return Value::boolean(isLeft(*this, model_, *pass));
   if (index == kNone) {
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
     if (isUnread(scope_, resource) || scope_.resources.contains(resource)) return Value{};

@@ -345,6 +345,12 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
   return result;
 }
 
+const PassDesc* findPass(const Scope& scope, std::string_view name) {
+  for (const PassDesc& pass : scope.desc->passes)
+    if (!pass.include && pass.name == name) return &pass;
+  return nullptr;
+}
+
 bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed) {
   if (!expr.present() || expr.isConstant()) return true;
   const std::size_t before = model.diagnostics.errorCount();
@@ -352,6 +358,7 @@ bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed
   expr.check(names, model.diagnostics);
   for (const auto& [fact, name] : expr.facts()) {
     if (findEntity(model, scope, name, false) != kNone || implicitImport(model, name) != kNone) continue;
+    if (fact == Fact::has && findPass(scope, name)) continue;
     findEntityOrReport(model, scope, name, name.starts_with("@"), expr.place(), kAsksOf);
   }
   return model.diagnostics.errorCount() == before;
