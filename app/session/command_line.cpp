@@ -184,10 +184,14 @@ std::string fishScript(const std::vector<CommandText>& commands) {
   for (const CommandText& command : commands) {
     const std::size_t space = command.name.find(' ');
     const std::string outer = command.name.substr(0, space);
-    text += fmt::format(
-        "complete -c weft -f -n {} -a {} -d {}\n",
-        isInner(command) ? fmt::format("'__fish_seen_subcommand_from {}'", outer) : "__fish_use_subcommand",
-        isInner(command) ? command.name.substr(space + 1) : outer, quotedForShell(command.doc));
+    const std::string name = isInner(command) ? command.name.substr(space + 1) : outer;
+    const std::string condition =
+        isInner(command)
+            ? fmt::format("__fish_seen_subcommand_from {}; and not __fish_seen_subcommand_from {}", outer,
+                          name)
+            : "__fish_use_subcommand";
+    text += fmt::format("complete -c weft -f -n {} -a {} -d {}\n", quotedForShell(condition), name,
+                        quotedForShell(command.doc));
   }
   for (const CommandText& command : commands)
     for (const OptionText& option : command.options) {
