@@ -123,6 +123,14 @@ def check_sequences(bench):
 
 def check_mistakes(bench):
     bench.refuses("W150", ["nothing.png"], "no file", bench.render("nothing.png"))
+    # `check` says it, too, with the place of the name, also where the picture is optional, not read, or read by a disabled pass.
+    text = graph("nothing.png").replace("max(size(picture) / 1, 1)", "8")
+    for what, old, new in (("read", "", ""), ("optional", '"picture": "picture"', '"picture": "picture?"'), ("not read", '"read": { "picture": "picture" }, ', ""),
+                           ("disabled", '"type": "fullscreen"', '"enabled": false, "type": "fullscreen"')):
+        (bench.folder / "graph.json").write_text(text.replace(old, new))
+        ran = run(bench.weft, "check", "--no-shaders", bench.folder / "graph.json")
+        told = [(d["line"], d["column"]) for d in ran.diagnostics if d["code"] == "W150"]
+        bench.report.check(ran.code == 1 and told == [("2", "59")], f"check of a missing picture that is {what}: {ran.code} {ran.err}")
     bench.write("picture.gif", b"GIF89a")
     bench.refuses("W151", ["picture.gif", ".png"], "a kind that is not known", bench.render("picture.gif"))
     whole = (bench.folder / "rgba.png").read_bytes()
