@@ -63,6 +63,8 @@ def main():
         for number in range(options.runs):
             result = copy.test(*only)
             report.check(result.code == 0 and "FAILED" not in result.out, f"run {number} without a bug\n{result.out}{result.err}")
+            if number % 10 == 9:
+                print(f"{number + 1} runs without a bug", flush=True)
         print(f"{len(chosen)} bugs, {options.runs} runs without one")
     report.end()
 
