@@ -68,16 +68,16 @@ def other_setting(parameters):
 
 
 def names_of(sheet):
-    """A pass, a resource and a parameter of a sound graph, and a setting that changes it."""
+    """A pass, a resource and a parameter of a sound graph, a setting that changes it, whether it presents anything, and whether any pass runs."""
     plan = json.loads(run(sheet.weft, "plan", sheet.path, "--format", "json", *sheet.more).out)
     parameters = json.loads(run(sheet.weft, "params", sheet.path, "--json", *sheet.more).out)
     names = [step["pass"] for step in plan["steps"][:1]] + [r["name"] for r in plan["resources"][:1]] + [p["name"] for p in parameters[:1]]
-    return names, other_setting(parameters), bool(plan["steps"]) and bool(plan.get("present"))
+    return names, other_setting(parameters), bool(plan["steps"] and plan.get("present")), bool(plan["steps"])
 
 
 def run_on_cpu(sheet, folder, sound):
     sheet.graph("matrix", "check --no-shaders --matrix", sound=sound)
-    names, other, shown = names_of(sheet) if sound else (["composite"], None, False)
+    names, *rest = names_of(sheet) if sound else (["composite"], None, False, False)
     for name in names:
         sheet.graph("explain", "explain", name, sound=sound)
     sheet.graph("diff", "diff", sheet.path, sound=sound)
@@ -91,10 +91,10 @@ def run_on_cpu(sheet, folder, sound):
     for column, command in (("plan", "plan"), ("plan json", "plan --format json --explain"), ("dot", "dot"), ("params", "params")):
         done = sheet.graph(column, command, sound=sound)
         sheet.report.check(bool(done.out) == sound, f"{column} of {sheet.path} prints {done.out[:200]!r}")
-    return other, shown
+    return rest
 
 
-def run_on_device(sheet, folder, other, shown):
+def run_on_device(sheet, folder, other, shown, runs):
     sheet.graph("check all", "check --all")
     # What presents nothing cannot be shown or compared.
     for column, command, more in (("render", "render", ["--quiet", "-o", f"{folder}/picture.png"]), ("fuzz", "fuzz", ["--runs", "1"]),
@@ -102,9 +102,9 @@ def run_on_device(sheet, folder, other, shown):
         sheet.graph(column, command, *more, *SMALL, code=0 if shown else WRONG.get(column, 1))
     if other:
         sheet.graph("bisect set", "bisect", "--other-set", other, *SMALL, code=(0, 1) if shown else 2)
-    dumped = sheet.graph("dump", "dump", "*", "-o", f"{folder}/dump", *SMALL)
+    dumped = sheet.graph("dump", "dump", "*", "-o", f"{folder}/dump", *SMALL, code=0 if runs else 1)
     files = [line.split("  ")[0] for line in dumped.out.splitlines()]
-    sheet.report.check(files and all(pathlib.Path(file).stat().st_size > 0 for file in files), f"dump of {sheet.path}: {files[:3]}")
+    sheet.report.check(bool(files) == runs and all(pathlib.Path(file).stat().st_size > 0 for file in files), f"dump of {sheet.path}: {files[:3]}")
 
 
 def check_new(sheet, folder, sound):
@@ -130,7 +130,7 @@ def look_at(weft, report, path, draws, more=(), told=None):
             report.check((place if told["line"] else ("", 0, 0, told["code"])) in found, f"{path}: {place} is not told, but {found}")
         elif told:
             report.check(sound and not checked.codes(), f"{path}: without shaders, {checked.code} {checked.err}")
-        other, shown = run_on_cpu(sheet, folder, sound)
+        of_graph = run_on_cpu(sheet, folder, sound)
         check_new(sheet, folder, sound)
         formatted = sheet.run("format", "format", "--check", path)
         if told is None:
@@ -139,7 +139,7 @@ def look_at(weft, report, path, draws, more=(), told=None):
             drawn = sheet.run("check all", "render" if told["stage"] == "render" else "check", path, *more, *(["-o", f"{folder}/a.png"] if told["stage"] == "render" else []))
             report.check(drawn.code == 1 and told["code"] in drawn.codes(), f"{path}: {told['code']} is not told\n{drawn.err}")
         elif draws and told is None and sound:
-            run_on_device(sheet, folder, other, shown)
+            run_on_device(sheet, folder, *of_graph)
     return sheet
 
 
