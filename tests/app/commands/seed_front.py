@@ -4,6 +4,7 @@
 Usage: seed_front.py WEFT REFERENCES. Skipped where REFERENCES has no such picture. The reference has another tone curve, other filtering and hard
 edges, so pixels are not compared: see docs/seed_front.md.
 """
+import json
 import math
 import pathlib
 import sys
@@ -17,6 +18,7 @@ WIDTH, HEIGHT = 1280, 720
 DISC = 16      # pixels around a centre whose mean is a sphere's colour
 PATCH = 44     # half the side of the patch that is aligned, 4 to 10 pixels beyond the silhouette
 SHIFT = 4
+INSIDE = 20    # pixels around a centre in which what is reflected is looked at
 
 
 def rows_of(path):
@@ -60,6 +62,21 @@ def edges(picture, x, y, reach):
             a, b, c = row[int(x) + i], row[int(x) + i + 1], below[int(x) + i]
             out[i, j] = min(sum(abs(a[k] - b[k]) + abs(a[k] - c[k]) for k in range(3)), 120)
     return out
+
+
+def contrast(picture, x, y):
+    """How much the brightness of neighbours differs within a sphere, of its mean."""
+    brightness = lambda texel: 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2]
+    differences, mean = 0, 0
+    for j in range(-INSIDE, INSIDE + 1):
+        row, below = picture[int(y) + j], picture[int(y) + j + 1]
+        for i in range(-INSIDE, INSIDE + 1):
+            if i * i + j * j > INSIDE * INSIDE:
+                continue
+            here = brightness(row[int(x) + i])
+            differences += abs(here - brightness(row[int(x) + i + 1])) + abs(here - brightness(below[int(x) + i]))
+            mean += here
+    return differences / mean
 
 
 def best_shift(ours, theirs, x, y):
@@ -115,6 +132,15 @@ def main():
         value = correlation(*([sum(w * c for w, c in zip(weights, color)) for color in colors] for colors in (a, b)))
         print(f"{name}: rank correlation {value:.3f}")
         report.check(value > 0.9, f"{name} of the spheres: rank correlation {value:.3f}")
+
+    # docs/seed_front.md says how much more or less blurred metals are here.
+    metals = json.loads((references / "seed_materials.json").read_text())
+    for least, most, low, high in ((0, 0.1, 1.5, 3), (0.25, 1, 0.2, 0.85)):
+        ratios = [contrast(ours, x, y) / contrast(theirs, x, y) for column, row, x, y in whole
+                  if (metal := metals[row * 10 + column])["metallic"] == 1 and least <= metal["roughness"] <= most]
+        print(f"metals of roughness {least} to {most}: {len(ratios)}, neighbours differ {min(ratios):.2f} to {max(ratios):.2f} times as much as there")
+        report.check(len(ratios) >= 3 and low < min(ratios) and max(ratios) < high,
+                     f"metals of roughness {least} to {most}: expected {low} to {high} times the reference's contrast, found {min(ratios):.2f} to {max(ratios):.2f}")
     report.end()
 
 
