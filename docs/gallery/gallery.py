@@ -43,11 +43,28 @@ def arguments(entry, side):
     return " ".join(text for text in (entry.get("graph", GALLERY["all"]), entry.get("both"), entry.get(side)) if text)
 
 
+def named():
+    """Arguments -> picture: the name of the entry that has them on, else one made from the arguments."""
+    names = {}
+    for entry in ENTRIES:
+        if entry.get("on") and not entry.get("equal"):
+            names.setdefault(arguments(entry, "on"), f"{entry['name']}.png")
+    for entry in ENTRIES:
+        line = arguments(entry, "off")
+        names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.png")
+        if entry.get("equal"):
+            names[arguments(entry, "on")] = names[line]
+        line = arguments(entry, "on")
+        names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.png")
+    return names
+
+
+NAMES = {}
+
+
 def picture_of(entry, side):
-    """What several entries may share has a name made from its arguments."""
-    if side == "on" and "on" in entry and not entry.get("equal"):
-        return f"{entry['name']}.png"
-    return f"from_{hashlib.sha256(arguments(entry, 'off' if entry.get('equal') else side).encode()).hexdigest()[:8]}.png"
+    NAMES.update(NAMES or named())
+    return NAMES[arguments(entry, side)]
 
 
 def command_of(entry, side):
