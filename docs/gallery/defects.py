@@ -5,13 +5,15 @@
     docs/gallery/defects.py NAME ...        only these entries
     docs/gallery/defects.py --pages         no pictures, only the page
     docs/gallery/defects.py --weft WEFT ... as above, by the program WEFT in place of ./run
+    docs/gallery/defects.py --values        print the mean light of parts of the pictures here, where an entry says which
     docs/gallery/defects.py --before FOLDER WEFT [NAME ...]
                                             render what was before, with the program WEFT on the data of FOLDER, a checkout of the commit that
                                             defects.json names
 
 docs/gallery/gallery.py --check looks after this page, too. An entry: `name`; `title`; `was` and `now`, what to see; `shots`, each with the `arguments` of
 `weft render`, its `size` and the `crops` of it to show (each x, y, width, height), and `before`, the arguments where they were others; `scale`, how many times as large
-a crop is shown; `channels`, whether red, green and blue are shown each by itself, too; `figures`, rows of what is measured, before, now, and the bar; `test`,
+a crop is shown; `channels`, whether red, green and blue are shown each by itself, too; `values`, parts of the first crop whose light
+--values prints; `figures`, rows of what is measured, before, now, and the bar; `test`,
 [test file, beginning of the name of a test case, program below build/release]: what prints the figures.
 """
 import json
@@ -115,6 +117,19 @@ def make(wanted, side, weft, data):
         print(picture.relative_to(TOP), flush=True)
 
 
+def print_values():
+    """Linear, as shares of white; of the pictures as they are in the repository."""
+    linear = [v / 255 / 12.92 if v <= 10 else ((v / 255 + 0.055) / 1.055) ** 2.4 for v in range(256)]
+    for entry in ENTRIES:
+        for side in ("before", "now") if "values" in entry else ():
+            picture, scale = PICTURES / f"{entry['name']}_{side}.png", entry["scale"]
+            channels, texels = read_png(picture)
+            for part in entry["values"]:
+                rows = crop_of(channels, texels, read_size(picture)[0], [n * scale for n in part])
+                light = [sum(linear[texel[c]] for row in rows for texel in row) / (len(rows) * len(rows[0])) for c in range(3)]
+                print(f"{entry['name']}, {side}, {part}: red, green, blue", ", ".join(f"{c:.4f}" for c in light))
+
+
 def cases(file):
     """The names of the test cases in a file; a name may be written in several literals."""
     text = re.sub(r'"\s*\n\s*"', "", (TOP / file).read_text())
@@ -128,7 +143,7 @@ def page():
         file, beginning, program = entry["test"]
         out += [f"## {entry['title']}", "", f"**Before:** {entry['was']}", "", f"![before](images/defects/{entry['name']}_before.png)", "",
                 f"**Now:** {entry['now']}", "", f"![now](images/defects/{entry['name']}_now.png)", ""]
-        crops = sorted({"{2} x {3} pixels from ({0}, {1})".format(*crop) for shot in entry["shots"] for crop in shot["crops"]})
+        crops = dict.fromkeys("{2} x {3} pixels from ({0}, {1})".format(*crop) for shot in entry["shots"] for crop in shot["crops"])
         out += [f"Shown: {'; '.join(crops)}, {entry['scale']} times as large" + (", and its red, green and blue." if entry.get("channels") else "."), ""]
         out += ["```text", *lines, "```", ""]
         if before != lines:
@@ -136,7 +151,7 @@ def page():
         out += ["| measured | before | now | must be |", "|---|---|---|---|", *(f"| {' | '.join(row)} |" for row in entry["figures"]), "",
                 f"This prints the figures (`{file}`):", "",
                 "```text", f"cmake --build build/release --target {program.rsplit('/')[-1]}",
-                f"build/release/{program} -s -tc='{beginning.split(',')[0]}*'", "```", ""]
+                f"build/release/{program} -s -tc='{beginning.split(',')[0]}*'", *(["docs/gallery/defects.py --values"] if "values" in entry else []), "```", ""]
         if entry.get("left"):
             out += [f"What is left: {entry['left']}", ""]
     return "\n".join(out).rstrip() + "\n"
@@ -177,6 +192,8 @@ def main():
         if len(wanted) < 3 or not pathlib.Path(wanted[1], "graphs").is_dir():
             sys.exit("--before needs a folder that has graphs, and the program")
         data, weft, side, wanted = pathlib.Path(wanted[1]).resolve(), [str(pathlib.Path(wanted[2]).resolve())], "before", wanted[3:]
+    if wanted == ["--values"]:
+        return print_values()
     if wanted != ["--pages"]:
         make(wanted, side, weft, data)
     PAGE.write_text(page())
