@@ -27,9 +27,9 @@ const Names& namesOf(const FileIndex& index, Kind kind) {
 }
 
 // Paths, each once, in the order in which they were found; at most as many as a graph may include.
-class Found {
+class FileList {
  public:
-  explicit Found(const std::string& first) : all_{first}, known_{first} {}
+  explicit FileList(const std::string& first) : all_{first}, known_{first} {}
   void add(const std::string& path) {
     if (isFull() || !known_.insert(path).second) return;
     all_.push_back(path);
@@ -74,7 +74,7 @@ std::shared_ptr<const FileIndex> Project::index(const std::string& path) const {
 }
 
 std::vector<std::string> Project::closure(const std::string& path) const {
-  Found found(path);
+  FileList found(path);
   for (std::size_t i = 0; i < found.all().size() && !found.isFull(); ++i) {
     const auto file = index(found.all()[i]);
     if (!file) continue;
@@ -347,7 +347,7 @@ std::optional<std::string> Project::locateInclude(const std::string& from, std::
 
 std::vector<std::string> Project::shaderClosure(const std::string& path,
                                                 const std::vector<std::string>& folders) const {
-  Found found(path);
+  FileList found(path);
   for (std::size_t i = 0; i < found.all().size() && !found.isFull(); ++i)
     if (const auto text = texts_.of(found.all()[i]))
       for (const GlslInclude& include : text->glsl().includes())
