@@ -6,6 +6,7 @@
 
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
+#include "engine/base/limits.h"
 #include "engine/runtime/frame/renderer.h"
 
 namespace weft::app::lsp {
@@ -24,6 +25,22 @@ using Names = std::map<std::string, Range, std::less<>>;
 const Names& namesOf(const FileIndex& index, Kind kind) {
   return kind == Kind::pass ? index.passes : kind == Kind::variable ? index.variables : index.resources;
 }
+
+// Paths, each once, in the order in which they were found; at most as many as a graph may include.
+class FileList {
+ public:
+  explicit FileList(const std::string& first) : all_{first}, known_{first} {}
+  void add(const std::string& path) {
+    if (isFull() || !known_.insert(path).second) return;
+    all_.push_back(path);
+  }
+  bool isFull() const { return all_.size() >= base::limitOf(base::Limit::include_files); }
+  const std::vector<std::string>& all() const { return all_; }
+
+ private:
+  std::vector<std::string> all_;
+  std::set<std::string> known_;
+};
 
 void listGraphs(const std::string& folder, std::set<std::string>& out) {
   std::error_code ec;
@@ -57,16 +74,14 @@ std::shared_ptr<const FileIndex> Project::index(const std::string& path) const {
 }
 
 std::vector<std::string> Project::closure(const std::string& path) const {
-  std::vector<std::string> all{path};
-  for (std::size_t i = 0; i < all.size() && all.size() < 1000; ++i) {
-    const auto file = index(all[i]);
+  FileList found(path);
+  for (std::size_t i = 0; i < found.all().size() && !found.isFull(); ++i) {
+    const auto file = index(found.all()[i]);
     if (!file) continue;
-    std::vector<std::string> next = file->extends;
-    for (const auto& [prefix, included] : file->includes) next.push_back(included);
-    for (std::string& each : next)
-      if (std::ranges::find(all, each) == all.end()) all.push_back(std::move(each));
+    for (const std::string& below : file->extends) found.add(below);
+    for (const auto& [prefix, included] : file->includes) found.add(included);
   }
-  return all;
+  return found.all();
 }
 
 void Project::forget() {
@@ -332,16 +347,12 @@ std::optional<std::string> Project::locateInclude(const std::string& from, std::
 
 std::vector<std::string> Project::shaderClosure(const std::string& path,
                                                 const std::vector<std::string>& folders) const {
-  std::vector<std::string> all{path};
-  for (std::size_t i = 0; i < all.size() && all.size() < 1000; ++i) {
-    const auto text = texts_.of(all[i]);
-    if (!text) continue;
-    for (const GlslInclude& include : text->glsl().includes())
-      if (auto found = locateInclude(all[i], include.path, folders);
-          found && std::ranges::find(all, *found) == all.end())
-        all.push_back(*std::move(found));
-  }
-  return all;
+  FileList found(path);
+  for (std::size_t i = 0; i < found.all().size() && !found.isFull(); ++i)
+    if (const auto text = texts_.of(found.all()[i]))
+      for (const GlslInclude& include : text->glsl().includes())
+        if (const auto located = locateInclude(found.all()[i], include.path, folders)) found.add(*located);
+  return found.all();
 }
 
 Project::Program Project::programOf(const std::shared_ptr<const FileIndex>& graph, const Node& stanza) const {

@@ -269,13 +269,20 @@ def check_bounds(weft, report, folder):
         return cpu_seconds(editor) - before
 
     # Two ways on at each step, again and again: as many look-ups as there are names, not as there are ways.
-    name = "a." * 6 + "b"
+    name = "a." * 8 + "b"
     circle = '{{"extends": "circle.json", "passes": [{{"include": "circle.json", "as": "a"}}{}], {}}}'
     for what, text in {"resource": circle.format("", f'"present": "{name}"'), "parameter": circle.format("", f'"let": {{"c": "${name}"}}'),
                        "pass": circle.format(f', {{"name": "c", "after": "{name}"}}', '"let": {}')}.items():
         editor.open("circle.json", text)
         seconds = spent("circle.json", f"0:{text.index(name) + len(name)}")
         report.check(seconds < 2, f"a {what} in a circle of files took {seconds} s of processor time")
+    # More files than a graph may include: the others are not looked for, and none is compared with all.
+    many = ", ".join(f'{{"include": "{i:040}.json"}}' for i in range(8000))
+    before = cpu_seconds(editor)
+    editor.open("circle.json", f'{{"passes": [{many}]}}')
+    editor.settle("circle.json")
+    seconds = cpu_seconds(editor) - before
+    report.check(seconds < 4, f"8,000 includes took {seconds} s of processor time")
     editor.end()
 
 
