@@ -37,20 +37,22 @@ Analysis::Analysis(const Options& options, const Texts& texts, const Project& pr
       project_(project),
       registry_(runtime::makeRegistry({}, factsOf(options))) {}
 
-// Graphs that are open and that no other open one includes or extends.
+// Graphs that are open and that no other open one includes or extends; of those that include each other in a circle, all.
 std::set<std::string> Analysis::roots() const {
-  std::set<std::string> roots, below;
+  std::map<std::string, std::set<std::string>> closures;
   for (const auto& [path, opened] : texts_.opened()) {
     const auto file = project_.index(path);
     if (!file || !file->isGraph) continue;
-    roots.insert(path);
-    for (const std::string& each : project_.closure(path))
-      if (each != path) below.insert(each);
+    std::vector<std::string> closure = project_.closure(path);
+    closures[path] = {closure.begin(), closure.end()};
   }
-  // Files that include each other in a circle are all looked at.
-  std::set<std::string> outer;
-  std::ranges::set_difference(roots, below, std::inserter(outer, outer.end()));
-  return outer.empty() ? roots : outer;
+  std::set<std::string> roots;
+  for (const auto& [path, files] : closures)
+    if (std::ranges::none_of(closures, [&](const auto& other) {
+          return other.second.contains(path) && !files.contains(other.first);
+        }))
+      roots.insert(path);
+  return roots;
 }
 
 std::set<std::string> Analysis::refresh(const std::set<std::string>& changed) {
