@@ -78,6 +78,7 @@ std::set<std::string> Analysis::refresh(const std::set<std::string>& changed) {
 }
 
 void Analysis::look(const std::string& path, Graph& graph) {
+  base::takeUncompared();  // a new budget for nearest names: each look is a run of its own
   graph.said.clear();
   graph.files = {path};
   graph.current = false;

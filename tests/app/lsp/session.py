@@ -14,6 +14,7 @@ A place is LINE:CHARACTER, both from 0, characters in UTF-16; a range is FROM-TO
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -286,6 +287,24 @@ def check_bounds(weft, report, folder):
     editor.end()
 
 
+def check_hints(weft, report, folder):
+    """Names that are near to a misspelt one are said, however many were compared before."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    # 400 million steps are the budget of one run. Names of the same letters, as long as names may be, take the most.
+    order = random.Random(1)
+    names = ["n" + "".join(order.sample("ab" * 100, 200)) for _ in range(1040)]
+    resources = ", ".join(f'"{name}": {{"texture": "rgba8", "size": 1}}' for name in names[:1000])
+    unknown = ", ".join(f'"s{i}": "{name}"' for i, name in enumerate(names[1000:]))
+    editor.open("spent.json", f'{{"resources": {{{resources}}}, "passes": [{{"name": "a", "type": "fullscreen", "shader": "x.frag.glsl", "read": {{{unknown}}}}}]}}')
+    editor.settle("spent.json")
+    editor.open("hint.json", '{"resources": {"picture": {"texture": "rgba8", "size": 1}}, "passes": [], "present": "pictrue"}')
+    editor.settle("hint.json")
+    said = [d["message"] for d in editor.published["hint.json"]["diagnostics"]]
+    report.check(any("did you mean 'picture'?" in message for message in said), f"no hint: {said}")
+    editor.end()
+
+
 def byte_of(text, where):
     """Of a position, in a text of ASCII up to there."""
     lines = text.split("\n")
@@ -391,6 +410,7 @@ def main():
         check_renames(weft, report, pathlib.Path(folder, "bundled").resolve())
         pathlib.Path(folder, "bounds").mkdir()
         check_bounds(weft, report, pathlib.Path(folder, "bounds").resolve())
+        check_hints(weft, report, pathlib.Path(folder, "bounds").resolve())
         pathlib.Path(folder, "odd").mkdir()
         check_hostile(weft, report, pathlib.Path(folder, "odd").resolve())
     report.end()
