@@ -29,6 +29,14 @@ std::string pathOf(const base::Diagnostic& diagnostic, const std::string& root) 
   return diagnostic.place.file && diagnostic.place.line > 0 ? pathKey(*diagnostic.place.file) : root;
 }
 
+// Of a pass, described or expanded.
+template <class Pass>
+std::vector<std::string> shaderFilesOf(const Pass& pass, graph::ShaderShape shape) {
+  if (!pass.vertexShader.empty()) return {pass.shader, pass.vertexShader};
+  if (shape == graph::ShaderShape::draw) return {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
+  return {pass.shader};
+}
+
 }  // namespace
 
 Analysis::Analysis(const Options& options, const Texts& texts, const Project& project)
@@ -123,13 +131,9 @@ void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
     const graph::PassSpec& spec = flat.specs[step.pass];
     const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
-    std::vector<std::string> files{spec.shader};
-    if (!spec.vertexShader.empty())
-      files.push_back(spec.vertexShader);
-    else if (type->shader == graph::ShaderShape::draw)
-      files = {spec.shader + ".vert.glsl", spec.shader + ".frag.glsl"};
     std::vector<std::shared_ptr<const gl::ShaderSource>> stages;
-    for (const std::string& each : files) stages.push_back(source(graph, each, spec.shaderPlace));
+    for (const std::string& each : shaderFilesOf(spec, type->shader))
+      stages.push_back(source(graph, each, spec.shaderPlace));
     if (std::ranges::find(stages, nullptr) != stages.end()) continue;
     const auto mentions = [&](const std::string& name) {
       return std::ranges::any_of(stages, [&](const auto& stage) { return stage->mentions(name); });
@@ -176,12 +180,7 @@ void Analysis::checkFiles(Graph& graph, const graph::GraphDesc& desc) {
     if (pass.include && pass.include->graph) checkFiles(graph, *pass.include->graph);
     const auto type = std::ranges::find(registry_.passTypes, pass.type, &graph::PassType::name);
     if (pass.shader.empty() || type == registry_.passTypes.end()) continue;
-    std::vector<std::string> files{pass.shader};
-    if (!pass.vertexShader.empty())
-      files.push_back(pass.vertexShader);
-    else if (type->shader == graph::ShaderShape::draw)
-      files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
-    for (const std::string& each : files) source(graph, each, pass.shaderPlace);
+    for (const std::string& each : shaderFilesOf(pass, type->shader)) source(graph, each, pass.shaderPlace);
   }
 }
 
