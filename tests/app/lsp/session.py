@@ -256,6 +256,32 @@ def check_hostile(weft, report, folder):
     report.check(editor.process.wait(timeout=60) == 1, "the input ended without shutdown")
 
 
+def check_new_folder(weft, report, folder):
+    """A folder of shaders that is made, and goes again, while a graph beside it is open."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    text = ('{"resources": {"hdr": {"texture": "rgba16f", "size": 1}}, "passes": [{"name": "sky", "type": "fullscreen", "shader": "lsp/sky.frag.glsl", '
+            '"write": {"radiance": "hdr"}, "parameters": {"gain": 1}}], "present": "hdr"}')
+    texts = {"one.json": text, "other.json": text}
+
+    def codes():
+        for name in texts:
+            editor.settle(name)
+        return [[d["code"] for d in editor.published.get(name, {}).get("diagnostics", [])] for name in texts]
+
+    for name in texts:
+        editor.open(name, texts[name])
+    before = codes()
+    report.check(before == [["W100"], ["W100"]], f"without shaders: {before}")
+    shutil.copytree(HERE / "workspace/shaders", folder / "shaders")
+    editor.change("other.json", [(None, text + "\n")])
+    report.check(codes() == [[], []], f"with shaders: {codes()}")
+    shutil.rmtree(folder / "shaders")
+    editor.change("other.json", [(None, text)])
+    report.check(codes() == before, f"without shaders again: {codes()}")
+    editor.end()
+
+
 def check_bounds(weft, report, folder):
     """What grows faster than the text, or without end, in files that no person writes."""
     editor = Editor(weft, folder)
@@ -410,6 +436,8 @@ def main():
         check_renames(weft, report, pathlib.Path(folder, "bundled").resolve())
         pathlib.Path(folder, "bounds").mkdir()
         check_bounds(weft, report, pathlib.Path(folder, "bounds").resolve())
+        pathlib.Path(folder, "folders").mkdir()
+        check_new_folder(weft, report, pathlib.Path(folder, "folders").resolve())
         check_hints(weft, report, pathlib.Path(folder, "bounds").resolve())
         pathlib.Path(folder, "odd").mkdir()
         check_hostile(weft, report, pathlib.Path(folder, "odd").resolve())
