@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 
 namespace weft::app::lsp {
 
@@ -25,13 +26,29 @@ std::size_t bytesAt(std::string_view text, std::size_t at) {
   return wanted;
 }
 
+// UTF-16 code units of a character of so many bytes of UTF-8.
+std::uint32_t unitsOf(std::size_t bytes) {
+  return bytes == 4 ? 2 : 1;
+}
+
+constexpr std::size_t kStride = 4096;  // bytes from one mark to the next
+
 }  // namespace
 
 LineMap::LineMap(std::string_view text) : text_(text) {
   lines_.push_back(0);
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')))
+  std::uint32_t units = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    if (i >= marks_.size() * kStride) marks_.push_back({i, units});
+    const std::size_t bytes = bytesAt(text, i);
+    if (text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'))) {
       lines_.push_back(i + 1);
+      units = 0;
+    } else {
+      units += unitsOf(bytes);
+    }
+    i += bytes;
+  }
 }
 
 std::size_t LineMap::endOfLine(std::size_t line) const {
@@ -47,7 +64,7 @@ std::size_t LineMap::offsetOf(const Position& position) const {
   std::size_t at = lines_[position.line];
   for (std::uint32_t units = 0; at < end && units < position.character;) {
     const std::size_t bytes = bytesAt(text_, at);
-    units += bytes == 4 ? 2 : 1;
+    units += unitsOf(bytes);
     if (units > position.character) break;  // in the middle of a pair
     at += bytes;
   }
@@ -58,13 +75,15 @@ Position LineMap::positionOf(std::size_t offset) const {
   offset = std::min(offset, text_.size());
   const auto after = std::upper_bound(lines_.begin(), lines_.end(), offset);
   const auto line = static_cast<std::size_t>(after - lines_.begin()) - 1;
-  std::uint32_t units = 0;
-  for (std::size_t at = lines_[line]; at < offset;) {
-    const std::size_t bytes = bytesAt(text_, at);
-    units += bytes == 4 ? 2 : 1;
-    at += bytes;
+  Mark from{lines_[line], 0};
+  const auto next = std::ranges::upper_bound(marks_, offset, {}, &Mark::offset);
+  if (next != marks_.begin() && std::prev(next)->offset > from.offset) from = *std::prev(next);
+  while (from.offset < offset) {
+    const std::size_t bytes = bytesAt(text_, from.offset);
+    from.units += unitsOf(bytes);
+    from.offset += bytes;
   }
-  return {static_cast<std::uint32_t>(line), units};
+  return {static_cast<std::uint32_t>(line), from.units};
 }
 
 std::size_t LineMap::offsetOf(const base::Place& place) const {

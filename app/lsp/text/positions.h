@@ -39,8 +39,13 @@ class LineMap {
 
  private:
   std::size_t endOfLine(std::size_t line) const;
+  struct Mark {
+    std::size_t offset = 0;   // where a character begins
+    std::uint32_t units = 0;  // from the beginning of its line
+  };
   std::string_view text_;
   std::vector<std::size_t> lines_;
+  std::vector<Mark> marks_;  // of each kStride bytes, so that positions in a long line are near to one
 };
 
 Json toJson(const Position& position);

@@ -15,6 +15,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -310,6 +311,23 @@ def check_bounds(weft, report, folder):
     editor.settle("circle.json")
     seconds = cpu_seconds(editor) - before
     report.check(seconds < 4, f"8,000 includes took {seconds} s of processor time")
+    # Places in one long line: those that Python counts, and not each from the beginning of the line.
+    seconds = {}
+    for between in ("\n", ""):
+        text = '{"passes": [], "resources": {' + f", {between}".join(f'/* é😀 */ "r{i}": {{"texture": "rgba8", "size": 1}}' for i in range(6000)) + "}}"
+        editor.open("long.json", text)
+        editor.settle("long.json")
+        before = cpu_seconds(editor)
+        answer = editor.ask("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri("long.json")}})
+        seconds[between] = cpu_seconds(editor) - before
+        found = [symbol for symbol in flatten(answer["result"]) if symbol.startswith("  r")]
+        expected, line, column, at = [], 0, 0, 0
+        for match in re.finditer(r'(?<=")r\d+', text):
+            passed = text[at:match.start()].split("\n")
+            line, column, at = line + len(passed) - 1, len(passed[-1].encode("utf-16-le")) // 2 + (column if len(passed) == 1 else 0), match.start()
+            expected.append(f"  {match[0]} {line}:{column}-{line}:{column + len(match[0])}")
+        report.check(found == expected and len(found) == 6000, f"symbols of a long line: {[pair for pair in zip(found, expected) if pair[0] != pair[1]][:3]}")
+    report.check(seconds[""] < 4 * seconds["\n"] + 0.5, f"processor seconds for the symbols of 6,000 lines and of one: {seconds}")
     editor.end()
 
 
