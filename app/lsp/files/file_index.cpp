@@ -14,6 +14,8 @@ namespace {
 using Kind = Mention::Kind;
 using Type = Node::Type;
 
+constexpr int kMostParts = 128;  // of a dotted name: more than files that may include each other in a row
+
 bool isOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
   return std::ranges::find(words, word) != words.end();
 }
@@ -169,10 +171,10 @@ class Indexer {
     for (const auto& child : node.children) references(*child);
   }
 
-  // The end of a dotted name that begins at `at`; each of its parts is a mention of the name so far.
+  // The end of a dotted name that begins at `at`, or of its first kMostParts; each part is a mention of the name so far.
   std::size_t dotted(std::string_view text, std::size_t base, std::size_t at, Kind kind) {
     const std::size_t start = at;
-    for (;;) {
+    for (int parts = 1;; ++parts) {
       const std::size_t begin = at;
       while (at < text.size() && graph::isIdentChar(text[at])) ++at;
       const std::string_view part = text.substr(begin, at - begin);
@@ -183,7 +185,7 @@ class Indexer {
                           !graph::isReservedWord(text.substr(at + 1, next - at - 1));
       const bool inner = goesOn && kind != Kind::import;
       add(inner ? Kind::pass : kind, {base + begin, base + at}, std::string(text.substr(start, at - start)));
-      if (!goesOn) return at;
+      if (!goesOn || parts == kMostParts) return at;
       ++at;
     }
   }
