@@ -75,20 +75,18 @@ void main() {
   float radius = searchRadius(pixel);
   own_radius = ownDisc(pixel);
   result = vec4(0.0);
-  over = true;
-  if (radius > 1.3 * own_radius) {
-    gather(radius);
-    result = all.spread / max(all.spread.a, 1.0);
-  }
-  if (own_radius > 0.0) {
-    float over_share = result.a;
-    over = false;
-    gather(min(radius, 1.4 * own_radius));
+  for (int layer = 0; layer < 2; ++layer) {
+    over = layer == 0;
+    if (over ? radius <= 1.3 * own_radius : own_radius <= 0.0) continue;
+    gather(over ? radius : min(radius, 1.4 * own_radius));
+    if (over) {
+      result = all.spread / max(all.spread.a, 1.0);
+      continue;
+    }
     // The shares add up as long as they fit, as those of one slanted surface do. Where the own surface does not fill the rest, what is seen
     // beside it stands in for what it hides: no more than is seen.
-    float beside = all.behind.a + all.farther;
-    float hidden = min(1.0 - over_share - min(all.spread.a, 1.0 - over_share), beside / all.places),
-          own_share = 1.0 - over_share - hidden;
+    float rest = 1.0 - result.a, beside = all.behind.a + all.farther;
+    float hidden = min(rest - min(all.spread.a, rest), beside / all.places), own_share = rest - hidden;
     result += all.spread * (own_share / max(all.spread.a, 1e-6)) + all.behind * (hidden / max(beside, 1e-6));
   }
 }
