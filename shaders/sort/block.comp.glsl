@@ -1,19 +1,19 @@
-// Keys of all instances, and each block of 2^SPAN sorted in shared memory: the first SPAN stages of the bitonic sort.
+// Keys of all instances, and each block of 2 * 2^HALF sorted in shared memory: the first HALF + 1 stages of the bitonic sort.
 // read    instances  draw list
 // write   keys       uvec2 per element, pow2ceil(count) of them; the rest is padded with the greatest key
 // params  count      instances
-// define  SPAN   1 to 10, default 10; less for fewer elements than 1024, which then cost less
+// define  HALF   0 to 9, default 9; less for fewer elements than 1024, which then cost less
 // threads: half the elements. Merges of larger blocks follow in sort/merge.comp.glsl.
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "order.glsl"
 
-#ifndef SPAN
-#define SPAN 10
+#ifndef HALF
+#define HALF 9
 #endif
-const uint kHalf = 1u << (SPAN - 1);
+const uint kHalf = 1u << HALF;
 
-layout(local_size_x = 1 << (SPAN - 1)) in;
+layout(local_size_x = 1 << HALF) in;
 layout(std430) writeonly buffer keys { uvec2 element[]; };
 layout(std140) uniform Parameters { uint count; };
 
@@ -39,7 +39,7 @@ void main() {
   block[t] = elementOf(first + t);
   block[t + kHalf] = elementOf(first + t + kHalf);
   barrier();
-  for (uint k = 1u; k <= uint(SPAN); ++k) {
+  for (uint k = 1u; k <= uint(HALF + 1); ++k) {
     uint half_size = 1u << (k - 1u);
     // Mirrored first step: both halves are ascending, so every merge is.
     uint base = (t >> (k - 1u)) << k, offset = t & (half_size - 1u);

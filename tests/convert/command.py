@@ -121,7 +121,7 @@ def main():
         assert confined.code == 0, confined.err
 
         help_text = run(WEFT, "import", "--help").out
-        assert "example: weft import" in help_text, help_text
+        assert "Example: weft import" in help_text, help_text
     print("import: files, refusals, lines and help")
     return 0
 

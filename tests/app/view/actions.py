@@ -67,6 +67,7 @@ def look_around(live, eyes, report):
     differs(live, first, report, "flying forward")
     live.tool("keyup", "w")
     ahead = live.settled()
+    live.tool("mousemove_relative", "--", 20, 10)  # says where the mouse is: the first after the capture is no movement
     live.tool("mousemove_relative", "--", 60, 20)
     turned = differs(live, ahead, report, "the captured mouse")
     live.act("Escape", "close")  # lets go, and does not close
