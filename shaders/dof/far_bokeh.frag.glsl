@@ -58,7 +58,10 @@ void main() {
   own_radius = searchRadius(own_share, texelFetch(discs, pixel, 0).rg);
   Search search = searchOver(own_radius, rings);
   // The outermost place is beyond the disc: wherever the near field is not whole, something is seen.
-  if (hidden) search.span = 1.2 * own_radius + 1.0;
+  if (hidden) {
+    search.span = 1.2 * own_radius + 1.0;
+    if (search.texels >= 0) search.texels = int(ceil(search.span)) - 1;
+  }
   if (own_radius <= kLeastRadius) search.texels = search.outermost = -1;
   float shape = takePlaces(search);
   over *= shape;

@@ -84,7 +84,7 @@ class Indexer {
   }
 
   Mention& add(Kind kind, Range range, std::string name, bool declares = false) {
-    out_.mentions.push_back({kind, range, std::move(name), pass_, declares});
+    out_.mentions.push_back({.kind = kind, .range = range, .name = std::move(name), .pass = pass_, .declares = declares});
     return out_.mentions.back();
   }
 
@@ -228,7 +228,9 @@ class Indexer {
           while (at < text.size() && graph::isSpace(text[at])) ++at;
           const bool import = at < text.size() && text[at] == '@';
           if (import) ++at;
+          const std::size_t before = out_.mentions.size();
           at = dotted(text, base, at, import ? Kind::import : Kind::resource);
+          if (out_.mentions.size() > before && !import) out_.mentions.back().mayBePass = word == "has";
         }
       } else {
         ++at;

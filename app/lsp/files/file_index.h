@@ -24,6 +24,7 @@ struct Mention {
     shader
   };
   Kind kind = Kind::resource;
+  bool mayBePass = false;      // of has(x): a resource, else a pass
   Range range;                 // of the last part of the name
   std::string name;            // whole up to that part, without @ and $
   const Node* pass = nullptr;  // the stanza it stands in

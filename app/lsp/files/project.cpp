@@ -259,7 +259,9 @@ std::optional<Definition> Project::resolve(const FileIndex& from, const Mention&
   switch (mention.kind) {
     case Kind::resource:
     case Kind::import:
-      return findResource(from, mention.name, mention.kind == Kind::import, seen);
+      if (auto found = findResource(from, mention.name, mention.kind == Kind::import, seen)) return found;
+      seen.clear();
+      return mention.mayBePass ? findPass(from, mention.name, seen) : std::nullopt;
     case Kind::variable:
       return findVariable(from, mention.name, true, seen);
     case Kind::pass:

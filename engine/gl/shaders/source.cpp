@@ -72,13 +72,13 @@ std::optional<std::string> outsideOf(std::span<const fs::path> candidates) {
 
 }  // namespace
 
-// One expansion: the text built so far, the files met, and the chain of includes that leads to the current
-// one.
 struct FileState {
   std::int64_t time = 0;
   std::uint64_t bytes = 0;
 };
 
+// One expansion: the text built so far, the files met, and the chain of includes that leads to the current
+// one.
 class IncludeExpander {
  public:
   IncludeExpander(const std::vector<std::string>& roots, ShaderNames& names, Diagnostics& diagnostics)

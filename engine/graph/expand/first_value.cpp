@@ -40,6 +40,7 @@ struct Misfit {
 Misfit misfitOf(const FlatResource& mine, const SlotWork& work, const FlatResource& theirs,
                 const SlotWork& first) {
   if (first.array) return {"one texture", "an array; an element of it is written 'x[0]'"};
+  if (first.use.history > 0) return {"what it holds in this frame", "an earlier publication, by a list"};
   if (isTexture(mine) != isTexture(theirs))
     return {isTexture(mine) ? "a texture" : "a buffer", isTexture(theirs) ? "a texture" : "a buffer"};
   if (!isTexture(mine)) {

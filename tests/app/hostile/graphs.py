@@ -25,6 +25,7 @@ CASES = {
     "65 alternatives in a row": (lambda: alternatives_in_a_row(65), [], "W201", "raise it with --limit alternatives_depth=128"),
     "256 alternatives in a row, the most": (lambda: alternatives_in_a_row(256), L("alternatives_depth", 256), None, ""),
     "2^60 ways through alternatives": (lambda: alternatives_of_two(60), [], "W201", "(limit alternatives)"),
+    "2^60 ways through alternatives with a history": (lambda: history_of_alternatives_of_two(60), [], "W201", "(limit alternatives)"),
     "2^60 ways through alternatives, asked by has()": (lambda: size_of_alternatives_of_two(60), [], "W201", "(limit alternatives)"),
     "2^10 ways through alternatives": (lambda: alternatives_of_two(10), [], None, ""),
     "3,000 includes in a row": (lambda: includes_in_a_row(3000), [], "W201", "include_depth"),

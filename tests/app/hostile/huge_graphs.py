@@ -29,6 +29,13 @@ def alternatives_of_two(n):
     return {"g.json": graph({**lists, f"x{n}": SMALL, f"y{n}": SMALL}, [reader("x0?")])}
 
 
+def history_of_alternatives_of_two(n):
+    """Bound to an input that wants a history of each resource that the list may mean."""
+    files = alternatives_of_two(n)
+    files["g.json"]["passes"].insert(0, {"include": "part.json", "as": "part", "bind": {"in": "x0"}})
+    return {**files, "part.json": {"resources": {"in": {"input": "texture", "history": 1}, "kept": SMALL}, "passes": [{**reader("in@-1"), "write": {"result": "kept"}}]}}
+
+
 def size_of_alternatives_of_two(n):
     files = alternatives_of_two(n)
     files["g.json"]["resources"].update({f"{side}{n}": ["ldr if false"] for side in "xy"})

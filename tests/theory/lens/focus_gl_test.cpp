@@ -288,7 +288,8 @@ TEST_CASE("focus: one colour stays that colour") {
   const Lens lens{.aperture = 0.7};
   const Panels panels = panelsOf(scene({{.center = {0, 0, 14}, .radius = 1},
                                         {.center = {-3, 2, 0}, .radius = 1},
-                                        {.center = {6, -3, -30}, .radius = 5}},
+                                        {.center = {6, -3, -30}, .radius = 5},
+                                        {.center = {2.5, -2, 2.4}, .radius = 0.6}},  // discs of 1 to 2 pixels
                                        lens));
   CHECK(largestChange(panels) < 4e-3);
 }

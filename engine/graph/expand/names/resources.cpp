@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "engine/base/foreign_formats.h"
 #include "engine/base/nearest.h"
@@ -272,13 +273,15 @@ bool ensureShape(Model& model, std::uint32_t index) {
 
 namespace {
 
-// `input` wants `depth` publications of what is bound to it; of a list, of each that it may mean.
-void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32_t depth) {
+// `input` wants `depth` publications of what is bound to it; of a list, of each that it may mean. `seen`: each counts once.
+void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32_t depth,
+            std::set<std::uint32_t>& seen) {
+  if (!seen.insert(target).second) return;
   Entity& entity = model.entities[target];
   if (entity.kind == ResourceDesc::Kind::alternatives) {
     for (std::size_t i = 0; i < entity.candidates.size(); ++i)
       if (entity.candidates[i] != kNone && entity.desc->alternatives[i].history == 0)
-        deepen(model, entity.candidates[i], input, depth);
+        deepen(model, entity.candidates[i], input, depth, seen);
     return;
   }
   const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
@@ -302,7 +305,8 @@ void takeInputHistories(Model& model) {
     markStructural(model, *entity.scope, entity.desc->first);
     const auto depth = evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory,
                                      fmt::format("the history of '{}'", entity.name));
-    if (depth && *depth > 0) deepen(model, entity.bound, i, static_cast<std::uint32_t>(*depth));
+    std::set<std::uint32_t> seen;
+    if (depth && *depth > 0) deepen(model, entity.bound, i, static_cast<std::uint32_t>(*depth), seen);
   }
 }
 
