@@ -1,7 +1,9 @@
 // weft test: cases of pictures and plans against their goldens.
 #include <fmt/format.h>
 
+#include <fstream>
 #include <map>
+#include <string_view>
 
 #include "app/commands/commands.h"
 #include "app/output/output_files.h"
@@ -19,6 +21,8 @@ namespace weft::app {
 namespace {
 
 using State = CaseResult::State;
+
+constexpr std::string_view kPageBegins = "<!doctype html>";
 
 const char* wordOf(State state) {
   static constexpr const char* kWords[] = {"ok", "FAILED", "written", "kept", "BROKEN"};
@@ -116,12 +120,14 @@ bool checkOutputs(const Options& options, const Cases& cases, base::Diagnostics&
   return checkDistinct(outputs, inputs, diagnostics) && plain;
 }
 
-// The picture and the difference of what failed.
+// The picture and the difference of what failed. `read`: files of all cases.
 void leaveFiles(const std::string& folder, const TestCase& test, const CaseResult& result,
-                base::Diagnostics& diagnostics) {
+                const std::vector<std::string>& read, base::Diagnostics& diagnostics) {
   for (const CaseResult::Pair& pair : result.pairs) {
     if (!pair.failed) continue;
     const std::string stem = leftName(folder, test, pair.frame);
+    const OutputFile outputs[] = {{"-o", stem + ".png"}, {"-o", stem + "_flip.png"}};
+    if (!checkDistinct(outputs, read, diagnostics)) continue;
     const assets::Image8 difference = assets::colorFlip(pair.map);
     if (!makeFolderOf(stem + ".png", diagnostics)) return;
     assets::savePng8(stem + ".png", pair.picture.width, pair.picture.height, pair.picture.channels,
@@ -130,6 +136,25 @@ void leaveFiles(const std::string& folder, const TestCase& test, const CaseResul
       assets::savePng8(stem + "_flip.png", difference.width, difference.height, 3, difference.texels,
                        diagnostics);
   }
+}
+
+// Writes the page over nothing that a case reads, and over no file that is no page: what a broken case reads is not known.
+void writeReport(const std::string& path, const std::string& page, const std::vector<std::string>& read,
+                 base::Diagnostics& diagnostics) {
+  const OutputFile output{"--report", path};
+  if (!checkDistinct({&output, 1}, read, diagnostics) ||
+      !checkMadeFiles({&path, 1}, {}, "--report", diagnostics))
+    return;
+  std::ifstream before(path, std::ios::binary);
+  std::string head(kPageBegins.size(), ' ');
+  if (before.read(head.data(), static_cast<std::streamsize>(head.size())),
+      before.gcount() > 0 && head != kPageBegins) {
+    auto& d = diagnostics.error(base::Code::outputNotWritten, graph::placeOfOption("--report " + path),
+                                "the file is there already, and is no page of 'weft test'");
+    d.hint = "remove it, or give the report another name";
+    return;
+  }
+  if (makeFolderOf(path, diagnostics)) base::writeFile(path, page, diagnostics);
 }
 
 }  // namespace
@@ -144,6 +169,7 @@ int runTest(const Options& options) {
   }
   CaseRunner runner(options);
   std::vector<std::pair<TestCase, CaseResult>> results;
+  std::vector<std::string> read;
   std::size_t counts[5] = {};
   for (const TestCase& test : cases) {
     CaseResult result = runner.run(test, options.trial.accept, diagnostics);
@@ -151,9 +177,9 @@ int runTest(const Options& options) {
     diagnostics.clear();
     printResult(test, result);
     ++counts[static_cast<std::size_t>(result.state)];
-    if (!options.output.empty() && result.state == State::different)
-      leaveFiles(options.output, test, result, diagnostics);
-    if (result.state == State::same || options.trial.report.empty()) result.pairs.clear();
+    const bool left = !options.output.empty() && result.state == State::different;
+    if (result.state == State::same || (options.trial.report.empty() && !left)) result.pairs.clear();
+    read.insert(read.end(), result.files.begin(), result.files.end());
     results.emplace_back(test, std::move(result));
   }
   std::string sum;
@@ -161,8 +187,10 @@ int runTest(const Options& options) {
     if (const std::size_t count = counts[static_cast<std::size_t>(state)])
       sum += fmt::format("{}{} {}", sum.empty() ? "" : ", ", count, wordOf(state));
   print(fmt::format("{}: {}\n", base::counted(cases.size(), "case"), sum));
-  if (!options.trial.report.empty() && makeFolderOf(options.trial.report, diagnostics))
-    base::writeFile(options.trial.report, reportPage(results), diagnostics);
+  if (!options.output.empty())
+    for (const auto& [test, result] : results) leaveFiles(options.output, test, result, read, diagnostics);
+  if (!options.trial.report.empty())
+    writeReport(options.trial.report, reportPage(results), read, diagnostics);
   const bool written = report(diagnostics) == 0;
   if (runner.lacksContext()) return 3;
   if (counts[static_cast<std::size_t>(State::broken)] > 0 || !written) return 2;

@@ -119,6 +119,7 @@ CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnost
   const auto world = loadWorld(test.options, diagnostics);
   const auto plan = makePlan(test.options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
   if (!plan || diagnostics.hasErrors()) return result;
+  result.files = plan->graph->files;
   const std::string text = graph::dumpText(*plan), file = test.planGolden();
   const bool known = isThere(file);
   base::Diagnostics unreadable;  // which ends with being written anew
@@ -209,6 +210,7 @@ CaseResult CaseRunner::runPictures(const TestCase& test, bool accept, base::Diag
   CaseResult result;
   const auto shot = shoot(test, diagnostics);
   if (!shot) return result;
+  result.files = shot->files;
   const PassRecords records = recordsOf(*shot, context_->device().driverKey);
   const std::string record = test.recordFile();
   if (accept) {

@@ -26,6 +26,7 @@ struct CaseResult {
   };
   State state = State::same;
   std::vector<std::string> lines;  // what was found, a sentence each
+  std::vector<std::string> files;  // that were read: graph, shaders, images, … of a case that is not broken
   std::vector<Pair> pairs;         // those that differ
   std::optional<Divergence> first;
 };

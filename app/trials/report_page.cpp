@@ -108,8 +108,8 @@ std::string reportPage(const std::vector<std::pair<TestCase, CaseResult>>& resul
     return entry.second.state == CaseResult::State::different ||
            entry.second.state == CaseResult::State::broken;
   });
-  std::string page = kHead + fmt::format("<h1>weft test: {} of {} failed</h1>\n", failed,
-                                         base::counted(results.size(), "case"));
+  std::string page = pageHead("weft test") + fmt::format("<h1>weft test: {} of {} failed</h1>\n", failed,
+                                                         base::counted(results.size(), "case"));
   for (const auto& [test, result] : results)
     if (result.state == CaseResult::State::different) page += section(test, result);
   for (const auto& [test, result] : results)

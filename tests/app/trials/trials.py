@@ -140,6 +140,21 @@ def check_files(weft, report, folder):
     for name in before:
         test("--report", folder / name, says="W180")
     report.check(before == {f.name: f.read_bytes() for f in folder.iterdir()}, "a file that is read was written over")
+    # Nor what only a graph reads, nor, where that is not known because a case is broken, what is no page.
+    own = write_graph(folder, "own", HALF.replace("half.frag", "ok_flip.frag"), {name.replace("half", "ok_flip"): text for name, text in HALF_SHADERS.items()})
+    write_cases(folder, [{"name": "ok", "graph": str(own)}])
+    kept = {f: f.read_bytes() for f in own.parent.rglob("*.*") if f.is_file()}
+    for file in kept:
+        test("--report", file, says="W180")
+    own.write_text(own.read_text() + "}")
+    test("--report", own.parent / "shaders/show.frag.glsl", says="is no page of")
+    test("--report", folder / "page.html")
+    test("--report", folder / "page.html")
+    report.check("<title>weft test</title>" in (folder / "page.html").read_text(), "the page has its head")
+    report.check(all(f.read_bytes() == text for f, text in kept.items() if f != own), "what a graph reads was written over")
+    shutil.rmtree(own.parent)
+    (folder / "page.html").unlink()
+    write_cases(folder, [{"name": "glow", "graph": GLOW, "set": {"threshold": 0.25}}])
     (folder / "gone.cases.json").symlink_to("nowhere")
     test(says="gone.cases.json")
     (folder / "gone.cases.json").unlink()
