@@ -11,6 +11,7 @@
 #include "app/session/session.h"
 #include "engine/base/json/edit.h"
 #include "engine/base/printable.h"
+#include "engine/graph/language/names.h"
 #include "engine/graph/read/read.h"
 
 namespace weft::app {
@@ -19,7 +20,8 @@ namespace {
 
 bool isPassName(const std::string& name) {
   return !name.empty() && name.size() <= 64 && std::isalpha(static_cast<unsigned char>(name[0])) &&
-         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; }) &&
+         !graph::isReservedWord(name);
 }
 
 // What the new pass stands behind: the last stanza, and the texture that is shown.
@@ -116,7 +118,7 @@ int runNew(const Options& wanted) {
   if (!isPassName(name)) {
     base::Diagnostic& d = diagnostics.error(base::Code::notAName, graph::placeOfOption("new pass " + name),
                                             "this is no name for a pass");
-    d.expected = "a letter, then letters, digits and _";
+    d.expected = "a letter, then letters, digits and _; no word of the language, such as mip or if";
     return report(diagnostics);
   }
   const auto anchor = findAnchor(options, name, diagnostics);

@@ -84,7 +84,8 @@ class Indexer {
   }
 
   Mention& add(Kind kind, Range range, std::string name, bool declares = false) {
-    out_.mentions.push_back({.kind = kind, .range = range, .name = std::move(name), .pass = pass_, .declares = declares});
+    out_.mentions.push_back(
+        {.kind = kind, .range = range, .name = std::move(name), .pass = pass_, .declares = declares});
     return out_.mentions.back();
   }
 

@@ -357,6 +357,8 @@ def repeat_it(weft, report, result):
 
 
 def check_new(weft, report, folder):
+    result = run(weft, "new", "pass", "mip", "-o", folder / "word")
+    report.check(result.code != 0 and result.codes() == ["W012"] and not (folder / "word").exists(), f"a reserved word: {result.code}\n{result.out}{result.err}")
     for graph in (None, "graphs/studio.json", "graphs/deferred.json"):
         here = folder / pathlib.Path(graph or "default").stem
         made = run(weft, "new", "pass", "tint", "-o", here, *(["--graph", graph] if graph else []))
