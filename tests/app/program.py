@@ -8,8 +8,8 @@ import sys
 import tempfile
 
 SANITIZED = "--sanitized" in sys.argv
-# Times that guard against hanging are multiplied by this.
-SLOWER = 5 if SANITIZED else 1
+# Times that guard against hanging are multiplied by this: also in the ctests that sanitize.sh runs, which get no argument.
+SLOWER = 5 if SANITIZED or "ASAN_OPTIONS" in os.environ else 1
 # What a command may take of memory. With the sanitizers, resident memory besides what the program asks for: bytes around each block (a
 # small one takes up to three times its size), shadow of an eighth of everything, and 256 MB that were freed and are kept to find late uses.
 MEMORY_BYTES = (2 if SANITIZED else 1) << 30
