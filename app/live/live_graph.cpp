@@ -42,7 +42,8 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
 void LiveGraph::expectScene() {
   expectsScene_ = true;
   scene_.outdate();
-  scene_.arrived();  // not yet; but it is on its way
+  // Not taken by the first load(), however small the file: what arrives is told as an event.
+  scene_.request();
 }
 
 bool LiveGraph::load(base::Diagnostics& diagnostics) {

@@ -57,12 +57,15 @@ void LiveScene::readNow() {
   take(std::move(loaded), std::move(said));
 }
 
+void LiveScene::request() {
+  if (arrived_ || ticket_ != 0) return;
+  ticket_ = loader_.request(path_, kSceneChannel);
+  ++reads_;
+}
+
 bool LiveScene::arrived() {
   if (arrived_) return true;
-  if (ticket_ == 0) {
-    ticket_ = loader_.request(path_, kSceneChannel);
-    ++reads_;
-  }
+  request();
   while (auto result = loader_.poll()) {
     if (result->ticket != ticket_) continue;
     ticket_ = 0;

@@ -34,6 +34,8 @@ class LiveScene {
   bool slow();
   // Reads it at once: for when there is nothing to keep showing, or it is not slow.
   void readNow();
+  // It is on its way from now on; what is there at once, too, is taken by arrived() and not before.
+  void request();
   // Whether what is in the files has arrived; else it is on its way from now on. Never waits.
   bool arrived();
   bool ready() const { return arrived_ != nullptr; }
