@@ -104,22 +104,24 @@ void main() {
   vec2 bounds_x = slopeBounds(c.x, z, r) + vec2(-pixel.x, pixel.x), bounds_y = slopeBounds(c.y, z, r) + vec2(-pixel.y, pixel.y);
   vec2 low = vec2(bounds_x.x, bounds_y.x), high = vec2(bounds_x.y, bounds_y.y);
 #if OCTAGON
-  // And along both diagonals, unless a plane is about beside the eye. Pairs from left to right, the lower one first: on the left
-  // side, at the left and the right end of the lower and upper side, on the right side.
-  const float kHalf = 0.70710678, kFar = 8.0;
+  // And along both diagonals, unless a plane is about beside the eye, or the sphere so small that in software the edges between
+  // the triangles cost more than the corners: pixels there are shaded in blocks of 4 x 2, twice where an edge goes through. So the
+  // long ones are horizontal, too. Pairs from bottom to top, the left one first: on the lower side, at the lower and the upper
+  // end of the left and right side, on the upper side.
+  const float kHalf = 0.70710678, kFar = 8.0, kLeast = 56.0;  // kLeast: pixels across
   vec2 wider = vec2(-1.25, 1.25) * max(pixel.x, pixel.y);  // half a pixel of shift (edgeOf), 0.71 of a slanted ramp
   vec2 sum = (slopeBounds((c.x + c.y) * kHalf, z, r) + wider) / kHalf, difference = (slopeBounds((c.x - c.y) * kHalf, z, r) + wider) / kHalf;
   vec4 far = max(max(abs(bounds_x), abs(bounds_y)).xyxy, abs(vec4(sum, difference)));
-  bool octagon = max(max(far.x, far.y), max(far.z, far.w)) < kFar;
+  bool octagon = max(max(far.x, far.y), max(far.z, far.w)) < kFar && all(greaterThan((high - low) * focal, vec2(kLeast)));
   if (!octagon) sum = difference = vec2(-1e30, 1e30);
-  bool upper = (gl_VertexID & 1) != 0;
+  bool right = (gl_VertexID & 1) != 0;
   int pair = gl_VertexID >> 1;
-  vec2 slope = vec2(pair < 2 ? low.x : high.x, upper ? high.y : low.y);
-  bool beside = pair == 0 || pair == 3, left = pair < 2;
-  if (beside && upper) slope.y = min(slope.y, left ? slope.x - difference.x : sum.y - slope.x);
-  if (beside && !upper) slope.y = max(slope.y, left ? sum.x - slope.x : slope.x - difference.y);
-  if (!beside && left) slope.x = max(slope.x, upper ? difference.x + slope.y : sum.x - slope.y);
-  if (!beside && !left) slope.x = min(slope.x, upper ? sum.y - slope.y : difference.y + slope.y);
+  vec2 slope = vec2(right ? high.x : low.x, pair < 2 ? low.y : high.y);
+  bool at_end = pair == 0 || pair == 3, lower = pair < 2;
+  if (at_end && right) slope.x = min(slope.x, lower ? difference.y + slope.y : sum.y - slope.y);
+  if (at_end && !right) slope.x = max(slope.x, lower ? sum.x - slope.y : difference.x + slope.y);
+  if (!at_end && lower) slope.y = max(slope.y, right ? slope.x - difference.y : sum.x - slope.x);
+  if (!at_end && !lower) slope.y = min(slope.y, right ? sum.y - slope.x : slope.x - difference.x);
 #else
   const bool octagon = false;
   vec2 slope = vec2((gl_VertexID & 1) == 0 ? low.x : high.x, gl_VertexID >> 1 == 0 ? low.y : high.y);
