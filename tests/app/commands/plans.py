@@ -11,7 +11,7 @@ import sys
 
 from program import TOP, Report, run, temporary_folder
 
-HELMET = ["--scene", "scenes/helmet.json"]
+HELMET = ["--scene", "scenes/helmet_alone.json"]
 GRAPHS = {"graphs/glow.json": [], "graphs/studio.json": [], "graphs/studio_gi.json": [], "graphs/deferred.json": HELMET, "graphs/deferred_gi.json": HELMET}
 
 

@@ -12,11 +12,11 @@ from window import Session, run_parts, save
 
 
 def comes_and_stays(weft, folder, report):
-    live = Session(weft, folder, "--no-ui", "--scene", "scenes/helmet.json", graph="graphs/glow.json")
+    live = Session(weft, folder, "--no-ui", "--scene", "scenes/helmet_alone.json", graph="graphs/glow.json")
     try:
         if not report.check(live.open(), f"no window\n{live.said()}"):
             return
-        report.check(live.event("loading helmet.json"), f"nobody says that the scene is on its way\n{live.said()}")
+        report.check(live.event("loading helmet_alone.json"), f"nobody says that the scene is on its way\n{live.said()}")
         arrived = live.event("files good")
         report.check(arrived, f"the scene does not arrive\n{live.said()}")
         model = folder / "scenes/models/FlightHelmet/FlightHelmet.gltf"

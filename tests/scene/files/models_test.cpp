@@ -36,7 +36,7 @@ base::Diagnostics failuresOf(const TemporaryFolder& folder, std::string_view tex
 }  // namespace
 
 TEST_CASE("the scenes with models that come with Weft") {
-  const Scene helmet = loadGood(kTop + "scenes/helmet.json");
+  const Scene helmet = loadGood(kTop + "scenes/helmet_alone.json");
   CHECK(helmet.meshes.size() == 6);
   CHECK(helmet.meshInstances.size() == 6);
   CHECK(helmet.textures.size() == 15);  // 15 images, two materials that share theirs
@@ -165,7 +165,7 @@ TEST_CASE("loading can be watched and given up") {
   base::Diagnostics diagnostics;
   int calls = 0;
   const assets::LoadObserver stop = [&](assets::LoadStage, double) { return ++calls < 5; };
-  CHECK_FALSE(loadScene(kTop + "scenes/helmet.json", diagnostics, nullptr, {}, stop));
+  CHECK_FALSE(loadScene(kTop + "scenes/helmet_alone.json", diagnostics, nullptr, {}, stop));
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
   CHECK(calls == 5);
 }
