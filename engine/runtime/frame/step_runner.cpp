@@ -96,7 +96,7 @@ namespace {
 
 GLuint viewOf(const GpuResource& resource, const std::vector<GLuint>& views, std::uint32_t history,
               std::uint32_t group) {
-  return views.empty() ? resource.importedFor(history, group) : views[resource.copyOf(history, group)];
+  return views.empty() ? resource.importedFor(history, group).id : views[resource.copyOf(history, group)];
 }
 
 GLenum attachmentPointOf(graph::Format format) {
@@ -112,6 +112,16 @@ GLenum attachmentPointOf(graph::Format format) {
 
 }  // namespace
 
+template <class Binding>
+GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
+                             base::Diagnostics& diagnostics) {
+  const GpuResource& resource = pool_[binding.resource];
+  if (!binding.part) return viewOf(resource, binding.views, binding.history, pass.group);
+  const graph::ImportSpec& import = plan_.graph->imports[plan_.graph->resources[binding.resource].import];
+  return binding.part->viewOf(resource.importedFor(binding.history, pass.group),
+                              device_.imports.generation(import), diagnostics);
+}
+
 void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   if (pass.meshes) gatherMeshes(pass, diagnostics);
   if (pass.variant) states_.useProgram(pass.variant->program.id());
@@ -121,15 +131,13 @@ void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   };
   for (const TextureBinding& binding : pass.textures) {
     if (!holds(binding.firstOf)) continue;
-    states_.bindTexture(binding.unit,
-                        viewOf(pool_[binding.resource], binding.views, binding.history, pass.group));
+    states_.bindTexture(binding.unit, textureOf(binding, pass, diagnostics));
     states_.bindSampler(binding.unit, binding.sampler);
   }
   for (const ImageBinding& binding : pass.images) {
     if (!holds(binding.firstOf)) continue;
-    states_.bindImage(binding.unit,
-                      viewOf(pool_[binding.resource], binding.views, binding.history, pass.group),
-                      binding.layered, binding.access, binding.format);
+    states_.bindImage(binding.unit, textureOf(binding, pass, diagnostics), binding.layered, binding.access,
+                      binding.format);
   }
   for (const BufferBinding& binding : pass.buffers)
     if (holds(binding.firstOf)) bindBuffer(binding, pass.group, diagnostics);
@@ -179,7 +187,7 @@ void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
 // What a pass type without a shader works on: names of textures, and framebuffers around them if it wants some.
 void StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
   passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
-  bound.name = viewOf(pool_[binding.resource], binding.views, binding.history, pass.group);
+  bound.name = textureOf(binding, pass, diagnostics);
   if (!pass.framebuffers) return;
   const GLenum point = attachmentPointOf(plan_.graph->resources[binding.resource].format);
   const gl::Attachment attachment{

@@ -36,6 +36,9 @@ class StepRunner {
   void bindBuffer(const BufferBinding& binding, std::uint32_t group, base::Diagnostics& diagnostics);
   void bindBlock(const gl::Block* block, std::uint32_t offset);
   void bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics);
+  // What a binding of `pass` names now; of an import, the part that it is about.
+  template <class Binding>
+  GLuint textureOf(const Binding& binding, const PreparedPass& pass, base::Diagnostics& diagnostics);
   GLuint framebufferOf(const PreparedPass& pass, base::Diagnostics& diagnostics);
 
   const graph::Plan& plan_;

@@ -90,6 +90,24 @@ class Preparer {
     return views;
   }
 
+  // Null: the use is of the graph's own texture, or of all of an import.
+  std::unique_ptr<ImportPart> importPartOf(const FlatUse& use, GLenum target) {
+    const FlatResource& resource = graph_.resources[use.resource];
+    if (resource.kind != graph::ResourceKind::imported_texture) return nullptr;
+    const GLenum own = glTargetOf(resource.target);
+    if (target == 0) target = own;
+    const bool whole = target == own && use.mip == 0 && use.mips == resource.mips && use.layer == 0 &&
+                       use.layers == resource.layers && use.planes != 2;
+    if (whole) return nullptr;
+    const gl::ViewDesc part{.target = target,
+                            .mip = use.mip,
+                            .mips = use.mips,
+                            .layer = use.layer,
+                            .layers = use.layers,
+                            .stencil = use.planes == 2};
+    return std::make_unique<ImportPart>(part, graph_.resourceNames[use.resource]);
+  }
+
   static bool complete(const std::vector<GLuint>& views) {
     return std::ranges::none_of(views, [](GLuint id) { return id == 0; });
   }
@@ -157,6 +175,7 @@ class Preparer {
             use.planes == 2 ? graph::TexelKind::unsigned_integer : graph::infoOf(resource.format).kind;
         binding.sampler = c_.samplers.get(slot.sampler, use.mips > 1, spec_.state.depthCompare, texels);
         binding.views = viewsOf(use, opaqueTypeOf(sampler->type).target);
+        binding.part = importPartOf(use, opaqueTypeOf(sampler->type).target);
         out_.textures.push_back(std::move(binding));
         return complete(out_.textures.back().views);
       }
@@ -172,6 +191,7 @@ class Preparer {
         const GLenum target = opaqueTypeOf(image->type).target;
         binding.layered = target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE;
         binding.views = viewsOf(use, target);
+        binding.part = importPartOf(use, target);
         out_.images.push_back(std::move(binding));
         return complete(out_.images.back().views);
       }
@@ -265,7 +285,10 @@ class Preparer {
       const FlatResource& resource = graph_.resources[use.resource];
       binding.mip = use.mip;
       if (use.layers < resource.layers && use.layers == 1) binding.layer = use.layer;
-      if (out_.framebuffers) binding.textures = viewsOf(wholeOf(use), 0);
+      if (out_.framebuffers)
+        binding.textures = viewsOf(wholeOf(use), 0);
+      else
+        binding.part = importPartOf(use, 0);
       passes::BoundTexture& bound = from ? out_.context.source : out_.context.destination;
       bound.width = std::max(1u, resource.width >> use.mip);
       bound.height = std::max(1u, resource.height >> use.mip);

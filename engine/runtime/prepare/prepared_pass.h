@@ -17,6 +17,7 @@
 #include "engine/imports/row_layout.h"
 #include "engine/passes/draw/geometry.h"
 #include "engine/passes/pass_registry.h"
+#include "engine/runtime/prepare/import_part.h"
 #include "engine/runtime/prepare/sampler_cache.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/runtime/storage/resource_pool.h"
@@ -33,8 +34,9 @@ struct TextureBinding {
   std::uint32_t unit = 0, resource = 0;
   std::uint8_t history = 0;
   GLuint sampler = 0;
-  std::vector<GLuint> views;  // per copy; empty: an import, bound by its resource's current texture
-  FirstOf firstOf{};          // such a binding stands behind the one in whose place it is
+  std::vector<GLuint> views;           // per copy; empty: an import, bound by its resource's current texture
+  std::unique_ptr<ImportPart> part{};  // of an import; null: the whole
+  FirstOf firstOf{};                   // such a binding stands behind the one in whose place it is
 };
 
 struct ImageBinding {
@@ -42,7 +44,8 @@ struct ImageBinding {
   std::uint8_t history = 0;
   GLenum access = GL_READ_WRITE, format = GL_NONE;
   GLboolean layered = GL_FALSE;
-  std::vector<GLuint> views;  // per copy, of exactly the level and layers
+  std::vector<GLuint> views;           // per copy, of exactly the level and layers
+  std::unique_ptr<ImportPart> part{};  // as above
   FirstOf firstOf{};
 };
 
@@ -74,7 +77,8 @@ struct FixedBinding {
   std::uint32_t resource = 0, mip = 0;
   std::int32_t layer = -1;  // -1: all
   std::uint8_t history = 0;
-  std::vector<GLuint> views;  // per copy, of exactly the levels and layers
+  std::vector<GLuint> views;           // per copy, of exactly the levels and layers
+  std::unique_ptr<ImportPart> part{};  // as above; of types without framebuffers
   std::vector<GLuint>
       textures;  // per copy, the whole, for framebuffers: Mesa's blits do not see where a view begins
   FirstOf firstOf{};

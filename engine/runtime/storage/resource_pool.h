@@ -74,9 +74,9 @@ struct GpuResource {
   std::uint64_t publications = 0;
   double publishedAt = -std::numeric_limits<double>::infinity();
   bool fresh = true;  // storage was made for this plan: contents undefined
-  GLuint importedFor(std::uint32_t history, std::uint32_t reader) const {
-    if (history > 0) return before.id;
-    return publisher != graph::kNone && publisher == reader ? imported.id : shown.id;
+  const gl::TextureRef& importedFor(std::uint32_t history, std::uint32_t reader) const {
+    if (history > 0) return before;
+    return publisher != graph::kNone && publisher == reader ? imported : shown;
   }
   // The copy that passes of `reader` (a group, or kNone) see.
   std::uint32_t copyOf(std::uint32_t history, std::uint32_t reader = graph::kNone) const {

@@ -1,0 +1,34 @@
+// Some levels or layers of an imported texture, as one binding sees them. The texture may be another one in any frame, so the
+// view of it is made when it is bound, and kept until the import changes. Does not: own the texture.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "engine/base/diagnostic.h"
+#include "engine/gl/objects/objects.h"
+
+namespace weft::runtime {
+
+class ImportPart {
+ public:
+  // `import`: its name, for messages. The format of `part` is 0: that of the texture.
+  ImportPart(const gl::ViewDesc& part, std::string import) : part_(part), import_(std::move(import)) {}
+
+  // `generation` is another number when `texture` is another one under the name of one that was destroyed. Levels and layers
+  // that it lacks are its last ones: what stands in while an import is loaded may be one texel. 0: there is none, or W118 was
+  // reported.
+  GLuint viewOf(const gl::TextureRef& texture, std::uint64_t generation, base::Diagnostics& diagnostics);
+
+ private:
+  gl::ViewDesc part_;
+  std::string import_;
+  GLuint texture_ = 0;  // of which view_ is
+  std::uint64_t generation_ = 0;
+  gl::TextureView view_;
+};
+
+}  // namespace weft::runtime
