@@ -38,7 +38,7 @@ enum class Kind : std::uint8_t {
 };
 enum class Cadence : std::uint8_t { always, on_change, once };
 
-// What a lookup outside 0..1 finds: the texel at the edge, the texture again, its mirror image, or Sampler::color.
+// What a lookup outside 0..1 finds: the texel at the edge, the texture again, its mirror image, or a BorderColor.
 enum class Wrap : std::uint8_t { clamp, repeat, mirror, border };
 
 enum class Compare : std::uint8_t {
@@ -55,11 +55,12 @@ enum class Compare : std::uint8_t {
 constexpr std::array<std::string_view, 8> kCompareNames = {
     "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
 
+using BorderColor = std::array<float, 4>;
+
 struct Sampler {
   bool linear = false;      // else nearest; with more than one level the levels are filtered the same way
   Wrap wrap = Wrap::clamp;  // in s, t and r
-  std::array<float, 4> color{};  // of the border
-  bool compare = false;          // depth comparison; implies linear
+  bool compare = false;     // depth comparison; implies linear
   std::optional<Compare>
       function;  // of the comparison; absent: that of the pass's depth test, else less_equal
   friend bool operator==(const Sampler&, const Sampler&) = default;
@@ -84,6 +85,7 @@ struct RefDesc {
   int history = 0;           // n of @-n
   std::optional<Kind> kind;  // `as depth`
   Sampler sampler;           // `as linear wrap`
+  BorderColor border{};      // `as border(…)`
   Expr condition;            // `if …`; absent means true
   bool optional = false;     // trailing ?
 };

@@ -113,21 +113,24 @@ struct VersionLinks {
 
 // ---- carried for the executor -------------------------------------------------------------------------------------
 
-// A declared slot of a pass instance. Slots that are not connected have useCount 0 (compiled without HAS_<NAME>).
+// A declared slot of a pass instance. Slots that are not connected have useCount 0 (compiled without HAS_<NAME>). There may
+// be a million of them, so that nothing in here is padding.
 struct SlotSpec {
   std::string name;
-  Access access = Access::read;
-  Kind kind = Kind::sampled;
-  Sampler sampler;
+  Place place;
   std::uint32_t firstUse = 0;  // into FlatGraph::uses
   std::uint32_t useCount = 0;  // more than one: an array of samplers, elements in order
-  bool array = false;          // true when the resource was declared with "array", even of one element
-  bool optional = false;
-  Place place;
   // Of a read of @-n: the use of what `first` names, which is bound while the n-th publication before is not there. kNone:
   // `first` is a value.
   std::uint32_t firstValue = kNone;
+  std::uint32_t border = kNone;  // into FlatGraph::borders; kNone: zeros
+  Access access = Access::read;
+  Kind kind = Kind::sampled;
+  Sampler sampler;
+  bool array : 1 = false;  // true when the resource was declared with "array", even of one element
+  bool optional : 1 = false;
 };
+static_assert(sizeof(void*) != 8 || sizeof(SlotSpec) <= 80, "the limit graph_bytes counts slots");
 
 struct UniformSpec {
   // The last two are no uniforms: they choose the variant of each frame.
@@ -254,6 +257,7 @@ struct FlatGraph {
   // the executor's
   std::vector<PassSpec> specs;  // parallel to passes, or empty for neutral graphs
   std::vector<SlotSpec> slots;
+  std::vector<BorderColor> borders;  // of slots that have one
   std::vector<ImportSpec> imports;
   std::vector<ParameterSpec> parameters;
   std::vector<HistorySpec> histories;
@@ -265,6 +269,10 @@ struct FlatGraph {
   std::vector<std::string> files;  // to watch
   std::string name;
   std::uint32_t screenWidth = 0, screenHeight = 0;
+
+  BorderColor borderOf(const SlotSpec& slot) const {
+    return slot.border == kNone ? BorderColor{} : borders[slot.border];
+  }
 };
 
 }  // namespace weft::graph

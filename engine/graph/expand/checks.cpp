@@ -35,7 +35,7 @@ const PassType* findPassType(const Registry& registry, std::string_view name) {
 }
 
 Sampler layOver(const Sampler& outer, const Sampler& inner) {
-  Sampler both = outer.wrap == Wrap::clamp ? inner : outer;  // with the colour of the border
+  Sampler both = outer.wrap == Wrap::clamp ? inner : outer;
   both.linear = outer.linear || inner.linear;
   both.compare = outer.compare || inner.compare;
   both.function = outer.function ? outer.function : inner.function;

@@ -306,6 +306,10 @@ class PassWalk {
       slot.access = work.slot->access;
       slot.kind = work.use.kind;
       slot.sampler = work.sampler;
+      if (work.sampler.wrap == Wrap::border && work.border != BorderColor{}) {
+        slot.border = static_cast<std::uint32_t>(graph_.borders.size());
+        graph_.borders.push_back(work.border);
+      }
       slot.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
       slot.array = work.array;
       slot.optional = work.slot->ref.optional;

@@ -125,6 +125,7 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
+  if (leaf.sampler.wrap == Wrap::clamp) leaf.border = ref.border;
   leaf.sampler = layOver(leaf.sampler, ref.sampler);
   leaf.history += ref.history;
   const Entity& entity = model.entities[leaf.entity];
@@ -208,6 +209,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   work.use.layers = static_cast<std::uint16_t>(layers);
   work.use.planes = selection.stencil ? 2 : planeMask(shape);
   work.sampler = leaf.sampler;
+  work.border = leaf.border;
   work.state = empty ? SlotWork::State::empty : SlotWork::State::connected;
   return true;
 }

@@ -29,6 +29,7 @@ struct Leaf {
   Selection selection;
   std::optional<Kind> kind;
   Sampler sampler;
+  BorderColor border{};
   int history = 0;  // n of @-n, of the reference and of the alternatives on the way
 };
 
@@ -48,6 +49,7 @@ struct SlotWork {
   bool whole = false;  // no selector: all sub-resources
   FlatUse use;         // everything but the resource
   Sampler sampler;
+  BorderColor border{};
 };
 
 struct SlotContext {

@@ -273,7 +273,7 @@ class FileWriter {
                 : " compare";
       else if (slot.sampler.linear)
         text += " linear";
-      const std::array<float, 4>& color = slot.sampler.color;
+      const BorderColor color = graph_.borderOf(slot);
       if (slot.sampler.wrap == Wrap::repeat) text += " wrap";
       if (slot.sampler.wrap == Wrap::mirror) text += " mirror";
       if (slot.sampler.wrap == Wrap::border)

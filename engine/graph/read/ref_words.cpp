@@ -119,7 +119,7 @@ class WordParser {
     if (numbers.size() != 4)
       return fail(start_, fmt::format("'{}' is no colour of a border", text_.substr(start_, at_ - start_)),
                   "write four numbers, 'border(0, 0, 0, 1)', or one for all channels, 'border(1)'");
-    std::ranges::copy(numbers, ref_.sampler.color.begin());
+    std::ranges::copy(numbers, ref_.border.begin());
     return true;
   }
 

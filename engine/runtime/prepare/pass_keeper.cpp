@@ -33,10 +33,10 @@ bool sameImport(const FlatGraph& a, std::uint32_t x, const FlatGraph& b, std::ui
   return a.imports[x].request == b.imports[y].request && a.imports[x].kind == b.imports[y].kind;
 }
 
-bool sameSlot(const SlotSpec& a, const SlotSpec& b) {
+bool sameSlot(const FlatGraph& mine, const SlotSpec& a, const FlatGraph& theirs, const SlotSpec& b) {
   return a.name == b.name && a.access == b.access && a.kind == b.kind && a.sampler == b.sampler &&
-         a.useCount == b.useCount && a.array == b.array && a.optional == b.optional &&
-         (a.firstValue == kNone) == (b.firstValue == kNone);
+         mine.borderOf(a) == theirs.borderOf(b) && a.useCount == b.useCount && a.array == b.array &&
+         a.optional == b.optional && (a.firstValue == kNone) == (b.firstValue == kNone);
 }
 
 bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
@@ -107,7 +107,8 @@ bool PassKeeper::isSame(std::size_t step, std::uint32_t old) const {
       stepNow.clearCount != stepThen.clearCount || !sameSpec(spec, specThen))
     return false;
   for (std::uint32_t i = 0; i < spec.slotCount; ++i)
-    if (!sameSlot(mine.slots[spec.firstSlot + i], theirs.slots[specThen.firstSlot + i])) return false;
+    if (!sameSlot(mine, mine.slots[spec.firstSlot + i], theirs, theirs.slots[specThen.firstSlot + i]))
+      return false;
   for (std::uint32_t i = 0; i < now.useCount; ++i) {
     const FlatUse &use = mine.uses[now.firstUse + i], &useThen = theirs.uses[then.firstUse + i];
     const FlatResource &resource = mine.resources[use.resource],

@@ -1,6 +1,7 @@
 #include "engine/runtime/prepare/sampler_cache.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "engine/runtime/storage/formats.h"
@@ -23,8 +24,8 @@ void SamplerCache::setBorder(GLuint sampler, const Border& border) {
     glSamplerParameterIuiv(sampler, GL_TEXTURE_BORDER_COLOR, naturals.data());
 }
 
-GLuint SamplerCache::get(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare,
-                         graph::TexelKind texels) {
+GLuint SamplerCache::get(const graph::Sampler& sampler, const graph::BorderColor& color, bool mipmapped,
+                         graph::Compare compare, graph::TexelKind texels) {
   gl::SamplerDesc desc;
   const bool linear = sampler.linear || sampler.compare;
   desc.magFilter = linear ? GL_LINEAR : GL_NEAREST;
@@ -36,7 +37,7 @@ GLuint SamplerCache::get(const graph::Sampler& sampler, bool mipmapped, graph::C
                    : compare == graph::Compare::always ? GL_LEQUAL
                                                        : glCompareOf(compare);
   Border border;
-  if (sampler.wrap == graph::Wrap::border) border = {sampler.color, texels};
+  if (sampler.wrap == graph::Wrap::border) border = {color, texels};
   for (const Entry& each : entries_)
     if (each.desc == desc && each.border == border) return each.object.id();
   entries_.push_back({desc, border, gl::SamplerObject::create(desc, linear ? "linear" : "nearest")});

@@ -1,7 +1,6 @@
 // Sampler objects by what a slot asks for. They live across plans; equal wishes share one object.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "engine/gl/objects/objects.h"
@@ -13,12 +12,13 @@ class SamplerCache {
  public:
   // The sampler's name. `mipmapped`: the view has more than one level. `compare`: of a shadow sampler that names none;
   // `always` means "less or equal". `texels`: of the texture; the colour of a border is of the same kind.
-  GLuint get(const graph::Sampler& sampler, bool mipmapped, graph::Compare compare, graph::TexelKind texels);
+  GLuint get(const graph::Sampler& sampler, const graph::BorderColor& color, bool mipmapped,
+             graph::Compare compare, graph::TexelKind texels);
 
  private:
   // What lies outside 0..1, in numbers of the texture's kind.
   struct Border {
-    std::array<float, 4> color{};
+    graph::BorderColor color{};
     graph::TexelKind texels = graph::TexelKind::none;
     friend bool operator==(const Border&, const Border&) = default;
   };

@@ -64,7 +64,7 @@ CASES = {
     "16 indices of a repeat": (lambda: repeat_of(16), [], None, ""),
     "17 indices of a repeat": (lambda: repeat_of(17), [], "W201", "'i16' is one too many"),
     "256 indices of a repeat, the most": (lambda: repeat_of(256), L("repeat_indices", 256), None, ""),
-    "750,000 instances": (lambda: repeat_to(750_000), [], None, ""),
+    "800,000 instances": (lambda: repeat_to(800_000), [], None, ""),
     "900,000 instances": (lambda: repeat_to(900_000), [], "W201", "(limit graph_bytes)"),
     "graph bytes above the limit": (lambda: small_passes(10), L("graph_bytes", "8K"), "W201", "(limit graph_bytes)"),
     "graph bytes below the limit": (lambda: small_passes(10), L("graph_bytes", "16K"), None, ""),

@@ -114,10 +114,12 @@ TEST_CASE("history, words, conditions, optional") {
 TEST_CASE("words with arguments behind 'as'") {
   CHECK(parse("a as mirror").sampler.wrap == Wrap::mirror);
   CHECK(parse("a as border").sampler == Sampler{.wrap = Wrap::border});
-  CHECK(parse("a as border(0.5)").sampler ==
-        Sampler{.wrap = Wrap::border, .color = {0.5f, 0.5f, 0.5f, 0.5f}});
+  CHECK(parse("a as border").border == BorderColor{});
+  CHECK(parse("a as border(0.5)").sampler == Sampler{.wrap = Wrap::border});
+  CHECK(parse("a as border(0.5)").border == BorderColor{0.5f, 0.5f, 0.5f, 0.5f});
   const RefDesc map = parse("a as linear border( 1,-2.5 , 3e2, 0 ) if $b ?");
-  CHECK(map.sampler == Sampler{.linear = true, .wrap = Wrap::border, .color = {1, -2.5f, 300, 0}});
+  CHECK(map.sampler == Sampler{.linear = true, .wrap = Wrap::border});
+  CHECK(map.border == BorderColor{1, -2.5f, 300, 0});
   CHECK(map.condition.text() == "$b");
   CHECK(map.optional);
   CHECK(!parse("a as compare").sampler.function);

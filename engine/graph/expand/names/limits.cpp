@@ -47,6 +47,7 @@ StanzaCost costOf(const PassDesc& desc, const std::string& declared) {
   const auto evaluated = [&](const Expr& expr) { cost.terms += expr.terms(); };
   for (const SlotDesc& slot : desc.slots) {
     cost.bytes += sizeof(SlotSpec) + sizeof(FlatUse) + sizeof(WriteRecord) + slot.name.size();
+    if (slot.ref.sampler.wrap == Wrap::border) cost.bytes += sizeof(BorderColor);
     evaluated(slot.ref.condition);
     for (const std::optional<SpanDesc>* span : {&slot.ref.mip, &slot.ref.layer, &slot.ref.face})
       if (*span) {
