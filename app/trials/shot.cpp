@@ -63,7 +63,8 @@ void measure(runtime::Renderer& renderer, const runtime::World& world, const Opt
   const graph::FlatGraph& graph = *shot.plan->graph;
   timers.setEnabled(true);
   for (std::uint32_t i = 0; i < repeats; ++i) {
-    renderer.frame(world, runtime::headlessFrame(world, frame + i, options.fps), diagnostics);
+    renderer.frame(world, runtime::headlessFrame(world, frame + i, options.fps),
+                   diagnostics);
     timers.finish();
     double whole = 0;
     std::map<std::string, double> passes;
@@ -107,13 +108,14 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
     const auto next = std::ranges::upper_bound(wish.frames, static_cast<std::uint32_t>(frame));
     return next == wish.frames.end() ? std::uint64_t{last} + 1 : *next;
   };
+  std::optional<runtime::Poison> poison;
+  if (wish.poison) poison.emplace(execution, *wish.poison);
   for (std::uint64_t frame = first; frame <= last; frame = frameAfter(frame)) {
     const auto number = static_cast<std::uint32_t>(frame);
     const bool shown = std::ranges::find(wish.frames, number) != wish.frames.end();
     const bool keeps = !wish.keep.first.empty() && number == wish.keepFrame;
     runtime::Execution::StepWatch watch;
-    if (wish.poison)
-      watch.before = [&](std::uint32_t step) { runtime::poisonStep(execution, step, *wish.poison); };
+    if (poison) watch.before = [&](std::uint32_t step) { poison->fill(step); };
     if ((wish.records && (shown || frame == first)) || keeps)
       watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };
     execution.watch(std::move(watch));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "engine/graph/pick/find_pick.h"
@@ -112,9 +113,13 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
 void Capture::start(Execution& execution, std::vector<CaptureItem> items, Visit visit) {
   items_ = std::move(items);
   visit_ = std::move(visit);
-  execution.tap(Execution::kEveryStep, [this, &execution](std::uint32_t step) {
-    for (std::size_t i = 0; i < items_.size(); ++i)
-      if (items_[i].step == step && inspector_.look(execution, items_[i].target)) visit_(i, inspector_);
+  byStep_.resize(items_.size());
+  std::iota(byStep_.begin(), byStep_.end(), std::size_t{0});
+  const auto stepOf = [this](std::size_t item) { return items_[item].step; };
+  std::ranges::stable_sort(byStep_, {}, stepOf);
+  execution.tap(Execution::kEveryStep, [this, stepOf, &execution](std::uint32_t step) {
+    for (const std::size_t i : std::ranges::equal_range(byStep_, step, {}, stepOf))
+      if (inspector_.look(execution, items_[i].target)) visit_(i, inspector_);
   });
 }
 

@@ -1,5 +1,6 @@
 #include "engine/runtime/inspection/poison.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/graph/subresource.h"
@@ -39,33 +40,40 @@ std::optional<PoisonPattern> findPoison(std::string_view name) {
   return std::nullopt;
 }
 
-void poisonStep(Execution& execution, std::uint32_t step, PoisonPattern pattern) {
+Poison::Poison(Execution& execution, PoisonPattern pattern) : execution_(execution), pattern_(pattern) {
+  const graph::Plan& plan = execution.plan();
+  for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r)
+    if (plan.firstStep[r] != graph::kNone && !plan.persistent[r] &&
+        !graph::isImported(plan.graph->resources[r]))
+      transients_.push_back(r);
+  std::ranges::stable_sort(transients_, {}, [&](std::uint32_t r) { return plan.firstStep[r]; });
+}
+
+void Poison::fill(std::uint32_t step) const {
   constexpr GLbitfield kTransfer =
       GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
-  const graph::Plan& plan = execution.plan();
-  const graph::FlatGraph& graph = *plan.graph;
-  bool any = false;
-  for (std::uint32_t r = 0; r < graph.resources.size(); ++r) {
-    const graph::FlatResource& desc = graph.resources[r];
-    if (plan.firstStep[r] != step || plan.persistent[r] || graph::isImported(desc)) continue;
-    if (!any) glMemoryBarrier(kTransfer);
-    any = true;
+  const graph::Plan& plan = execution_.plan();
+  const auto touched =
+      std::ranges::equal_range(transients_, step, {}, [&](std::uint32_t r) { return plan.firstStep[r]; });
+  if (touched.empty()) return;
+  glMemoryBarrier(kTransfer);
+  for (const std::uint32_t r : touched) {
+    const graph::FlatResource& desc = plan.graph->resources[r];
     if (desc.kind == graph::ResourceKind::buffer) {
       std::uint64_t offset = 0;
-      const BufferRef buffer = execution.buffer(r, offset);
-      const double value = pattern == PoisonPattern::nan ? std::numeric_limits<double>::quiet_NaN() : 30000;
+      const BufferRef buffer = execution_.buffer(r, offset);
+      const double value = pattern_ == PoisonPattern::nan ? std::numeric_limits<double>::quiet_NaN() : 30000;
       if (buffer.id) clearBuffer(buffer.id, offset, buffer.bytes, graph::Value::number(value));
       continue;
     }
-    const gl::TextureRef texture = execution.texture(r);
+    const gl::TextureRef texture = execution_.texture(r);
     if (texture.id == 0) continue;
-    const graph::Value value = graph::Value::number(valueFor(desc.format, pattern));
+    const graph::Value value = graph::Value::number(valueFor(desc.format, pattern_));
     for (std::uint32_t mip = 0; mip < desc.mips; ++mip)
       clearTexture(texture, desc.format, mip, 0, desc.layers, value);
   }
-  if (any)
-    glMemoryBarrier(kTransfer | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                    GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(kTransfer | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 }  // namespace weft::runtime

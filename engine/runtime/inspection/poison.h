@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "engine/runtime/frame/execution.h"
 
@@ -20,7 +21,17 @@ enum class PoisonPattern : std::uint8_t {
 const char* nameOf(PoisonPattern pattern);
 std::optional<PoisonPattern> findPoison(std::string_view name);
 
-// To be called in Execution::StepWatch::before.
-void poisonStep(Execution& execution, std::uint32_t step, PoisonPattern pattern);
+class Poison {
+ public:
+  // `execution` must outlive this.
+  Poison(Execution& execution, PoisonPattern pattern);
+  // To be called in Execution::StepWatch::before.
+  void fill(std::uint32_t step) const;
+
+ private:
+  Execution& execution_;
+  PoisonPattern pattern_;
+  std::vector<std::uint32_t> transients_;  // in the order of the first steps that touch them
+};
 
 }  // namespace weft::runtime

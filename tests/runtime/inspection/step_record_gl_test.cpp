@@ -82,9 +82,10 @@ TEST_CASE("poison is what a pass finds, and no pass of a sound graph shows it") 
     const auto expected = gl::readFloats(stage.execution().presented());
     for (const PoisonPattern pattern : {PoisonPattern::nan, PoisonPattern::large}) {
       const graph::Plan& plan = stage.execution().plan();
+      const Poison poison(stage.execution(), pattern);
       std::size_t poisoned = 0;
       stage.execution().watch({.before = [&](std::uint32_t step) {
-        poisonStep(stage.execution(), step, pattern);
+        poison.fill(step);
         for (std::uint32_t r = 0; r < plan.graph->resources.size(); ++r) {
           const graph::FlatResource& desc = plan.graph->resources[r];
           if (plan.firstStep[r] != step || plan.persistent[r] || desc.format != graph::Format::rgba32f)
