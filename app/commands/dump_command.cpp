@@ -106,7 +106,7 @@ int runDump(const Options& options) {
         saveInspected(inspector, path + ".png", said);
         if (saveInspected(inspector, path + ".exr", said)) names[item] = path + ".png";
       });
-    renderer.frame(world, runtime::headlessFrame(world, frame, options.fps), diagnostics);
+    renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer), diagnostics);
     diagnostics.append(said);
     opened->session->context->debugLog().drain(diagnostics);
   }

@@ -148,6 +148,7 @@ class Fuzzer {
     add("--camera", options_.camera);
     add("--materials", options_.materials);
     add("--environment", options_.environment);
+    add("--mouse", options_.mouse);
     for (const std::string& preset : options_.presets) add("--preset", preset);
     for (const std::string& pass : options_.disables) add("--disable", pass);
     for (const graph::Setting& set : options_.sets) add("--set", set.name + "=" + set.text);

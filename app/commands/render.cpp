@@ -81,7 +81,8 @@ int runRender(const Options& options) {
     const double before = now();
     picks.expect(frame < options.firstFrame ? std::nullopt : std::optional(frame));
     recorder->begin(session->renderer.execution()->plan(), frame);
-    last = session->renderer.frame(world, runtime::headlessFrame(world, frame, options.fps), diagnostics);
+    last = session->renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
+                                   diagnostics);
     recorder->end(last);
     session->renderer.dropUploaded(world);
     session->context->debugLog().drain(diagnostics);

@@ -10,6 +10,10 @@
 
 namespace weft::app {
 
+namespace {
+constexpr int kMostPixels = 16384;  // of a side of a picture
+}  // namespace
+
 bool parseNumber(const std::string& text, std::uint32_t& out) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
   return error == std::errc{} && end == text.data() + text.size();
@@ -20,11 +24,39 @@ bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::u
   return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
 }
 
+std::optional<imports::Pointer> parsePointer(const std::string& text) {
+  const std::string_view held = ",down";
+  std::string_view rest = text;
+  imports::Pointer pointer;
+  pointer.down = rest.ends_with(held);
+  if (pointer.down) rest.remove_suffix(held.size());
+  const std::size_t comma = rest.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const std::string_view parts[] = {rest.substr(0, comma), rest.substr(comma + 1)};
+  for (int i = 0; i < 2; ++i) {
+    float x = 0;
+    const auto [end, error] = std::from_chars(parts[i].data(), parts[i].data() + parts[i].size(), x);
+    if (error != std::errc{} || end != parts[i].data() + parts[i].size() || !(x >= 0 && x <= kMostPixels))
+      return std::nullopt;
+    pointer.position[i] = x;
+  }
+  if (pointer.down) pointer.pressed = pointer.dragged = pointer.position;
+  return pointer;
+}
+
+std::string checkPointer(const std::string& text) {
+  if (parsePointer(text)) return "";
+  return fmt::format(
+      "expected X,Y or X,Y,down: pixels from the lower left corner of the picture, each from 0 to {}, found "
+      "'{}'",
+      kMostPixels, text);
+}
+
 std::string checkSize(const std::string& text) {
   std::uint32_t width = 0, height = 0;
-  const bool good =
-      parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= 16384 && height <= 16384;
-  return good ? "" : "expected WIDTHxHEIGHT, each from 1 to 16384, found '" + text + "'";
+  const bool good = parsePair(text, 'x', width, height) && width >= 1 && height >= 1 &&
+                    width <= kMostPixels && height <= kMostPixels;
+  return good ? "" : fmt::format("expected WIDTHxHEIGHT, each from 1 to {}, found '{}'", kMostPixels, text);
 }
 
 CLI::Validator numberFrom(double low, double high) {

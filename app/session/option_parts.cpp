@@ -41,6 +41,15 @@ void addPresetFolder(CLI::App& command, Options& options) {
       ->check(CLI::Validator(checkFolder, "FOLDER"));
 }
 
+void addPointerOption(CLI::App& command, Options& options) {
+  command
+      .add_option(
+          "--mouse", options.mouse,
+          "where the mouse points in every frame, for graphs that read it: pixels from the lower left "
+          "corner of the picture; with ',down' its button is held from frame 0 on (default: 0,0)")
+      ->check(CLI::Validator(checkPointer, "X,Y[,down]"));
+}
+
 void addBackendOptions(CLI::App& command, Options& options) {
   command.add_option("--backend", options.backend, "where OpenGL comes from")
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));

@@ -20,6 +20,7 @@ struct RawOptions {
 // Returns that of the graph's file.
 CLI::Option* addGraphOptions(CLI::App& command, Options& options, RawOptions& raw);
 void addPresetFolder(CLI::App& command, Options& options);
+void addPointerOption(CLI::App& command, Options& options);
 void addBackendOptions(CLI::App& command, Options& options);
 void addDeviceOptions(CLI::App& command, Options& options);
 

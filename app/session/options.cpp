@@ -144,6 +144,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")
       ->check(CLI::Validator(checkFrames, "A:B"));
   render->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
+  addPointerOption(*render, options);
   render->add_flag(kWaitForAssets, options.waitForAssets,
                    "the first frame waits for everything it needs; always so without a window");
   render->add_flag("--quiet", options.quiet, "no progress bar and no notes");
@@ -161,6 +162,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   dump->add_option("--frames", raw.frames, "the frame to look at")
       ->check(CLI::Validator(checkFrame, "FRAME"));
   dump->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
+  addPointerOption(*dump, options);
   addBackendOptions(*dump, options);
   dump->add_flag("--quiet", options.quiet, "no list of files and no notes");
 
@@ -366,6 +368,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     return std::nullopt;
   }
   for (std::string& preset : options.presets) preset = presetFile(preset, options.presetFolder);
+  options.pointer = parsePointer(options.mouse).value_or(imports::Pointer{});
   options.sets = settingsFrom(raw.sets);
   options.trial.otherSets = settingsFrom(raw.otherSets);
   for (std::string& preset : options.trial.otherPresets) preset = presetFile(preset, options.presetFolder);

@@ -10,6 +10,7 @@
 #include "app/session/command_line.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/pick/pick.h"
+#include "engine/imports/world.h"
 
 namespace weft::app {
 
@@ -46,6 +47,8 @@ struct Options {
   std::uint32_t width = 1280, height = 720;  // --size
   std::uint32_t firstFrame = 0, lastFrame = 0;
   double fps = 60;
+  std::string mouse;         // --mouse, as it was written; empty: none
+  imports::Pointer pointer;  // of every frame: what it says
   std::vector<std::string> disables;
   std::vector<std::string> presets;  // overlay files
   std::string presetFolder;          // looked in first for the names of presets; empty: none

@@ -23,6 +23,7 @@ CLI::App* addTrial(CLI::App& app, const char* name, const char* doc, Options& op
   addGraphOptions(*trial, options, raw);
   trial->add_option("--frame", raw.frames, "number of the frame to look at (default: 0)")
       ->check(CLI::Validator(checkFrame, "FRAME"));
+  addPointerOption(*trial, options);
   addBackendOptions(*trial, options);
   return trial;
 }

@@ -131,6 +131,7 @@ class CaseReader {
     if (const auto camera = fields.text("camera")) options.camera = *camera;
     if (const auto fps = fields.number("fps", kRate)) options.fps = *fps;
     readSize(fields, options);
+    readMouse(fields, options);
     readFrames(fields, test);
     readNames(fields, "preset", [&](const JsonValue& item) {
       // A word is a bundled preset whoever runs the case, and where: what lies here or is a person's own does not count.
@@ -176,6 +177,15 @@ class CaseReader {
       parsePair(*size, 'x', options.width, options.height);
     else
       diagnostics_.error(Code::outOfRange, fields.find("size")->textPlace(), "the size: " + wrong);
+  }
+
+  void readMouse(JsonFields& fields, Options& options) {
+    const auto mouse = fields.text("mouse");
+    if (!mouse) return;
+    if (const std::string wrong = checkPointer(*mouse); wrong.empty())
+      options.pointer = *parsePointer(*mouse);
+    else
+      diagnostics_.error(Code::outOfRange, fields.find("mouse")->textPlace(), "the mouse: " + wrong);
   }
 
   void readFrames(JsonFields& fields, TestCase& test) {

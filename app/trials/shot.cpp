@@ -63,7 +63,7 @@ void measure(runtime::Renderer& renderer, const runtime::World& world, const Opt
   const graph::FlatGraph& graph = *shot.plan->graph;
   timers.setEnabled(true);
   for (std::uint32_t i = 0; i < repeats; ++i) {
-    renderer.frame(world, runtime::headlessFrame(world, frame + i, options.fps),
+    renderer.frame(world, runtime::headlessFrame(world, frame + i, options.fps, options.pointer),
                    diagnostics);
     timers.finish();
     double whole = 0;
@@ -119,7 +119,7 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
     if ((wish.records && (shown || frame == first)) || keeps)
       watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };
     execution.watch(std::move(watch));
-    renderer.frame(world, runtime::headlessFrame(world, number, options.fps), diagnostics);
+    renderer.frame(world, runtime::headlessFrame(world, number, options.fps, options.pointer), diagnostics);
     context.debugLog().drain(diagnostics);
     if (diagnostics.hasErrors()) return std::nullopt;
     if (auto steps = recorder.take(); !steps.empty()) shot.records.push_back({number, std::move(steps)});

@@ -12,6 +12,7 @@ using How = KeyBinding::How;
 // clang-format off
 constexpr KeyBinding kBindings[] = {
     {How::mouse, 0, false, "", "left drag", "turn around the scene"},
+    {How::mouse, 0, false, "", "Ctrl left drag", "the same, where the graph reads the mouse"},
     {How::mouse, 0, false, "", "right drag", "slide sideways"},
     {How::mouse, 0, false, "", "wheel", "nearer and farther; flying: faster and slower"},
     {How::press, GLFW_KEY_F, false, "fly", "F", "fly, with the mouse captured; again: back to turning"},

@@ -53,6 +53,9 @@ class Viewer {
   std::string modes() const;  // that are on and that nothing else shows while the panels are hidden
   // Idle mode: whether something is under way that may not show for a while, and whether a frame is due.
   bool busy();
+  // Whether the graph reads the mouse; the mouse over the picture that it presents.
+  bool readsMouse();
+  imports::Pointer pointer();
   bool mustDraw();
   // May end without a picture, when files change meanwhile.
   void frame(gl::Size size);
@@ -82,6 +85,7 @@ class Viewer {
   CameraRig rig_{scene::CameraPose{}};
   std::string cameraName_;  // of the scene's camera that is followed; empty: the first
   scene::CameraPose previousPose_;
+  imports::Pointer pointer_;  // of the last frame
   std::uint64_t cuts_ = 0, sceneGeneration_ = 0;
   FrameClock clock_;
   Recorder recorder_;

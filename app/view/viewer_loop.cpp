@@ -91,6 +91,7 @@ void Viewer::update(gl::Size size) {
     if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_))
       tell(diagnostics_, log_, ui::Log::kChange);
   }
+  input_.giveButton(readsMouse());
   bool looked = live_.poll(glfwGetTime(), diagnostics_);
   // The moment in which more may be written is waited out here, not behind another frame of what is out of
   // date.
@@ -149,10 +150,20 @@ std::string Viewer::modes() const {
   return text;
 }
 
+bool Viewer::readsMouse() {
+  return live_.running() && renderer_.execution()->followsPointer();
+}
+
+imports::Pointer Viewer::pointer() {
+  const gl::TextureDesc picture = renderer_.execution()->presented().desc;
+  return input_.pointer(picture.width, picture.height);
+}
+
 bool Viewer::busy() {
   if (recorder_.active() || rig_.moving() || rig_.cuts() != cuts_ || input_.captured() ||
       input_.movesCamera() || live_.environment().status() || live_.scene().loading())
     return true;
+  if (readsMouse() && pointer() != pointer_) return true;
   // Also what stands still for a while, or out of view: it goes on.
   if (frame_ > 0 && live_.running() && renderer_.execution()->drawsMotion()) return true;
   const scene::Camera* camera = sceneCamera();
@@ -179,6 +190,8 @@ void Viewer::frame(gl::Size size) {
   in.pose = rig_.pose();
   in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
   in.cutGeneration = cuts_ = rig_.cuts();
+  if (readsMouse()) in.pointer = pointer_ = pointer();
+  input_.pointerShown();
   // As `weft render` makes the same frames; the first of a window that waited is finished, and does not fade
   // in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);

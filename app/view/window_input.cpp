@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/ui/overlay.h"
@@ -21,7 +22,7 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
   glfwSetKeyCallback(
       window, [](GLFWwindow* w, int key, int, int action, int mods) { of(w).onKey(key, action, mods); });
   glfwSetMouseButtonCallback(
-      window, [](GLFWwindow* w, int button, int action, int) { of(w).onButton(button, action); });
+      window, [](GLFWwindow* w, int button, int action, int mods) { of(w).onButton(button, action, mods); });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).onMove(x, y); });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) { of(w).onScroll(dy); });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
@@ -39,8 +40,9 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
 void WindowInput::capture(bool on) {
   if (on == captured_) return;
   captured_ = on;
-  turning_ = panning_ = undecided_ = moved_ = false;
+  turning_ = panning_ = undecided_ = moved_ = down_ = false;
   waiting_ = {};
+  waitingPress_.reset();
   fresh_ = true;  // the cursor is put elsewhere: that is no movement
   glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   if (glfwRawMouseMotionSupported())
@@ -58,11 +60,21 @@ void WindowInput::waitIfUnknown() {
   if (!captured_ && (moved_ || !actions_.empty())) undecided_ = true;
 }
 
-void WindowInput::onButton(int button, int action) {
+void WindowInput::onButton(int button, int action, int mods) {
   if (action == GLFW_PRESS) waitIfUnknown();
   const bool panels = !undecided_ && overlay_ && overlay_->wantsMouse();
   const bool down = action == GLFW_PRESS && !captured_ && !panels;
-  if (button == GLFW_MOUSE_BUTTON_LEFT) turning_ = down;
+  if (button == GLFW_MOUSE_BUTTON_LEFT) {
+    const bool graph = graphHasButton_ && (mods & GLFW_MOD_CONTROL) == 0;
+    turning_ = down && !graph;
+    if (action == GLFW_RELEASE) down_ = waitingDown_ = false;
+    if (down && graph && undecided_) {
+      waitingPress_ = place();
+      waitingDown_ = true;
+    } else if (down && graph) {
+      press(place());
+    }
+  }
   if (button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE) panning_ = down;
 }
 
@@ -77,6 +89,38 @@ void WindowInput::onMove(double x, double y) {
   }
   last_ = at;
   moved_ = !captured_;
+  // Who only points: when panels were drawn, and it is known whether one is under the mouse.
+  if (!captured_ && (!overlay_ || down_)) point();
+}
+
+glm::dvec2 WindowInput::place() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  const glm::dvec2 size(std::max(width, 1), std::max(height, 1));
+  // The middle of the pixel that is pointed at; a drag may lead out of the window.
+  const glm::dvec2 at = glm::clamp((last_ + 0.5) / size, 0.0, 1.0);
+  return {at.x, 1 - at.y};
+}
+
+void WindowInput::point() {
+  position_ = place();
+  if (down_) dragged_ = position_;
+}
+
+void WindowInput::press(glm::dvec2 at) {
+  position_ = dragged_ = pressed_ = at;
+  down_ = clicked_ = true;
+}
+
+imports::Pointer WindowInput::pointer(std::uint32_t width, std::uint32_t height) const {
+  const glm::dvec2 size(width, height);
+  imports::Pointer pointer;
+  pointer.position = position_ * size;
+  pointer.dragged = dragged_ * size;
+  pointer.pressed = pressed_ * size;
+  pointer.clicked = clicked_;
+  pointer.down = down_ || clicked_;  // a click that ended between two frames is seen in one
+  return pointer;
 }
 
 void WindowInput::onScroll(double steps) {
@@ -97,12 +141,19 @@ bool WindowInput::held(std::string_view action) const {
 }
 
 void WindowInput::panelsDrawn() {
-  moved_ = false;
+  const bool panels = overlay_ && overlay_->wantsMouse();
+  if (std::exchange(moved_, false) && !panels && !captured_ && !waitingPress_) point();
   if (!std::exchange(undecided_, false)) return;
   const CameraInput input = std::exchange(waiting_, {});
-  if (overlay_ && overlay_->wantsMouse()) {
+  const std::optional<glm::dvec2> pressed = std::exchange(waitingPress_, {});
+  if (panels) {
     turning_ = panning_ = false;
     return;
+  }
+  if (pressed) {
+    press(*pressed);
+    down_ = waitingDown_;
+    if (down_) point();
   }
   camera_.turn += input.turn;
   camera_.pan += input.pan;

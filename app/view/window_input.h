@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "app/view/camera_rig.h"
+#include "engine/imports/world.h"
 
 struct GLFWwindow;
 
@@ -36,6 +38,12 @@ class WindowInput {
   CameraInput takeCamera();
   // Whether there is any of it, the mouse's.
   bool movesCamera() const;
+  // The mouse over a picture of this size, for graphs that read it: where it is, whether its left button is held, and
+  // whether that went down since pointerShown(). What it does over a panel does not count.
+  imports::Pointer pointer(std::uint32_t width, std::uint32_t height) const;
+  void pointerShown() { clicked_ = false; }
+  // The left button is the graph's, and turns the camera with Ctrl only.
+  void giveButton(bool toGraph) { graphHasButton_ = toGraph; }
   // To be called when panels were drawn. A button or wheel that came behind a key or a movement waits until
   // then: the key may show or hide the panel under the mouse, and the movement may end over another.
   void panelsDrawn();
@@ -48,10 +56,13 @@ class WindowInput {
  private:
   static WindowInput& of(GLFWwindow* window);
   void onKey(int key, int action, int mods);
-  void onButton(int button, int action);
+  void onButton(int button, int action, int mods);
   void onMove(double x, double y);
   // A button or wheel comes: notes when the panels do not know yet whether it is theirs.
   void waitIfUnknown();
+  glm::dvec2 place() const;  // where the mouse is: 0 to 1 of the window from its lower left corner
+  void point();
+  void press(glm::dvec2 at);
   void onScroll(double steps);
 
   GLFWwindow* window_;
@@ -63,6 +74,11 @@ class WindowInput {
   glm::dvec2 last_{0};
   bool moved_ = false;  // since panels were drawn
   bool turning_ = false, panning_ = false, captured_ = false, fresh_ = true;
+  // As Pointer has them, in places.
+  glm::dvec2 position_{0}, dragged_{0}, pressed_{0};
+  bool down_ = false, clicked_ = false, graphHasButton_ = false;
+  std::optional<glm::dvec2> waitingPress_;  // a press since `undecided_`, and whether it is still held
+  bool waitingDown_ = false;
   std::uint64_t events_ = 0;
 };
 

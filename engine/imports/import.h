@@ -48,6 +48,8 @@ class Provider {
   virtual bool isStill(const World&) const { return false; }
   // Whether the import depends on the frames that ran before this one, and not only on World and FrameInput.
   virtual bool remembers(const World&) const { return false; }
+  // Whether it is made of FrameInput::pointer: then a window has the mouse for the picture.
+  virtual bool followsPointer() const { return false; }
 
   // For a texture that appears together with what a graph makes of it, and so later than it changes. shown() is the texture
   // that was the newest one at the last publish(), before() the one shown before that. Types that appear at once do not

@@ -14,6 +14,7 @@
 #include "engine/imports/material_maps/material_maps.h"
 #include "engine/imports/materials/materials.h"
 #include "engine/imports/meshes/meshes.h"
+#include "engine/imports/mouse/mouse.h"
 #include "engine/imports/probes/probes.h"
 #include "engine/imports/spheres/spheres.h"
 #include "engine/imports/sun/sun.h"
@@ -38,6 +39,7 @@ ImportRegistry ImportRegistry::builtin() {
   registry.add(std::make_unique<CubeLut>());
   registry.add(std::make_unique<Image>());
   registry.add(std::make_unique<Cut>());
+  registry.add(std::make_unique<Mouse>());
   registry.add(std::make_unique<Probes>());
   return registry;
 }

@@ -85,13 +85,15 @@ WorldFacts World::facts() const {
   return facts;
 }
 
-FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps) {
+FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps, const Pointer& pointer) {
   const scene::Camera* camera = scene::findCamera(world.scene(), "");
   assert(camera && "a loaded scene has a camera");
   FrameInput input;
   input.frame = frame;
   input.deltaTime = 1.0 / fps;
   input.time = frame / fps;
+  input.pointer = pointer;
+  input.pointer.clicked = pointer.down && frame == 0;
   input.pose = scene::poseAt(*camera, input.time);
   input.previousPose = scene::poseAt(*camera, frame == 0 ? input.time : (frame - 1) / fps);
   return input;

@@ -74,19 +74,31 @@ class World {
   std::uint64_t sceneGeneration_ = 1, environmentGeneration_ = 1;
 };
 
+// The mouse over the presented picture. Points are in its pixels from the lower left corner, as gl_FragCoord counts them.
+struct Pointer {
+  glm::vec2 position{0};  // where it was last over the picture
+  glm::vec2 dragged{0};   // where it was last while the left button was held
+  glm::vec2 pressed{0};   // where the left button last went down
+  bool down = false;      // the left button is held
+  bool clicked = false;   // it went down in this frame
+  friend bool operator==(const Pointer&, const Pointer&) = default;
+};
+
 // One frame's inputs. In headless runs everything here comes from the frame number.
 struct FrameInput {
   std::uint32_t frame = 0;
   double time = 0, deltaTime = 1.0 / 60.0;  // seconds
   scene::CameraPose pose, previousPose;
   std::uint64_t cutGeneration = 0;  // changes when the camera jumps
+  Pointer pointer{};                // all zero when there is no mouse
   bool headless = true;             // publications of the first frame count as infinitely old
   // Asked between passes; may be empty. Once true, nobody will look at this frame: passes that serve its picture alone
   // are left out. What persists is what it is after a whole frame.
   std::function<bool()> obsolete{};
 };
 
-// Frame `frame` of the world's default camera at `fps` steps per second.
-FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps);
+// Frame `frame` of the world's default camera at `fps` steps per second. `pointer` is that of every frame; a button that is
+// held went down in frame 0.
+FrameInput headlessFrame(const World& world, std::uint32_t frame, double fps, const Pointer& pointer = {});
 
 }  // namespace weft::imports

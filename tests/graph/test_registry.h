@@ -71,6 +71,7 @@ inline std::vector<ImportType> testImports() {
                      argument("sensor_height", Value::number(24))},
        .everyPass = true},
       {"cut", ImportKind::event, "", {}},
+      {"mouse", ImportKind::buffer, "", {}},
       {"spheres", ImportKind::buffer, "", {}},
       {.name = "sun",
        .kind = ImportKind::buffer,

@@ -67,6 +67,9 @@ class Execution {
   // Whether a draw list that it draws can stand elsewhere in another frame of the world of the last one, in view or not.
   bool drawsMotion();
 
+  // Whether a pass reads an import that follows the mouse.
+  bool followsPointer() const { return followsPointer_; }
+
   const graph::Plan& plan() const { return *plan_; }
   // How many passes were prepared for this plan; the others were taken over.
   std::uint32_t passesPrepared() const { return passesPrepared_; }
@@ -115,6 +118,7 @@ class Execution {
   bool createPool(Execution* before, base::Diagnostics& diagnostics);
   bool preparePasses(Execution* before, const PassKeeper* keeper, const Variants& variants,
                      base::Diagnostics& diagnostics);
+  bool readsPointer() const;
   bool isSettled(std::size_t step) const;
   void takeOver(Execution& before);
 
@@ -143,6 +147,7 @@ class Execution {
   std::unique_ptr<ResourcePool> pool_;
   std::vector<PreparedPass> passes_;  // per step, of the variant whose conditions hold
   std::uint32_t passesPrepared_ = 0;
+  bool followsPointer_ = false;
   std::unique_ptr<FrameCadence> cadence_;
   UniformArena arena_;
   UniformValues values_;

@@ -1,6 +1,7 @@
 // Preparing an execution: programs, storage, bindings, uniform layout; taking over from the execution before.
 #include <algorithm>
 #include <cassert>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -60,7 +61,20 @@ bool Execution::prepare(Execution* before, ShaderFiles files, base::Diagnostics&
   layOutUniforms(diagnostics);
   if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
   if (before) takeOver(*before);
+  followsPointer_ = readsPointer();
   return !diagnostics.hasErrors();
+}
+
+bool Execution::readsPointer() const {
+  const graph::FlatGraph& graph = *plan_->graph;
+  const auto follows = [&](const graph::FlatUse& use) {
+    const std::uint32_t import = graph.resources[use.resource].import;
+    return import != graph::kNone && device_.imports.followsPointer(graph.imports[import]);
+  };
+  return std::ranges::any_of(plan_->steps, [&](const graph::Step& step) {
+    const graph::FlatPass& pass = graph.passes[step.pass];
+    return std::ranges::any_of(std::span(graph.uses).subspan(pass.firstUse, pass.useCount), follows);
+  });
 }
 
 bool Execution::findVariants(const Execution* before, const PassKeeper* keeper, ShaderFiles files,

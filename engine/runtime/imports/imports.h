@@ -76,6 +76,7 @@ class Imports {
   std::uint64_t generation(const graph::ImportSpec& import) { return of(import).generation(frame()); }
   bool isStill(const graph::ImportSpec& import, const World& world) { return of(import).isStill(world); }
   bool remembers(const graph::ImportSpec& import, const World& world) { return of(import).remembers(world); }
+  bool followsPointer(const graph::ImportSpec& import) { return of(import).followsPointer(); }
 
   // The draw lists, for draw passes, whether or not a graph imports them.
   imports::SceneTables& tables() { return tables_; }

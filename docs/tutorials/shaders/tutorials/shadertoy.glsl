@@ -6,6 +6,11 @@
 #define iFrame int(frame)
 #define iResolution vec3(viewport, 1.0)
 
+#ifdef HAS_MOUSE
+#include "common/mouse.glsl"
+#define iMouse shadertoyMouse()
+#endif
+
 out vec4 fragColor;
 void mainImage(out vec4 fragColor, in vec2 fragCoord);
 void main() { mainImage(fragColor, gl_FragCoord.xy); }

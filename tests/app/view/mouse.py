@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""A graph that reads the mouse, in a window: it sees where the pointer is over the picture, the left button and where that went down, to the
+pixel and from the lower left corner; panels keep what is theirs; the left button turns the camera with Ctrl only; in idle mode a
+pointer that moves wakes it. A graph that does not read the mouse sleeps on."""
+import os
+import pathlib
+import re
+import sys
+
+from pictures import read_exr
+from program import Report, temporary_folder
+from window import Session, inside_display
+
+WIDTH, HEIGHT = 320, 180
+GRAPH = """{ "name": "mouse",
+  "parameters": { "level": { "type": "float", "default": 0.5, "min": 0, "max": 1 } },
+  "resources": { "state": { "texture": "rgba32f", "size": "screen" } },
+  "passes": [ { "name": "state", "type": "fullscreen", "shader": "state.frag.glsl", "read": { "mouse": "@mouse" }, "write": { "result": "state" },
+                "parameters": { "level": "$level" } } ],
+  "present": "state" }"""
+SHADER = """#include "common/view.glsl"
+#include "common/mouse.glsl"
+layout(std140) uniform Parameters { float level; };
+out vec4 result;
+void main() {
+  Mouse m = mouse_state[0];
+  int column = int(gl_FragCoord.x) % 3;
+  result = column == 0 ? vec4(m.position, m.dragged) : column == 1 ? vec4(m.pressed, float(m.down), float(m.clicked)) : vec4(eye, level);
+}
+"""
+BLIND = """{ "name": "blind", "resources": { "shown": { "texture": "rgba8", "size": "screen" } },
+  "passes": [ { "name": "fill", "type": "fullscreen", "shader": "fill.frag.glsl", "write": { "result": "shown" } } ], "present": "shown" }"""
+
+
+def at(x, y):
+    """The middle of a pixel of the window, counted from its upper left corner, as gl_FragCoord counts."""
+    return x + 0.5, HEIGHT - 0.5 - y
+
+
+class Eyes:
+    """What the shader saw in a later frame."""
+
+    def __init__(self, live):
+        self.live = live
+
+    def look(self):
+        shot = self.live.shot("shift+F12")
+        rows = read_exr(shot.read_bytes())
+        even, odd, third = rows[0][:3]
+        return {"position": even[:2], "dragged": even[2:], "pressed": odd[:2], "down": odd[2], "eye": third[:3]}
+
+    def until(self, **wanted):
+        return self.live.until(lambda: (s := self.look()) and all(s[key] == value for key, value in wanted.items()) and s)
+
+    def until_other_eye(self, eye):
+        return self.live.until(lambda: (s := self.look()) and s["eye"] != eye and s)
+
+
+def follows(live, report):
+    eyes = Eyes(live)
+    move = lambda x, y: live.tool("mousemove", "--window", live.window, x, y)
+    for x, y in ((40, 30), (0, HEIGHT - 1), (WIDTH - 1, 0)):  # GLFW keeps a movement to 0, 0 to itself
+        move(x, y)
+        report.check(eyes.until(position=at(x, y), dragged=(0, 0), pressed=(0, 0), down=0), f"a pointer at {x}, {y}: {eyes.look()}")
+    # A drag: it began at one place and is at another.
+    eye = eyes.look()["eye"]
+    move(60, 50)
+    live.tool("mousedown", 1)
+    report.check(eyes.until(position=at(60, 50), dragged=at(60, 50), pressed=at(60, 50), down=1), f"a button that went down: {eyes.look()}")
+    move(200, 100)
+    seen = eyes.until(position=at(200, 100), dragged=at(200, 100), pressed=at(60, 50), down=1)
+    report.check(seen, f"a drag: {eyes.look()}")
+    live.tool("mouseup", 1)
+    move(100, 90)
+    seen = eyes.until(position=at(100, 90), dragged=at(200, 100), pressed=at(60, 50), down=0)
+    report.check(seen and seen["eye"] == eye, f"after a drag, which turns no camera ({eye}): {eyes.look()}")
+    # With Ctrl it is the camera's.
+    live.tool("keydown", "ctrl")
+    live.tool("mousedown", 1)
+    move(160, 90)
+    turned = eyes.until_other_eye(eye)
+    live.tool("mouseup", 1)
+    live.tool("keyup", "ctrl")
+    report.check(turned and turned["down"] == 0 and turned["pressed"] == at(60, 50), f"Ctrl and a drag turn the camera: {turned}")
+
+
+def leaves_panels_alone(live, report):
+    eyes = Eyes(live)
+    move = lambda x, y: live.tool("mousemove", "--window", live.window, x, y)
+    move(WIDTH - 4, HEIGHT // 2)
+    before = eyes.until(position=at(WIDTH - 4, HEIGHT // 2))
+    if not report.check(before, f"a pointer beside the panels: {eyes.look()}"):
+        return
+    move(60, 60)  # the panel of parameters is at the left
+    live.shot()
+    live.click(60, 60)
+    seen = eyes.look()
+    report.check(all(seen[key] == before[key] for key in before if key != "eye"), f"a click on a panel is the picture's: {before} {seen}")
+    move(WIDTH - 4, 20)
+    report.check(eyes.until(position=at(WIDTH - 4, 20), pressed=before["pressed"]), f"a pointer that left the panel: {eyes.look()}")
+
+
+def wakes(live, report):
+    frame_of = lambda shot: int(re.match(r"weft_(\d+)", shot.name)[1])
+    move = lambda x, y: live.tool("mousemove", "--window", live.window, x, y)
+    if not report.check(live.rest(live.key("i")), f"idle mode never comes to rest\n{live.said()}"):
+        return
+    rest = live.shot("shift+F12")
+    report.check(frame_of(live.shot()) == frame_of(rest), "a frame is drawn at rest")
+    before = live.mark()
+    move(33, 44)
+    report.check(live.event("awake", before) and live.rest(before), f"a pointer that moves does not wake it\n{live.lines()[before:]}")
+    seen = Eyes(live).look()
+    report.check(seen["position"] == at(33, 44), f"after it woke: {seen}")
+    before = live.mark()
+    live.tool("click", 1)
+    report.check(live.event("awake", before) and live.rest(before), "a click does not wake it")
+    seen = Eyes(live).look()
+    report.check(seen["pressed"] == at(33, 44) and seen["down"] == 0, f"after a click: {seen}")
+
+
+def sleeps(live, report):
+    frame_of = lambda shot: int(re.match(r"weft_(\d+)", shot.name)[1])
+    if not report.check(live.rest(0), f"a graph without the mouse never comes to rest\n{live.said()}"):
+        return
+    rest = live.shot()
+    live.tool("mousemove", "--window", live.window, 50, 60)
+    live.tool("mousemove", "--window", live.window, 55, 65)
+    report.check(frame_of(live.shot()) == frame_of(rest), "a graph that does not read the mouse is drawn when that moves")
+
+
+def main():
+    weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
+    inside_display(report, weft, compare, __file__)
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        (folder / "shaders").mkdir()
+        (folder / "shaders/state.frag.glsl").write_text(SHADER)
+        (folder / "shaders/fill.frag.glsl").write_text("out vec4 result;\nvoid main() { result = vec4(0.25); }\n")
+        (folder / "mouse.json").write_text(GRAPH)
+        (folder / "blind.json").write_text(BLIND)
+        for graph, options, parts in (("mouse.json", ["--no-ui"], (follows, wakes)), ("mouse.json", ["--panels", "passes"], (leaves_panels_alone,)),
+                                      ("blind.json", ["--no-ui", "--idle"], (sleeps,))):
+            live = Session(weft, folder, *options, graph=graph, size=f"{WIDTH}x{HEIGHT}", data=False)
+            try:
+                if report.check(live.open() and live.shot(), f"no picture\n{live.said()}"):
+                    for part in parts:
+                        part(live, report)
+                    live.leave(report)
+            finally:
+                live.stop()
+    report.end()
+
+
+main()
