@@ -82,7 +82,10 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
                            context.ranges, context.timing};
   SlotWork first = resolveSlot(inside, slot, pass);
   // The copy that was mentioned does not last.
-  if (!model.missing.empty() && model.missing.back().ref == &slot.ref) model.missing.back().ref = &ref;
+  if (!model.missing.empty() && model.missing.back().ref == &slot.ref) {
+    model.missing.back().ref = &ref;
+    model.missing.back().first = true;
+  }
   if (first.state != SlotWork::State::connected) return {};
 
   const Entity& source = model.entities[first.entity];

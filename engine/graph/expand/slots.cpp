@@ -23,8 +23,8 @@ Diagnostic& report(const SlotContext& context, Code code, const Place& place, st
   return d;
 }
 
-constexpr std::int64_t kFar =
-    1'000'000;  // further out than any limit; ranges are checked against shapes later
+// Further out than any limit; ranges are checked against shapes later.
+constexpr std::int64_t kFar = 1'000'000;
 
 bool evaluateSpan(Names& names, const SpanDesc& desc, const char* word, std::optional<Selection::Span>& out) {
   Selection::Span span;
@@ -40,8 +40,7 @@ bool evaluateSpan(Names& names, const SpanDesc& desc, const char* word, std::opt
   return true;
 }
 
-// Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an
-// alternative).
+// Adds the selectors of `ref` to what is selected already (from outside: a slot that selects in an alternative).
 bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, Selection& into) {
   Selection own;
   if (ref.mip && !evaluateSpan(names, *ref.mip, "the level", own.mip)) return false;
@@ -255,20 +254,24 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
 bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, const Entity& entity) {
   const auto depth = static_cast<int>(entity.depth);
   const bool import = entity.kind == ResourceDesc::Kind::import;
-  if (import ? history == 1 && context.model.graph.imports[entity.import].before : history <= depth)
-    return true;
+  const bool before = import && context.model.graph.imports[entity.import].before;
+  if (import ? history == 1 && before : history <= depth) return true;
+  const auto own = context.names.scope().resources.find(ref.name);
+  if (own != context.names.scope().resources.end() && context.model.entities[own->second].badHistory)
+    return false;  // the input that asks for it was reported
   auto& d = report(
       context, Code::noHistory, ref.place,
       fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name),
       entity.name);
-  d.expected = import && context.model.graph.imports[entity.import].before ? "@-1, what was shown before"
-               : import                                                    ? "this import has no history"
-               : depth == 0                                                ? "no history is declared"
-                            : fmt::format("@-1 to @-{}", depth);
+  if (before) d.expected = "@-1, what was shown before";
+  if (depth > 0) d.expected = fmt::format("@-1 to @-{}", depth);
+  if (d.expected.empty()) d.found = import ? "an import, which has no history" : "no history is declared";
   const bool input = entity.scope != &context.names.scope() && ref.name.find('.') == std::string::npos;
-  if (import) return false;
-  d.hint = fmt::format("declare \"history\": {} on '{}'{}", history, entity.name,
-                       input ? ", or on this file's input" : "");
+  if (!import)
+    d.hint = fmt::format("declare \"history\": {} on '{}'{}", history, entity.name,
+                         input ? ", or on this file's input" : "");
+  else if (!before)
+    d.hint = "let a pass write it into a texture or buffer with \"history\", and read that";
   return false;
 }
 

@@ -58,14 +58,16 @@ std::uint32_t timingOf(Model& model, Scope& scope, const PassDesc& desc, std::ui
 
 void reportMadeAtTimes(const SlotContext& context, const SlotDesc& slot, const SlotWork& work) {
   const Entity& entity = context.model.entities[work.entity];
+  const Timing& timing = context.model.timings[entity.timing - 1];
+  for (const auto& [fact, name] : timing.expr->facts())
+    if (context.model.unknownFacts.contains({timing.scope, name})) return;  // one mistake
   auto& d = context.model.diagnostics.error(
       Code::madeAtTimes, slot.ref.place,
       fmt::format("{} {} '{}', which is made only at times", context.user,
                   slot.access == Access::read ? "reads" : "modifies", slot.ref.text));
   d.pass = context.pass;
   d.resource = entity.name;
-  d.found = fmt::format("'{}' is made while {}", entity.name,
-                        context.model.timings[entity.timing - 1].expr->text());
+  d.found = fmt::format("'{}' is made while {}", entity.name, timing.expr->text());
   const auto off = std::ranges::find_if(context.model.writes, [&](const WriteRecord& write) {
     return write.disabled != kNone && write.entity == work.entity;
   });

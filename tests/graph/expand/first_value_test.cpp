@@ -1,8 +1,6 @@
 // A history whose first value is a texture or buffer, and the history of what is bound to an input.
 #include <doctest/doctest.h>
-
-#include <filesystem>
-#include <fstream>
+#include <fmt/format.h>
 
 #include "engine/graph/compile/compile.h"
 #include "engine/graph/print/graph_file.h"
@@ -118,6 +116,10 @@ TEST_CASE("a first value that nobody has written: an error, or with '?' no first
   const Expanded late = expandText(text("seed"));
   CHECK(late.has(Code::readBeforeWrite));
   CHECK(late.of(Code::readBeforeWrite).place.line > 0);
+  CHECK(late.of(Code::readBeforeWrite).hint ==
+        "move 'plant' before it, or name another texture or buffer as \"first\"");
+  CHECK(expandText(text("cells")).of(Code::readBeforeWrite).hint ==
+        "give 'cells' a \"clear\", or name another texture or buffer as \"first\"");
   const Expanded without = expandText(text("seed ?"));
   REQUIRE_MESSAGE(without.graph, without.text());
   CHECK(without.slot("grow", "before").firstValue == kNone);
@@ -135,6 +137,14 @@ TEST_CASE("a first value must fit") {
   };
   misfit(feedback(R"J("seed")J", R"J("size": [8, 8])J"), "8x8");
   misfit(feedback(R"J("seed")J", R"J("size": [8, 4], "layers": 2)J"), "2 layers");
+  misfit(
+      historyFile(
+          R"J("other": { "texture": "rgba8", "size": 8, "clear": 0, "history": 1 }, "list": ["other@-1", "other"],
+                         "cells": { "texture": "rgba8", "size": 8, "history": 1, "first": "list" })J",
+          paint("grow", R"J("read": { "before": "cells@-1" }, "write": { "result": "cells" })J") + "," +
+              paint("fill", R"J("write": { "result": "other" })J") + "," +
+              paint("last", R"J("read": { "c": "cells", "o": "other" }, "write": { "result": "out" })J")),
+      "in this frame");
   misfit(
       historyFile(
           R"J("seed": { "texture": "r32ui", "size": 8, "clear": 0 }, "cells": { "texture": "r32f", "size": 8, "history": 1, "first": "seed" })J",
@@ -169,30 +179,21 @@ TEST_CASE("a pass may not modify what is the first value of what it reads") {
 namespace {
 
 // outer has `scene` and includes inner, which reads `in`; `input` and `scene` add keys to the two.
-Expanded expandHistory(const std::string& input, const std::string& scene,
-                       const std::string& read = "in@-1") {
-  const std::filesystem::path folder = std::filesystem::path(WEFT_BINARY_DIR) / "expand_input_history";
-  std::filesystem::create_directories(folder);
-  const auto write = [&](const char* name, const std::string& text) {
-    std::ofstream(folder / name) << text;
-    return (folder / name).string();
-  };
-  write("inner.json", R"J({ "resources": { "in": { "input": "texture")J" + input + R"J( },
+Expanded expandHistory(const std::string& input, const std::string& scene, const std::string& read = "in@-1",
+                       const std::string& bind = "list") {
+  return expandFiles(
+      "expand_input_history",
+      {{"inner.json", R"J({ "resources": { "in": { "input": "texture")J" + input + R"J( },
     "res": { "texture": "rgba8", "size": 4 } },
     "passes": [ { "name": "go", "type": "fullscreen", "shader": "a.frag.glsl",
                   "read": { "now": "in", "before": ")J" +
-                          read + R"J(" }, "write": { "result": "res" } } ] })J");
-  const std::string path =
-      write("outer.json", R"J({ "resources": { "scene": { "texture": "rgba8", "size": 4)J" + scene +
-                              R"J( }, "list": ["scene"],
+                          read + R"J(" }, "write": { "result": "res" } } ] })J"},
+       {"outer.json", R"J({ "resources": { "scene": { "texture": "rgba8", "size": 4)J" + scene +
+                          R"J( }, "list": ["scene"],
       "other": { "texture": "rgba8", "size": 4, "clear": 0 } }, "passes": [
       { "name": "draw", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "result": "scene" } },
-      { "include": "inner.json", "bind": { "in": "list" } } ], "present": "inner.res" })J");
-  Expanded e;
-  const auto desc = readGraph(path, e.diagnostics);
-  REQUIRE_MESSAGE(desc, e.text());
-  e.graph = expandGraph(*desc, testRegistry(), {}, e.diagnostics);
-  return e;
+      { "include": "inner.json", "bind": { "in": ")J" +
+                          bind + R"J(" } } ], "present": "inner.res" })J"}});
 }
 
 }  // namespace
@@ -223,4 +224,27 @@ TEST_CASE("of two that ask for a history the longer is kept, and the resource's 
 TEST_CASE("an input without a history: the message names both places") {
   const Expanded e = expandHistory("", "");
   CHECK(e.of(Code::noHistory).hint == "declare \"history\": 1 on 'scene', or on this file's input");
+}
+
+TEST_CASE("a first value that waits for its own reader: the message does not advise an earlier publication") {
+  const Expanded e = expandText(historyFile(
+      R"J("seed": { "texture": "rgba8", "size": 8 }, "cells": { "texture": "rgba8", "size": 8, "history": 1, "first": "seed" })J",
+      paint("grow", R"J("read": { "before": "cells@-1" }, "write": { "result": "cells" })J") + "," +
+          paint("plant", R"J("read": { "c": "cells" }, "write": { "result": "seed" })J") + "," +
+          paint("last", R"J("read": { "c": "cells", "s": "seed" }, "write": { "result": "out" })J")));
+  CHECK(e.of(Code::passCycle).hint ==
+        "'plant' would write 'seed': name another texture or buffer as \"first\"");
+}
+
+TEST_CASE("an input whose history is wrong, or that stands for an import, is one mistake") {
+  for (const char* depth : {"-1", "1000000", "\"size(in)\""}) {
+    const Expanded e = expandHistory(fmt::format(R"J(, "history": {})J", depth), "");
+    CHECK_MESSAGE(e.diagnostics.size() == 1, e.text());
+    CHECK_FALSE(e.has(Code::noHistory));
+  }
+  const Expanded view = expandHistory(R"J(, "history": 1)J", "", "in@-1", "@camera");
+  CHECK_MESSAGE(view.diagnostics.errorCount() == 1, view.text());
+  CHECK(view.of(Code::badBind).message == "input 'inner.in' is a texture, '@camera' is not");
+  const Expanded picture = expandHistory(R"J(, "history": 1)J", "", "in@-1", "@image");
+  CHECK(picture.of(Code::noHistory).found == "an import, which has no history");
 }

@@ -109,3 +109,24 @@ TEST_CASE("levels that nobody reads are told of, unless the chain is read in par
   CHECK(said.items()[0].code == base::Code::culledUnread);
   CHECK(said.items()[0].message == "pass 'down[3]' is culled: nobody reads level 3 of 'glow', only others");
 }
+
+TEST_CASE("a name that an expression asks of and that nothing has is one mistake; has() may mean a pass") {
+  const auto enabledBy = [](const char* expression) {
+    return diagnoseText(fmt::format(
+        R"({{ "resources": {{ "ldr": {{ "texture": "rgba8", "size": 8 }}, "a": {{ "texture": "rgba8", "size": 8 }} }},
+      "passes": [
+        {{ "name": "blur", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "{}", "write": {{ "result": "a" }} }},
+        {{ "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": {{ "source": "a" }}, "write": {{ "result": "ldr" }} }} ],
+      "present": "ldr" }})",
+        expression));
+  };
+  for (const char* each :
+       {"has(shwo)", "count(shwo) > 1", "age(shwo) > 1", "has(shwo) && size(shwo).x > 1"}) {
+    const base::Diagnostics said = enabledBy(each);
+    REQUIRE_MESSAGE(said.size() == 1, said.text());
+    CHECK(said.items()[0].code == base::Code::unknownResource);
+    const bool pass = std::string(each).starts_with("has");
+    CHECK_MESSAGE(said.items()[0].hint == (pass ? std::string("did you mean 'show'?") : "known: ldr, a"),
+                  said.text());
+  }
+}

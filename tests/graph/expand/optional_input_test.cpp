@@ -1,11 +1,7 @@
 // Inputs that the including file may leave without a resource.
 #include <doctest/doctest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "tests/graph/expand/support.h"
-#include "tests/graph/test_folder.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -16,28 +12,18 @@ namespace {
 
 // outer includes middle includes inner, which reads `extra`; `top` goes into outer's resources, `read` is inner's reference.
 Expanded expandInside(const std::string& top, const std::string& read, const std::string& bind = "") {
-  const std::filesystem::path folder = std::filesystem::path(WEFT_BINARY_DIR) / "expand_optional";
-  std::filesystem::create_directories(folder);
-  const auto write = [&](const char* name, const std::string& text) {
-    std::ofstream(folder / name) << text;
-    return (folder / name).string();
-  };
   const std::string optional = R"J("extra": { "input": "texture", "optional": true })J";
-  write("inner.json", R"J({ "resources": { )J" + optional + R"J(, "res": { "texture": "rgba8", "size": 4 } },
+  return expandFiles(
+      "expand_optional",
+      {{"inner.json", R"J({ "resources": { )J" + optional + R"J(, "res": { "texture": "rgba8", "size": 4 } },
     "passes": [ { "name": "go", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "extra": ")J" +
                           read + R"J(" },
-                  "write": { "result": "res" }, "defines": { "ANY": "has(extra)" } } ] })J");
-  write("middle.json",
-        R"J({ "resources": { )J" + optional + R"J( }, "passes": [ { "include": "inner.json" } ] })J");
-  const std::string path =
-      write("outer.json", R"J({ "resources": { "other": { "texture": "rgba8", "size": 2, "clear": 0 } )J" +
-                              top + R"J( }, "passes": [ { "include": "middle.json" )J" + bind +
-                              R"J( } ], "present": "middle.inner.res" })J");
-  Expanded e;
-  const auto desc = readGraph(path, e.diagnostics);
-  REQUIRE_MESSAGE(desc, e.text());
-  e.graph = expandGraph(*desc, testRegistry(), {}, e.diagnostics);
-  return e;
+                  "write": { "result": "res" }, "defines": { "ANY": "has(extra)" } } ] })J"},
+       {"middle.json",
+        R"J({ "resources": { )J" + optional + R"J( }, "passes": [ { "include": "inner.json" } ] })J"},
+       {"outer.json", R"J({ "resources": { "other": { "texture": "rgba8", "size": 2, "clear": 0 } )J" + top +
+                          R"J( }, "passes": [ { "include": "middle.json" )J" + bind +
+                          R"J( } ], "present": "middle.inner.res" })J"}});
 }
 
 }  // namespace

@@ -3,11 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"
+#include "tests/graph/test_folder.h"
 #include "tests/graph/test_registry.h"
 
 namespace weft::graph::test {
@@ -99,6 +102,19 @@ inline Expanded expandText(std::string_view json, const Settings& settings = {},
   const auto desc = readGraphText(json, "test.json", result.diagnostics);
   REQUIRE_MESSAGE(desc, result.text());
   result.graph = expandGraph(*desc, registry, settings, result.diagnostics);
+  return result;
+}
+
+// Files that include each other, by their names; the last is the graph. `folder`: one test file's own.
+inline Expanded expandFiles(const std::string& folder,
+                            std::initializer_list<std::pair<const char*, std::string>> files) {
+  const TestFolder kept(folder);
+  std::string path;
+  for (const auto& [name, text] : files) path = kept.write(name, text);
+  Expanded result;
+  const auto desc = readGraph(path, result.diagnostics);
+  REQUIRE_MESSAGE(desc, result.text());
+  result.graph = expandGraph(*desc, testRegistry(), {}, result.diagnostics);
   return result;
 }
 

@@ -115,6 +115,12 @@ class Judge {
                                               : "reads";
   }
 
+  // What else would help. A first value has no earlier publication: nothing comes before it.
+  static std::string orBefore(const MissingRead& missing, const char* when) {
+    return missing.first ? std::string(", or name another texture or buffer as \"first\"")
+                         : fmt::format(", or read '{}@-1' for what it was {}", missing.ref->name, when);
+  }
+
   void judge(const MissingRead& missing, const Writers& writers) {
     const std::string thing = what(missing), subject = who(missing);
     const bool slot = missing.pass != kNone;
@@ -152,8 +158,7 @@ class Judge {
         d->hint = missing.access == Access::modify
                       ? fmt::format("use \"write\" if the pass covers everything, or give '{}' a \"clear\"",
                                     d->resource)
-                      : fmt::format("give '{}' a \"clear\", or read '{}@-1' for what it was before",
-                                    d->resource, missing.ref->name);
+                      : fmt::format("give '{}' a \"clear\"{}", d->resource, orBefore(missing, "before"));
     } else if (writers.disabledLater) {
       judgeDisabled(missing, *writers.disabledLater, thing, subject);
     } else if (missing.slot == "present" && !slot) {
@@ -253,8 +258,11 @@ class Judge {
     const std::string& later = graph_.passNames[writer.pass];
     if (const std::string path = cycle(missing.pass, writer.pass); !path.empty()) {
       if (auto* d = report(missing, Code::passCycle, fmt::format("passes wait for each other: {}", path)))
-        d->hint = fmt::format("'{}' would write {}; read '{}@-1' for what it was in the frame before", later,
-                              thing, missing.ref->name);
+        d->hint = fmt::format(
+            "'{}' would write {}{}", later, thing,
+            missing.first
+                ? std::string(": name another texture or buffer as \"first\"")
+                : fmt::format("; read '{}@-1' for what it was in the frame before", missing.ref->name));
       return;
     }
     if (auto* d =
@@ -262,8 +270,7 @@ class Judge {
                    fmt::format("{} {} {} before pass '{}' writes it", subject, verb(missing), thing, later)))
       d->hint = missing.access == Access::modify
                     ? fmt::format("move '{}' before it, or give '{}' a \"clear\"", later, d->resource)
-                    : fmt::format("move '{}' before it, or read '{}@-1' for what it was in the frame before",
-                                  later, missing.ref->name);
+                    : fmt::format("move '{}' before it{}", later, orBefore(missing, "in the frame before"));
   }
 
   // "a -> b -> a" when `last`, which would write what `first` reads, depends on `first`; else "".

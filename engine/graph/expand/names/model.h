@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -85,6 +86,7 @@ struct Entity {
   std::uint16_t writtenMips = 1;        // as the file says, before the clamp to the size
   std::uint32_t depth = 0;              // of the history
   std::vector<std::uint32_t> inputs{};  // that stand for it and ask for a history
+  bool badHistory = false;              // input: how long a history it asks for was reported
   const RefDesc* firstRef = nullptr;    // what is read in place of `first`, in the names of firstScope
   Scope* firstScope = nullptr;
   FlatUse firstUse{.resource = kNone};  // of it, once some pass reads it
@@ -176,6 +178,7 @@ struct MissingRead {
   std::uint32_t position = kNone;
   std::string slot;
   const RefDesc* ref = nullptr;
+  bool first = false;  // `ref` is the "first" of what the slot reads
   Access access = Access::read;
   std::vector<Wanted> wanted;
 };
@@ -221,6 +224,7 @@ struct Model {
   std::vector<HistoryUse> historyUses{};    // their resource is the last one, known at the end
   std::vector<std::uint32_t> positionOf{};  // per pass of the FlatGraph
   std::vector<Unincluded> unincluded{};     // reported at the end
+  std::set<std::pair<const Scope*, std::string>> unknownFacts{};  // what expressions ask of, and was reported
   // Some write is missing because of a mistake, and nobody knows of what: missing versions are not reported. Where it is
   // known, Entity::incomplete says so.
   bool incomplete = false;

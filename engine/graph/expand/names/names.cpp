@@ -144,7 +144,9 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
       return Value::boolean(isLeft(*this, model_, *pass));
   if (index == kNone) {
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
-    if (isUnread(scope_, resource) || scope_.resources.contains(resource)) return Value{};
+    if (isUnread(scope_, resource) || scope_.resources.contains(resource) ||
+        model_.unknownFacts.contains({&scope_, std::string(resource)}))
+      return Value{};
     if (isUnincluded(model_, scope_, resource, place, kAsksOf)) return Value{};
     return std::nullopt;
   }

@@ -297,7 +297,7 @@ void deepen(Model& model, std::uint32_t target, std::uint32_t input, std::uint32
 
 void takeInputHistories(Model& model) {
   for (std::uint32_t i = 0; i < model.entities.size(); ++i) {
-    const Entity& entity = model.entities[i];
+    Entity& entity = model.entities[i];
     if (entity.kind != ResourceDesc::Kind::input || !entity.desc->history.present() || entity.bound == kNone)
       continue;
     Names names(model, *entity.scope);
@@ -305,6 +305,7 @@ void takeInputHistories(Model& model) {
     markStructural(model, *entity.scope, entity.desc->first);
     const auto depth = evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory,
                                      fmt::format("the history of '{}'", entity.name));
+    entity.badHistory = !depth;
     std::set<std::uint32_t> seen;
     if (depth && *depth > 0) deepen(model, entity.bound, i, static_cast<std::uint32_t>(*depth), seen);
   }

@@ -112,6 +112,13 @@ bool isLeftOut(Model& model, const Entity& entity) {
          findEntity(model, *scope.parent, entity.desc->name, false) == kNone;
 }
 
+// Whether an import may be bound to an input for a buffer or for a texture. An unknown import is reported where it stands.
+bool fitsInput(const Model& model, const Entity& import, bool wantsBuffer) {
+  const ImportType* type =
+      findImportType(model.registry, import.desc ? import.desc->import.type : import.name.substr(1));
+  return !type || (type->kind == ImportKind::texture) != wantsBuffer;
+}
+
 // Follows inputs to what is bound. kNone after a report.
 std::uint32_t followInput(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
@@ -163,12 +170,14 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
     const bool wantsBuffer = entity.desc->input == "buffer";
     const bool fits = bound.kind == ResourceDesc::Kind::texture  ? !wantsBuffer
                       : bound.kind == ResourceDesc::Kind::buffer ? wantsBuffer
+                      : bound.kind == ResourceDesc::Kind::import ? fitsInput(model, bound, wantsBuffer)
                                                                  : true;
     if (!fits) {
       auto& d = model.diagnostics.error(
           Code::badBind, scope.stanza->place,
           fmt::format("input '{}' is a {}, '{}' is not", entity.name, entity.desc->input, bound.name));
       d.resource = bound.name;
+      target = kNone;
     }
   }
   entity.bound = target;
@@ -267,7 +276,7 @@ std::vector<std::string> resourceNames(Model& model, const Scope& scope) {
 
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
                                  const Place& place, std::string_view user, const std::string& pass,
-                                 std::string_view slot) {
+                                 std::string_view slot, bool orPass) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found == kNone && (model.effort.tooDeep || isOver(model))) return kNone;
@@ -292,7 +301,11 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
                                     fmt::format("{} unknown resource '{}'", user, name));
   d.resource = std::string(name);
   d.pass = pass;
-  d.hint = base::nearestHint(name, resourceNames(model, scope));
+  std::vector<std::string> names = resourceNames(model, scope);
+  if (orPass && maySuggest(model, scope.desc->passes.size()))
+    for (const PassDesc& each : scope.desc->passes)
+      if (!each.include) names.push_back(each.name);
+  d.hint = base::nearestHint(name, names);
   if (const std::size_t dot = name.find('.');
       dot != std::string_view::npos && scope.resources.contains(name.substr(0, dot)))
     if (const std::string near = base::nearestName(name.substr(dot + 1), kSelectors); !near.empty())
@@ -359,7 +372,10 @@ bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed
   for (const auto& [fact, name] : expr.facts()) {
     if (findEntity(model, scope, name, false) != kNone || implicitImport(model, name) != kNone) continue;
     if (fact == Fact::has && findPass(scope, name)) continue;
-    findEntityOrReport(model, scope, name, name.starts_with("@"), expr.place(), kAsksOf);
+    const std::size_t known = model.diagnostics.errorCount();
+    findEntityOrReport(model, scope, name, name.starts_with("@"), expr.place(), kAsksOf, {}, {},
+                       fact == Fact::has);
+    if (model.diagnostics.errorCount() > known) model.unknownFacts.emplace(&scope, name);
   }
   return model.diagnostics.errorCount() == before;
 }

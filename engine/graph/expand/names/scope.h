@@ -24,10 +24,11 @@ void linkAlternatives(Model& model);
 // The entity that a name stands for; an input stands for what is bound to it. kNone when there is none (which is not
 // reported), or when nothing is bound to an input (which is reported once).
 std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool import);
-// The same, but reports W040 or W043 at `place`, with the nearest name. `slot` is the slot that asks, if any.
+// The same, but reports W040 or W043 at `place`, with the nearest name, of the file's passes, too, when `orPass`. `slot` is the
+// slot that asks, if any.
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
                                  const Place& place, std::string_view user, const std::string& pass = {},
-                                 std::string_view slot = {});
+                                 std::string_view slot = {}, bool orPass = false);
 // The pass of the scope's own file that has(name) is about where no resource has the name; null: there is none.
 const PassDesc* findPass(const Scope& scope, std::string_view name);
 // The `user` of a name in size(name) and other facts.
