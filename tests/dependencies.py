@@ -11,8 +11,8 @@ PROVIDED = {
     "fmt": "libfmt-dev", "nlohmann_json": "nlohmann-json3-dev", "doctest": "doctest-dev", "CLI11": "libcli11-dev",
     "glfw3": "libglfw3-dev", "imgui": "libimgui-dev", "libstb": "libstb-dev", "glm": "libglm-dev", "tinyexr": "libtinyexr-dev", "assimp": "libassimp-dev", "TBB": "libtbb-dev", "glad": "python3-glad",
     "OSMesa": "libosmesa6-dev", "EGL": "libegl-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
-    "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema", "nvim": "neovim",
-    "ccache": None, "git": None, "weft": None,
+    "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema", "nvim": "neovim", "zsh": "zsh", "fish": "fish", "groff": "groff-base", "mandoc": "mandoc",
+    "bash": None, "ccache": None, "git": None, "weft": None,
     "chromium": None, "mpv": None, "node": None,  # judges of imports, which CI does without
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.

@@ -143,7 +143,9 @@ std::string zshScript(const std::vector<CommandText>& commands) {
         specs += fmt::format(
             " \\\n        {}",
             quotedForShell(fmt::format(
-                "{}{}[{}]{}", option.repeatable ? "*" : "", name, withoutBrackets(option.doc),
+                "{}{}{}[{}]{}", option.repeatable ? "*" : "", name,
+                name.starts_with("--") && !option.value.empty() ? "=" : "",  // or in the next word
+                withoutBrackets(option.doc),
                 option.value.empty()
                     ? ""
                     : fmt::format(":{}:{}", withoutBrackets(option.value), action.empty() ? " " : action))));
@@ -180,7 +182,10 @@ _weft "$@"
 }
 
 std::string fishScript(const std::vector<CommandText>& commands) {
-  std::string text = "# fish completion of weft, made by `weft completion fish`.\n";
+  std::string text =
+      "# fish completion of weft, made by `weft completion fish`.\n"
+      "complete -c weft -n __fish_use_subcommand -l help -s h -d 'print help'\n"
+      "complete -c weft -n __fish_use_subcommand -l version -d 'print the version'\n";
   for (const CommandText& command : commands) {
     const std::size_t space = command.name.find(' ');
     const std::string outer = command.name.substr(0, space);
@@ -282,12 +287,12 @@ std::string completionScript(const std::vector<CommandText>& commands, const std
 
 std::string manPage(const std::vector<CommandText>& commands) {
   std::string text = fmt::format(
-      ".\\\" Made by `weft man`.\n.TH WEFT 1 \"\" \"weft {}\" \"User Commands\"\n.SH NAME\nweft \\- render "
+      ".\\\" Made by `weft man`.\n.TH WEFT 1 \"{}\" \"weft {}\" \"User Commands\"\n.SH NAME\nweft \\- render "
       "graphs for OpenGL: a frame is a JSON file\n"
       ".SH SYNOPSIS\n.B weft\n.I COMMAND\n.RI [ ARGUMENT .\\|.\\|.]\n.SH DESCRIPTION\n"
       "Checks, compiles and runs frames that are described in JSON: textures and buffers, passes, and which "
       "pass reads and writes what.\n.SH COMMANDS\n",
-      roff(kVersion));
+      kReleased, roff(kVersion));
   for (const CommandText& command : commands) {
     text += fmt::format(".SS weft {}", roff(command.name));
     for (const OptionText& option : command.options)

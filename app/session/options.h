@@ -15,6 +15,7 @@
 namespace weft::app {
 
 constexpr const char* kVersion = "0.1.0";
+constexpr const char* kReleased = "2026-11-21";  // the day of this version in CHANGELOG.md
 
 // A texture of the graph that is written to a file.
 struct PickedOutput {

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""`weft completion` and `weft man`: bash completes with the script, really run; the page goes through groff without a warning and names every
-command and option that --help names; zsh and fish read their scripts, where they are installed.
+"""`weft completion`: bash, zsh and fish, really run, offer with the script what --help lists, and files and folders where these are meant.
 
-    completion.py WEFT
+    completion.py WEFT bash|zsh|fish
 """
 import pathlib
 import re
@@ -11,20 +10,18 @@ import subprocess
 import sys
 
 from program import TOP, Report, run, temporary_folder
+from shells import ask
 
-ASK = r"""
-source "$1"; shift
-COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1))
-_weft
-printf '%s\n' "${COMPREPLY[@]}"
-"""
-
-
-def complete(script, *words, cwd=TOP):
-    """What bash offers for the last word."""
-    done = subprocess.run(["bash", "-u", "-c", ASK, "bash", script, *words], cwd=cwd, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return [line for line in done.stdout.splitlines() if line]
+FOUND = {"bash": shutil.which("bash"), "zsh": shutil.which("zsh"), "fish": shutil.which("fish")}
+INNER = ["new pass"]  # commands of commands
+# Behind an option: a file, a folder, or neither. In a folder that has one of both, the file offers nothing where a folder is meant.
+KINDS = {"file": ["a_file", "a_folder"], "folder": ["a_folder"], "number": []}
+MEANT = (("file", "bench --frame"), ("file", "bench --edit"), ("file", "bench --workload"), ("file", "test --report"), ("file", "render -o"),
+         ("file", "render --trace"), ("file", "view --record"), ("file", "bisect --other-preset"), ("file", "new pass --graph"),
+         ("file", "check"), ("file", "test"), ("file", "import"), ("file", "lsp --scene"),
+         ("folder", "dump -o"), ("folder", "import --output"), ("folder", "test -o"), ("folder", "new pass -o"), ("folder", "render --program-cache"),
+         ("folder", "check --preset-folder"), ("folder", "new pass --confine"),
+         ("number", "fuzz --frame"), ("number", "bisect --frame"), ("number", "ablate --frame"), ("number", "render --fps"), ("number", "new pass --limit"))
 
 
 def options_of(weft, command):
@@ -32,65 +29,44 @@ def options_of(weft, command):
     return set(re.findall(r"^  (?:-\w,)?(--[a-z][a-z-]*)", run(weft, *command.split(), "--help").out, re.M))
 
 
-def main():
-    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
-    commands = re.findall(r"^  ([a-z]+) ", run(weft, "--help").out.split("Subcommands:")[1], re.M)
+def commands_of(weft):
+    return re.findall(r"^  ([a-z]+) ", run(weft, "--help").out.split("Subcommands:")[1], re.M)
+
+
+def check_shell(weft, shell, report, folder):
+    commands = commands_of(weft)
     report.check(len(commands) > 15, f"{commands}")
-    inner = ["new pass"]  # commands of commands
-    with temporary_folder() as folder:
-        script = pathlib.Path(folder, "weft.bash")
-        script.write_text(run(weft, "completion", "bash").out)
-        report.check(set(complete(script, "weft", "")) == {*commands, "--help", "--version"}, f"{complete(script, 'weft', '')}")
-        report.check(complete(script, "weft", "exp") == [c for c in commands if c.startswith("exp")], "weft exp")
-        report.check(complete(script, "weft", "new", "") == ["pass"], f"{complete(script, 'weft', 'new', '')}")
-        for command in [*commands, *inner]:
-            offered, listed = set(complete(script, "weft", *command.split(), "--")), options_of(weft, command)
-            report.check(offered == listed and listed, f"{command}: offered, not in --help {offered - listed}; in --help, not offered {listed - offered}")
-        report.check(complete(script, "weft", "render", "g.json", "--backend", "o") == ["osmesa"], "a value")
-        report.check(complete(script, "weft", "render", "--backend", "=", "e") == ["egl"], "--backend=e")
-        report.check(set(complete(script, "weft", "check", "--format", "")) == {"text", "json", "sarif"}, "all values")
-        report.check(complete(script, "weft", "check", "graphs/glo") == ["graphs/glow.json"], "a file")
-        report.check(complete(script, "weft", "render", "--scene", "scenes/even") == ["scenes/evening.json"], "the file of an option")
-        report.check(complete(script, "weft", "check", "--confine", "sha") == ["shaders"], "a folder")
-        # Behind an option: a file, a folder, or neither. In a folder that has one of both, the file offers nothing where a folder is meant.
-        here = pathlib.Path(folder, "here")
-        here.joinpath("a_folder").mkdir(parents=True)
-        here.joinpath("a_file").touch()
-        kinds = {"file": ["a_file", "a_folder"], "folder": ["a_folder"], "number": []}
-        for kind, words in (("file", "bench --frame"), ("file", "bench --edit"), ("file", "bench --workload"), ("file", "test --report"), ("file", "render -o"),
-                            ("file", "render --trace"), ("file", "view --record"), ("file", "bisect --other-preset"), ("file", "new pass --graph"),
-                            ("file", "check"), ("file", "test"), ("file", "import"), ("file", "lsp --scene"),
-                            ("folder", "dump -o"), ("folder", "import --output"), ("folder", "test -o"), ("folder", "new pass -o"), ("folder", "render --program-cache"),
-                            ("folder", "check --preset-folder"), ("folder", "new pass --confine"),
-                            ("number", "fuzz --frame"), ("number", "bisect --frame"), ("number", "ablate --frame"), ("number", "render --fps"), ("number", "new pass --limit")):
-            offered = sorted(complete(script, "weft", *words.split(), "a_" if kind != "number" else "", cwd=here))
-            report.check(offered == kinds[kind], f"{words}: {offered} instead of {kinds[kind]}")
-        pathlib.Path(folder, "two words.json").touch()
-        report.check(complete(script, "weft", "check", "two", cwd=folder) == ["two words.json"], "a name with a space")
-        for shell in ("zsh", "fish"):
-            text = run(weft, "completion", shell)
-            report.check(text.code == 0 and all(c in text.out for c in [*commands, "pass"]) and "osmesa" in text.out, shell)
-            path = pathlib.Path(folder, f"weft.{shell}")
-            path.write_text(text.out)
-            if shutil.which(shell):
-                done = subprocess.run([shell, "-n", path], capture_output=True, text=True)
-                report.check(done.returncode == 0 and not done.stderr, f"{shell}: {done.stderr}")
-        report.check(run(weft, "completion", "csh").code == 2, "a shell that there is no script for")
+    script = pathlib.Path(folder, f"weft.{shell}")
+    script.write_text(run(weft, "completion", shell).out)
+    read = subprocess.run([FOUND[shell], "-n", script], capture_output=True, text=True)
+    report.check(read.returncode == 0 and not read.stderr, f"{shell}: {read.stderr}")
 
-        page = run(weft, "man")
-        for tool in (["groff", "-man", "-Tutf8", "-ww", "-z"], ["mandoc", "-T", "lint", "-W", "warning"]):
-            if shutil.which(tool[0]):
-                done = subprocess.run(tool, input=page.out, capture_output=True, text=True)
-                report.check(done.returncode == 0 and not done.stderr and (tool[0] == "groff" or not done.stdout), f"{tool}: {done.stderr}{done.stdout}")
-        plain = page.out.replace("\\-", "-")
-        for command in [*commands, *inner]:
-            section = re.search(rf"^\.SS weft {command}\b(.*?)(?=^\.S[SH])", plain, re.M | re.S)
-            report.check(bool(section), f"the page has no section for {command}")
-            if section:
-                named = set(re.findall(r"\\fB(--[a-z-]+)\\fR", section.group(1)))
-                report.check(named == options_of(weft, command), f"{command}: {named ^ options_of(weft, command)}")
-        report.check(".SS weft new pass name" in plain, "what stands behind new pass")
+    wanted = {f"weft {command} --": sorted(options_of(weft, command)) for command in [*commands, *INNER]}
+    report.check(all(wanted.values()), f"commands without options: {wanted}")
+    wanted |= {"weft ": sorted(commands), "weft --": ["--help", "--version"], "weft exp": sorted(c for c in commands if c.startswith("exp")),
+               "weft new ": ["pass"], "weft render g.json --backend o": ["osmesa"], "weft render --backend=e": ["egl"],
+               "weft check --format ": ["json", "sarif", "text"], "weft check graphs/glo": ["glow.json"],
+               "weft render --scene scenes/even": ["evening.json"], "weft check --confine sha": ["shaders"]}
+    for (line, expected), offered in zip(wanted.items(), ask(shell, script, list(wanted), TOP, folder)):
+        # An option that takes a value may stand as `--backend=egl`; options beside commands are no mistake.
+        offered = sorted({word.split("=")[-1] if "=" in line else word.rstrip("=") for word in offered})
+        if line == "weft ":
+            offered = [word for word in offered if not word.startswith("--")]
+        report.check(offered == expected, f"'{line}': offered {offered}, expected {expected}")
 
+    here = pathlib.Path(folder, "here")
+    here.joinpath("a_folder").mkdir(parents=True)
+    here.joinpath("a_file").touch()
+    lines = [f"weft {words} {'a_' if kind != 'number' else ''}" for kind, words in MEANT]
+    for (kind, words), offered in zip(MEANT, ask(shell, script, lines, here, folder)):
+        report.check(offered == KINDS[kind], f"{words}: {offered} instead of {KINDS[kind]}")
+    here.joinpath("two words.json").touch()
+    offered = ask(shell, script, ["weft check two"], here, folder)[0]
+    report.check(offered == ["two words.json"], f"a name with a space: {offered}")
+
+
+def check_mistakes(weft, report):
+    report.check(run(weft, "completion", "csh").code == 2, "a shell that there is no script for")
     # An option that a command of a command has is no wrong one.
     result = run(weft, "new", "pass", "tint", "--graph", "g.json", "--bogus")
     report.check(result.code == 2 and result.err.startswith("weft new pass: unknown option '--bogus'") and "'--graph'" not in result.err, result.err)
@@ -98,7 +74,18 @@ def main():
     report.check(result.code == 2 and "did you mean '--graph'?" in result.err, result.err)
     result = run(weft, "new", "pass", "9", "--confine", ".", "--limit", "frames=7")
     report.check(result.code == 1 and result.codes() == ["W012"], f"new pass --confine --limit: {result.code} {result.err}")
+
+
+def main():
+    weft, shell, report = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], Report()
+    if not FOUND[shell]:
+        report.skip(f"{shell} is not installed")
+    with temporary_folder() as folder:
+        check_shell(weft, shell, report, folder)
+    if shell == "bash":
+        check_mistakes(weft, report)
     report.end()
 
 
-main()
+if __name__ == "__main__":
+    main()
