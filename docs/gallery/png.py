@@ -1,8 +1,9 @@
-"""Reads the PNGs that Weft writes (8 bits a channel, not interlaced) and writes small ones. For scripts that look at pictures and show them; needs
-nothing installed."""
+"""PNG by its definition, with nothing but the standard library: reads files of 8 bits a channel that are not interlaced, and writes quickly or small.
+For every script of docs/ and tests/ that looks at pictures, shows them, or judges the files that Weft reads and writes."""
 import struct
 import zlib
 
+SIGNATURE = b"\x89PNG\r\n\x1a\n"
 CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}
 COLORS = {channels: color for color, channels in CHANNELS.items()}
 
@@ -25,29 +26,44 @@ def read_size(path):
     return struct.unpack(">II", path.read_bytes()[16:24])
 
 
-def read_png(path):
-    """(channels, bytes of the texels, top row first), filters undone."""
+def decode(data):
+    """(width, channels, bytes of the texels, top row first), filters undone."""
+    assert data[:8] == SIGNATURE, "no PNG"
     packed = b""
-    for kind, body in chunks(path.read_bytes()):
+    for kind, body in chunks(data):
         if kind == b"IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            width, height, depth, color, _, _, interlaced = struct.unpack(">IIBBBBB", body)
         packed += body if kind == b"IDAT" else b""
-    assert depth == 8
+    assert depth == 8 and not interlaced, f"{depth} bits a channel, interlaced: {interlaced}"
     channels = CHANNELS[color]
     raw, stride, before, out = zlib.decompress(packed), width * channels, bytearray(width * channels), bytearray()
     for y in range(height):
         kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for x in range(stride):
+        for x in range(stride if kind else 0):
             a = row[x - channels] if x >= channels else 0
             b, c = before[x], before[x - channels] if x >= channels else 0
-            if kind == 4:
-                p = a + b - c
-                near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-            else:
-                near = (0, a, b, (a + b) // 2)[kind]
-            row[x] = (row[x] + near) & 255
-        out, before = out + row, row
-    return channels, bytes(out)
+            row[x] = (row[x] + (0, a, b, (a + b) // 2, paeth(a, b, c) if kind == 4 else 0)[kind]) & 255
+        out += row
+        before = row
+    return width, channels, bytes(out)
+
+
+def read_png(path):
+    """(channels, bytes of the texels, top row first)."""
+    return decode(path.read_bytes())[1:]
+
+
+def assemble(width, height, bits, channels, packed, text=()):
+    header = struct.pack(">IIBBBBB", width, height, bits, COLORS[channels], 0, 0, 0)
+    parts = [(b"IHDR", header), *((b"tEXt", f"{key}\0{words}".encode("latin-1")) for key, words in text), (b"IDAT", packed), (b"IEND", b"")]
+    return SIGNATURE + b"".join(struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in parts)
+
+
+def encode(width, channels, texels, bits=8):
+    """The file, quickly: no filters. `texels`: bytes, top row first, high bytes first where `bits` is 16."""
+    stride = width * channels * bits // 8
+    rows = [texels[at:at + stride] for at in range(0, len(texels), stride)]
+    return assemble(width, len(rows), bits, channels, zlib.compress(b"".join(b"\0" + row for row in rows)))
 
 
 def paeth(a, b, c):
@@ -84,7 +100,4 @@ def write_png(path, width, channels, texels, text=()):
         ways[2].append(forms[4])
         before = row
     packed = min((zlib.compress(b"".join(way), 9) for way in ways), key=len)
-    header = struct.pack(">IIBBBBB", width, len(texels) // stride, 8, COLORS[channels], 0, 0, 0)
-    parts = [(b"IHDR", header), *((b"tEXt", f"{key}\0{words}".encode("latin-1")) for key, words in text), (b"IDAT", packed), (b"IEND", b"")]
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in parts))
+    path.write_bytes(assemble(width, len(texels) // stride, 8, channels, packed, text))

@@ -1,21 +1,18 @@
 """Picture files made and read from the definitions of their formats, with nothing but the standard library: what judges Weft's own
 readers and writers. Pictures are lists of rows, top row first; a texel is a tuple of channels."""
+import pathlib
 import struct
+import sys
 import zlib
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "docs/gallery"))
+from png import decode, encode  # noqa: E402
 
 
 def png(rows, bits=8):
     """Tuples of 1 to 4 whole numbers."""
-    height, width, channels = len(rows), len(rows[0]), len(rows[0][0])
-    kind = {1: 0, 2: 4, 3: 2, 4: 6}[channels]
     form = ">B" if bits == 8 else ">H"
-    lines = b"".join(b"\0" + b"".join(struct.pack(form, c) for texel in row for c in texel) for row in rows)
-
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+    return encode(len(rows[0]), len(rows[0][0]), b"".join(struct.pack(form, c) for row in rows for texel in row for c in texel), bits)
 
 
 def hdr(rows):
@@ -115,28 +112,6 @@ def read_exr(data):
 
 def read_png(data):
     """Rows of tuples of bytes, of a PNG of 8 bits a channel that is not interlaced."""
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    at, packed = 8, b""
-    while at < len(data):
-        size, name = struct.unpack_from(">I4s", data, at)
-        if name == b"IHDR":
-            width, height, bits, kind, _, _, interlaced = struct.unpack_from(">IIBBBBB", data, at + 8)
-            assert bits == 8 and not interlaced
-            channels = {0: 1, 4: 2, 2: 3, 6: 4}[kind]
-        elif name == b"IDAT":
-            packed += data[at + 8:at + 8 + size]
-        at += size + 12
-    raw, stride, rows = zlib.decompress(packed), width * channels, []
-    before = bytearray(stride)
-    for y in range(height):
-        start = y * (stride + 1)
-        kind, line = raw[start], bytearray(raw[start + 1:start + 1 + stride])
-        for x in range(stride):
-            a = line[x - channels] if x >= channels else 0
-            b, c = before[x], before[x - channels] if x >= channels else 0
-            p = a + b - c
-            nearest = min((abs(p - v), i) for i, v in enumerate((a, b, c)))[1]
-            line[x] = (line[x] + (0, a, b, (a + b) // 2, (a, b, c)[nearest])[kind]) & 255
-        rows.append([tuple(line[x:x + channels]) for x in range(0, stride, channels)])
-        before = line
-    return rows
+    width, channels, texels = decode(data)
+    row = width * channels
+    return [[tuple(texels[x:x + channels]) for x in range(at, at + row, channels)] for at in range(0, len(texels), row)]

@@ -3,7 +3,9 @@ As a program: screen.py FOLDER OUT.png, to look at it."""
 import pathlib
 import struct
 import sys
-import zlib
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "docs/gallery"))
+from png import encode  # noqa: E402
 
 
 class Screen:
@@ -36,14 +38,8 @@ class Screen:
         return self.path.read_bytes()
 
     def save(self, path):
-        width, height, rows = self.read()
-
-        def chunk(kind, body):
-            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-        raw = b"".join(b"\0" + row for row in rows)
-        pathlib.Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-                                       chunk(b"IDAT", zlib.compress(raw, 1)) + chunk(b"IEND", b""))
+        width, _, rows = self.read()
+        pathlib.Path(path).write_bytes(encode(width, 3, b"".join(rows)))
 
 
 if __name__ == "__main__":

@@ -4,47 +4,23 @@
     embed_picture.py AT_0.png AT_0_AGAIN.png AT_1.png
 """
 import math
-import struct
+import pathlib
 import sys
-import zlib
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "app"))
+from pictures import read_png  # noqa: E402
 
 SIZE, SIDE = 40, 160  # of extend.json and extend.cpp: two pixels per texel in each quarter
 
 
-def read_png(path):
-    data = open(path, "rb").read()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG"
-    at, packed = 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, colors = struct.unpack(">IIBB", body[:10])
-            assert (depth, colors) == (8, 6), f"{path}: {depth} bits, colour type {colors}, not 8-bit RGBA"
-        packed += body if kind == b"IDAT" else b""
-        at += 12 + length
-    raw, rows, stride = zlib.decompress(packed), [], width * 4
-    previous = bytearray(stride)
-    for y in range(height):
-        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            a = row[i - 4] if i >= 4 else 0
-            b, c = previous[i], previous[i - 4] if i >= 4 else 0
-            p = a + b - c
-            paeth = a if abs(p - a) <= abs(p - b) and abs(p - a) <= abs(p - c) else b if abs(p - b) <= abs(p - c) else c
-            row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
-        rows.append([tuple(row[x * 4:x * 4 + 4]) for x in range(width)])
-        previous = row
-    return rows
-
-
 def check(path, time):
-    rows = read_png(path)
+    rows = read_png(pathlib.Path(path).read_bytes())
     height, width = len(rows), len(rows[0])
     assert (width, height) == (SIDE, SIDE), f"{path}: {width} x {height}, not {SIDE} x {SIDE}"
     for y in range(height):
         for x in range(width):
             here = rows[y][x]
+            assert len(here) == 4, f"{path}: {len(here)} channels, not RGBA"
             assert here == rows[y][width - 1 - x] == rows[height - 1 - y][x], f"{path}: ({x}, {y}) is not mirrored"
             if x >= width // 2 or y < height // 2:
                 continue

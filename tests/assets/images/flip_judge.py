@@ -8,11 +8,12 @@ Oskarsson, Åström, Fairchild, HPG 2020; the numbers are those of the paper and
 import math
 import pathlib
 import random
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "docs/gallery"))
+from png import encode  # noqa: E402
 
 # ---- colour ----
 TO_XYZ = ((10135552 / 24577794, 8788810 / 24577794, 4435075 / 24577794),
@@ -128,12 +129,7 @@ def flip(reference, test, density):
 
 # ---- pictures ----
 def write_png(path, image):
-    rows = b"".join(b"\0" + bytes(c for texel in row for c in texel) for row in image)
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    header = struct.pack(">IIBBBBB", len(image[0]), len(image), 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    path.write_bytes(encode(len(image[0]), 3, bytes(c for row in image for texel in row for c in texel)))
 
 
 def picture(width, height, texel):
