@@ -20,8 +20,8 @@ base::Diagnostics diagnoseText(const std::string& text) {
   return diagnostics;
 }
 
-// A chain: pass i reads what pass i-1 wrote. Every tenth has a mistake, of five kinds in turn.
-std::string brokenChain(int count) {
+// A chain of passes: pass i reads what pass i-1 wrote. Every tenth has a mistake, of five kinds in turn.
+std::string chainOf(int count) {
   std::string resources = R"("ldr": { "texture": "rgba8", "size": 8 })", passes;
   for (int i = 0; i < count; ++i) {
     const int mistake = i % 10 == 5 ? i / 10 % 5 : -1;
@@ -51,7 +51,7 @@ std::string brokenChain(int count) {
 }  // namespace
 
 TEST_CASE("of 1,000 passes with 100 mistakes each mistake is named, and nothing follows from them") {
-  const base::Diagnostics said = diagnoseText(brokenChain(1000));
+  const base::Diagnostics said = diagnoseText(chainOf(1000));
   std::map<std::string, int> codes;
   for (const base::Diagnostic& d : said.items()) ++codes[base::nameOf(d.code)];
   INFO(said.text().substr(0, 4000));
@@ -63,7 +63,7 @@ TEST_CASE("of 1,000 passes with 100 mistakes each mistake is named, and nothing 
 }
 
 TEST_CASE("a chain without mistakes says nothing") {
-  std::string text = brokenChain(5);
+  std::string text = chainOf(5);
   CHECK_MESSAGE(diagnoseText(text).empty(), diagnoseText(text).text());
 }
 
