@@ -76,14 +76,16 @@ bool writeAll(const Options& options, const convert::Converted& made, Diagnostic
   return good && batch.publish(diagnostics);
 }
 
-// That the picture of `--image NAME=FILE`, or the sequence of pictures, can be read.
+// That the picture of `--image NAME=FILE`, or the first of a sequence of pictures, can be read.
 void checkPicture(const std::string& option, const std::string& file, Diagnostics& diagnostics) {
   Diagnostics said;
   if (!base::mayRead(file)) return;
-  if (const auto pattern = imports::sequencePatternOf(file))
-    imports::numbersOf(*pattern, said);
-  else
-    assets::loadStoredHeader(file, said);
+  if (const auto pattern = imports::sequencePatternOf(file)) {
+    const std::vector<std::uint32_t> numbers = imports::numbersOf(*pattern, said);
+    if (!numbers.empty()) assets::loadStored(pattern->nameOf(numbers.front()), said);
+  } else {
+    assets::loadStored(file, said);
+  }
   for (base::Diagnostic each : said.items()) {
     each.place = graph::placeOfOption("--image " + option);
     diagnostics.add(std::move(each));
@@ -121,6 +123,12 @@ int runImport(const Options& options) {
   wanted.sourceFolder = seenFrom(options.folder, parent.empty() ? "." : parent);
   for (const std::string& image : options.images) {
     const std::size_t at = image.find('=');
+    const auto isSame = [&](const auto& other) { return other.first == image.substr(0, at); };
+    if (std::ranges::any_of(wanted.images, isSame))
+      diagnostics
+          .error(Code::duplicateName, graph::placeOfOption("--image " + image),
+                 fmt::format("two pictures for '{}'", image.substr(0, at)))
+          .hint = "name one";
     checkPicture(image, image.substr(at + 1), diagnostics);
     wanted.images.emplace_back(image.substr(0, at), seenFrom(options.folder, image.substr(at + 1)));
   }

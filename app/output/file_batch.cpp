@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <ranges>
@@ -15,9 +16,21 @@ namespace weft::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// A name that no other file of the folder has, however long that of `path` is.
+std::string nameBeside(const std::string& path) {
+  static std::atomic<unsigned> made = 0;
+  return (fs::path(path).parent_path() / fmt::format(".weft.{}.{}", ::getpid(), ++made)).string();
+}
+
+}  // namespace
+
 FileBatch::~FileBatch() {
   std::error_code ignored;
-  for (const Written& file : files_) fs::remove(file.temporary, ignored);
+  for (const Written& file : files_)
+    for (const std::string& each : {file.temporary, file.before})
+      if (!each.empty()) fs::remove(each, ignored);
   for (const std::string& folder : std::views::reverse(folders_))
     fs::remove(folder, ignored);  // an empty one
 }
@@ -37,8 +50,8 @@ bool FileBatch::write(const std::string& path, const Writer& writer, base::Diagn
   if (!makeFolder(path, diagnostics) || !checkMadeFiles({&path, 1}, {}, "", diagnostics)) return false;
   std::error_code ec;
   const fs::path behind = fs::canonical(path, ec);
-  Written file{.path = path, .target = ec ? path : behind.string(), .temporary = {}};
-  file.temporary = fmt::format("{}.{}.new", file.target, ::getpid());
+  Written file{.path = path, .target = ec ? path : behind.string()};
+  file.temporary = nameBeside(file.target);
   base::Diagnostics said;
   const bool written = writer(file.temporary, said);
   for (base::Diagnostic each : said.items()) {
@@ -62,20 +75,46 @@ bool FileBatch::writeText(const std::string& path, const std::string& text, base
       diagnostics);
 }
 
-bool FileBatch::publish(base::Diagnostics& diagnostics) {
+bool FileBatch::rename(Written& file, std::error_code& ec) const {
+  std::error_code none;
+  const auto before = fs::status(file.target, none);
+  file.replaces = fs::is_regular_file(before);
+  if (file.replaces) {
+    fs::permissions(file.temporary, before.permissions(), none);
+    file.before = nameBeside(file.target);
+    fs::create_hard_link(file.target, file.before, none);
+    if (none) file.before.clear();
+  }
+  fs::rename(file.temporary, file.target, ec);
+  return !ec;
+}
+
+void FileBatch::undo(const Written& file, std::string& lost) const {
   std::error_code ec;
-  for (const Written& file : files_) {
-    const auto before = fs::status(file.target, ec);
-    if (fs::is_regular_file(before)) fs::permissions(file.temporary, before.permissions(), ec);
-    ec.clear();
-    fs::rename(file.temporary, file.target, ec);
-    if (!ec) continue;
-    diagnostics
-        .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(file.path), 0, 0},
-               fmt::format("cannot write '{}': {}", file.path, ec.message()))
-        .hint = "name a folder that can be written to";
+  if (!file.before.empty())
+    fs::rename(file.before, file.target, ec);
+  else if (!file.replaces)
+    fs::remove(file.target, ec);
+  if (ec || (file.before.empty() && file.replaces))
+    lost += fmt::format("{}'{}'", lost.empty() ? "" : ", ", file.path);
+}
+
+bool FileBatch::publish(base::Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    std::error_code ec;
+    if (rename(files_[i], ec)) continue;
+    std::string lost;
+    for (std::size_t k = i; k-- > 0;) undo(files_[k], lost);
+    auto& d = diagnostics.error(base::Code::outputNotWritten,
+                                {std::make_shared<const std::string>(files_[i].path), 0, 0},
+                                fmt::format("cannot write '{}': {}", files_[i].path, ec.message()));
+    if (!lost.empty()) d.found = fmt::format("{} replaced already", lost);
+    d.hint = "name a folder that can be written to";
     return false;
   }
+  std::error_code ignored;
+  for (const Written& file : files_)
+    if (!file.before.empty()) fs::remove(file.before, ignored);
   files_.clear();
   folders_.clear();
   return true;

@@ -90,6 +90,10 @@ std::string takeOutputs(const RawOptions& raw, Options& options) {
   for (const std::string& text : raw.outputs) {
     const std::size_t at = text.find('=');
     const std::string name = at == std::string::npos ? "" : text.substr(0, at);
+    if (at == 0)
+      return fmt::format("'-o {0}' has no NAME before the '='; a file of that name is './{0}'", text);
+    if (isMeantAsName(name) && at + 1 == text.size())
+      return fmt::format("'-o {0}' has no FILE behind the '='; write {0}picture.png", text);
     if (isMeantAsName(name)) {
       // What is spelled in another way is the name of nothing: then the graph's names tell which is near.
       graph::Pick pick = graph::parsePick(name).value_or(graph::Pick{.text = name, .name = name, .pass = {}});

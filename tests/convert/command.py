@@ -81,6 +81,15 @@ def main():
         for picture in ("x.png", "x.####.png"):
             missing = run(WEFT, "import", "tests/convert/isf/negative.fs", "-o", top / "none", "--image", f"inputImage={picture}")
             assert missing.code == 1 and missing.codes() == ["W150"] and f"command line: --image inputImage={picture}: " in missing.err, missing.err
+        # Cut off behind its header: its size can be read, and no texel of it.
+        (top / "cut.png").write_bytes((TOP / "tests/convert/references/mosaic.png").read_bytes()[:200])
+        (top / "cut.0001.png").write_bytes((top / "cut.png").read_bytes())
+        for picture in ("cut.png", "cut.####.png"):
+            cut = run(WEFT, "import", "tests/convert/isf/negative.fs", "-o", top / "none", "--image", f"inputImage={top / picture}")
+            assert cut.code == 1 and cut.codes() == ["W150"] and "texels are not valid" in cut.err, cut.err
+        mosaic = f"inputImage={TOP / 'tests/convert/references/mosaic.png'}"
+        twice = run(WEFT, "import", "tests/convert/isf/negative.fs", "-o", top / "none", "--image", mosaic, "--image", mosaic)
+        assert twice.code == 1 and twice.codes() == ["W009"] and "two pictures for 'inputImage'" in twice.err, twice.err
         (top / "stamp.fs").write_text((TOP / "tests/convert/isf/stamp.fs").read_text())
         warned = run(WEFT, "import", top / "stamp.fs", "-o", top / "stamp")
         assert warned.code == 0 and warned.codes("warning") == ["W150"] and "stamp.fs:5:" in warned.err and "card.png" in warned.err, warned.err

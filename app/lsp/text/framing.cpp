@@ -18,9 +18,13 @@ namespace {
 
 constexpr std::size_t kMostHeader = 4096;  // bytes of one line
 
-bool equalsIgnoringCase(std::string_view a, std::string_view b) {
+// Where a header that says a length begins in a line, or npos. Not at its front stands the end of a message of whose length
+// nothing was known.
+std::size_t lengthHeaderIn(std::string_view line) {
+  constexpr std::string_view kHeader = "content-length:";
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  return std::ranges::equal(a, b, {}, lower, lower);
+  const auto found = std::ranges::search(line, kHeader, {}, lower);
+  return found.empty() ? std::string_view::npos : static_cast<std::size_t>(found.begin() - line.begin());
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -59,15 +63,15 @@ bool FrameReader::hasMore() const {
   return ::poll(&one, 1, 0) > 0 && (one.revents & POLLIN) != 0;
 }
 
-// Without its line end. False at the end of the stream.
+// Without its line end; of one that is too long the last of it. False at the end of the stream.
 bool FrameReader::readLine(std::string& line, bool& tooLong) {
   line.clear();
   for (;;) {
     const std::size_t end = buffer_.find('\n', at_);
     const std::size_t stop = std::min(end, buffer_.size());
-    const std::size_t room = kMostHeader - std::min(kMostHeader, line.size());
-    tooLong |= stop - at_ > room;
-    line.append(buffer_, at_, std::min(stop - at_, room));
+    tooLong |= line.size() + (stop - at_) > kMostHeader;
+    line.append(buffer_, at_, stop - at_);
+    if (line.size() > kMostHeader) line.erase(0, line.size() - kMostHeader);
     at_ = stop;
     if (end != std::string::npos) {
       ++at_;
@@ -96,23 +100,23 @@ Incoming FrameReader::next() {
     bool tooLong = false;
     if (!readLine(line, tooLong)) {
       if (line.empty() && !any) return {};
-      return cutOff(
-          "the header of a message",
-          line.empty() ? "" : fmt::format(", which begins '{}'", base::printable(base::shortened(line))));
+      return cutOff("the header of a message",
+                    line.empty() || tooLong
+                        ? ""
+                        : fmt::format(", which begins '{}'", base::printable(base::shortened(line))));
     }
     if (tooLong && problem.empty()) problem = "a header line is too long";
     if (line.empty() && !any) continue;  // what is left over between messages
     if (line.empty()) break;
     any = true;
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) {
-      if (problem.empty())
+    const std::size_t header = lengthHeaderIn(line);
+    if (header == std::string::npos) {
+      if (problem.empty() && line.find(':') == std::string::npos)
         problem = fmt::format("expected a header such as 'Content-Length: 20', found '{}'",
                               base::printable(base::shortened(line)));
       continue;
     }
-    if (!equalsIgnoringCase(trimmed(std::string_view(line).substr(0, colon)), "Content-Length")) continue;
-    const std::string_view digits = trimmed(std::string_view(line).substr(colon + 1));
+    const std::string_view digits = trimmed(std::string_view(line).substr(line.find(':', header) + 1));
     std::size_t bytes = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bytes);
     if (error == std::errc{} && end == digits.data() + digits.size() && !digits.empty())

@@ -71,6 +71,7 @@ class WordParser {
       return takeOneOf(word, wrapping_) && (*wrap != Wrap::border || takeColor());
     }
     if (word == "compare") {
+      if (ref_.sampler.compare) return fail(start_, "'compare' stands twice", "keep one of them");
       ref_.sampler.compare = true;
       return takeFunction();
     }
@@ -79,7 +80,8 @@ class WordParser {
 
   // Of words of which one may stand.
   bool takeOneOf(std::string_view word, std::string_view& earlier) {
-    if (!earlier.empty() && earlier != word)
+    if (earlier == word) return fail(start_, fmt::format("'{}' stands twice", word), "keep one of them");
+    if (!earlier.empty())
       return fail(start_, fmt::format("'{}' contradicts an earlier word", word), "keep one of them");
     earlier = word;
     return true;

@@ -237,6 +237,13 @@ def check_hostile(weft, report, folder):
         editor.send_bytes(data)
         answer = editor.receive()
         report.check(answer.get("error", {}).get("code") == code and answer["error"]["message"], f"{data[:120]}: {answer}")
+    # A body of whose length nothing is known: behind it the next message is found again, the first of its kind or the third.
+    for body in (b"{}", b'{"jsonrpc": "2.0",\n "id": 1,\n "method": "shutdown"}', b'{"text": "' + b"x" * 10_000 + b'"}'):
+        for header in (b"Content-Length: abc", b"Content-Type: text"):
+            editor.send_bytes(header + b"\r\n\r\n" + body)
+            report.check(editor.receive().get("error", {}).get("code") == -32700, f"{header} {body[:40]}")
+            answer = editor.ask("no/such", {})
+            report.check(answer.get("error", {}).get("code") == -32601, f"after {header} {body[:40]}: {answer}")
     for data in IGNORED:
         editor.send_bytes(data)
     # Whatever a file holds, everything can be asked of every place of it.

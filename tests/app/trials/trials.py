@@ -146,6 +146,23 @@ def check_files(weft, report, folder):
     kept = {f: f.read_bytes() for f in own.parent.rglob("*.*") if f.is_file()}
     for file in kept:
         test("--report", file, says="W180")
+    # A picture that a graph reads, in the place of the difference: the case fails and the picture stays.
+    with temporary_folder() as read:
+        read = pathlib.Path(read)
+        photo = read / "look_flip.png"
+        write_mask(photo, 64, 36, lambda x, y: x < 32)
+        shows = {"resources": {"photo": {"import": "image", "file": photo.name}, "ldr": {"texture": "rgba8", "size": "screen"}},
+                 "passes": [{"name": "show", "type": "blit", "read": {"source": "photo"}, "write": {"destination": "ldr"}}], "present": "ldr"}
+        (read / "shows.json").write_text(json.dumps(shows))
+        write_cases(folder, [{"name": "look", "graph": str(read / "shows.json")}])
+        test("--accept", code=0)
+        write_mask(photo, 64, 36, lambda x, y: x < 16)
+        now = photo.read_bytes()
+        left = test("-o", read, says="which this run reads")
+        report.check("FAILED  look" in left.out and "look_flip.png" in left.err and photo.read_bytes() == now, f"{left.out}{left.err}")
+        for file in folder.glob("look*"):
+            file.unlink()
+    write_cases(folder, [{"name": "ok", "graph": str(own)}])
     own.write_text(own.read_text() + "}")
     test("--report", own.parent / "shaders/show.frag.glsl", says="is no page of")
     test("--report", folder / "page.html")
@@ -179,8 +196,11 @@ def check_files(weft, report, folder):
     result = test(code=1)
     report.check("\x1b" not in result.out and "\nok      all" not in result.out, repr(result.out))
     shutil.rmtree(forged)
-    write_cases(folder, [{"name": "glow", "graph": GLOW, "mask": "none.png"}])
-    test("--accept", says="none.png")
+    # A case that is broken by its mask, its own golden that is not there yet, leaves no golden and no record.
+    for mask, frames in (("none.png", [0]), ("lone.png", [0]), ("none.png", [0, 1])):
+        write_cases(folder, [{"name": "lone", "graph": GLOW, "mask": mask, "frames": frames}])
+        broken = test("--accept", says=mask)
+        report.check("BROKEN" in broken.out and "anew" not in broken.out and not list(folder.glob("lone*")), f"{broken.out} {list(folder.glob('lone*'))}")
 
     # --accept writes over no golden of another case, no mask, no picture or text that a graph reads, and nothing of cases that do not run.
     shown = {"resources": {"photo": {"import": "image", "file": "sky.png"}, "ldr": {"texture": "rgba8", "size": "screen"}},

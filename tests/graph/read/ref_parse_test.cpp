@@ -144,6 +144,9 @@ TEST_CASE("words with arguments behind 'as'") {
   CHECK(refFailure("a as border(1").hint == "close it with ')'");
   CHECK(refFailure("a as mirror border").column == 13);
   CHECK(refFailure("a as border(1) image").column == 16);
+  CHECK(refFailure("a as border(1) border(0, 0, 0, 1)").message == "'border' stands twice");
+  CHECK(refFailure("a as linear linear").column == 13);
+  CHECK(refFailure("a as compare(less) compare(greater)").message == "'compare' stands twice");
   CHECK(refFailure("a as mirrored_repeat").hint == "write 'mirror'");
 }
 
