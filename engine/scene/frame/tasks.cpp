@@ -185,16 +185,15 @@ std::string taskDot(const std::string& title, std::span<const std::string> lines
   return out + "}\n";
 }
 
-void splitRanges(std::size_t count, std::size_t least, const void* run,
-                 void (*call)(const void* run, std::size_t from, std::size_t to)) {
+void splitRanges(std::size_t count, std::size_t least, const RangeFunction& run) {
   if (count == 0) return;
   Running* const mine = running;
-  if (!mine || !mine->splits || count <= least) return call(run, 0, count);
+  if (!mine || !mine->splits || count <= least) return run(0, count);
   const auto part = [&](const tbb::blocked_range<std::size_t>& range) {
     Running* const before = std::exchange(running, nullptr);
     const bool measures = mine->measures && before != mine;
     const double worked = measures ? processorTime() : 0;
-    call(run, range.begin(), range.end());
+    run(range.begin(), range.end());
     if (measures) mine->elsewhere += processorTime() - worked;
     running = before;
   };

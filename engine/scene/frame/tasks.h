@@ -63,17 +63,33 @@ struct TaskGroup {
 std::string taskDot(const std::string& title, std::span<const std::string> lines,
                     std::span<const TaskGroup> groups);
 
-void splitRanges(std::size_t count, std::size_t least, const void* run,
-                 void (*call)(const void* run, std::size_t from, std::size_t to));
+// What forRanges() calls for each range: a function by reference.
+class RangeFunction {
+ public:
+  virtual void operator()(std::size_t from, std::size_t to) const = 0;
+
+ protected:
+  ~RangeFunction() = default;
+};
+
+template <class Run>
+class RangeFunctionOf final : public RangeFunction {
+ public:
+  explicit RangeFunctionOf(const Run& run) : run_(run) {}  // `run` must outlive this
+  void operator()(std::size_t from, std::size_t to) const override { run_(from, to); }
+
+ private:
+  const Run& run_;
+};
+
+void splitRanges(std::size_t count, std::size_t least, const RangeFunction& run);
 
 // Calls `run(from, to)` for ranges that make up 0 to `count`, on the threads of the run() that the caller is a task of;
 // elsewhere, and inside of another call, all at once. Ranges are of at least `least`, and where they end says nothing of the
 // result if elements do not depend on each other.
 template <class Run>
 void forRanges(std::size_t count, std::size_t least, const Run& run) {
-  splitRanges(count, least, &run, [](const void* mine, std::size_t from, std::size_t to) {
-    (*static_cast<const Run*>(mine))(from, to);
-  });
+  splitRanges(count, least, RangeFunctionOf<Run>(run));
 }
 
 }  // namespace weft::scene
