@@ -75,7 +75,13 @@ def passes_of(graph):
             yield stanza, desc
 
 
-def variants(stanza, desc):
+def constants_of(graphs):
+    """The numbers that a `let` names, as text. Includes see those of their includers: so they are gathered from all files."""
+    lets = [json.loads(strip_comments(graph.read_text())).get("let", {}) for graph in graphs]
+    return {f"${name}": str(value) for let in lets for name, value in let.items() if isinstance(value, int)}
+
+
+def variants(stanza, desc, constants):
     """Dictionaries of defines."""
     slots, optional = [], []
     for access in ("read", "write", "modify"):
@@ -95,6 +101,8 @@ def variants(stanza, desc):
         if "choices" in source:
             named = {f"{name}_{define_name(c)}": str(i) for i, c in enumerate(source["choices"])}
             choices[name] = [{name: str(i), **named} for i in range(len(source["choices"]))]
+        elif str(value) in constants:
+            choices[name] = [{name: constants[value]}]
         else:
             choices[name] = [{name: "0"}, {name: "1"}]
     everything = {f"HAS_{define_name(n)}": "1" for n in slots + parameters}
@@ -154,7 +162,7 @@ def main():
     if not graphs:
         for folder in ("graphs", "tests/golden", "tests/theory"):
             graphs += sorted(g for g in (TOP / folder).rglob("*.json") if '"passes"' in g.read_text())
-    done, problems, used, jobs = set(), [], set(), []
+    done, problems, used, jobs, constants = set(), [], set(), [], constants_of(graphs)
     with tempfile.TemporaryDirectory() as temporary:
         for graph in graphs:
             roots = shader_folders(graph)
@@ -173,7 +181,7 @@ def main():
                     if stage not in STAGES:
                         problems.append(f"{where}: {one}: no stage in the name")
                         continue
-                    for defines in variants(stanza, desc):
+                    for defines in variants(stanza, desc, constants):
                         key = (path, tuple(sorted(defines.items())))
                         if key in done:
                             continue

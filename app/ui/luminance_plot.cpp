@@ -10,12 +10,11 @@ namespace weft::app::ui {
 namespace {
 
 // shaders/exposure/histogram.glsl
-constexpr std::size_t kBins = 256;
-constexpr double kDarkest = -15.75, kBinsPerStop = 8;
+constexpr double kBrightest = 16, kBinsPerStop = 8;
 
-const runtime::Output* find(const runtime::Execution& execution, std::string_view name, std::size_t count) {
+const runtime::Output* find(const runtime::Execution& execution, std::string_view name, std::size_t least) {
   for (const runtime::Output& output : execution.outputs())
-    if (output.arrived && output.count() == count && isCalled(output.name, name)) return &output;
+    if (output.arrived && output.count() >= least && isCalled(output.name, name)) return &output;
   return nullptr;
 }
 
@@ -27,8 +26,10 @@ bool isCalled(std::string_view dotted, std::string_view name) {
 
 bool drawLuminance(runtime::Execution& execution) {
   execution.collectOutputs();
-  const runtime::Output* histogram = find(execution, "histogram", kBins);
+  const runtime::Output* histogram = find(execution, "histogram", 3);
   if (!histogram) return false;
+  const std::size_t bins = histogram->count();  // the first is black
+  const double darkest = kBrightest - static_cast<double>(bins - 2) / kBinsPerStop;
   const runtime::Output* exposure = find(execution, "exposure", 4);
   const bool adapted = exposure && exposure->number(0) > 0 && exposure->number(2) > 0;
   if (adapted)
@@ -37,7 +38,7 @@ bool drawLuminance(runtime::Execution& execution) {
   else
     ImGui::TextDisabled("luminance of the scene, in stops from 1");
   double total = 0, highest = 0;
-  for (std::size_t i = 0; i < kBins; ++i) {
+  for (std::size_t i = 0; i < bins; ++i) {
     total += histogram->number(i);
     if (i > 0) highest = std::max(highest, histogram->number(i));
   }
@@ -46,16 +47,16 @@ bool drawLuminance(runtime::Execution& execution) {
                     std::max(32.0f, ImGui::GetContentRegionAvail().y));
   ImGui::InvisibleButton("stops", area);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float bottom = corner.y + area.y, bar = area.x / static_cast<float>(kBins);
+  const float bottom = corner.y + area.y, bar = area.x / static_cast<float>(bins);
   draw.AddRectFilled(corner, {corner.x + area.x, bottom}, IM_COL32(16, 16, 18, 255));
   const auto placeOf = [&](double stops) {
-    return corner.x +
-           bar * static_cast<float>(std::clamp((stops - kDarkest) * kBinsPerStop + 1.5, 0.0, 256.0));
+    return corner.x + bar * static_cast<float>(std::clamp((stops - darkest) * kBinsPerStop + 1.5, 0.0,
+                                                          static_cast<double>(bins)));
   };
   for (int stops = -12; stops <= 12; stops += 4)
     draw.AddLine({placeOf(stops), corner.y}, {placeOf(stops), bottom},
                  stops == 0 ? IM_COL32(110, 110, 120, 255) : IM_COL32(48, 48, 54, 255));
-  for (std::size_t i = 1; i < kBins && highest > 0; ++i) {
+  for (std::size_t i = 1; i < bins && highest > 0; ++i) {
     const float height = area.y * static_cast<float>(histogram->number(i) / highest);
     const float x = corner.x + bar * static_cast<float>(i);
     if (height > 0)
@@ -67,13 +68,13 @@ bool drawLuminance(runtime::Execution& execution) {
     draw.AddLine({mean, corner.y}, {mean, bottom}, IM_COL32(250, 170, 60, 255), 2);
   }
   if (!ImGui::IsItemHovered()) return true;
-  const auto at =
-      static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - corner.x) / bar, 0.0f, 255.0f));
+  const auto at = static_cast<std::size_t>(
+      std::clamp((ImGui::GetIO().MousePos.x - corner.x) / bar, 0.0f, static_cast<float>(bins - 1)));
   const double share = total > 0 ? histogram->number(at) / total * 100 : 0;
   if (at == 0)
     ImGui::SetTooltip("black: %.2f %%", share);
   else
-    ImGui::SetTooltip("%+.3f stops: %.2f %%", (static_cast<double>(at) - 1) / kBinsPerStop + kDarkest, share);
+    ImGui::SetTooltip("%+.3f stops: %.2f %%", (static_cast<double>(at) - 1) / kBinsPerStop + darkest, share);
   return true;
 }
 

@@ -21,7 +21,7 @@ sys.path.insert(0, str(TOP / "docs/gallery"))
 from png import read_png
 
 GRAPH = "graphs/deferred.json"
-FEW = int(re.search(r'light_clusters.json", "enabled": "[^"]*\$lamp_count > (\d+)"', (TOP / GRAPH).read_text())[1])  # lamps that go without clusters
+FEW = int(re.search(r'"few_lamps": (\d+)', (TOP / GRAPH).read_text()).group(1))  # lamps that go without clusters
 GRIDS = {1: ([1, 1, 1], 0.32), 100: ([10, 1, 10], 0.32), 1000: ([20, 5, 10], 0.16)}
 PASSES = ("lit.lighting", "lit.spheres", "light_clusters.lamps_in_tiles", "light_clusters.lamps_in_slices")
 

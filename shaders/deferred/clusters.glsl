@@ -1,23 +1,23 @@
-// Which lamps reach where: a bit per lamp for each tile of 16 x 16 pixels, and for each slice of depth. The lamps of a
+// Which lamps reach where: a bit per lamp for each tile of LAMP_TILE x LAMP_TILE pixels, and for each slice of depth. The lamps of a
 // pixel are those that are in the masks of both its tile and its slice (after Drobot, "Improved culling for tiled and clustered
 // rendering", SIGGRAPH 2017 courses). Bits are in the lamps' order and there is one for each, so no list can be full. A
 // bit that is set says that its lamp does not reach there: of what was only cleared nothing is left out. There are two masks of
 // a tile: `clusters` is of the surfaces that the G-buffer has in it, `columns` of all that is seen through its pixels, whatever
 // its depth: for what is drawn forward.
+// defines LAMP_TILE    8 or 16, so that the lanes of a tile fill whole words of 32 lamps
+//         LAMP_SLICES
 #ifndef DEFERRED_CLUSTERS_GLSL
 #define DEFERRED_CLUSTERS_GLSL
 
 #include "common/view.glsl"
 
-const int kTile = 16;
-const int kSlices = 40;              // 2.5 an octave of distance, from the near plane on; the last one is endless
-const float kSlicesPerOctave = 2.5;
+const float kSlicesPerOctave = 2.5;  // of distance, from the near plane on; the last of LAMP_SLICES is endless
 
 int wordsOf(int lamp_count) { return (lamp_count + 31) / 32; }
-ivec2 tilesOf(ivec2 size) { return (size + kTile - 1) / kTile; }
+ivec2 tilesOf(ivec2 size) { return (size + LAMP_TILE - 1) / LAMP_TILE; }
 
 int sliceOf(float view_distance) {
-  return clamp(int(floor(log2(max(view_distance / near_plane, 1e-6)) * kSlicesPerOctave)), 0, kSlices - 1);
+  return clamp(int(floor(log2(max(view_distance / near_plane, 1e-6)) * kSlicesPerOctave)), 0, LAMP_SLICES - 1);
 }
 
 // Distance along the view axis of a world position.

@@ -12,12 +12,12 @@ layout(std140) uniform Parameters { int lamp_count; };
 // Distances along the view axis; the first begins at 0.
 vec2 boundsOfSlice(int slice) {
   return vec2(slice == 0 ? -1e30 : near_plane * exp2(float(slice) / kSlicesPerOctave),
-              slice == kSlices - 1 ? 1e30 : near_plane * exp2(float(slice + 1) / kSlicesPerOctave));
+              slice == LAMP_SLICES - 1 ? 1e30 : near_plane * exp2(float(slice + 1) / kSlicesPerOctave));
 }
 
 void main() {
   int count = wordsOf(lamp_count), at = int(gl_GlobalInvocationID.x);
-  if (at >= count * kSlices) return;
+  if (at >= count * LAMP_SLICES) return;
   vec2 bounds = boundsOfSlice(at / count);
   uint word = 0u;
   for (int bit = 0, i = at % count * 32; bit < 32 && i < lamp_count; ++bit, ++i) {

@@ -1,4 +1,4 @@
-// For each tile of 16 x 16 pixels, the lamps that may reach what is seen through it; see clusters.glsl. A work group is a tile.
+// For each tile, the lamps that may reach what is seen through it; see clusters.glsl. A work group is a tile.
 // read    depth?     the G-buffer's; without it `clusters` is what `columns` is
 //         lamps      see scene/lamps.glsl
 // modify  clusters?  uints: words of each tile, row by row; a word has 32 lamps. Of the surfaces that have these depths
@@ -9,7 +9,7 @@
 #include "gbuffer.glsl"
 #include "scene/lamps.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = LAMP_TILE, local_size_y = LAMP_TILE) in;
 #ifdef HAS_DEPTH
 uniform sampler2D depth;
 shared uint nearest, farthest;  // depths as bits: positive floats are ordered as they are
@@ -25,7 +25,8 @@ layout(std140) uniform Parameters {
   vec2 picture;
 };
 
-shared uint of_surfaces[8], of_all[8];
+const int kLanes = LAMP_TILE * LAMP_TILE, kWords = kLanes / 32;
+shared uint of_surfaces[kWords], of_all[kWords];
 
 // Signed distance of `at` (view space) from the plane through all points of the target at `ndc` of one axis; positive to the right or above.
 float beside(vec3 at, int axis, float ndc) {
@@ -39,7 +40,7 @@ float beside(vec3 at, int axis, float ndc) {
 void main() {
   ivec2 size = ivec2(picture), tile = ivec2(gl_WorkGroupID.xy), tiles = tilesOf(size);
   int lane = int(gl_LocalInvocationIndex), count = wordsOf(lamp_count), at = (tile.y * tiles.x + tile.x) * count;
-  vec2 low = vec2(tile * kTile) / picture * 2.0 - 1.0, high = min(vec2((tile + 1) * kTile) / picture, 1.0) * 2.0 - 1.0;
+  vec2 low = vec2(tile * LAMP_TILE) / picture * 2.0 - 1.0, high = min(vec2((tile + 1) * LAMP_TILE) / picture, 1.0) * 2.0 - 1.0;
   // Distances of the surfaces in the tile; none where to < from.
   float from = -1e30, to = 1e30;
 #ifdef HAS_DEPTH
@@ -63,9 +64,9 @@ void main() {
   }
 #endif
 
-  // 256 lamps at a time, one for each lane.
-  for (int first = 0; first < count; first += 8) {
-    if (lane < 8) of_surfaces[lane] = of_all[lane] = 0u;
+  // As many lamps at a time as there are lanes, one for each.
+  for (int first = 0; first < count; first += kWords) {
+    if (lane < kWords) of_surfaces[lane] = of_all[lane] = 0u;
     barrier();
     int i = first * 32 + lane;
     if (i < lamp_count) {
@@ -80,7 +81,7 @@ void main() {
       }
     }
     barrier();
-    if (lane < 8 && first + lane < count && all(lessThan(tile, tiles))) {
+    if (lane < kWords && first + lane < count && all(lessThan(tile, tiles))) {
 #ifdef HAS_CLUSTERS
       cluster[at + first + lane] = ~of_surfaces[lane];
 #endif

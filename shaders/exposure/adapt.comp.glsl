@@ -1,4 +1,4 @@
-// Exposure from the histogram, followed in time. One group of 256 threads.
+// Exposure from the histogram, followed in time. One group, a thread for each bin.
 // read    histogram   of histogram.comp.glsl
 //         previous    the last frame's `exposure`; x below 0: there is none, so the target is taken at once
 // write   exposure    vec4: the factor for radiance, its target, the mean luminance, and, after black, the seconds until the factor
@@ -13,7 +13,7 @@
 #include "common/view.glsl"
 #include "histogram.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = BINS) in;
 layout(std430) readonly buffer histogram { uint counts[kBins]; };
 layout(std430) readonly buffer previous { vec4 before; };
 layout(std430) writeonly buffer exposure { vec4 adapted; };

@@ -1,9 +1,9 @@
 // How bright the picture is: a histogram of log2 luminance, from the mean of the middle 2 x 2 of every 4 x 4 texels. Scene-referred.
 // read    source      `as linear`; one thread for each 4 x 4 texels of it
-// modify  histogram   256 counts, see histogram.glsl; cleared to 0 before
+// modify  histogram   BINS counts, see histogram.glsl; cleared to 0 before
 #include "histogram.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 16, local_size_y = BINS / 16) in;
 uniform sampler2D source;
 layout(std430) buffer histogram { uint counts[kBins]; };
 shared uint group_counts[kBins];

@@ -91,7 +91,7 @@ void main() {
     imageStore(neighbours, texel + ivec2(1, 0), vec4(groundAlbedo(ground_row[0]), -kImage));
   }
 #endif
-  for (int i = 0; i < found && listed < kMost; ++i) {
+  for (int i = 0; i < found && listed < MOST_NEIGHBOURS; ++i) {
     float left = 1.0;
     vec3 axis = vec3(x[i], y[i], z[i]);
     for (int j = 0; j < found && left >= kHidden; ++j) {
@@ -105,5 +105,5 @@ void main() {
     imageStore(neighbours, texel, vec4(instance[rows[i]].center, instance[rows[i]].radius));
     imageStore(neighbours, texel + ivec2(1, 0), vec4(instance[rows[i]].albedo, left));
   }
-  if (listed < kMost) imageStore(neighbours, neighbourTexel(self, listed), vec4(0.0));
+  if (listed < MOST_NEIGHBOURS) imageStore(neighbours, neighbourTexel(self, listed), vec4(0.0));
 }

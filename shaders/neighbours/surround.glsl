@@ -43,7 +43,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
   // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
   vec2 texel = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * texel;
   int i = -1;
-  while (i < kMost - 1) {
+  while (i < MOST_NEIGHBOURS - 1) {
     // On to the next sphere that takes anything: above the horizon, where lights are, or in the lobe. This loop is short, so that the rest
     // runs for these alone, also where lanes go together.
     // Its count goes up first of all: llvmpipe goes on computing for lanes that have left, from the count that they left with.
@@ -61,7 +61,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
       float lobe_ends = ball.w + cone * distance_to;
       counts = distance_to < reach * ball.w &&
                (dot(n, to) > -ball.w || (along > -lobe_ends && distance2 - along * along < lobe_ends * lobe_ends));
-    } while (i < kMost - 1 && !counts && ball.w > 0.0);
+    } while (i < MOST_NEIGHBOURS - 1 && !counts && ball.w > 0.0);
     if (!counts) break;
     vec4 light = textureLod(neighbours, first + vec2(2 * i + 1, 0) * texel, 0.0);
     float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);

@@ -171,7 +171,7 @@ void main() {
 #ifdef HAS_LAMPS
   int words = (lamp_count + 31) / 32;
 #ifdef HAS_CLUSTERS
-  ivec2 tile = ivec2(gl_FragCoord.xy) / kTile;
+  ivec2 tile = ivec2(gl_FragCoord.xy) / LAMP_TILE;
   int of_tile = (tile.y * tilesOf(ivec2(viewport)).x + tile.x) * words;
 #endif
 #ifdef HAS_SLICES
