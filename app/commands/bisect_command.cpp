@@ -7,8 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
 #include "app/trials/device_run.h"
-#include "app/trials/divergence.h"
-#include "engine/assets/images/flip.h"
+#include "app/trials/shot_pair.h"
 #include "engine/base/counted.h"
 
 namespace weft::app {
@@ -76,42 +75,30 @@ class Bisection {
       : context_(context), world_(world), sides_{options, otherOf(options)}, frame_(options.lastFrame) {}
 
   int run(base::Diagnostics& diagnostics) {
-    const auto a = shoot(0, {}, 0, diagnostics);
-    const auto b = a ? shoot(1, {}, 0, diagnostics) : std::nullopt;
-    if (!b) return 2;
-    const std::string& driver = context_.device().driverKey;
-    const auto found = findDivergence(recordsOf(*a, driver), recordsOf(*b, driver));
-    if (!found) {
-      print(fmt::format("no pass differs in {}\n", base::counted(b->records.size(), "frame")));
+    const auto pair = shootPair(context_, sides_[0], sides_[1], world_, frame_, diagnostics);
+    if (!pair) return 2;
+    if (!pair->first) {
+      print(fmt::format("no pass differs in {}\n", base::counted(pair->after.records.size(), "frame")));
       return 0;
     }
-    print(fmt::format("first that differs: {}\n    {}\n", found->text(), countSame(*b, *found)));
-    if (found->kind == Divergence::Kind::differs) tellTexels(*found, diagnostics);
-    tellPictures(a->pictures.at(frame_), b->pictures.at(frame_));
+    print(fmt::format("first that differs: {}\n    {}\n", pair->first->text(),
+                      countSame(pair->after, *pair->first)));
+    if (pair->first->kind == Divergence::Kind::differs) tellTexels(*pair->first, diagnostics);
+    print(pair->pictureText() + "\n");
     return 1;
   }
 
  private:
-  std::optional<Shot> shoot(std::size_t side, std::pair<std::string, std::string> keep,
-                            std::uint32_t keepFrame, base::Diagnostics& diagnostics) {
-    return takeShot(
-        context_, sides_[side], world_,
-        {.frames = {frame_}, .records = keep.first.empty(), .keep = std::move(keep), .keepFrame = keepFrame},
-        diagnostics);
+  std::optional<Shot> shoot(std::size_t side, const Divergence& found, base::Diagnostics& diagnostics) {
+    return takeShot(context_, sides_[side], world_,
+                    {.frames = {frame_}, .keep = {found.pass, found.resource}, .keepFrame = found.frame},
+                    diagnostics);
   }
 
   void tellTexels(const Divergence& found, base::Diagnostics& diagnostics) {
-    const auto a = shoot(0, {found.pass, found.resource}, found.frame, diagnostics);
-    const auto b = shoot(1, {found.pass, found.resource}, found.frame, diagnostics);
+    const auto a = shoot(0, found, diagnostics);
+    const auto b = shoot(1, found, diagnostics);
     if (a && b && a->kept && b->kept) print("    " + compareTexels(*a->kept, *b->kept) + "\n");
-  }
-
-  static void tellPictures(const assets::Image8& a, const assets::Image8& b) {
-    const assets::FlipMap map = assets::computeFlip(a, b);
-    const assets::FlipSummary flip = assets::summarizeFlip(map);
-    print(map.errors.empty() ? "pictures: of different sizes\n"
-                             : fmt::format("pictures: FLIP {:.4f}, at most {:.3f} (at {},{})\n", flip.mean,
-                                           flip.peak, flip.x, flip.y));
   }
 
   gl::Context& context_;

@@ -226,6 +226,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       "diff", "say how the plan of another graph differs: passes, barriers, bytes; exit 1 when it does");
   addGraphOptions(*diff, options, raw);
   diff->add_option("other", options.otherGraph, "the other graph file")->required()->type_name("FILE");
+  addDiffOptions(*diff, options, raw);
 
   CLI::App* params =
       app.add_subcommand("params", "list the parameters of a graph: name, type, value, range, label");
@@ -325,7 +326,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   import->footer("Example: weft import glow.fs -o glow --image inputImage=photo.png");
 
   app.add_subcommand("schema", "print the JSON Schema of graph files");
-  app.add_subcommand("types", "print the pass types and imports a graph may use");
+  app.add_subcommand("types", "print the pass types, imports and formats that a graph may name");
 
   for (CLI::App* command : allCommands(app)) {
     command

@@ -23,12 +23,13 @@ struct PickedOutput {
   std::string file;  // or a pattern, as -o
 };
 
-// Of the commands that try variations of a graph: test, bisect, ablate, fuzz, new.
+// Of the commands that try variations of a graph: test, diff, bisect, ablate, fuzz, new.
 struct TrialOptions {
   std::string folder;                                    // test: cases; new: where to write
   bool accept = false;                                   // test: write goldens
   std::vector<std::string> only;                         // test: names of cases
   std::string report;                                    // test: page of failures
+  bool render = false;                                   // diff: compare the pictures, too
   std::vector<graph::Setting> otherSets;                 // bisect: of the second graph alone
   std::vector<std::string> otherDisables, otherPresets;  // bisect
   std::uint32_t runs = 12;                               // fuzz: random orders
@@ -63,7 +64,7 @@ struct Options {
   bool watch = false;                    // check: again after every save
   std::string name;                      // explain: of a pass, a resource or a parameter
   std::string otherGraph;                // diff: the second graph
-  std::string format = "text";           // check, plan, params, presets: text, json or (check) sarif
+  std::string format = "text";           // check, diff, plan, params, presets: text, json or (check) sarif
   std::vector<std::string> files;        // format
   std::string foreignFile;               // import: of another program
   std::string folder;                    // import: where the graph goes

@@ -17,12 +17,16 @@ std::string checkWindow(const std::string& text) {
                    text + "'";
 }
 
+CLI::Option* addFrame(CLI::App& command, RawOptions& raw) {
+  return command.add_option("--frame", raw.frames, "number of the frame to look at (default: 0)")
+      ->check(CLI::Validator(checkFrame, "FRAME"));
+}
+
 // A command that renders a graph again and again.
 CLI::App* addTrial(CLI::App& app, const char* name, const char* doc, Options& options, RawOptions& raw) {
   CLI::App* trial = app.add_subcommand(name, doc);
   addGraphOptions(*trial, options, raw);
-  trial->add_option("--frame", raw.frames, "number of the frame to look at (default: 0)")
-      ->check(CLI::Validator(checkFrame, "FRAME"));
+  addFrame(*trial, raw);
   addPointerOption(*trial, options);
   addBackendOptions(*trial, options);
   return trial;
@@ -112,6 +116,20 @@ void addNew(CLI::App& app, Options& options) {
 }
 
 }  // namespace
+
+void addDiffOptions(CLI::App& diff, Options& options, RawOptions& raw) {
+  CLI::Option* render = diff.add_flag("--render", options.trial.render,
+                                      "render both: how the pictures differ, and the first pass that does");
+  diff.add_option("-o,--output", options.output,
+                  "folder for before.png, after.png and their difference (with --render)")
+      ->type_name("FOLDER")
+      ->needs(render);
+  addFrame(diff, raw)->needs(render);
+  diff.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  addBackendOptions(diff, options);
+  diff.footer(
+      "Example: weft diff graphs/glow.json tests/golden/vignette.json --render --size 320x180 -o out");
+}
 
 void addTrialCommands(CLI::App& app, Options& options, RawOptions& raw) {
   addTest(app, options);

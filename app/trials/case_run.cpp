@@ -6,8 +6,7 @@
 
 #include "app/output/output_files.h"
 #include "app/session/session.h"
-#include "engine/assets/images/compare.h"
-#include "engine/base/counted.h"
+#include "app/trials/picture_difference.h"
 #include "engine/base/files/file.h"
 #include "engine/base/printable.h"
 #include "engine/graph/print/text.h"
@@ -23,32 +22,10 @@ bool isThere(const std::string& path) {
   return std::filesystem::exists(path, ignored);
 }
 
-// How two pictures of one size differ, in numbers.
-struct Found {
-  assets::Comparison bytes;
-  assets::FlipSummary flip;
-  double share = 0;
-
-  Found(const assets::Image8& picture, const assets::Image8& golden, const assets::FlipMap& map,
-        const std::vector<std::uint8_t>& weights)
-      : bytes(assets::compareImages(picture, golden)),
-        flip(assets::summarizeFlip(map, weights)),
-        share(static_cast<double>(bytes.differingPixels) /
-              (static_cast<double>(picture.width) * static_cast<double>(picture.height))) {}
-
-  bool fits(const Tolerance& tolerance) const {
-    return flip.mean <= tolerance.flip && flip.peak <= tolerance.flipPeak &&
-           bytes.maxDifference <= tolerance.step && share <= tolerance.fraction;
-  }
-  std::string text() const {
-    return fmt::format(
-        "FLIP {:.4f}, at most {:.3f} (at {},{}); {} {} ({:.3g} %), by up to {:.0f} of 255 (at "
-        "{},{})",
-        flip.mean, flip.peak, flip.x, flip.y, base::counted(bytes.differingPixels, "pixel"),
-        bytes.differingPixels == 1 ? "differs" : "differ", 100 * share, bytes.maxDifference, bytes.worstX,
-        bytes.worstY);
-  }
-};
+bool fits(const PictureDifference& found, const Tolerance& tolerance) {
+  return found.flip.mean <= tolerance.flip && found.flip.peak <= tolerance.flipPeak &&
+         found.bytes.maxDifference <= tolerance.step && found.share <= tolerance.fraction;
+}
 
 std::string text(const Tolerance& t) {
   return fmt::format("allowed: FLIP {:g}, at most {:g}; {:g} % of the pixels, by up to {:g}", t.flip,
@@ -175,12 +152,12 @@ bool CaseRunner::comparePair(const TestCase& test, std::uint32_t frame, const as
   const assets::Image8 compared = laidUnder(picture, *golden, *weights);
   if (compared.texels == golden->texels) return true;
   assets::FlipMap map = assets::computeFlip(*golden, compared);
-  const Found found(compared, *golden, map, *weights);
-  const bool fits = found.fits(test.tolerance);
+  const PictureDifference found = measureDifference(compared, *golden, map, *weights);
+  const bool good = fits(found, test.tolerance);
   result.lines.push_back(which + found.text());
-  if (!fits) result.lines.push_back(text(test.tolerance));
-  result.pairs.push_back({frame, file, picture, *golden, std::move(map), !fits});
-  return fits;
+  if (!good) result.lines.push_back(text(test.tolerance));
+  result.pairs.push_back({frame, file, picture, *golden, std::move(map), !good});
+  return good;
 }
 
 bool CaseRunner::acceptPair(const TestCase& test, std::uint32_t frame, const assets::Image8& picture,
@@ -192,7 +169,8 @@ bool CaseRunner::acceptPair(const TestCase& test, std::uint32_t frame, const ass
     if (!golden) result.lines.push_back(fmt::format("'{}' could not be read, and is written anew", file));
     if (golden && golden->width == picture.width && golden->height == picture.height) {
       if (golden->texels == picture.texels) return false;
-      const Found found(picture, *golden, assets::computeFlip(*golden, picture), {});
+      const PictureDifference found =
+          measureDifference(picture, *golden, assets::computeFlip(*golden, picture));
       result.lines.push_back(fmt::format("'{}' changed: {}", file, found.text()));
     } else if (golden) {
       result.lines.push_back(

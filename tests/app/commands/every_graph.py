@@ -21,7 +21,7 @@ CRASH = re.compile(r"terminate called|Assertion|Segmentation|Aborted|what\(\):|A
 SMALL = ["--size", "64x36"]
 GLOW = "graphs/glow.json"
 # Commands that compare end with 2 where a graph is wrong.
-WRONG = {"diff": 2, "diff to": 2, "bisect": 2, "bisect set": 2, "fuzz": 2}
+WRONG = {"diff": 2, "diff to": 2, "diff render": 2, "bisect": 2, "bisect set": 2, "fuzz": 2}
 FEW_BAD, FEW_GOOD = 12, {GLOW, "graphs/gi.json", "graphs/presets/cinema.json"}
 
 
@@ -100,6 +100,7 @@ def run_on_device(sheet, folder, other, shown, runs):
     for column, command, more in (("render", "render", ["--quiet", "-o", f"{folder}/picture.png"]), ("fuzz", "fuzz", ["--runs", "1"]),
                                   ("ablate", "ablate", ["--repeats", "1"]), ("bisect", "bisect", [])):
         sheet.graph(column, command, *more, *SMALL, code=0 if shown else WRONG.get(column, 1))
+    sheet.graph("diff render", "diff --render", sheet.path, *SMALL, code=0 if shown else 2)
     if other:
         sheet.graph("bisect set", "bisect", "--other-set", other, *SMALL, code=(0, 1) if shown else 2)
     dumped = sheet.graph("dump", "dump", "*", "-o", f"{folder}/dump", *SMALL, code=0 if runs else 1)
