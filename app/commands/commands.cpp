@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sstream>
+
 #include "app/bench/edit_bench.h"
 #include "app/bench/frame_bench.h"
 #include "app/bench/task_bench.h"
@@ -12,6 +14,7 @@
 #include "app/session/session.h"
 #include "engine/graph/language/schema.h"
 #include "engine/graph/print/dot.h"
+#include "engine/graph/print/format_table.h"
 #include "engine/graph/print/json.h"
 #include "engine/graph/print/text.h"
 #include "engine/runtime/imports/registry.h"
@@ -96,6 +99,9 @@ int runTypes(const Options&) {
       print(fmt::format("    .{} {}{}{}\n", column.name, column.type, column.doc.empty() ? "" : ": ",
                         column.doc));
   }
+  print("\nformats\n");
+  std::istringstream formats(graph::formatTable());
+  for (std::string line; std::getline(formats, line);) print("  " + line + "\n");
   return 0;
 }
 
