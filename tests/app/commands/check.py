@@ -3,9 +3,11 @@
 
     check.py WEFT
 """
+import collections
 import contextlib
 import json
 import pathlib
+import resource
 import shutil
 import signal
 import subprocess
@@ -166,6 +168,41 @@ def check_watch_from_the_start(weft, report):
                 report.check(codes == ["W091"], f"{codes}")
 
 
+def broken_chain(count):
+    """As in tests/graph/expand/followers_test.cpp: pass i reads what pass i-1 wrote, and every tenth has a mistake, of five kinds in turn."""
+    resources, passes = {"ldr": {"texture": "rgba8", "size": 8}}, []
+    for i in range(count):
+        mistake = i // 10 % 5 if i % 10 == 5 else None
+        resources[f"r{i}"] = {"texture": "rgba9x" if mistake == 0 else "rgba8", "size": 8}
+        source = f"nowhere{i}" if mistake == 1 else f"r{i - 1}"
+        extra = {2: {"enabled": "$absent"}, 3: {"enabled": "soft"}, 4: {"repeat": {"k": [0, 0, 0]}}}.get(mistake, {})
+        passes.append({"name": f"p{i}", "type": "fullscreen", "shader": "a.frag.glsl", **({"read": {"source": source}} if i else {}), "write": {"result": f"r{i}"}, **extra})
+    passes.append({"name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": {"source": f"r{count - 1}"}, "write": {"result": "ldr"}})
+    return {"resources": resources, "passes": passes, "present": "ldr"}
+
+
+def children_cpu():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def check_many_mistakes(weft, report):
+    """1,000 passes with 100 mistakes: all 100, nothing that follows from them, in less than a second of processor time."""
+    with temporary_folder() as folder:
+        graph = pathlib.Path(folder, "chain.json")
+        graph.write_text(json.dumps(broken_chain(1000), indent=1))
+        (graph.parent / "shaders").mkdir()
+        (graph.parent / "shaders/a.frag.glsl").write_text("uniform sampler2D source;\nout vec4 result;\nvoid main() { result = texelFetch(source, ivec2(0), 0); }\n")
+        before = children_cpu()
+        done = run(weft, "check", "--no-shaders", graph, "--format", "json")
+        seconds = children_cpu() - before
+        said = json.loads(done.out)["diagnostics"]
+        codes = collections.Counter(d["code"] for d in said)
+        report.check(done.code == 1 and codes == {"W042": 20, "W040": 20, "W022": 20, "W051": 20, "W048": 20}, f"{done.code}, {codes}")
+        report.check(seconds < SLOWER, f"{seconds:.2f} s of processor time")
+        print(f"1,000 passes with 100 mistakes: {seconds * 1000:.0f} ms of processor time")
+
+
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     if "--gl" in sys.argv:
@@ -173,6 +210,7 @@ def main():
     else:
         check_formats(weft, report)
         check_matrix(weft, report)
+        check_many_mistakes(weft, report)
         check_watch(weft, report)
         check_watch_from_the_start(weft, report)
     report.end()

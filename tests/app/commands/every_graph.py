@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Every command on every file of graphs/ and on every broken graph of tests/bad_graphs: none crashes, each exits as docs/limits.md says, and what is
-wrong is said with a place. Prints a table, a line for each file: what each command ended with, and the codes of what it said.
+wrong is said with a place. Prints a line for each file: what each command ended with, and the codes of what it said; then the table of docs/checking.md.
 
     every_graph.py WEFT [--all] [--cpu] [--only PART]
 
@@ -9,7 +9,7 @@ which code is told at which place. --all: all files and the commands that draw, 
 --only: files with this in their path.
 """
 import argparse
-import importlib.util
+import collections
 import json
 import pathlib
 import re
@@ -17,11 +17,18 @@ import sys
 
 from program import TOP, Report, run, temporary_folder
 
+import schema
+
+sys.path.insert(0, str(TOP / "tests/app/lsp"))
+from session import Editor  # noqa: E402
+
 CRASH = re.compile(r"terminate called|Assertion|Segmentation|Aborted|what\(\):|AddressSanitizer|runtime error")
 SMALL = ["--size", "64x36"]
 GLOW = "graphs/glow.json"
 # Commands that compare end with 2 where a graph is wrong.
-WRONG = {"diff": 2, "diff to": 2, "diff render": 2, "bisect": 2, "bisect set": 2, "fuzz": 2}
+WRONG = {"test plan": 2, "diff": 2, "diff to": 2, "diff render": 2, "bisect": 2, "bisect set": 2, "fuzz": 2}
+# These end with 1 where something differs, or say what is wrong on standard output.
+EXIT_ALONE = {"diff to", "bisect set", "test plan", "sarif"}
 FEW_BAD, FEW_GOOD = 12, {GLOW, "graphs/gi.json", "graphs/presets/cinema.json"}
 
 
@@ -37,7 +44,7 @@ class Sheet:
         self.report.check(0 <= done.code <= 3 and not CRASH.search(done.err), f"{name}: crash, {done.code}\n{done.err[-3000:]}")
         codes = done.codes("error") + done.codes("warning")
         self.cells[column] = " ".join([str(done.code), *codes])
-        self.report.check(bool(done.codes("error")) == (done.code != 0) or column in ("diff to", "bisect set"), f"{name}: exit code {done.code} with {codes}\n{done.err[-3000:]}")
+        self.report.check(bool(done.codes("error")) == (done.code != 0) or column in EXIT_ALONE, f"{name}: exit code {done.code} with {codes}\n{done.err[-3000:]}")
         for said in done.diagnostics:
             placed = said["place"] and (said["line"] or said["place"].startswith("command line") or said["code"] == "W001")
             self.report.check(said["severity"] == "note" or placed, f"{name}: no place in {said}")
@@ -50,6 +57,17 @@ class Sheet:
         expected = expected if isinstance(expected, tuple) else (expected,)
         self.report.check(done.code in expected, f"{column} of {self.path}: exit code {done.code}, not {expected}\n{done.out[-2000:]}{done.err[-3000:]}")
         return done
+
+    def open_in_editor(self, sound):
+        """What the language server says of the file is what `check` says. It knows no settings, and a preset only as part of a graph."""
+        editor = Editor(self.weft, TOP)
+        editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+        editor.open(self.path)
+        editor.settle(self.path)
+        codes = sorted({d["code"] for each in editor.published.values() for d in each["diagnostics"] if d["severity"] == 1})
+        code = editor.end()
+        self.cells["lsp"] = " ".join([str(code), *codes])
+        self.report.check(code == 0 and (sound is None or bool(codes) != sound), f"{self.path} in an editor: {code} {codes}")
 
     def text(self):
         return f"{self.path}: " + ", ".join(f"{column} {cell}" for column, cell in self.cells.items())
@@ -68,16 +86,41 @@ def other_setting(parameters):
 
 
 def names_of(sheet):
-    """A pass, a resource and a parameter of a sound graph, a setting that changes it, whether it presents anything, and whether any pass runs."""
+    """A pass, a resource and a parameter of a sound graph, a setting that changes it, whether it presents anything, whether any pass runs, and a texture that a pass
+    writes."""
     plan = json.loads(run(sheet.weft, "plan", sheet.path, "--format", "json", *sheet.more).out)
     parameters = json.loads(run(sheet.weft, "params", sheet.path, "--json", *sheet.more).out)
     names = [step["pass"] for step in plan["steps"][:1]] + [r["name"] for r in plan["resources"][:1]] + [p["name"] for p in parameters[:1]]
-    return names, other_setting(parameters), bool(plan["steps"] and plan.get("present")), bool(plan["steps"])
+    texture = next((use["resource"] for step in plan["steps"] for use in step["uses"] if use["kind"] == "color" and use["attached"]), None)
+    return names, other_setting(parameters), bool(plan["steps"] and plan.get("present")), bool(plan["steps"]), texture
+
+
+def check_plan_case(sheet, folder, sound):
+    """`weft test` with a case that is the plan of this graph: written, and then found the same."""
+    cases = pathlib.Path(folder, "cases")
+    cases.mkdir()
+    settings = dict(zip(sheet.more[::2], sheet.more[1::2]))
+    case = {"name": "plan", "graph": str(TOP / sheet.path), "plan": True}
+    if "--disable" in settings:
+        case["disable"] = [settings["--disable"]]
+    if "--set" in settings:
+        name, value = settings["--set"].split("=", 1)
+        case["set"] = {name: value if value.isalpha() else json.loads(value)}
+    (cases / "one.cases.json").write_text(json.dumps({"cases": [case]}))
+    for more in (["--accept"], []) if sound else ([],):
+        done = sheet.run("test plan", "test", cases, *more)
+        # A graph with warnings is accepted, and differs.
+        expected = (0, 1) if sound else (2,)
+        sheet.report.check(done.code in expected and (done.code != 1 or "it has warnings" in done.out), f"test of {sheet.path}: {done.code}\n{done.out}{done.err}")
 
 
 def run_on_cpu(sheet, folder, sound):
     sheet.graph("matrix", "check --no-shaders --matrix", sound=sound)
-    names, *rest = names_of(sheet) if sound else (["composite"], None, False, False)
+    sarif = sheet.graph("sarif", "check --no-shaders --format sarif", sound=sound)
+    results = json.loads(sarif.out)["runs"][0]["results"]
+    sheet.report.check(any(result["level"] == "error" for result in results) != sound, f"{sheet.path} as SARIF: {results[:3]}")
+    check_plan_case(sheet, folder, sound)
+    names, *rest = names_of(sheet) if sound else (["composite"], None, False, False, None)
     for name in names:
         sheet.graph("explain", "explain", name, sound=sound)
     sheet.graph("diff", "diff", sheet.path, sound=sound)
@@ -94,13 +137,18 @@ def run_on_cpu(sheet, folder, sound):
     return rest
 
 
-def run_on_device(sheet, folder, other, shown, runs):
+def run_on_device(sheet, folder, other, shown, runs, texture):
     sheet.graph("check all", "check --all")
     # What presents nothing cannot be shown or compared.
     for column, command, more in (("render", "render", ["--quiet", "-o", f"{folder}/picture.png"]), ("fuzz", "fuzz", ["--runs", "1"]),
                                   ("ablate", "ablate", ["--repeats", "1"]), ("bisect", "bisect", [])):
         sheet.graph(column, command, *more, *SMALL, code=0 if shown else WRONG.get(column, 1))
     sheet.graph("diff render", "diff --render", sheet.path, *SMALL, code=0 if shown else 2)
+    if texture:
+        for column, more in (("render name", ["-o", f"{texture}={folder}/texture.exr"]), ("render present", ["--present", texture, "-o", f"{folder}/present.png"])):
+            sheet.graph(column, "render --quiet", *more, *SMALL)
+        left = [pathlib.Path(folder, name) for name in ("texture.exr", "present.png")]
+        sheet.report.check(all(file.is_file() and file.stat().st_size > 0 for file in left), f"{sheet.path}: render of '{texture}' leaves {[f.name for f in left if f.is_file()]}")
     if other:
         sheet.graph("bisect set", "bisect", "--other-set", other, *SMALL, code=(0, 1) if shown else 2)
     dumped = sheet.graph("dump", "dump", "*", "-o", f"{folder}/dump", *SMALL, code=0 if runs else 1)
@@ -118,6 +166,15 @@ def check_new(sheet, folder, sound):
         sheet.report.check(again.code == 0, f"{sheet.path} with a new pass: {again.err[-3000:]}")
 
 
+def is_graph(path):
+    """Of a preset and a scene an editor says only whether they are JSON."""
+    try:
+        graph = schema.read(TOP / path)
+    except ValueError:
+        return True
+    return not isinstance(graph, dict) or bool({"passes", "extends"} & set(graph))
+
+
 def look_at(weft, report, path, draws, more=(), told=None):
     """`told`: the code of a broken graph and its place, as the manifest has them."""
     sheet = Sheet(weft, report, path, more)
@@ -131,6 +188,8 @@ def look_at(weft, report, path, draws, more=(), told=None):
             report.check((place if told["line"] else ("", 0, 0, told["code"])) in found, f"{path}: {place} is not told, but {found}")
         elif told:
             report.check(sound and not checked.codes(), f"{path}: without shaders, {checked.code} {checked.err}")
+        # What the editor has of shaders depends on the mistake; settings of the command line it has not.
+        sheet.open_in_editor(sound if on_cpu and not more and is_graph(path) else None)
         of_graph = run_on_cpu(sheet, folder, sound)
         check_new(sheet, folder, sound)
         formatted = sheet.run("format", "format", "--check", path)
@@ -144,17 +203,12 @@ def look_at(weft, report, path, draws, more=(), told=None):
     return sheet
 
 
-def valid_by_schema(weft, report, paths):
-    if not importlib.util.find_spec("jsonschema"):
-        print("the schema is not tried: python3-jsonschema is not installed")
-        return
-    import jsonschema
-
-    import schema
-    validator = jsonschema.Draft202012Validator(json.loads(run(weft, "schema").out))
-    for path in paths:
-        errors = [e.message[:200] for e in validator.iter_errors(schema.read(TOP / path))]
-        report.check(not errors, f"{path}, by the schema: {errors[:3]}")
+def print_table(good, bad):
+    """Of each command, how many files it ended with which exit code."""
+    print(f"| command | {len(good)} files of graphs/ | {len(bad)} broken graphs |\n|---|---|---|")
+    for column in dict.fromkeys(column for sheet in [*good, *bad] for column in sheet.cells):
+        counts = [collections.Counter(sheet.cells[column].split()[0] for sheet in sheets if column in sheet.cells) for sheets in (good, bad)]
+        print(f"| {column} | " + " | ".join(", ".join(f"{code}: {n}" for code, n in sorted(each.items())) for each in counts) + " |")
 
 
 def main():
@@ -171,12 +225,15 @@ def main():
     bad = [entry for entry in bad if options.only in f"tests/bad_graphs/{entry['file']}"]
     bad = bad if options.all else bad[5::max(1, len(bad) // FEW_BAD)]
     report.check(good or bad, f"no file has '{options.only}' in its path")
-    valid_by_schema(weft, report, good)
+    sheets = ([], [])
     for path in good:
-        print(look_at(weft, report, path, options.all and not options.cpu).text(), flush=True)
+        sheets[0].append(look_at(weft, report, path, options.all and not options.cpu))
+        print(sheets[0][-1].text(), flush=True)
     for entry in bad:
         more = [word for option in ("set", "disable") for value in entry.get(option, []) for word in (f"--{option}", value)]
-        print(look_at(weft, report, f"tests/bad_graphs/{entry['file']}", options.all and not options.cpu, more, entry).text(), flush=True)
+        sheets[1].append(look_at(weft, report, f"tests/bad_graphs/{entry['file']}", options.all and not options.cpu, more, entry))
+        print(sheets[1][-1].text(), flush=True)
+    print_table(*sheets)
     print(f"{len(good)} files of graphs/, {len(bad)} broken graphs")
     report.end()
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """`weft lsp` by a scripted session: each line of session.jsonl is a step, with the places that are asked about and what is expected
-there. Then messages that no editor sends, and how fast a change of a large graph is answered is printed by --bench.
+there. Then messages that no editor sends.
 
-    session.py WEFT [--bench]
+    session.py WEFT
 
 A place is LINE:CHARACTER, both from 0, characters in UTF-16; a range is FROM-TO. Steps:
     open FILE [text T]; change FILE with edits [[RANGE, TEXT]...]; close FILE
@@ -19,7 +19,6 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 import urllib.parse
 
 from program import SLOWER, TOP, Report, count_run, temporary_folder
@@ -424,48 +423,15 @@ def check_renames(weft, report, folder):
             report.check((tree(folder) == before) == (new == word), f"{name}: {old} to {new}, and the files are {'other' if new == word else 'the same'}")
 
 
-def large_graph(count):
-    passes = ",\n".join(f'    {{ "name": "p{i}", "type": "fullscreen", "shader": "lsp/show.frag.glsl", "read": {{ "source": "t{i - 1}" }}, "write": {{ "result": "t{i}" }} }}'
-                        for i in range(1, count + 1))
-    resources = ",\n".join(f'    "t{i}": {{ "texture": "rgba8", "size": 64{", " + chr(34) + "clear" + chr(34) + ": 0" if i == 0 else ""} }}' for i in range(count + 1))
-    return f'{{\n  "resources": {{\n{resources}\n  }},\n  "passes": [\n{passes}\n  ],\n  "present": "t{count}"\n}}\n'
-
-
 def cpu_seconds(editor):
     """What the server has used: on a busy machine the clock says little."""
     fields = pathlib.Path(f"/proc/{editor.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def bench(weft, folder):
-    """A letter typed into a slot and taken back, at 1,000 passes: from the message to the diagnostics."""
-    shutil.copytree(HERE / "workspace/shaders", folder / "shaders")
-    editor = Editor(weft, folder)
-    editor.ask("initialize", {"capabilities": {}, "rootUri": editor.uri("")})
-    text = large_graph(1000)
-    editor.open("large.json", text)
-    editor.settle("large.json")
-    lines = text.splitlines()
-    line = next(i for i, t in enumerate(lines) if '"name": "p500"' in t)
-    column = lines[line].index('"t499"') + 5
-    times, before = [], cpu_seconds(editor)
-    for i in range(40):
-        began = time.perf_counter()
-        editor.change("large.json", [(f"{line}:{column}-{line}:{column}", "x") if i % 2 == 0 else (f"{line}:{column}-{line}:{column + 1}", "")])
-        while (message := editor.receive()).get("params", {}).get("version") != i + 2:
-            pass
-        times.append((time.perf_counter() - began) * 1000)
-        assert bool(message["params"]["diagnostics"]) == (i % 2 == 0), message
-    print(json.dumps({"passes": 1000, "bytes": len(text), "changes": len(times), "median_ms": round(sorted(times)[len(times) // 2], 1), "max_ms": round(max(times), 1),
-                      "mean_cpu_ms": round((cpu_seconds(editor) - before) * 1000 / len(times), 1)}))
-    editor.end()
-
-
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     with temporary_folder() as folder:
-        if "--bench" in sys.argv:
-            return bench(weft, pathlib.Path(folder).resolve())
         check_session(weft, report, pathlib.Path(folder).resolve())
         pathlib.Path(folder, "bundled").mkdir()
         check_renames(weft, report, pathlib.Path(folder, "bundled").resolve())
@@ -479,4 +445,5 @@ def main():
     report.end()
 
 
-main()
+if __name__ == "__main__":
+    main()
