@@ -60,15 +60,21 @@ void main() {
   // The outermost place is beyond the disc: wherever the near field is not whole, something is seen.
   if (hidden) {
     search.span = 1.2 * own_radius + 1.0;
-    if (search.texels >= 0) search.texels = int(ceil(search.span)) - 1;
+    if (search.texels >= 0) search.texels = texelsFor(search);
   }
   if (own_radius <= kLeastRadius) search.texels = search.outermost = -1;
   float shape = takePlaces(search);
   over *= shape;
   over /= max(over.a, 1.0);
-  // What the own surface leaves is what is behind it, as far as that is seen.
-  float rest = 1.0 - over.a,
-        beside = behind.a > 0.0 ? clamp(rest - shape * own.a, 0.0, shape * (behind.a + unseen)) : 0.0;
+  // What the own surface leaves is what is behind it, as far as that is seen. In a gap between things so narrow that they share each texel of it,
+  // that is seen farther away only.
+  float rest = 1.0 - over.a, seen = shape * (behind.a + unseen);
+  for (int i = 0; i < (unseen > 0.0 && behind.a <= 0.0 ? 25 : 0); ++i) {
+    ivec2 at = clamp(pixel + ivec2(i % 5, i / 5) - 2, ivec2(0), textureSize(source, 0) - 1);
+    vec4 c = texelFetch(source, at, 0);
+    behind += liesBehind(texelFetch(discs, at, 0).g / max(c.a, 1e-4), own_radius) * c;
+  }
+  float beside = behind.a > 0.0 ? clamp(rest - shape * own.a, 0.0, seen) : 0.0;
   vec3 light = over.rgb + own.rgb * ((rest - beside) / max(own.a, 1e-7)) + behind.rgb * (beside / max(behind.a, 1e-7));
   float trust = hidden ? 1.0 : max(blurOf(2.0 * own_radius), 1e-3);
   result = vec4(light * trust, trust);

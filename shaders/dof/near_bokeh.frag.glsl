@@ -23,8 +23,8 @@ float per_ring = 1.0;
 
 // Does a disc reach so far? Gradually over the gap between two rings, of which there are `per_ring` to a texel: else discs would jump from
 // ring to ring where the searched radius changes.
-float reaches(Search search, float disc, float across) {
-  return clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
+float reaches(Search search, bool each, float disc, float across) {
+  return each ? texelWithin(disc, across) : clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
 }
 
 struct Gathered {
@@ -46,13 +46,13 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
   float sharing = each ? texelsWithin(reach) : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
-    sharing += max(5.0 * float(k), 1.0) * reaches(search, reach, ringRadius(search, k));
-  share *= blurOf(2.0 * disc) * reaches(search, reach, across) / sharing;
+    sharing += max(5.0 * float(k), 1.0) * reaches(search, false, reach, ringRadius(search, k));
+  share *= blurOf(2.0 * disc) * reaches(search, each, reach, across) / sharing;
   float is_over = liesOver(disc, own_radius);
   if (over) {
     all.spread += is_over * share * c;
   } else {
-    float is_behind = liesBehind(disc, own_radius), seen = reaches(search, own_reach, across);
+    float is_behind = liesBehind(disc, own_radius), seen = reaches(search, each, own_reach, across);
     all.spread += (1.0 - is_over - is_behind) * share * c;
     all.behind += seen * is_behind * c;
     all.farther += seen * (1.0 - c.a);
@@ -63,10 +63,7 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
 // From places within `radius`, pixels of the half size.
 void gather(float radius) {
   Search search = searchOver(radius, rings);
-  // Each texel: its own width, half of it within, see texelWithin().
-  bool each = search.texels >= 0;
-  per_ring = each ? 1.0 : min(sqrt(search.samples / 2.5) / search.span, 1.0);
-  if (each) search.half_share = 0.5;
+  per_ring = min(sqrt(search.samples / 2.5) / search.span, 1.0);
   own_reach = reachOf(search, own_radius);
   all = Gathered(vec4(0.0), vec4(0.0), 0.0, 0.0);
   all.spread *= takePlaces(search);

@@ -36,17 +36,50 @@ vec4 readPlace(sampler2D field, Search search, bool each, vec2 at) {
               : textureLod(field, at / vec2(last + 1), search.level);
 }
 
-// How much of a texel `across` from its middle a disc holds, and about how many texels that makes.
-float texelWithin(float radius, float across) {
-  return clamp(radius - across + 0.5, 0.0, 1.0);
-}
-float texelsWithin(float radius) {
-  return 3.14159265 * (radius * radius + 1.0 / 12.0);
+#if POLYGON
+// Behind the focus a disc is the aperture's outline, before it the same upside down: there its rays have not yet crossed. A pixel that is
+// up in a disc looks for its light below.
+const float kUpright = NEAR == 1 ? 1.0 : -1.0;
+
+// How far out the polygon of the blades is in this direction, of the radius of its corners.
+float outline(vec2 direction) {
+  float sector = 6.28318530717959 / float(blades), angle = atan(direction.y, direction.x);
+  return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
 }
 
-// The radius at which a disc ends in the samples, for what filtering adds.
+// The radius of a round disc of the same area.
+float roundness() {
+  float sector = 6.28318530717959 / float(blades);
+  return sqrt(sin(sector) / sector);
+}
+#else
+float roundness() { return 1.0; }
+#endif
+
+// How much of a texel `across` from its middle a disc holds, and about how many texels that makes. A disc of hardly more than a texel gives to those
+// around it as much as its variance asks for, four times as much along the axes as along the diagonals: by areas it would be a cross.
+float isLarge(float radius) {
+  return smoothstep(0.9, 1.1, radius);
+}
+float texelWithin(float radius, float across) {
+  float square = min(radius * radius, 1.21);
+  float small = across < 0.5 ? 1.0 : across < 1.7 ? square / (12.0 - 5.0 * square) * exp2(2.0 - 2.0 * across * across) : 0.0;
+  return mix(small, clamp(radius - across + 0.5, 0.0, 1.0), isLarge(radius));
+}
+float texelsWithin(float radius) {
+  return mix(12.0 / (12.0 - 5.0 * min(radius * radius, 1.21)), 3.14159265 * (radius * radius + 1.0 / 12.0), isLarge(radius));
+}
+
+// The radius at which a disc ends in the samples, for what filtering adds; where each texel is one, of a round disc of the same area.
 float reachOf(Search search, float radius) {
-  return sqrt(max(radius * radius - search.shared_variance, 0.25));
+  if (search.texels < 0) return sqrt(max(radius * radius - search.shared_variance, 0.25));
+  float equal = radius * roundness();
+  return sqrt(max(equal * equal - mix(0.75, 1.0, smoothstep(1.2, 1.5, equal)), 1e-4));
+}
+
+// How far to either side texels may lie in a disc.
+int texelsFor(Search search) {
+  return int(ceil(search.span / roundness())) - 1;
 }
 
 // The set of this pixel, two numbers of 0 or 1. The first: in the outer half of the rings, and turned by a quarter of the step around the ring; as the
@@ -67,10 +100,11 @@ Search searchOver(float radius, int rings) {
   search.shift = (whichSet().x - 0.5) * 0.5 * search.differs;
   search.half_share = 0.65 - 0.15 * clamp(0.5 * radius - 1.4, 0.0, 1.0);
   float texel = exp2(search.level);
-  search.shared_variance = each ? 1.0 : 4.0 * variance + 1.7 + 0.667 * (2.0 * texel * texel - 1.0);
+  search.shared_variance = 4.0 * variance + 1.7 + 0.667 * (2.0 * texel * texel - 1.0);
+  search.texels = each ? 0 : -1;
   float reach = reachOf(search, radius);
   search.span = reach + 0.5;
-  search.texels = each ? int(ceil(search.span)) - 1 : -1;
+  if (each) search.texels = texelsFor(search);
   search.outermost = each ? -1 : ringsFor(radius, rings);
   search.samples = each ? texelsWithin(reach) : samplesTo(search.outermost);
   return search;
@@ -102,28 +136,18 @@ float ringRadius(Search search, int ring) {
   return search.span * sqrt(area / search.samples);
 }
 
-#if POLYGON
-// Behind the focus a disc is the aperture's outline, before it the same upside down: there its rays have not yet crossed. A pixel that is
-// up in a disc looks for its light below.
-const float kUpright = NEAR == 1 ? 1.0 : -1.0;
-
-// How far out the polygon of the blades is in this direction, of the radius of its corners.
-float outline(vec2 direction) {
-  float sector = 6.28318530717959 / float(blades), angle = atan(direction.y, direction.x);
-  return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
-}
-#endif
-
 // Calls takePlace for all places. Returns the number of places over what their shares add up to: by so much a disc is too dark else.
 float takePlaces(Search search) {
   float area = 0.0;
   for (int y = -search.texels; y <= search.texels; ++y) {
-    int end = int(ceil(sqrt(search.span * search.span - float(y * y)))) - 1;
+    float span = search.span / roundness();
+    int end = int(ceil(sqrt(span * span - float(y * y)))) - 1;
     for (int x = -end; x <= end; ++x) {
       vec2 offset = vec2(x, y);
       float across = length(offset);
 #if POLYGON
-      across /= across > 0.0 ? outline(kUpright * offset) : 1.0;
+      // A texel is as wide as a part of the outline, near the middle of all of it.
+      across *= mix(1.0, roundness() / outline(kUpright * offset), smoothstep(1.0, 3.0, across));
 #endif
       area += texelWithin(search.span - 0.5, across);
       takePlace(search, true, gl_FragCoord.xy + offset, across, 1.0);
