@@ -1,6 +1,9 @@
 // How far a pixel's layer is searched, and how its blur is divided between two passes: the samples over a disc (bokeh), and the mean
 // of nine places around each pixel that closes the gaps (fill; Jimenez, "Next generation post processing in Call of Duty", SIGGRAPH
 // 2014). The variance of a disc is radius^2 / 4 per axis; fill and linear sampling add their part of it.
+// defines EACH_TEXEL  radius up to which each texel is a place: there the rings would have no gaps to fill yet
+//         FINE_GAP    up to this gap filtering and the fill close it; from there on coarser texels and four sets of places do, see rings.glsl
+//         FIRST_RING  places in the first ring around the middle
 #ifndef DOF_DISC_GLSL
 #define DOF_DISC_GLSL
 
@@ -34,7 +37,7 @@ float searchRadius(float own_share, vec2 own_discs) {
 
 // The rings from the middle to `ring` hold this many samples if each stands for one; small discs take fewer rings.
 float samplesTo(int ring) {
-  return 1.0 + 2.5 * float(ring * (ring + 1));
+  return 1.0 + 0.5 * float(FIRST_RING * ring * (ring + 1));
 }
 int ringsFor(float radius, int rings) {
   return clamp(int(ceil(0.7 * radius - 0.2)), 0, rings);
@@ -48,15 +51,12 @@ float gapOf(float radius, int rings) {
 // From this gap on the texels read are four pixels of the half size wide instead of two.
 const float kCoarseGap = 4.0;
 
-// Up to this gap filtering and the fill close it; from there on coarser texels and four sets of places do, see rings.glsl.
-const float kFineGap = 1.7;
-
 // Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them; where there are four sets at
 // least what makes the mean hold as much of each, and so much that their gaps do not show.
 float fillVariance(float radius, float gap) {
   float closing = 0.16 * gap * gap - (gap > kCoarseGap ? 2.0 : 0.0);
-  return gap > kFineGap ? clamp(closing, 0.5, 1.8)
-                        : clamp(min(1.6 * gap - 0.98, 0.5 * radius - 1.48), 0.0, 0.6 * gap);
+  return gap > FINE_GAP ? clamp(closing, 0.5, 1.8)
+                        : clamp(min(1.6 * gap - 0.98, 0.5 * (radius - EACH_TEXEL)), 0.0, 0.6 * gap);
 }
 
 // The fill takes its mean of lookups this many texels apart, and gives the neighbours along an axis this weight beside the middle's 1: so the

@@ -23,8 +23,11 @@ float per_ring = 1.0;
 
 // Does a disc reach so far? Gradually over the gap between two rings, of which there are `per_ring` to a texel: else discs would jump from
 // ring to ring where the searched radius changes.
+float reachesRing(Search search, float disc, float across) {
+  return clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
+}
 float reaches(Search search, bool each, float disc, float across) {
-  return each ? texelWithin(disc, across) : clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
+  return each ? texelWithin(disc, across) : reachesRing(search, disc, across);
 }
 
 struct Gathered {
@@ -46,7 +49,7 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
   float sharing = each ? texelsWithin(reach) : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
-    sharing += max(5.0 * float(k), 1.0) * reaches(search, false, reach, ringRadius(search, k));
+    sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, reach, ringRadius(search, k));
   share *= blurOf(2.0 * disc) * reaches(search, each, reach, across) / sharing;
   float is_over = liesOver(disc, own_radius);
   if (over) {
@@ -60,15 +63,6 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   }
 }
 
-// From places within `radius`, pixels of the half size.
-void gather(float radius) {
-  Search search = searchOver(radius, rings);
-  per_ring = min(sqrt(search.samples / 2.5) / search.span, 1.0);
-  own_reach = reachOf(search, own_radius);
-  all = Gathered(vec4(0.0), vec4(0.0), 0.0, 0.0);
-  all.spread *= takePlaces(search);
-}
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float radius = searchRadius(pixel);
@@ -77,7 +71,11 @@ void main() {
   for (int layer = 0; layer < 2; ++layer) {
     over = layer == 0;
     if (over ? radius <= 1.3 * own_radius : own_radius <= 0.0) continue;
-    gather(over ? radius : min(radius, 1.4 * own_radius));
+    Search search = searchOver(over ? radius : min(radius, 1.4 * own_radius), rings);
+    per_ring = min(sqrt(search.samples / (0.5 * float(FIRST_RING))) / search.span, 1.0);
+    own_reach = reachOf(search, own_radius);
+    all = Gathered(vec4(0.0), vec4(0.0), 0.0, 0.0);
+    all.spread *= takePlaces(search);
     if (over) {
       result = all.spread / max(all.spread.a, 1.0);
       continue;

@@ -10,9 +10,6 @@
 #define COARSEST 16.0
 #endif
 
-// Radius up to which each texel is a place: there the rings have no gaps to fill yet.
-const float kEachTexel = 2.96;
-
 // How a disc is searched.
 struct Search {
   int texels;             // each texel so far to either side; -1: rings
@@ -24,6 +21,8 @@ struct Search {
   float shift;            // of this pixel's set: across its ring, as a share of the ring's area
   float half_share;  // what a disc counts that ends where the place is: a half, in small discs more, so that they are flatter
   float span;  // radius of the area that the places stand for, pixels of the half size
+  ivec2 last;  // texel of the fields
+  float roundness;  // radius of a round disc that has the area of the aperture's outline, of the radius of its corners
 };
 
 // What the pass does with a place `across` pixels of the half size from the pixel; `share` is its area, 1 for a round aperture. `each`: it is a texel,
@@ -31,9 +30,8 @@ struct Search {
 void takePlace(Search search, bool each, vec2 at, float across, float share);
 
 vec4 readPlace(sampler2D field, Search search, bool each, vec2 at) {
-  ivec2 last = textureSize(field, 0) - 1;
-  return each ? texelFetch(field, clamp(ivec2(at), ivec2(0), last), 0)
-              : textureLod(field, at / vec2(last + 1), search.level);
+  return each ? texelFetch(field, clamp(ivec2(at), ivec2(0), search.last), 0)
+              : textureLod(field, at / vec2(search.last + 1), search.level);
 }
 
 #if POLYGON
@@ -46,24 +44,17 @@ float outline(vec2 direction) {
   float sector = 6.28318530717959 / float(blades), angle = atan(direction.y, direction.x);
   return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
 }
-
-// The radius of a round disc of the same area.
-float roundness() {
-  float sector = 6.28318530717959 / float(blades);
-  return sqrt(sin(sector) / sector);
-}
-#else
-float roundness() { return 1.0; }
 #endif
 
 // How much of a texel `across` from its middle a disc holds, and about how many texels that makes. A disc of hardly more than a texel gives to those
 // around it as much as its variance asks for, four times as much along the axes as along the diagonals: by areas it would be a cross.
 float isLarge(float radius) {
-  return smoothstep(0.9, 1.1, radius);
+  return clamp(5.0 * radius - 4.5, 0.0, 1.0);
 }
 float texelWithin(float radius, float across) {
   float square = min(radius * radius, 1.21);
-  float small = across < 0.5 ? 1.0 : across < 1.7 ? square / (12.0 - 5.0 * square) * exp2(2.0 - 2.0 * across * across) : 0.0;
+  float apart = across * across,
+        small = apart < 0.25 ? 1.0 : apart < 2.5 ? square / (12.0 - 5.0 * square) / (apart * apart) : 0.0;
   return mix(small, clamp(radius - across + 0.5, 0.0, 1.0), isLarge(radius));
 }
 float texelsWithin(float radius) {
@@ -73,13 +64,13 @@ float texelsWithin(float radius) {
 // The radius at which a disc ends in the samples, for what filtering adds; where each texel is one, of a round disc of the same area.
 float reachOf(Search search, float radius) {
   if (search.texels < 0) return sqrt(max(radius * radius - search.shared_variance, 0.25));
-  float equal = radius * roundness();
-  return sqrt(max(equal * equal - mix(0.75, 1.0, smoothstep(1.2, 1.5, equal)), 1e-4));
+  float equal = radius * search.roundness;
+  return sqrt(max(equal * equal - clamp(0.85 * equal - 0.275, 0.75, 1.0), 1e-4));
 }
 
 // How far to either side texels may lie in a disc.
 int texelsFor(Search search) {
-  return int(ceil(search.span / roundness())) - 1;
+  return int(ceil(search.span / search.roundness)) - 1;
 }
 
 // The set of this pixel, two numbers of 0 or 1. The first: in the outer half of the rings, and turned by a quarter of the step around the ring; as the
@@ -91,12 +82,19 @@ vec2 whichSet() {
 
 Search searchOver(float radius, int rings) {
   Search search;
-  bool each = radius <= kEachTexel;
+  search.last = textureSize(source, 0) - 1;
+#if POLYGON
+  float sector = 6.28318530717959 / float(blades);
+  search.roundness = sqrt(sin(sector) / sector);
+#else
+  search.roundness = 1.0;
+#endif
+  bool each = radius <= EACH_TEXEL;
   // Where a pixel's own places are too far apart, the sets differ. Then no level is finer than two pixels: the pixels of one set are as far
   // apart, and only so a texel counts for all sets alike.
   float gap = gapOf(radius, rings), variance = fillVariance(radius, gap);
-  search.differs = gap > kFineGap ? 1.0 : 0.0;
-  search.level = gap > kFineGap ? min(gap > kCoarseGap ? 2.0 : 1.0, COARSEST) : 0.0;
+  search.differs = gap > FINE_GAP ? 1.0 : 0.0;
+  search.level = gap > FINE_GAP ? min(gap > kCoarseGap ? 2.0 : 1.0, COARSEST) : 0.0;
   search.shift = (whichSet().x - 0.5) * 0.5 * search.differs;
   search.half_share = 0.65 - 0.15 * clamp(0.5 * radius - 1.4, 0.0, 1.0);
   float texel = exp2(search.level);
@@ -110,6 +108,9 @@ Search searchOver(float radius, int rings) {
   return search;
 }
 
+#if FIRST_RING != 5
+#error the steps below are those of rings of 5, 10, 15 ... places
+#endif
 // Directions of 18 degrees, and of a step around the n-th ring.
 const vec2 kStart = vec2(0.951056516, 0.309016994);
 // From the fourth ring on each ring begins at another angle (the golden angle on), because equal beginnings would make spokes.
@@ -132,7 +133,7 @@ const vec2 kQuarter[9] = vec2[9](
 // The n-th ring is this far out.
 float ringRadius(Search search, int ring) {
   float area = ring == 0 ? 0.5 * search.differs + search.shift
-                         : 1.0 + 2.5 * float(ring * ring) + 5.0 * float(ring) * search.shift;
+                         : 1.0 + float(FIRST_RING * ring) * (0.5 * float(ring) + search.shift);
   return search.span * sqrt(area / search.samples);
 }
 
@@ -140,14 +141,14 @@ float ringRadius(Search search, int ring) {
 float takePlaces(Search search) {
   float area = 0.0;
   for (int y = -search.texels; y <= search.texels; ++y) {
-    float span = search.span / roundness();
+    float span = search.span / search.roundness;
     int end = int(ceil(sqrt(span * span - float(y * y)))) - 1;
     for (int x = -end; x <= end; ++x) {
       vec2 offset = vec2(x, y);
       float across = length(offset);
 #if POLYGON
       // A texel is as wide as a part of the outline, near the middle of all of it.
-      across *= mix(1.0, roundness() / outline(kUpright * offset), smoothstep(1.0, 3.0, across));
+      across *= mix(1.0, search.roundness / outline(kUpright * offset), smoothstep(1.0, 3.0, across));
 #endif
       area += texelWithin(search.span - 0.5, across);
       takePlace(search, true, gl_FragCoord.xy + offset, across, 1.0);
@@ -155,7 +156,7 @@ float takePlaces(Search search) {
   }
   vec2 odd = whichSet() * search.differs, start = kStart;
   for (int ring = 0; ring <= search.outermost; ++ring) {
-    int count = max(5 * ring, 1);
+    int count = max(FIRST_RING * ring, 1);
     float across = ringRadius(search, ring);
     vec2 quarter = kQuarter[ring], half_step = turned(quarter, quarter);
     vec2 direction =

@@ -227,11 +227,10 @@ TEST_CASE("a zero byte, an include and a limit") {
   CHECK(diagnostics.items()[0].place.column == 9);
 }
 
-// Shaders that have more to do than others: all that light surfaces by everything there is, the one that lists a sphere's neighbours, and
-// that of the near field, which has two kinds of samples. Above an eighth a shader is tried first in a process of its own.
+// Shaders that have more to do than others: all that light surfaces by everything there is, and the one that lists a sphere's
+// neighbours. Above an eighth a shader is tried first in a process of its own.
 const std::set<std::string> kLarge = {"lighting.frag.glsl",  "transparent.frag.glsl", "forward.frag.glsl",
-                                      "billboard.frag.glsl", "mesh.frag.glsl",        "lists.comp.glsl",
-                                      "near_bokeh.frag.glsl"};
+                                      "billboard.frag.glsl", "mesh.frag.glsl",        "lists.comp.glsl"};
 
 // The bundled shaders, and those of the tests, stay far below every limit.
 TEST_CASE("every shader of the tree is a usual one") {
