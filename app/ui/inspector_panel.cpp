@@ -57,7 +57,7 @@ void InspectorPanel::beforeFrame(bool wanted) {
   runtime::Execution* execution = renderer_.execution();
   if (!execution) return;
   if (!wanted) {
-    if (execution->tapped()) release();
+    if (execution->watched()) release();
     return;
   }
   const graph::Plan& plan = execution->plan();

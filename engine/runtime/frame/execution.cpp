@@ -96,7 +96,6 @@ void Execution::runSteps(FrameReport& report, base::Diagnostics& diagnostics) {
     } else if (planned.barriersAfterClears) {
       glMemoryBarrier(glBarriersOf(planned.barriersAfterClears));
     }
-    lookThroughTap(step, report);
     if (report.whole) look(watch_.after, step);
   }
   cadence_->endFrame(hashes_, publications_->generationsBefore(), publications_->generations());
@@ -118,14 +117,8 @@ void Execution::endFrame(FrameReport& report, base::Diagnostics& diagnostics) {
   publications_->endFrame();
 }
 
-void Execution::lookThroughTap(std::size_t step, const FrameReport& report) {
-  if ((step != tapStep_ && tapStep_ != kEveryStep) || !tap_ || !report.whole) return;
-  tap_(static_cast<std::uint32_t>(step));
-  runner_->forgetState();
-}
-
 void Execution::look(const std::function<void(std::uint32_t step)>& watcher, std::size_t step) {
-  if (!watcher || ahead_) return;
+  if (!watcher || ahead_ || (watch_.only != kNone && step != watch_.only)) return;
   watcher(static_cast<std::uint32_t>(step));
   runner_->forgetState();
 }

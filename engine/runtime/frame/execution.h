@@ -91,20 +91,17 @@ class Execution {
   const Output* output(std::string_view name) const;
   void collectOutputs() { readBack_.collect(); }
   void finishReadBack() { readBack_.finish(); }
-  // Sets the tap: `look` is called right after `step` in every frame, also when the step was skipped, while the results of
-  // the step are still in their storage (later steps may put other resources there). `look` may read, copy and draw into
-  // textures of its own; it does not change the plan or what runs. There is one tap at a time, and none in a new
-  // execution. An empty function removes it. kEveryStep: it is called after each step, with its number.
-  static constexpr std::uint32_t kEveryStep = graph::kNone - 1;
-  void tap(std::uint32_t step, std::function<void(std::uint32_t step)> look);
-  bool tapped() const { return tapStep_ != graph::kNone; }
-  // Sets a watch over every step of a frame, on the terms of a tap: `before` is called right before a step that runs, when its
-  // barriers are issued and its clears are not yet made; `after` right after each step, also when it was skipped. Work that
-  // time-sliced groups do ahead of a headless frame is not watched. An empty watch removes it.
+  // Sets a watch over the steps of every frame. `before` is called right before a step that runs, when its barriers are issued
+  // and its clears are not yet made; `after` right after a step, also when it was skipped, while its results are still in their
+  // storage (later steps may put other resources there). Both may read, copy and draw into textures of their own; they do not
+  // change the plan or what runs. Work that time-sliced groups do ahead of a headless frame is not watched. There is one watch
+  // at a time, and none in a new execution. An empty watch removes it.
   struct StepWatch {
     std::function<void(std::uint32_t step)> before{}, after{};
+    std::uint32_t only = graph::kNone;  // the one step that is watched; kNone: each
   };
   void watch(StepWatch watch) { watch_ = std::move(watch); }
+  bool watched() const { return watch_.before || watch_.after; }
   bool ran(std::string_view pass) const;                                        // in the last frame
   SliceRange slices(std::size_t step) const { return cadence_->slices(step); }  // of a step that ran in it
 
@@ -136,7 +133,6 @@ class Execution {
   void refreshHashes();
   void refreshSlices();
   void lookAtMeshes();
-  void lookThroughTap(std::size_t step, const FrameReport& report);
   void look(const std::function<void(std::uint32_t step)>& watcher, std::size_t step);
   graph::Cadence cadenceOf(std::size_t step) const {
     return plan_->graph->passes[plan_->steps[step].pass].cadence;
@@ -161,8 +157,6 @@ class Execution {
   std::vector<std::uint8_t> ran_;  // per step, this frame
   std::vector<std::uint8_t> lasting_;    // per step: runs in an obsolete frame too
   std::vector<scene::MeshView*> views_;  // of passes that draw meshes in this round
-  std::size_t tapStep_ = graph::kNone;
-  std::function<void(std::uint32_t)> tap_;
   StepWatch watch_;
   bool ahead_ = false;  // a round of runAhead()
 };

@@ -33,11 +33,6 @@ BufferRef Execution::buffer(std::uint32_t r, std::uint64_t& offset, std::uint32_
   return {resource.buffers[resource.copyOf(history)], resource.bytes};
 }
 
-void Execution::tap(std::uint32_t step, std::function<void(std::uint32_t)> look) {
-  tapStep_ = look ? std::size_t{step} : std::size_t{kNone};
-  tap_ = std::move(look);
-}
-
 gl::TextureRef Execution::presented() {
   const FlatUse& use = plan_->graph->present;
   if (use.resource == kNone) return {};

@@ -117,14 +117,14 @@ void Capture::start(Execution& execution, std::vector<CaptureItem> items, Visit 
   std::iota(byStep_.begin(), byStep_.end(), std::size_t{0});
   const auto stepOf = [this](std::size_t item) { return items_[item].step; };
   std::ranges::stable_sort(byStep_, {}, stepOf);
-  execution.tap(Execution::kEveryStep, [this, stepOf, &execution](std::uint32_t step) {
+  execution.watch({.after = [this, stepOf, &execution](std::uint32_t step) {
     for (const std::size_t i : std::ranges::equal_range(byStep_, step, {}, stepOf))
       if (inspector_.look(execution, items_[i].target)) visit_(i, inspector_);
-  });
+  }});
 }
 
 void Capture::stop(Execution& execution) {
-  execution.tap(0, {});
+  execution.watch({});
   visit_ = {};
 }
 

@@ -33,10 +33,9 @@ class Capture {
  public:
   explicit Capture(Device& device) : inspector_(device) {}
 
-  // Called within a frame, for each item, with its index. `inspector` has the copy. A frame may run a pass several times (time
-  // slices before the first frame): then the last call counts.
+  // Called within a frame, for each item, with its index. `inspector` has the copy.
   using Visit = std::function<void(std::size_t item, Inspector& inspector)>;
-  // Before a frame; holds until stop(), or until `execution` is another. There is one tap, which is this one's until then.
+  // Before a frame; holds until stop(), or until `execution` is another. There is one watch, which is this one's until then.
   void start(Execution& execution, std::vector<CaptureItem> items, Visit visit);
   void stop(Execution& execution);
 

@@ -44,11 +44,11 @@ std::vector<std::string> Inspector::writersOf(const graph::Plan& plan, std::uint
 }
 
 bool Inspector::watch(Execution& execution, const InspectTarget& target) {
-  if (execution_ == &execution && execution.tapped() && target == target_) return true;
+  if (execution_ == &execution && execution.watched() && target == target_) return true;
   release(execution);
   const std::uint32_t step = aim(execution, target);
   if (step == kNone) return false;
-  execution.tap(step, [this](std::uint32_t) { copy(); });
+  execution.watch({.after = [this](std::uint32_t) { copy(); }, .only = step});
   return true;
 }
 
@@ -90,7 +90,7 @@ std::uint32_t Inspector::aim(Execution& execution, const InspectTarget& target) 
 }
 
 void Inspector::release(Execution& execution) {
-  execution.tap(0, {});
+  execution.watch({});
   execution_ = nullptr;
   hasPicture_ = hasBuffer_ = false;
 }
@@ -134,7 +134,7 @@ bool Inspector::prepareBuffer(std::uint64_t bytes) {
 }
 
 // Within the frame. What shaders stored must be there to be copied, and the copy must be done before shaders store again:
-// barriers of the tap's own, since the plan knows nothing of it.
+// barriers of the inspector's own, since the plan knows nothing of it.
 void Inspector::copy() {
   const graph::FlatResource& desc = execution_->plan().graph->resources[resource_];
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |

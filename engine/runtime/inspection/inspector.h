@@ -1,4 +1,4 @@
-// One texture or buffer of a running graph, at one place in the frame: copied there by a tap (execution.h) into storage of
+// One texture or buffer of a running graph, at one place in the frame: copied there by a watch (execution.h) into storage of
 // the inspector's own, then shown and read at leisure. Sees what a pass wrote although its storage is used again later.
 // Does not: know windows, decide what to look at, or cost anything while it looks at nothing.
 #pragma once
@@ -59,9 +59,9 @@ class Inspector {
  public:
   explicit Inspector(Device& device) : device_(device) {}
 
-  // Before each frame of `execution`: taps it for `target`. False when the target is not there; nothing is tapped then.
+  // Before each frame of `execution`: watches it for `target`. False when the target is not there; nothing is watched then.
   bool watch(Execution& execution, const InspectTarget& target);
-  // Within another tap of `execution`: copies `target`, as it is now, at once. False when it is not there.
+  // Within another watch of `execution`: copies `target`, as it is now, at once. False when it is not there.
   bool look(Execution& execution, const InspectTarget& target);
   void release(Execution& execution);
   // Passes that write a resource, in order of steps: where it may be looked at.
@@ -96,7 +96,7 @@ class Inspector {
   bool prepareBuffer(std::uint64_t bytes);
 
   Device& device_;
-  Execution* execution_ = nullptr;  // that was tapped; used while its tap runs, it may be gone else
+  Execution* execution_ = nullptr;  // that is watched; used while its watch runs, it may be gone else
   InspectTarget target_;
   std::uint32_t resource_ = 0, mip_ = 0, layer_ = 0, history_ = 0;
   std::uint32_t channels_ = 4;  // of the resource's format

@@ -45,7 +45,7 @@ TEST_CASE("a resource is read where it was written, although its storage is used
                                     plan.graph->resourceNames.begin());
   };
   Inspector inspector(stage.renderer().device());
-  CHECK_FALSE(stage.execution().tapped());
+  CHECK_FALSE(stage.execution().watched());
   look(stage, inspector, {.resource = "first"});
   for (std::uint32_t y = 0; y < 4; ++y)
     for (std::uint32_t x = 0; x < 8; ++x) {
@@ -83,7 +83,7 @@ TEST_CASE("a resource is read where it was written, although its storage is used
   look(stage, inspector, {.resource = "shown_ids"});
   CHECK(gl::readTexture(inspector.picture(), 0, 0, GL_RGBA, GL_UNSIGNED_BYTE) == ids);
   inspector.release(stage.execution());
-  CHECK_FALSE(stage.execution().tapped());
+  CHECK_FALSE(stage.execution().watched());
 }
 
 TEST_CASE("levels, layers, integers, depth, stencil, buffers") {
@@ -194,7 +194,7 @@ TEST_CASE("an inspector changes nothing but itself: the picture, and a graph rep
   CHECK(stage.pixels() == before);
   stage.settings.screenWidth = 128;
   REQUIRE(stage.apply());
-  CHECK_FALSE(stage.execution().tapped());
+  CHECK_FALSE(stage.execution().watched());
   look(stage, inspector, {.resource = "glow", .mip = 2});
   CHECK(inspector.picture().desc.width == 16);
   base::Diagnostics diagnostics;
