@@ -100,7 +100,7 @@ def main():
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 
         full = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", top / "full/deep", preexec_fn=limited)
-        assert full.code == 1 and full.codes() == ["W180"] and "File too large" in full.err and ".new" not in full.err and not (top / "full").exists(), full.err
+        assert full.code == 1 and full.codes() == ["W180"] and "File too large" in full.err and ".weft" not in full.err and not (top / "full").exists(), full.err
         before = {name: (out / name).read_bytes() for name in files_in(out)}
         full = run(WEFT, "import", "tests/convert/isf/corners.fs", "-o", out, "--overwrite", preexec_fn=limited)
         assert full.code == 1 and before == {name: (out / name).read_bytes() for name in files_in(out)}, full.err

@@ -1,9 +1,13 @@
 // An import that the engine does not know, registered from outside: what its provider says is what happens.
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "engine/runtime/prepare/import_part.h"
 #include "tests/runtime/stage.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::runtime;
@@ -141,4 +145,112 @@ TEST_CASE(
   Stage without("tests/imports/graphs/pulse.json");
   CHECK_FALSE(without.load());
   CHECK(without.diagnostics.contains(base::Code::unknownImport));
+}
+
+namespace {
+
+// Three layers of two levels; each layer is of one value, ten apart. Another generation is another texture.
+class SheetsProvider : public imports::Provider {
+ public:
+  explicit SheetsProvider(const Told& told) : told_(told) {}
+  gl::TextureRef texture(const imports::Frame&, base::Diagnostics& diagnostics) override {
+    if (texture_ && made_ == told_.generation) return texture_.ref();
+    texture_ = {};
+    auto made =
+        gl::Texture::create({.target = GL_TEXTURE_2D_ARRAY, .width = 4, .height = 4, .layers = 3, .mips = 2},
+                            "sheets", diagnostics);
+    REQUIRE(made);
+    texture_ = std::move(*made);
+    made_ = told_.generation;
+    for (std::uint32_t layer = 0; layer < 3; ++layer) {
+      std::array<std::uint8_t, 64> texels;
+      texels.fill(static_cast<std::uint8_t>(told_.value + 10 * layer));
+      for (std::uint32_t mip = 0; mip < 2; ++mip)
+        gl::uploadTexture(texture_.ref(), mip, layer, GL_RGBA, GL_UNSIGNED_BYTE,
+                          std::as_bytes(std::span(texels)).first(mip == 0 ? 64 : 16));
+    }
+    return texture_.ref();
+  }
+  std::uint64_t generation(const imports::Frame&) override { return told_.generation; }
+
+ private:
+  const Told& told_;
+  gl::Texture texture_;
+  std::uint64_t made_ = 0;
+};
+
+class Sheets : public imports::Import {
+ public:
+  explicit Sheets(const Told& told) : told_(told) {}
+  graph::ImportType reflect() const override { return {.name = "sheets", .doc = "as the test says"}; }
+  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts&, imports::Files&) const override {
+    return {.exists = true, .format = graph::Format::rgba8, .width = 4, .height = 4, .layers = 3, .mips = 2};
+  }
+  std::unique_ptr<imports::Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<SheetsProvider>(told_);
+  }
+
+ private:
+  const Told& told_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a layer of an import is a plain texture, some layers are an array, also after another texture came") {
+  context();
+  const CleanScope scope;
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.at("shaders"));
+  folder.write("shaders/look.frag.glsl",
+               "uniform sampler2D one;\nuniform sampler2DArray some;\nout vec4 result;\nvoid main() {\n"
+               "  float texel = texelFetch(one, ivec2(0), 0).r;\n"
+               "  float last = texelFetch(some, ivec3(0, 0, textureSize(some, 0).z - 1), 0).r;\n"
+               "  result = vec4(texel, last, vec2(textureSize(one, 0).x * 10 + textureQueryLevels(one),\n"
+               "                textureSize(some, 0).z * 10 + textureQueryLevels(some)) / 255.0);\n}\n");
+  folder.write("graph.json", R"json({ "resources": { "seen": { "texture": "rgba8", "size": 1 } },
+    "passes": [ { "name": "look", "type": "fullscreen", "shader": "look.frag.glsl",
+                  "read": { "one": "@sheets.mip[1].layer[1]", "some": "@sheets.layer[0..1]" },
+                  "write": { "result": "seen" } } ], "present": "seen" })json");
+  Told told;
+  auto registry = std::make_shared<imports::ImportRegistry>(imports::ImportRegistry::builtin());
+  registry->add(std::make_unique<Sheets>(told));
+  World world = worldOf();
+  base::Diagnostics diagnostics;
+  Renderer renderer(context(), folder.at("graph.json"),
+                    {.dataFolder = WEFT_SOURCE_DIR, .plugIns = {.imports = std::move(registry)}});
+  REQUIRE_MESSAGE(renderer.load({.screenWidth = 2, .screenHeight = 2}, world, diagnostics),
+                  diagnostics.text());
+  for (std::uint32_t frame = 0; frame < 4; ++frame) {
+    CAPTURE(frame);
+    told.generation = 1 + frame / 2;
+    told.value = static_cast<std::uint8_t>(10 + 100 * (frame / 2));
+    renderer.frame(world, headlessFrame(world, frame, 60), diagnostics);
+    CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+    const std::uint8_t layer = static_cast<std::uint8_t>(told.value + 10);
+    CHECK(renderer.readPresented8()->texels == std::vector<std::uint8_t>{layer, layer, 21, 22});
+  }
+}
+
+TEST_CASE(
+    "the view of a part is kept, until another texture may have the name; what is not there is the last "
+    "there is") {
+  context();
+  const CleanScope scope;
+  base::Diagnostics diagnostics;
+  const auto texture = gl::Texture::create({.width = 4, .height = 2, .mips = 2}, "whole", diagnostics);
+  const auto texel = gl::Texture::create({}, "texel", diagnostics);
+  REQUIRE((texture && texel));
+  ImportPart part({.mip = 1, .mips = 1}, "whole");
+  CHECK(part.viewOf({}, 1, diagnostics) == 0);
+  const GLuint view = part.viewOf(texture->ref(), 1, diagnostics);
+  GLint width = 0;
+  glGetTextureLevelParameteriv(view, 0, GL_TEXTURE_WIDTH, &width);
+  CHECK(width == 2);
+  CHECK(part.viewOf(texture->ref(), 1, diagnostics) == view);
+  CHECK(part.viewOf(texture->ref(), 2, diagnostics) != view);
+  const GLuint last = part.viewOf(texel->ref(), 2, diagnostics);
+  glGetTextureLevelParameteriv(last, 0, GL_TEXTURE_WIDTH, &width);
+  CHECK(width == 1);
+  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
 }
