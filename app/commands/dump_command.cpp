@@ -55,7 +55,7 @@ void reportNoMatch(const graph::Plan& plan, const std::vector<std::string>& patt
   for (const std::string& pattern : patterns) {
     if (!runtime::captureItems(plan, {&pattern, 1}).empty()) continue;
     diagnostics
-        .error(base::Code::unknownResource, graph::placeOfOption(pattern),
+        .error(base::Code::unknownResource, base::placeOfOption(pattern),
                fmt::format("no pass that runs writes a resource '{}'", pattern))
         .hint = graph::suffixHint(pattern, names);
   }
@@ -87,7 +87,7 @@ int runDump(const Options& options) {
   std::vector<std::string> names(items.size());
   const std::uint32_t begin = execution.remembers(world) ? 0 : options.lastFrame;
   if (!checkFrameCount(std::uint64_t{options.lastFrame} - begin + 1,
-                       graph::placeOfOption(fmt::format("--frames {}", options.lastFrame)), kRemembers,
+                       base::placeOfOption(fmt::format("--frames {}", options.lastFrame)), kRemembers,
                        diagnostics))
     return report(diagnostics);
   // 64 bits, so that the last frame there is ends it.

@@ -74,7 +74,7 @@ class Fuzzer {
     const std::size_t places = base_->plan->steps.size();
     if (!parsePair(options_.trial.order, ':', first, last) || last < places) return true;
     base::Diagnostic& d = diagnostics.error(base::Code::numberOutOfRange,
-                                            graph::placeOfOption("--order " + options_.trial.order),
+                                            base::placeOfOption("--order " + options_.trial.order),
                                             fmt::format("the plan has {}", base::counted(places, "pass")));
     d.expected = fmt::format("places from 0 to {}", places - 1);
     d.found = fmt::format("{}", last);

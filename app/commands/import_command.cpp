@@ -87,7 +87,7 @@ void checkPicture(const std::string& option, const std::string& file, Diagnostic
     assets::loadStored(file, said);
   }
   for (base::Diagnostic each : said.items()) {
-    each.place = graph::placeOfOption("--image " + option);
+    each.place = base::placeOfOption("--image " + option);
     diagnostics.add(std::move(each));
   }
 }
@@ -111,9 +111,8 @@ void chooseVertexFile(const std::string& file) {
 int runImport(const Options& options) {
   Diagnostics diagnostics;
   if (!options.newName.empty() && !isName(options.newName)) {
-    auto& d =
-        diagnostics.error(Code::notAName, {std::make_shared<const std::string>("command line: --name"), 0, 0},
-                          fmt::format("\"{}\" cannot name a graph", options.newName));
+    auto& d = diagnostics.error(Code::notAName, base::placeOfOption("--name"),
+                                fmt::format("\"{}\" cannot name a graph", options.newName));
     d.expected = "at most 60 letters, digits and '_', not beginning with a digit";
     return report(diagnostics);
   }

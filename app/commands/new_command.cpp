@@ -116,7 +116,7 @@ int runNew(const Options& wanted) {
   if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
   const std::string& name = options.name;
   if (!isPassName(name)) {
-    base::Diagnostic& d = diagnostics.error(base::Code::notAName, graph::placeOfOption("new pass " + name),
+    base::Diagnostic& d = diagnostics.error(base::Code::notAName, base::placeOfOption("new pass " + name),
                                             "this is no name for a pass");
     d.expected = "a letter, then letters, digits and _; no word of the language, such as mip or if";
     return report(diagnostics);

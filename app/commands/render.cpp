@@ -26,9 +26,9 @@ double now() {
 }
 
 base::Place placeOfFrames(const Options& options) {
-  return graph::placeOfOption(options.firstFrame == options.lastFrame
-                                  ? fmt::format("--frames {}", options.firstFrame)
-                                  : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame));
+  return base::placeOfOption(options.firstFrame == options.lastFrame
+                                 ? fmt::format("--frames {}", options.firstFrame)
+                                 : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame));
 }
 
 }  // namespace

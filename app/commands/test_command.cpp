@@ -73,7 +73,7 @@ Cases chooseCases(const Options& options, base::Diagnostics& diagnostics) {
   }
   if (wanted.empty() && !diagnostics.hasErrors()) {
     base::Diagnostic& d = diagnostics.error(
-        base::Code::unknownWord, graph::placeOfOption(all.empty() ? options.trial.folder : "--only"),
+        base::Code::unknownWord, base::placeOfOption(all.empty() ? options.trial.folder : "--only"),
         all.empty() ? "there are no cases" : "no case has such a name");
     if (!all.empty()) d.hint = base::nearestHint(options.trial.only.front(), names);
   }
@@ -149,7 +149,7 @@ void writeReport(const std::string& path, const std::string& page, const std::ve
   std::string head(kPageBegins.size(), ' ');
   if (before.read(head.data(), static_cast<std::streamsize>(head.size())),
       before.gcount() > 0 && head != kPageBegins) {
-    auto& d = diagnostics.error(base::Code::outputNotWritten, graph::placeOfOption("--report " + path),
+    auto& d = diagnostics.error(base::Code::outputNotWritten, base::placeOfOption("--report " + path),
                                 "the file is there already, and is no page of 'weft test'");
     d.hint = "remove it, or give the report another name";
     return;

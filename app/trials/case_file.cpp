@@ -35,7 +35,7 @@ bool isCaseName(std::string_view text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
-// As behind --set NAME=.
+// The value as it would stand behind --set NAME=.
 std::string settingText(const JsonValue& value) {
   switch (value.type) {
     case JsonValue::Type::boolean:
@@ -245,7 +245,8 @@ std::vector<std::string> findCaseFiles(const std::string& path, base::Diagnostic
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return {path};
   std::vector<std::string> files, folders = {path};
-  // By hand, because an iterator over all of them ends at a folder that cannot be read, and a case that is not run is none that holds.
+  // Folders are visited one by one, because an iterator over all of them ends at a folder that cannot be read, and a case that
+  // is not run must not count as one that holds.
   while (!folders.empty()) {
     const std::string folder = std::move(folders.back());
     folders.pop_back();
@@ -277,10 +278,8 @@ void readCases(const std::string& path, const Options& base, std::vector<TestCas
 
 void appendWithPlaces(const TestCase& test, const base::Diagnostics& said, base::Diagnostics& diagnostics) {
   for (base::Diagnostic each : said.items()) {
-    if (graph::isSetting(each.place) || !each.place.file) {
-      const auto known = std::ranges::find_if(test.settingPlaces, [&](const auto& entry) {
-        return each.place.file && each.place.file->ends_with(entry.first);
-      });
+    if (!each.place.file) {
+      const auto known = test.settingPlaces.find(each.place.option ? *each.place.option : "");
       each.place = known == test.settingPlaces.end() ? test.place : known->second;
     }
     if (each.severity != base::Severity::note)

@@ -98,7 +98,7 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
   const bool remembers = execution.remembers(world);
   const std::uint32_t first = remembers ? 0 : wish.frames.front(), last = wish.frames.back();
   const std::uint64_t count = remembers ? std::uint64_t{last} + 1 : wish.frames.size();
-  if (!checkFrameCount(count, graph::placeOfOption(fmt::format("--frame {}", last)),
+  if (!checkFrameCount(count, base::placeOfOption(fmt::format("--frame {}", last)),
                        remembers ? kRemembers : "", diagnostics) ||
       !checkPictures(options, wish.frames.size(), renderer, diagnostics))
     return std::nullopt;

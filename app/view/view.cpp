@@ -32,13 +32,13 @@ bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
   for (const std::string& file : {options.graph, scenePathOf(options)})
     if (!std::filesystem::is_regular_file(file, ignored)) return false;
   return std::ranges::none_of(diagnostics.items(), [](const base::Diagnostic& each) {
-    return each.severity == base::Severity::error && (!each.place.file || graph::isSetting(each.place));
+    return each.severity == base::Severity::error && !each.place.file;
   });
 }
 
 // Before the window opens. The frames of a recording have no end unless --max-frames gives one.
 bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
-  checkFrameCount(options.maxFrames, graph::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
+  checkFrameCount(options.maxFrames, base::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
                   {}, diagnostics, ", or leave --max-frames out: the window then stays until it is closed");
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
   if (!options.record.empty()) checkOutput(options.record, 0, true, diagnostics);

@@ -11,13 +11,13 @@ namespace weft::base {
 
 namespace {
 
-const std::string& fileOf(const Diagnostic& diagnostic) {
+const std::string& textOf(const std::shared_ptr<const std::string>& text) {
   static const std::string none;
-  return diagnostic.place.file ? *diagnostic.place.file : none;
+  return text ? *text : none;
 }
 
 auto keyOf(const Diagnostic& d) {
-  return std::tie(fileOf(d), d.place.line, d.place.column);
+  return std::tie(textOf(d.place.file), textOf(d.place.option), d.place.line, d.place.column);
 }
 
 // A text of any length fits on a screen, and is one line.
@@ -31,9 +31,21 @@ bool sameText(const Diagnostic& a, const Diagnostic& b) {
 
 }  // namespace
 
+Place placeOfOption(std::string option) {
+  Place place;
+  place.option = std::make_shared<const std::string>(std::move(option));
+  return place;
+}
+
+bool isKnown(const Place& place) {
+  return place.file || place.option;
+}
+
 bool isSamePlace(const Place& a, const Place& b) {
-  return a.line == b.line && a.column == b.column &&
-         (a.file == b.file || (a.file && b.file && *a.file == *b.file));
+  const auto same = [](const auto& one, const auto& other) {
+    return one == other || (one && other && *one == *other);
+  };
+  return a.line == b.line && a.column == b.column && same(a.file, b.file) && same(a.option, b.option);
 }
 
 std::string nameOf(Code code) {
@@ -42,8 +54,12 @@ std::string nameOf(Code code) {
 
 std::string format(const Diagnostic& d) {
   std::string out;
-  if (d.place.file && !d.place.file->empty()) {
-    // Without a line it may be an option as it was written, of any length.
+  if (d.place.option) {
+    const std::string& option = *d.place.option;
+    out += "command line: ";
+    if (!option.empty()) out += printedText(option) + ": ";
+  } else if (d.place.file && !d.place.file->empty()) {
+    // A file without a line may be one that was named in an option, of any length.
     out += d.place.line > 0 ? printable(*d.place.file) : printedText(*d.place.file);
     if (d.place.line > 0) out += fmt::format(":{}", d.place.line);
     if (d.place.line > 0 && d.place.column > 0) out += fmt::format(":{}", d.place.column);

@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "engine/base/report.h"
+
 using namespace weft::base;
 
 static Place at(std::uint32_t line, std::uint32_t column) {
@@ -19,6 +23,36 @@ TEST_CASE("a diagnostic prints place, code, message and its details") {
         "    fix: did you mean 'ldr'?");
   CHECK(all.hasErrors());
   CHECK(all.contains(Code::unknownResource));
+}
+
+TEST_CASE("the place of an option is no file: in text, in JSON and in SARIF") {
+  const Place place = placeOfOption("--set bloom=yes");
+  CHECK_FALSE(place.file);
+  CHECK(isKnown(place));
+  CHECK_FALSE(isKnown({}));
+  CHECK(isSamePlace(place, placeOfOption("--set bloom=yes")));
+  CHECK_FALSE(isSamePlace(place, placeOfOption("--set bloom=no")));
+  CHECK_FALSE(isSamePlace(place, {}));
+  Diagnostics all;
+  all.error(Code::badParameterValue, at(1, 1), "in a file");
+  all.error(Code::badParameterValue, place, "of an option");
+  all.error(Code::badParameterValue, {}, "of nothing");
+  all.error(Code::badParameterValue, placeOfOption(""), "of the command line");
+  all.sortByPlace();
+  CHECK(all.text() ==
+        "error[W047]: of nothing\n"
+        "command line: error[W047]: of the command line\n"
+        "command line: --set bloom=yes: error[W047]: of an option\n"
+        "a.json:1:1: error[W047]: in a file\n");
+  const auto json = nlohmann::json::parse(diagnosticsJson(all, 0));
+  CHECK_FALSE(json[2].contains("file"));
+  CHECK(json[2]["option"] == "--set bloom=yes");
+  CHECK(json[3]["file"] == "a.json");
+  CHECK_FALSE(json[3].contains("option"));
+  const auto sarif = nlohmann::json::parse(diagnosticsSarif(all, "1"));
+  const auto& results = sarif["runs"][0]["results"];
+  CHECK_FALSE(results[2].contains("locations"));
+  CHECK(results[3]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "a.json");
 }
 
 TEST_CASE("a text longer than a screen is cut between two characters, and says so") {

@@ -69,7 +69,7 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
                                     const Place& place, const ReadProgress& goOn) {
   const auto fail = [&](std::string_view reason, const std::string& hint) {
     Place where = place;
-    if (!where.file) where.file = std::make_shared<const std::string>(path);
+    if (!isKnown(where)) where.file = std::make_shared<const std::string>(path);
     diagnostics.error(code, where, fmt::format("cannot read '{}': {}", path, reason)).hint = hint;
     return std::nullopt;
   };
@@ -114,7 +114,7 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
   }
   std::string bytes;
   char chunk[65536];
-  // Not fread: a slow pipe is told of as it comes.
+  // Not fread: bytes of a slow pipe are reported as they come.
   for (;;) {
     if (opened.endless && !hasMore(opened.descriptor)) {
       if (goOn && !goOn(bytes.size(), 0)) return std::nullopt;

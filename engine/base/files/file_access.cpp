@@ -260,7 +260,7 @@ void reportOutside(const std::string& path, Diagnostics& diagnostics, const Plac
     for (const std::string& each : all.named) folders.push_back(fmt::format("'{}'", each));
   }
   Place where = place;
-  if (!where.file) where.file = std::make_shared<const std::string>(path);
+  if (!isKnown(where)) where.file = std::make_shared<const std::string>(path);
   Diagnostic& d =
       diagnostics.error(Code::outsideConfinement, where,
                         fmt::format("'{}' leads out of the folders that this run is confined to", path));

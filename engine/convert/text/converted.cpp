@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "engine/base/nearest.h"
 
@@ -15,10 +14,9 @@ bool checkImageNames(const ConvertOptions& options, std::span<const std::string>
   for (const auto& [name, file] : options.images) {
     if (std::ranges::find(known, name) != known.end()) continue;
     good = false;
-    auto& d = diagnostics.error(
-        base::Code::unknownParameter,
-        {std::make_shared<const std::string>(fmt::format("command line: --image {}=…", name)), 0, 0},
-        fmt::format("the file has no image '{}'", name));
+    auto& d = diagnostics.error(base::Code::unknownParameter,
+                                base::placeOfOption(fmt::format("--image {}=…", name)),
+                                fmt::format("the file has no image '{}'", name));
     d.expected = known.empty() ? "no --image: the file reads none" : "the name of an image of the file";
     d.hint = base::nearestHint(name, known);
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <unordered_set>
 
 #include "engine/base/nearest.h"
@@ -15,10 +14,10 @@ namespace {
 
 using base::Code;
 
-base::Diagnostic& complain(base::Diagnostics& diagnostics, Code code, const Pick& pick, std::string message) {
-  const std::string where = "command line: " + pick.option + (pick.option.empty() ? "" : " ") + pick.text;
-  base::Diagnostic& d =
-      diagnostics.error(code, {std::make_shared<const std::string>(where), 0, 0}, std::move(message));
+base::Diagnostic& reportPick(base::Diagnostics& diagnostics, Code code, const Pick& pick,
+                             std::string message) {
+  const std::string option = pick.option + (pick.option.empty() ? "" : " ") + pick.text;
+  base::Diagnostic& d = diagnostics.error(code, base::placeOfOption(option), std::move(message));
   d.resource = pick.name;
   return d;
 }
@@ -47,8 +46,8 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
       names.emplace_back(shared);
   constexpr const char* kPathHint = "a path with = in it is written ./a=b.png";
   if (!parsePick(pick.text)) {
-    auto& d = complain(diagnostics, Code::unknownResource, pick,
-                       fmt::format("'{}' cannot name a resource", pick.text));
+    auto& d = reportPick(diagnostics, Code::unknownResource, pick,
+                         fmt::format("'{}' cannot name a resource", pick.text));
     d.expected = "a name such as depth, hdr#1 or 'glow.mip[2]'";
     const std::string near = suffixHint(pick.text.substr(0, pick.text.find_first_of(".#[@ ")), names);
     d.hint = near + (near.empty() ? "" : "; ") + kPathHint;
@@ -56,10 +55,10 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
   }
   const std::vector<std::size_t> matches = suffixMatches(names, pick.name);
   if (matches.size() != 1) {
-    auto& d =
-        complain(diagnostics, matches.empty() ? Code::unknownResource : Code::ambiguousName, pick,
-                 matches.empty() ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
-                                 : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()));
+    auto& d = reportPick(diagnostics, matches.empty() ? Code::unknownResource : Code::ambiguousName, pick,
+                         matches.empty()
+                             ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
+                             : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()));
     if (matches.empty())
       d.hint = suffixHint(pick.name, names);
     else
@@ -75,8 +74,8 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
     last = std::max(last, version);
   }
   if (found == kNone) {
-    auto& d = complain(diagnostics, Code::missingSubresource, pick,
-                       fmt::format("'{}' has no version {}", pick.name, pick.version));
+    auto& d = reportPick(diagnostics, Code::missingSubresource, pick,
+                         fmt::format("'{}' has no version {}", pick.name, pick.version));
     d.expected = fmt::format("#1 to #{}", last);
     d.found = fmt::format("#{}", pick.version);
   }
@@ -86,7 +85,7 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
 bool checkParts(const FlatResource& resource, const Pick& pick, base::Diagnostics& diagnostics) {
   const auto within = [&](const char* what, std::uint32_t value, std::uint32_t count, Code code) {
     if (value < count) return true;
-    auto& d = complain(diagnostics, code, pick, fmt::format("'{}' has no {} {}", pick.name, what, value));
+    auto& d = reportPick(diagnostics, code, pick, fmt::format("'{}' has no {} {}", pick.name, what, value));
     d.expected = count == 1 ? fmt::format("only {} 0", what) : fmt::format("{} 0 to {}", what, count - 1);
     return false;
   };
@@ -97,14 +96,14 @@ bool checkParts(const FlatResource& resource, const Pick& pick, base::Diagnostic
       !within("layer", pick.layer, slices, Code::missingSubresource))
     return false;
   if (pick.history > resource.history) {
-    auto& d = complain(diagnostics, Code::noHistory, pick,
-                       fmt::format("'{}' keeps {} of its publications", pick.name,
-                                   resource.history == 0 ? "none" : std::to_string(resource.history)));
+    auto& d = reportPick(diagnostics, Code::noHistory, pick,
+                         fmt::format("'{}' keeps {} of its publications", pick.name,
+                                     resource.history == 0 ? "none" : std::to_string(resource.history)));
     d.hint = fmt::format("write \"history\": {} into its declaration", pick.history);
     return false;
   }
   if (pick.stencil && !hasStencil(resource.format)) {
-    complain(diagnostics, Code::badSelector, pick, fmt::format("'{}' has no stencil", pick.name)).found =
+    reportPick(diagnostics, Code::badSelector, pick, fmt::format("'{}' has no stencil", pick.name)).found =
         infoOf(resource.format).name;
     return false;
   }
@@ -130,7 +129,7 @@ std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, base
     }
   const std::vector<std::size_t> matches = suffixMatches(writers, pick.pass);
   if (matches.size() == 1) return FoundPick{resource, passes[matches[0]]};
-  auto& d = complain(
+  auto& d = reportPick(
       diagnostics, matches.empty() ? Code::unknownPass : Code::ambiguousName, pick,
       fmt::format("{} '{}' that writes '{}'", matches.empty() ? "there is no pass" : "more than one pass is",
                   pick.pass, graph.resourceNames[resource]));

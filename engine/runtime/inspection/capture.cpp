@@ -93,11 +93,10 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
     last = std::min(plan.firstStep[found->resource], static_cast<std::uint32_t>(plan.steps.size() - 1));
   const bool table = graph.resources[found->resource].kind == graph::ResourceKind::imported_buffer;
   if (last == graph::kNone || table) {
-    base::Diagnostic& d = diagnostics.error(
-        base::Code::presentsUnwritten,
-        {std::make_shared<const std::string>("command line: " + pick.option + " " + pick.text), 0, 0},
-        table ? fmt::format("'{}' is a table of the scene and no texture", pick.name)
-              : fmt::format("no pass that runs touches '{}'", pick.name));
+    base::Diagnostic& d =
+        diagnostics.error(base::Code::presentsUnwritten, base::placeOfOption(pick.option + " " + pick.text),
+                          table ? fmt::format("'{}' is a table of the scene and no texture", pick.name)
+                                : fmt::format("no pass that runs touches '{}'", pick.name));
     d.resource = graph.resourceNames[found->resource];
     return std::nullopt;
   }

@@ -149,10 +149,10 @@ std::optional<std::string> ModelFiles::readCounted(const std::string& path, cons
   };
   std::optional<std::string> bytes = base::readFile(path, diagnostics, code, place, goOn);
   if (tooLarge) {
-    count(found, place.file ? place : this->place());
+    count(found, isKnown(place) ? place : this->place());
     return {};
   }
-  if (bytes && !count(bytes->size(), place.file ? place : this->place())) return {};
+  if (bytes && !count(bytes->size(), isKnown(place) ? place : this->place())) return {};
   return bytes;
 }
 

@@ -85,7 +85,7 @@ std::string meantBy(const ParameterDesc& desc, const Value& value) {
 // What a diagnostic about a setting begins with: of the command line a place, of a panel words in the
 // message.
 Place placeOf(Origin origin, const std::string& source) {
-  return origin == Origin::command_line ? placeOfOption(source) : Place{};
+  return origin == Origin::command_line ? base::placeOfOption(source) : Place{};
 }
 
 std::string prefixOf(Origin origin, const std::string& source) {
@@ -213,7 +213,7 @@ void applyDisable(Model& model, const Disable& disable) {
   }
   const std::vector<std::size_t> found = suffixMatches(names, declared);
   if (!found.empty()) {
-    // Of a file that is included twice, both.
+    // When a file is included twice, both stanzas are meant.
     const auto isSame = [&](std::size_t i) {
       return base::isSamePlace(candidates[i].stanza->place, candidates[found[0]].stanza->place);
     };
@@ -302,7 +302,7 @@ base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<
 void applySettings(Model& model) {
   const auto badScreen = [](std::uint32_t x) { return x < 1 || x > 16384; };
   if (badScreen(model.settings.screenWidth) || badScreen(model.settings.screenHeight)) {
-    auto& d = model.diagnostics.error(Code::numberOutOfRange, placeOfOption("--size"),
+    auto& d = model.diagnostics.error(Code::numberOutOfRange, base::placeOfOption("--size"),
                                       "the screen's size is out of its range");
     d.expected = "1 to 16384 pixels a side";
     d.found = fmt::format("{}x{}", model.settings.screenWidth, model.settings.screenHeight);

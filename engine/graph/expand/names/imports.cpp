@@ -113,9 +113,9 @@ bool evaluateImport(Model& model, Entity& entity) {
   for (const base::Diagnostic& problem : facts.problems) {
     base::Diagnostic& d = model.diagnostics.add(placedAtArgument(model, *entity.scope, given, problem));
     d.resource = entity.name;
-    // Of a file that may not be read, what matters is who names it.
+    // When a file may not be read, what matters is who names it.
     if (d.code == Code::outsideConfinement && d.place.line == 0 && entity.desc) d.place = entity.desc->place;
-    if (!d.place.file && entity.desc) d.place = entity.desc->place;  // of the arguments
+    if (!isKnown(d.place) && entity.desc) d.place = entity.desc->place;  // of the arguments
     good = good && problem.severity != base::Severity::error;
   }
   if (!good) return false;

@@ -2,16 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-#include <string_view>
-
 namespace weft::graph {
-
-namespace {
-
-constexpr std::string_view kCommandLine = "command line: ";
-
-}  // namespace
 
 Setting::Setting(std::string setName, std::string setText)
     : name(std::move(setName)), value(parseValue(setText)), text(std::move(setText)) {}
@@ -27,14 +18,6 @@ std::string sourceOf(const Setting& setting) {
 std::string sourceOf(const Disable& disable) {
   return disable.origin == Origin::command_line ? "--disable " + disable.name
                                                 : fmt::format("switching off {} here", disable.name);
-}
-
-base::Place placeOfOption(const std::string& option) {
-  return {std::make_shared<const std::string>(std::string(kCommandLine) + option), 0, 0};
-}
-
-bool isSetting(const base::Place& place) {
-  return place.file && place.file->starts_with(kCommandLine);
 }
 
 }  // namespace weft::graph

@@ -46,8 +46,5 @@ struct Settings {
 // exposure" and "switching off fxaa here" of a panel.
 std::string sourceOf(const Setting& setting);
 std::string sourceOf(const Disable& disable);
-// The place of what was on the command line: "command line: --set bloom=yes", without a line.
-base::Place placeOfOption(const std::string& option);
-bool isSetting(const base::Place& place);
 
 }  // namespace weft::graph
