@@ -36,16 +36,26 @@ struct Checked {
   std::vector<std::string> files;  // that were read
 };
 
+// Compiled, or with --no-shaders by their words.
+void checkShaders(const Options& options, ShaderCheck& shaders, const graph::Plan& plan,
+                  const std::string& with, base::Diagnostics& diagnostics) {
+  if (options.shaders)
+    shaders.check(plan, with, diagnostics);
+  else
+    shaders.checkWords(plan, with, diagnostics);
+}
+
 // The variations of the graph: what they refuse, and with --all the shader variants that they reach.
 graph::Matrix tryVariations(const Options& options, const graph::GraphDesc& desc,
                             const runtime::WorldFacts& facts, ShaderCheck& shaders,
                             base::Diagnostics& diagnostics) {
   const graph::Registry registry = runtime::makeRegistry({}, facts);
   graph::MatrixOptions wanted{.pairs = options.matrix};
-  if (options.allVariants && options.shaders)
+  if (options.allVariants)
     wanted.visit = [&](const graph::Variation& variation, std::shared_ptr<const graph::FlatGraph> flat) {
       const bool changed = !variation.disables.empty() || !variation.parameter.empty();
-      shaders.check(graph::compile(std::move(flat)), changed ? variation.text() : "", diagnostics);
+      checkShaders(options, shaders, graph::compile(std::move(flat)), changed ? variation.text() : "",
+                   diagnostics);
     };
   return graph::tryMatrix(desc, registry, settingsOf(options, true), wanted);
 }
@@ -57,7 +67,7 @@ Checked checkOnce(const Options& options) {
   const runtime::WorldFacts facts = world ? world->facts() : factsWithoutWorld();
   checked.plan = makePlan(options, facts, true, diagnostics);
   ShaderCheck shaders(options);
-  if (checked.plan && options.shaders) shaders.check(*checked.plan, "", diagnostics);
+  if (checked.plan) checkShaders(options, shaders, *checked.plan, "", diagnostics);
   // Beyond a limit nothing that follows can be trusted, and there may be very much of it.
   const bool over = diagnostics.contains(base::Code::limitExceeded);
   const bool vary = checked.plan && !diagnostics.hasErrors() && (options.matrix || options.allVariants);

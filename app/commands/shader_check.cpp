@@ -7,6 +7,7 @@
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
+#include "engine/runtime/prepare/word_check.h"
 
 namespace weft::app {
 
@@ -57,6 +58,42 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
   read_.insert(device.sources.touched().begin(), device.sources.touched().end());
 }
 
+void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
+                             base::Diagnostics& diagnostics) {
+  if (!sources_)
+    sources_ = std::make_unique<gl::SourceLoader>(
+        runtime::shaderRootsOf(options_.graph, options_.presets, dataFolder()));
+  const passes::PassRegistry types = passes::PassRegistry::builtin();
+  base::Diagnostics said, unread;  // --no-shaders asks for no files
+  for (const graph::Step& step : plan.steps) {
+    const graph::PassSpec& spec = plan.graph->specs[step.pass];
+    const graph::PassType type = types.find(spec.type)->reflect();
+    if (type.shader == graph::ShaderShape::none) continue;
+    const std::uint32_t combinations = 1u << runtime::conditionCount(spec);
+    for (std::uint32_t conditions = 0; conditions < combinations; ++conditions) {
+      const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
+      if (!known_.insert(keyOf(request)).second) continue;
+      std::vector<gl::StageSource> stages;
+      bool whole = true;
+      for (const gl::ProgramRequest::Stage& stage : request.stages) {
+        if (!stage.text.empty()) continue;
+        const auto [known, fresh] = loaded_.try_emplace(stage.file);
+        if (fresh) known->second = sources_->load(stage.file, unread, request.place);
+        stages.push_back({stage.stage, known->second});
+        whole = whole && known->second;
+      }
+      const std::size_t before = said.items().size();
+      if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, said);
+      if (!whole || said.items().size() > before) break;
+    }
+  }
+  for (base::Diagnostic each : said.items()) {
+    if (!with.empty()) each.message += fmt::format(" (with {})", with);
+    diagnostics.add(std::move(each));
+  }
+  read_.insert(sources_->touched().begin(), sources_->touched().end());
+}
+
 void ShaderCheck::checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics) {
   gl::SourceLoader sources(runtime::shaderRootsOf(options_.graph, options_.presets, dataFolder()));
   checkFiles(desc, sources, diagnostics);
@@ -74,6 +111,8 @@ void ShaderCheck::checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sou
     std::vector<std::string> files = {pass.shader};
     if (!pass.vertexShader.empty())
       files.push_back(pass.vertexShader);
+    else if (type->reflect().shader == graph::ShaderShape::draw && pass.shader.ends_with(".glsl"))
+      continue;  // a shader of one stage, for a draw (W067)
     else if (type->reflect().shader == graph::ShaderShape::draw)
       files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
     for (const std::string& file : files) sources.load(file, diagnostics, pass.shaderPlace);

@@ -1,7 +1,8 @@
 // The shaders of plans, compiled and held against their passes, each variant once: for `weft check`. Opens a context when
-// the first plan comes. Does not: run a frame.
+// the first plan comes to be compiled. Does not: run a frame.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 #include "app/session/options.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/plan.h"
+#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::app {
 
@@ -21,6 +23,8 @@ class ShaderCheck {
   // All variants of the live passes. `with`: how the plan differs from the graph as it is, for messages; or "". Nothing
   // more is compiled once a context could not be opened, which is reported.
   void check(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics);
+  // The same without a context: slots and parameters held against the words of the shaders (word_check.h).
+  void checkWords(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics);
   // A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
   // path or include is reported together with the graph's own mistakes. Needs no OpenGL.
   void checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics);
@@ -35,6 +39,9 @@ class ShaderCheck {
   const Options options_;
   std::unique_ptr<DeviceSession> session_;
   bool failed_ = false;
+  std::unique_ptr<gl::SourceLoader> sources_;  // for checkWords()
+  std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;
+  runtime::RoleCache roles_;
   std::set<std::string> known_;  // variants, by what they are made of
   std::set<std::string> read_;
 };

@@ -53,6 +53,20 @@ constexpr Word kPassKeys[] = {
     {"workgroups", "compute invocations stand in \"threads\""},
     {"clear", "a texture says with what it begins: \"clear\" in \"resources\""},
     {"size", "a texture says its size, in \"resources\""},
+    {"depthtest", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
+    {"depthwrite", "it belongs into \"state\": { \"depth_write\": false }"},
+    {"depthmask", "it belongs into \"state\": { \"depth_write\": false }"},
+    {"depthfunc", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
+    {"depthcompare", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
+    {"depth_compare", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
+    {"blending", "it belongs into \"state\": { \"blend\": \"add\" }"},
+    {"blendmode", "it belongs into \"state\": { \"blend\": \"add\" }"},
+    {"blend_mode", "it belongs into \"state\": { \"blend\": \"add\" }"},
+    {"culling", "it belongs into \"state\": { \"cull\": \"back\" }"},
+    {"cullmode", "it belongs into \"state\": { \"cull\": \"back\" }"},
+    {"cull_mode", "it belongs into \"state\": { \"cull\": \"back\" }"},
+    {"wireframe", "it belongs into \"state\": { \"polygon\": \"line\" }"},
+    {"fill_mode", "it belongs into \"state\": { \"polygon\": \"line\" }"},
     {"viewport", "a texture says its size, in \"resources\""},
     {"format", "a texture says its format, in \"resources\""},
     {"depends", "order follows from what passes read and write, and from their place in the list"},
@@ -121,12 +135,28 @@ constexpr Word kStateWords[] = {
     {"srcalpha", "write 'alpha'"},
     {"modulate", "write 'multiply'"},
     {"opaque", "write 'none'"},
-    {"off", "write 'none'"},
+    {"off", "write 'none', or 'always' for a depth test"},
     {"cw", "counter-clockwise triangles are the front; write 'front' or 'back'"},
     {"ccw", "counter-clockwise triangles are the front; write 'front' or 'back'"},
     {"backface", "write 'back'"},
     {"frontface", "write 'front'"},
     {"wireframe", "write 'line'"},
+    {"lt", "write 'less'"},
+    {"le", "write 'less_equal'"},
+    {"lte", "write 'less_equal'"},
+    {"gt", "write 'greater'"},
+    {"ge", "write 'greater_equal'"},
+    {"gte", "write 'greater_equal'"},
+    {"ne", "write 'not_equal'"},
+    {"!=", "write 'not_equal'"},
+    {"disabled", "write 'none', or 'always' for a depth test"},
+    {"back", "write 'back'"},
+    {"front", "write 'front'"},
+    {"one", "write 'add' for 'one' and 'one'"},
+    {"oneone", "write 'add'"},
+    {"srcalphaoneminussrcalpha", "write 'alpha'"},
+    {"premult", "write 'premultiplied'"},
+    {"premultipliedalpha", "write 'premultiplied'"},
     {"solid", "write 'fill'"},
 };
 constexpr Word kValueTypes[] = {
@@ -184,6 +214,22 @@ constexpr Word kExpressions[] = {
     {"sqrt", "there is none: compute it in the shader"},
     {"pow", "there is none: 'a * a', or compute it in the shader"},
     {"exp2", "there is none: compute it in the shader, or give a table by '?:'"},
+    {"exp", "there is none: compute it in the shader"},
+    {"log", "there is none: compute it in the shader; 'log2ceil(a)' gives whole levels"},
+    {"sin", "there is none: compute it in the shader"},
+    {"cos", "there is none: compute it in the shader"},
+    {"tan", "there is none: compute it in the shader"},
+    {"asin", "there is none: compute it in the shader"},
+    {"acos", "there is none: compute it in the shader"},
+    {"atan", "there is none: compute it in the shader"},
+    {"atan2", "there is none: compute it in the shader"},
+    {"dot", "there is none: compute it in the shader"},
+    {"random", "there is none: compute it in the shader"},
+    {"rand", "there is none: compute it in the shader"},
+    {"smoothstep", "there is none: compute it in the shader"},
+    {"fract", "write 'a - floor(a)'"},
+    {"frac", "write 'a - floor(a)'"},
+    {"sign", "write 'a > 0 ? 1 : a < 0 ? -1 : 0'"},
     {"log2", "write 'log2ceil(a)' for whole levels"},
     {"mod", "write 'a % b'"},
     {"lerp", "write 'a + (b - a) * t'"},
@@ -199,6 +245,29 @@ constexpr Word kExpressions[] = {
     {"vec3", "write a list: '[a, b, c]'"},
     {"vec4", "write a list: '[a, b, c, d]'"},
 };
+// Named as a value, a variable or an import.
+constexpr Word kForeignValues[] = {
+    {"time", "a graph knows no time; a shader does: #include \"common/view.glsl\" has 'time'"},
+    {"now", "a graph knows no time; a shader does: #include \"common/view.glsl\" has 'time'"},
+    {"seconds", "a graph knows no time; a shader does: #include \"common/view.glsl\" has 'time'"},
+    {"delta_time", "a graph knows no time; a shader does: #include \"common/view.glsl\" has 'delta_time'"},
+    {"frame", "a graph knows no frame; a shader does: #include \"common/view.glsl\" has 'frame'"},
+    {"resolution", "write 'screen'"},
+    {"viewport", "write 'screen'"},
+    {"aspect", "write 'screen.x / screen.y'"},
+    {"pi", "write 3.14159265"},
+};
+constexpr Word kImportTypes[] = {
+    {"texture", "write \"import\": \"image\""},
+    {"picture", "write \"import\": \"image\""},
+    {"bitmap", "write \"import\": \"image\""},
+    {"png", "write \"import\": \"image\""},
+    {"file", "write \"import\": \"image\", with \"file\""},
+    {"sampler", "write \"import\": \"image\""},
+    {"skybox", "write \"import\": \"environment\""},
+    {"cubemap", "write \"import\": \"environment\""},
+    {"lut", "write \"import\": \"cube_lut\""},
+};
 constexpr Word kShaderNames[] = {
     {"float2", "GLSL says 'vec2'"},
     {"float3", "GLSL says 'vec3'"},
@@ -207,6 +276,20 @@ constexpr Word kShaderNames[] = {
     {"half2", "GLSL says 'vec2'"},
     {"half3", "GLSL says 'vec3'"},
     {"half4", "GLSL says 'vec4'"},
+    {"fixed", "GLSL says 'float'"},
+    {"fixed2", "GLSL says 'vec2'"},
+    {"fixed3", "GLSL says 'vec3'"},
+    {"fixed4", "GLSL says 'vec4'"},
+    {"bool2", "GLSL says 'bvec2'"},
+    {"bool3", "GLSL says 'bvec3'"},
+    {"bool4", "GLSL says 'bvec4'"},
+    {"cbuffer", "GLSL says 'layout(std140) uniform Parameters { … };'"},
+    {"static", "GLSL says 'const' for a constant, and nothing for a variable"},
+    {"varying", "GLSL says 'in' in the fragment shader and 'out' in the vertex shader"},
+    {"attribute", "GLSL says 'in'"},
+    {"Texture2D", "GLSL says 'uniform sampler2D source;', with the name of the slot"},
+    {"SamplerState", "GLSL says 'uniform sampler2D source;' for texture and sampler together"},
+    {"RWTexture2D", "GLSL says 'layout(rgba16f) uniform image2D result;', with the texture's format"},
     {"int2", "GLSL says 'ivec2'"},
     {"int3", "GLSL says 'ivec3'"},
     {"int4", "GLSL says 'ivec4'"},
@@ -243,6 +326,19 @@ constexpr Word kShaderNames[] = {
     {"iTime", "#include \"common/view.glsl\" has 'time'"},
     {"iResolution", "#include \"common/view.glsl\" has 'viewport'"},
     {"iFrame", "#include \"common/view.glsl\" has 'frame'"},
+    {"iTimeDelta", "#include \"common/view.glsl\" has 'delta_time'"},
+    {"time", "#include \"common/view.glsl\" has 'time'"},
+    {"u_time", "#include \"common/view.glsl\" has 'time'"},
+    {"uTime", "#include \"common/view.glsl\" has 'time'"},
+    {"TIME", "#include \"common/view.glsl\" has 'time'"},
+    {"iGlobalTime", "#include \"common/view.glsl\" has 'time'"},
+    {"TIMEDELTA", "#include \"common/view.glsl\" has 'delta_time'"},
+    {"frame", "#include \"common/view.glsl\" has 'frame'"},
+    {"FRAMEINDEX", "#include \"common/view.glsl\" has 'frame'"},
+    {"resolution", "#include \"common/view.glsl\" has 'viewport'"},
+    {"u_resolution", "#include \"common/view.glsl\" has 'viewport'"},
+    {"uResolution", "#include \"common/view.glsl\" has 'viewport'"},
+    {"RENDERSIZE", "#include \"common/view.glsl\" has 'viewport'"},
     {"iChannel0", "declare a sampler with the name of the slot: 'uniform sampler2D source;'"},
     {"fragCoord", "GLSL says 'gl_FragCoord.xy'"},
     {"fragColor", "declare an output with the name of the slot: 'out vec4 result;'"},
@@ -266,6 +362,10 @@ std::span<const Word> wordsOf(Foreign where) {
       return kExpressions;
     case Foreign::shader_name:
       return kShaderNames;
+    case Foreign::value:
+      return kForeignValues;
+    case Foreign::import_type:
+      return kImportTypes;
   }
   return {};
 }
@@ -276,48 +376,15 @@ std::string hintForForeign(Foreign where, std::string_view word) {
   const bool exact = where == Foreign::shader_name;  // GLSL tells cases apart
   std::string wanted = exact ? std::string(word) : lowered(word);
   if (where == Foreign::state_word) {
-    for (const std::string_view prefix : {"gl_", "vk_compare_op_", "d3d11_comparison_", "comparison_"})
+    for (const std::string_view prefix :
+         {"gl_", "vk_compare_op_", "vk_", "d3d11_comparison_", "d3d12_comparison_func_", "comparison_",
+          "compare_", "mtlcomparefunction", "comparefunction"})
       if (wanted.starts_with(prefix)) wanted.erase(0, prefix.size());
     std::erase_if(wanted, [](char c) { return c == '_' || c == '-' || c == ' '; });
   }
   for (const Word& known : wordsOf(where))
     if (known.theirs == wanted) return std::string(known.hint);
   return {};
-}
-
-bool isGlslWord(std::string_view word) {
-  constexpr std::string_view kWords[] = {
-      "attribute", "const",    "uniform",   "varying",   "buffer",        "shared",
-      "coherent",  "volatile", "restrict",  "readonly",  "writeonly",     "atomic_uint",
-      "layout",    "centroid", "flat",      "smooth",    "noperspective", "patch",
-      "sample",    "break",    "continue",  "do",        "for",           "while",
-      "switch",    "case",     "default",   "if",        "else",          "subroutine",
-      "in",        "out",      "inout",     "float",     "double",        "int",
-      "void",      "bool",     "true",      "false",     "invariant",     "precise",
-      "discard",   "return",   "uint",      "lowp",      "mediump",       "highp",
-      "precision", "struct",   "common",    "partition", "active",        "asm",
-      "class",     "union",    "enum",      "typedef",   "template",      "this",
-      "resource",  "goto",     "inline",    "noinline",  "public",        "static",
-      "extern",    "external", "interface", "long",      "short",         "half",
-      "fixed",     "unsigned", "superp",    "input",     "output",        "filter",
-      "sizeof",    "cast",     "namespace", "using",     "sampler3DRect", "main"};
-  if (std::ranges::find(kWords, word) != std::end(kWords)) return true;
-  const auto rest = [&](std::string_view prefix) {
-    return word.starts_with(prefix) ? std::optional(word.substr(prefix.size())) : std::nullopt;
-  };
-  const auto isDigits = [](std::string_view text) { return text == "2" || text == "3" || text == "4"; };
-  for (const std::string_view prefix : {"vec", "ivec", "uvec", "bvec", "dvec", "hvec", "fvec"})
-    if (const auto tail = rest(prefix); tail && isDigits(*tail)) return true;
-  for (const std::string_view prefix : {"mat", "dmat"})
-    if (const auto tail = rest(prefix))
-      if (isDigits(*tail) || (tail->size() == 3 && (*tail)[1] == 'x' && isDigits(tail->substr(0, 1)) &&
-                              isDigits(tail->substr(2))))
-        return true;
-  for (const std::string_view prefix : {"sampler", "isampler", "usampler", "image", "iimage", "uimage"})
-    if (const auto tail = rest(prefix); tail && !tail->empty())
-      for (const std::string_view shape : {"1D", "2D", "3D", "Cube", "Buffer"})
-        if (tail->starts_with(shape)) return true;
-  return word.starts_with("gl_");
 }
 
 }  // namespace weft::base

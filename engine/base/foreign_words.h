@@ -1,5 +1,5 @@
-// Words that authors bring from other engines, APIs and shading languages, with what Weft and GLSL call the same thing; and
-// the words that GLSL keeps for itself. For hints: nothing is accepted that is not spelled as the format says.
+// Words that authors bring from other engines, APIs and shading languages, with what Weft and GLSL call the same thing.
+// For hints: nothing is accepted that is not spelled as the format says.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,11 @@ enum class Foreign : std::uint8_t {
   sampling,     // behind "as": "repeat"
   expression,   // a function in an expression: "round"
   shader_name,  // in GLSL: "saturate", "gl_FragColor"
+  value,        // a name in an expression, or of an import: "time"
+  import_type,  // of "import": "texture"
 };
 
 // What is to be written instead, as a hint ("write \"read\""), or "".
 std::string hintForForeign(Foreign where, std::string_view word);
-
-// Whether GLSL 4.5 keeps the word: a keyword, a type, or one that is reserved. Nothing in a shader can have such a name.
-bool isGlslWord(std::string_view word);
 
 }  // namespace weft::base

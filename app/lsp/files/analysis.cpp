@@ -12,7 +12,8 @@
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/imports/registry.h"
-#include "engine/runtime/prepare/shader_advice.h"
+#include "engine/runtime/prepare/program_request.h"
+#include "engine/runtime/prepare/word_check.h"
 
 namespace weft::app::lsp {
 
@@ -130,53 +131,25 @@ std::shared_ptr<const gl::ShaderSource> Analysis::source(Graph& graph, const std
   return known->second;
 }
 
-// As the check of a linked program does (engine/runtime/prepare/program_check.h), as far as words tell.
+// Of the variant that runs once everything was published long ago.
 void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
+  constexpr std::size_t kMostScanned = 4096;
+  if (roles_.size() > kMostScanned) roles_.clear();
   for (const graph::Step& step : plan.steps) {
     const graph::PassSpec& spec = flat.specs[step.pass];
     const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
-    std::vector<std::shared_ptr<const gl::ShaderSource>> stages;
-    for (const std::string& each : shaderFilesOf(spec, type->shader))
-      stages.push_back(source(graph, each, spec.shaderPlace));
-    if (std::ranges::find(stages, nullptr) != stages.end()) continue;
-    const auto mentions = [&](const std::string& name) {
-      return std::ranges::any_of(stages, [&](const auto& stage) { return stage->mentions(name); });
-    };
-    std::vector<std::string> declared;
-    const auto nearest = [&](const std::string& name) {
-      if (declared.empty())
-        for (const auto& stage : stages)
-          declared.insert(declared.end(), stage->declared.begin(), stage->declared.end());
-      return base::nearestName(name, declared);
-    };
-    const auto say = [&](base::Code code, const base::Place& place, const char* what, const std::string& name,
-                         const std::string& declaration) {
-      base::Diagnostic& d = graph.said.error(
-          code, place, fmt::format("{} '{}' is not in the shader '{}'", what, name, spec.shader));
-      d.pass = spec.name;
-      const std::string near = nearest(name);
-      d.hint =
-          near.empty() ? fmt::format("declare `{}`", declaration) : fmt::format("did you mean '{}'?", near);
-    };
-    for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
-      const graph::SlotSpec& slot = flat.slots[spec.firstSlot + i];
-      using enum graph::Kind;
-      const bool inShader = slot.kind == sampled || slot.kind == image || slot.kind == uniform ||
-                            slot.kind == storage || slot.kind == color;
-      if (slot.useCount == 0 || !inShader ||
-          (slot.access != graph::Access::read && !plan.attached[slot.firstUse]) || mentions(slot.name))
-        continue;
-      const graph::FlatUse& use = flat.uses[slot.firstUse];
-      say(base::Code::slotNotInShader, slot.place, "slot", slot.name,
-          runtime::declarationFor(slot, slot.kind, use, flat.resources[use.resource]));
+    const gl::ProgramRequest request =
+        runtime::programRequestOf(flat, plan, step.pass, *type, runtime::settledConditionsOf(spec));
+    std::vector<gl::StageSource> stages;
+    bool whole = true;
+    for (const gl::ProgramRequest::Stage& stage : request.stages) {
+      if (!stage.text.empty()) continue;
+      stages.push_back({stage.stage, source(graph, stage.file, spec.shaderPlace)});
+      whole = whole && stages.back().source;
     }
-    for (const graph::UniformSpec& uniform : spec.uniforms)
-      if (!uniform.choosesVariant() && !mentions(uniform.name))
-        say(base::Code::parameterNotInShader, uniform.place, "parameter", uniform.name,
-            fmt::format("layout(std140) uniform Parameters {{ {} {}; }};",
-                        runtime::memberTypeFor(uniform.value), uniform.name));
+    if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, graph.said);
   }
 }
 
@@ -186,6 +159,10 @@ void Analysis::checkFiles(Graph& graph, const graph::GraphDesc& desc) {
     if (pass.include && pass.include->graph) checkFiles(graph, *pass.include->graph);
     const auto type = std::ranges::find(registry_.passTypes, pass.type, &graph::PassType::name);
     if (pass.shader.empty() || type == registry_.passTypes.end()) continue;
+    // A shader of one stage, for a draw (W067).
+    if (type->shader == graph::ShaderShape::draw && pass.vertexShader.empty() &&
+        pass.shader.ends_with(".glsl"))
+      continue;
     for (const std::string& each : shaderFilesOf(pass, type->shader)) source(graph, each, pass.shaderPlace);
   }
 }

@@ -13,6 +13,7 @@
 #include "engine/gl/shaders/source.h"
 #include "engine/graph/plan.h"
 #include "engine/graph/registry.h"
+#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::app::lsp {
 
@@ -55,6 +56,7 @@ class Analysis {
   graph::Registry registry_;
   std::map<std::string, Graph> graphs_;
   std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;  // in one look
+  runtime::RoleCache roles_;
 };
 
 }  // namespace weft::app::lsp

@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-#include "engine/base/foreign_words.h"
+#include "engine/base/glsl_words.h"
 #include "engine/base/json/edit.h"
 #include "engine/base/nearest.h"
 #include "engine/base/printable.h"

@@ -124,7 +124,8 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
     appendFor(request, log, diagnostics);
     storeBinary(key, compute, *program);
   }
-  return remember(key, std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages), key}));
+  return remember(key, std::make_shared<const Variant>(
+                           Variant{std::move(*program), std::move(stages), key, request.defines}));
 }
 
 void ProgramCache::touch(const std::shared_ptr<const Variant>& variant) {

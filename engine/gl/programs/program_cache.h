@@ -42,7 +42,8 @@ struct ProgramRequest {
 struct Variant {
   Program program;
   std::vector<StageSource> stages;
-  std::string key{};  // of the cache
+  std::string key{};              // of the cache
+  std::vector<Define> defines{};  // of the request
   // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no
   // error).
   bool mentions(std::string_view name) const;

@@ -154,8 +154,14 @@ std::string fixFor(const SyntaxError& error, const LogMessage& message, const Sh
   if (place.column == 0 || message.textLine == 0) return {};
   const std::string_view line = lineOf(source.text, message.textLine);
   const std::string_view before = wordBefore(line, place.column);
-  if (const std::string meant = base::hintForForeign(base::Foreign::shader_name, before); !meant.empty())
+  if (const std::string meant = base::hintForForeign(base::Foreign::shader_name, before);
+      meant.find("GLSL says") != std::string::npos)
     return fmt::format("'{}' is no type: {}", before, meant);
+  if (error.token == "NEW_IDENTIFIER")
+    if (const std::string meant =
+            base::hintForForeign(base::Foreign::shader_name, tokenAt(line, place.column, error.token));
+        meant.find("GLSL says") != std::string::npos)
+      return meant;
   // A type or a qualifier that is none: the name behind it is what does not fit.
   if (!before.empty() && !std::isdigit(static_cast<unsigned char>(before[0])) && !isKnownWord(before) &&
       (error.token == "NEW_IDENTIFIER" || error.token == "BASIC_TYPE_TOK")) {
@@ -207,6 +213,8 @@ bool explainSyntax(LogMessage& message, const ShaderSource& source) {
   return true;
 }
 
+constexpr std::string_view kReservedUse = "illegal use of reserved word `";
+
 void explainNames(base::Diagnostic& d, const ShaderSource& source) {
   const auto meant = [&](std::string_view name, bool function) {
     d.hint = base::hintForForeign(base::Foreign::shader_name, name);
@@ -229,6 +237,10 @@ void explainNames(base::Diagnostic& d, const ShaderSource& source) {
   } else if (const auto function = between(raw, "no function with name '", "'")) {
     d.message = fmt::format("there is no function '{}'", *function);
     meant(*function, true);
+  } else if (const auto reserved = between(raw, kReservedUse, "'")) {
+    d.message = fmt::format("'{}' is a reserved word of GLSL", *reserved);
+    d.hint = base::hintForForeign(base::Foreign::shader_name, *reserved);
+    if (d.hint.empty()) d.hint = fmt::format("choose another name, such as 'my_{}'", *reserved);
   } else if (const auto swizzle = between(raw, "invalid swizzle / mask `", "'")) {
     d.message = fmt::format("the value has no '.{}'", *swizzle);
   } else if (raw.ends_with("shader lacks `main'")) {
@@ -277,16 +289,19 @@ std::string_view lineOf(std::string_view text, std::uint32_t number) {
 }
 
 void dropConsequences(std::vector<LogMessage>& messages) {
-  std::vector<std::uint32_t> causes;  // lines
+  std::vector<std::uint32_t> causes, reserved;  // lines
   for (const LogMessage& message : messages) {
     const base::Diagnostic& d = message.diagnostic;
     if (d.severity == base::Severity::error && !isConsequence(d.message) && !namesErrorType(d.message))
       causes.push_back(message.textLine);
+    if (d.message.starts_with(kReservedUse)) reserved.push_back(message.textLine);
   }
   std::erase_if(messages, [&](const LogMessage& message) {
     const std::string& text = message.diagnostic.message;
     const bool beside = std::ranges::find(causes, message.textLine) != causes.end();
-    return (namesErrorType(text) && !causes.empty()) || (isConsequence(text) && beside);
+    const bool behind =
+        text.starts_with("syntax error") && std::ranges::find(reserved, message.textLine) != reserved.end();
+    return behind || (namesErrorType(text) && !causes.empty()) || (isConsequence(text) && beside);
   });
 }
 

@@ -107,7 +107,10 @@ class PassWalk {
     }
     // Counted before the innermost range runs; outer ranges around empty ones count as well.
     const std::int64_t steps = (*last - *first) / *step + 1;
-    if (steps <= 0) noteEmptyRepeat(model_, *scope_, *desc_, {declared_, range.index, *first, *last, *step});
+    if (steps <= 0)
+      noteEmptyRepeat(model_, *scope_, *desc_,
+                      {declared_, range.index, *first, *last, *step, range.place,
+                       range.first.isConstant() && range.last.isConstant()});
     if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
     walked_ += std::max<std::int64_t>(steps, 1);
     if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
@@ -197,7 +200,11 @@ class PassWalk {
     for (const SlotWork& work : slots)
       if (work.state == State::connected && work.slot->access != Access::read)
         model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
-                                 kNone, index, work.whole});
+                                 kNone, index, work.whole,
+                                 std::ranges::any_of(slots, [&](const SlotWork& other) {
+                                   return other.state == State::connected &&
+                                          other.slot->access != Access::write && other.entity == work.entity;
+                                 })});
     if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
     std::vector<DeferredValue> deferred;

@@ -209,6 +209,7 @@ class SpecFiller {
         fmt::format("cannot define '{}' as {}", from, value.type == Value::Type::list ? "a list" : "a word"));
     d.expected = "true, false, a number or a choice parameter";
     d.found = toText(value);
+    d.hint = hintForWord(names_, value);
   }
 
   void addDefine(const NamedExpr& define, std::vector<DeferredValue>& deferred) {
@@ -315,13 +316,17 @@ class SpecFiller {
         return;
       }
       for (std::size_t i = 0; i < value.count; ++i) {
-        // As with sizes: written as such, 0 is a mistake; computed, it is at least 1.
-        const bool none = value.v[i] < 1 && desc_.threads.isConstant();
+        // As with sizes: 0 is a mistake, but for an empty list; what is computed between 0 and 1 is 1.
+        const bool none =
+            value.v[i] < 1 && (desc_.threads.isConstant() ||
+                               (value.v[i] <= 0 && !countsElements(model_, names_.scope(), desc_.threads)));
         if (!(value.v[i] >= 0) || none || value.v[i] > 2147483647.0) {
           auto& d = error(Code::numberOutOfRange, desc_.threads.place(),
                           "has a number of threads out of its range");
           d.expected = "1 to 2147483647";
           d.found = toText(value);
+          if (none && !desc_.threads.isConstant())
+            d.hint = "write 'max(…, 1)', or disable the pass where there is nothing to do";
           return;
         }
         spec_.threads[i] = static_cast<std::uint32_t>(std::max(1.0, std::floor(value.v[i])));

@@ -38,27 +38,63 @@ void checkKey(const Stanza& stanza, bool present, const char* key, const Place& 
 }
 
 // A file says by its name for which stage it is written; another stage would not compile it, with riddles for messages.
-void checkStage(const Stanza& stanza) {
-  static constexpr std::pair<const char*, ShaderShape> kStages[] = {{".comp.glsl", ShaderShape::compute},
-                                                                    {".frag.glsl", ShaderShape::fragment},
-                                                                    {".vert.glsl", ShaderShape::draw}};
-  const ShaderShape shader = stanza.type->shader;
-  for (const auto& [ending, shape] : kStages) {
-    if (!stanza.desc.shader.ends_with(ending) || shape == shader) continue;
-    if (shape == ShaderShape::fragment && shader == ShaderShape::draw) continue;  // as one of two, or W100
+constexpr std::pair<const char*, ShaderShape> kStages[] = {{".comp.glsl", ShaderShape::compute},
+                                                           {".frag.glsl", ShaderShape::fragment},
+                                                           {".vert.glsl", ShaderShape::draw}};
+
+const char* stageOf(std::string_view path) {
+  for (const auto& [ending, shape] : kStages)
+    if (path.ends_with(ending)) return ending;
+  return nullptr;
+}
+
+// A vertex and a fragment shader, each by its path.
+void checkPair(const Stanza& stanza) {
+  const auto check = [&](const std::string& path, const char* key, const char* ending) {
+    const char* const stage = stageOf(path);
+    if (!stage || std::string_view(stage) == ending) return;
     auto& d = stanza.error(Code::keyNotTaken, stanza.desc.shaderPlace,
-                           fmt::format("is a {} pass and names '{}', a shader of another stage",
-                                       stanza.type->name, stanza.desc.shader));
-    d.expected = shader == ShaderShape::draw
-                     ? "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
-                     : fmt::format("a path that ends in '{}'",
-                                   shader == ShaderShape::compute ? kStages[0].first : kStages[1].first);
-    const auto& types = stanza.model.registry.passTypes;
-    const auto other = std::ranges::find(types, shape, &PassType::shader);
-    d.hint = other == types.end() ? "name another shader"
-                                  : fmt::format("say \"type\": \"{}\", or name another shader", other->name);
+                           fmt::format("names '{}' as its {} shader, a shader of another stage", path, key));
+    d.expected = fmt::format("a path that ends in '{}'", ending);
+    d.hint = "name another shader";
+  };
+  check(stanza.desc.vertexShader, "vertex", kStages[2].first);
+  check(stanza.desc.shader, "fragment", kStages[1].first);
+}
+
+void checkStage(const Stanza& stanza) {
+  if (!stanza.desc.vertexShader.empty()) {
+    if (stanza.type->shader != ShaderShape::compute) checkPair(stanza);  // a compute pass takes none
     return;
   }
+  const std::string& path = stanza.desc.shader;
+  const char* const stage = stageOf(path);
+  const ShaderShape shader = stanza.type->shader;
+  if (!stage) return;
+  const ShaderShape shape = std::ranges::find(kStages, std::string_view(stage), [](const auto& each) {
+                              return std::string_view(each.first);
+                            })->second;
+  const std::string stem = path.substr(0, path.size() - std::string_view(stage).size());
+  if (shader == ShaderShape::draw && shape != ShaderShape::compute) {
+    auto& d = stanza.error(Code::keyNotTaken, stanza.desc.shaderPlace,
+                           fmt::format("is a {} pass, which has two shaders, and names '{}', one of them",
+                                       stanza.type->name, path));
+    d.expected = "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }";
+    d.hint = fmt::format("write '{}' for '{}.vert.glsl' and '{}.frag.glsl'", stem, stem, stem);
+    return;
+  }
+  if (shape == shader) return;
+  auto& d = stanza.error(
+      Code::keyNotTaken, stanza.desc.shaderPlace,
+      fmt::format("is a {} pass and names '{}', a shader of another stage", stanza.type->name, path));
+  d.expected = shader == ShaderShape::draw
+                   ? "a path without stage and ending, or { \"vertex\": …, \"fragment\": … }"
+                   : fmt::format("a path that ends in '{}'",
+                                 shader == ShaderShape::compute ? kStages[0].first : kStages[1].first);
+  const auto& types = stanza.model.registry.passTypes;
+  const auto other = std::ranges::find(types, shape, &PassType::shader);
+  d.hint = other == types.end() ? "name another shader"
+                                : fmt::format("say \"type\": \"{}\", or name another shader", other->name);
 }
 
 void checkKeys(const Stanza& stanza) {

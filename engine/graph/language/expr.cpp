@@ -7,6 +7,7 @@
 #include <cctype>
 #include <set>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/expr_node.h"
 
@@ -347,6 +348,8 @@ std::string hintForWord(EvalScope& scope, const Value& value) {
   const std::vector<std::string> builtins = scope.candidates(EvalScope::NameKind::builtin);
   if (const std::string near = base::nearestName(value.symbol, builtins); !near.empty())
     return fmt::format("did you mean '{}'?", near);
+  if (std::string foreign = base::hintForForeign(base::Foreign::value, value.symbol); !foreign.empty())
+    return foreign;
   const std::string near = base::nearestName(value.symbol, variables);
   if (!near.empty()) return fmt::format("did you mean '${}'?", near);
   const bool bare = std::ranges::all_of(

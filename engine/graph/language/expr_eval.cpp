@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/expr_math.h"
 #include "engine/graph/language/expr_node.h"
@@ -125,6 +126,8 @@ class Evaluator {
       const std::vector<std::string> builtins = scope_->candidates(EvalScope::NameKind::builtin);
       if (std::ranges::find(builtins, name) != builtins.end())
         d->hint = fmt::format("write '{}', without the '$'", name);
+      else if (std::string foreign = base::hintForForeign(base::Foreign::value, name); !foreign.empty())
+        d->hint = std::move(foreign);
       else if (const std::string nearest = base::nearestName(name, names); !nearest.empty())
         d->hint = fmt::format("did you mean '{}{}'?", sigil, nearest);
       else

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "engine/graph/language/names.h"
 
@@ -53,7 +56,25 @@ Token scanToken(std::string_view text, std::size_t from) {
   return token;
 }
 
-std::string hintForSize(std::string_view text) {
+std::string hintForSize(std::string_view whole) {
+  std::string packed(whole);
+  std::erase_if(packed, isSpace);
+  const std::string_view text = packed;
+  if (text == "width,height") return "write 'screen'";
+  // "screen*50%", "width/2,height/2", "screen.width"
+  if (text.starts_with("screen*") && text.ends_with('%')) {
+    double part = 0;
+    const auto [at, error] = std::from_chars(text.data() + 7, text.data() + text.size(), part);
+    if (error == std::errc() && at + 1 == text.data() + text.size())
+      return fmt::format("write 'screen*{}'", part / 100);
+  }
+  if (text.starts_with("width/")) {
+    const std::string_view by = text.substr(6, text.find(',') - std::min<std::size_t>(6, text.size()));
+    if (text == fmt::format("width/{},height/{}", by, by)) return fmt::format("write 'screen/{}'", by);
+  }
+  for (const auto& [theirs, ours] : {std::pair{".width", ".x"}, std::pair{".height", ".y"}})
+    if (const std::size_t at = text.find(theirs); at != std::string_view::npos)
+      return fmt::format("a size has .x and .y: write '{}{}'", text.substr(0, at), ours);
   double first = 0, second = 0;
   const char* const begin = text.data();
   const char* const end = begin + text.size();

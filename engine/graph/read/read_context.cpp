@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "engine/base/files/text_file.h"
+#include "engine/base/glsl_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/ref_parse.h"
@@ -116,9 +117,24 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const Jso
 bool ReadContext::checkShaderName(std::string_view name, const Place& place, const JsonPointer& pointer,
                                   std::string_view what) {
   if (!checkName(name, place, pointer, what)) return false;
-  if (!base::isGlslWord(name)) return true;
+  const bool define = what == "a define";
+  const bool reserved = name.find("__") != std::string_view::npos ||
+                        (define && (name.starts_with("GL_") || name.starts_with("HAS_")));
+  const bool function = define && base::isGlslFunction(name);
+  if (!base::isGlslWord(name) && !reserved && !function) return true;
   auto& d = errorAt(Code::notAName, place, pointer,
-                    fmt::format("\"{}\" cannot name {}: it is a word of GLSL", name, what));
+                    fmt::format("\"{}\" cannot name {}: {}", name, what,
+                                function    ? "it would hide a function of GLSL"
+                                : !reserved ? "it is a word of GLSL"
+                                : name.starts_with("HAS_")
+                                    ? "HAS_… says which slots and parameters a pass has"
+                                    : "GLSL keeps names with GL_ at the front or __ inside for itself"));
+  if (reserved || function) {
+    d.expected = define ? "a name that nothing else has in the shader" : "a name that the shader can declare";
+    d.hint = "choose another here and in the shader";
+    if (function) d.hint += fmt::format(", such as 'use_{}'", name);
+    return false;
+  }
   d.expected = "a name that the shader can declare";
   d.hint = fmt::format("choose another here and in the shader, such as 'my_{}'",
                        name.starts_with("gl_") ? name.substr(3) : name);

@@ -301,6 +301,16 @@ class PassReader {
   }
 
   void addState(std::string name, const JsonMember& member) {
+    // A word of another API is often no expression: ">=", "greater-equal".
+    if (member.value.is(Type::string) && !isIdent(member.value.text))
+      if (std::string hint = base::hintForForeign(base::Foreign::state_word, member.value.text);
+          !hint.empty()) {
+        auto& d = context_.error(Code::badState, member.value,
+                                 fmt::format("unknown value for the state '{}'", name));
+        d.found = fmt::format("\"{}\"", member.value.text);
+        d.hint = std::move(hint);
+        return;
+      }
     Expr expr = context_.expr(&member.value, fmt::format("\"{}\"", member.key));
     if (expr.present())
       out_.state.push_back({std::move(name), member.place, member.value.pointer, std::move(expr)});

@@ -1,6 +1,8 @@
 // Resources: textures, buffers, imports, inputs, alternatives.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/base/files/file.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
@@ -16,6 +18,14 @@ using base::Code;
 // Import arguments that hold a path; a string there is no expression unless it begins with '$'.
 bool isPathArgument(std::string_view key) {
   return key == "file" || (key.size() > 5 && key.substr(key.size() - 5) == "_file");
+}
+
+// "photo.png" under another key is meant as a path, and no expression. Whoever knows the arguments says so.
+bool looksLikePath(std::string_view text) {
+  constexpr std::string_view kEndings[] = {".png", ".jpg", ".jpeg", ".exr", ".hdr", ".cube",
+                                           ".tga", ".bmp", ".gltf", ".glb", ".obj", ".json"};
+  return text.find('$') == std::string_view::npos &&
+         std::ranges::any_of(kEndings, [&](std::string_view ending) { return text.ends_with(ending); });
 }
 
 class ResourceReader {
@@ -98,8 +108,8 @@ class ResourceReader {
       if (member.key == "import") continue;
       const bool named = context_.checkName(member.key, member.place, member.value.pointer, "an argument");
       const JsonValue& value = member.value;
-      const bool path =
-          isPathArgument(member.key) && value.is(JsonValue::Type::string) && value.text.substr(0, 1) != "$";
+      const bool path = value.is(JsonValue::Type::string) && value.text.substr(0, 1) != "$" &&
+                        (isPathArgument(member.key) || looksLikePath(value.text));
       Expr expr = path ? Expr::constant(Value::text(base::besideFile(value.textPlace(), value.text)),
                                         value.textPlace())
                        : context_.expr(&value, fmt::format("\"{}\"", member.key));

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/nearest.h"
+#include "engine/runtime/prepare/missing_slot.h"
 #include "engine/runtime/prepare/pass_errors.h"
-#include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/shader_advice.h"
 #include "engine/runtime/storage/block_writer.h"
 
@@ -20,12 +19,13 @@ namespace {
 class ParameterCheck : PassErrors {
  public:
   ParameterCheck(const graph::FlatGraph& graph, const graph::PassSpec& spec, const gl::Variant& variant,
-                 const std::string& shaders, base::Diagnostics& diagnostics)
+                 const ShaderWords& words, const std::string& shaders, base::Diagnostics& diagnostics)
       : PassErrors(spec.name, diagnostics),
         graph_(graph),
         spec_(spec),
         variant_(variant),
         reflection_(variant.program.reflection()),
+        words_(words),
         shaders_(shaders) {}
 
   bool run() {
@@ -34,12 +34,10 @@ class ParameterCheck : PassErrors {
       if (uniform.choosesVariant()) continue;
       const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
       if (!member) {
-        if (variant_.mentions(uniform.name)) continue;
+        if (words_.declaresParameter(uniform.name)) continue;
         parameterMissing_ = true;
-        fail(Code::parameterNotInShader, uniform.place,
-             fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, shaders_))
-            .hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`{}",
-                                memberTypeFor(uniform.value), uniform.name, withNearest(uniform.name));
+        sayMissingParameter(uniform, words_, shaders_, declaredNames(variant_),
+                            fail(Code::parameterNotInShader, uniform.place, ""));
         continue;
       }
       std::string expected;
@@ -60,11 +58,6 @@ class ParameterCheck : PassErrors {
   }
 
  private:
-  std::string withNearest(const std::string& name) const {
-    const std::string nearest = base::nearestName(name, declaredNames(variant_));
-    return nearest.empty() ? "" : fmt::format(", or did you mean '{}'?", nearest);
-  }
-
   // Numbers that are written, and sliders, keep their fractions; what an expression computes is cut.
   void checkWhole(const graph::UniformSpec& uniform, const gl::BlockMember& member) {
     const auto shape = gl::shapeOf(member.type);
@@ -100,14 +93,8 @@ class ParameterCheck : PassErrors {
     for (const gl::BlockMember& member : block->members) {
       if (std::ranges::find(spec_.uniforms, member.name, &graph::UniformSpec::name) != spec_.uniforms.end())
         continue;
-      base::Diagnostic& d =
-          fail(Code::undeclaredShaderInput, spec_.shaderPlace,
-               fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
-                           member.name, spec_.name));
-      d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name,
-                               gl::glslTypeName(member.type));
-      d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
-                           presenceDefineOf(member.name));
+      sayUnset(member.name, gl::glslTypeName(member.type), spec_, shaders_,
+               fail(Code::undeclaredShaderInput, spec_.shaderPlace, ""));
     }
   }
 
@@ -115,6 +102,7 @@ class ParameterCheck : PassErrors {
   const graph::PassSpec& spec_;
   const gl::Variant& variant_;
   const gl::Reflection& reflection_;
+  const ShaderWords& words_;
   const std::string& shaders_;
   bool parameterMissing_ = false;
 };
@@ -122,8 +110,8 @@ class ParameterCheck : PassErrors {
 }  // namespace
 
 bool checkParameters(const graph::FlatGraph& graph, const graph::PassSpec& spec, const gl::Variant& variant,
-                     const std::string& shaders, base::Diagnostics& diagnostics) {
-  return ParameterCheck(graph, spec, variant, shaders, diagnostics).run();
+                     const ShaderWords& words, const std::string& shaders, base::Diagnostics& diagnostics) {
+  return ParameterCheck(graph, spec, variant, words, shaders, diagnostics).run();
 }
 
 std::vector<std::string> declaredNames(const gl::Variant& variant) {

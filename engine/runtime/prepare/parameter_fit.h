@@ -8,12 +8,13 @@
 #include "engine/base/diagnostic.h"
 #include "engine/gl/programs/program_cache.h"
 #include "engine/graph/flat_graph.h"
+#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::runtime {
 
 // W182, W184, W187. `shaders`: their paths, for messages. False after a report.
 bool checkParameters(const graph::FlatGraph& graph, const graph::PassSpec& spec, const gl::Variant& variant,
-                     const std::string& shaders, base::Diagnostics& diagnostics);
+                     const ShaderWords& words, const std::string& shaders, base::Diagnostics& diagnostics);
 
 // The names that the sources of a variant declare, sorted, each once.
 std::vector<std::string> declaredNames(const gl::Variant& variant);

@@ -10,11 +10,13 @@
 #include "engine/gl/objects/objects.h"
 #include "engine/imports/row_layout.h"
 #include "engine/passes/compute/work_groups.h"
+#include "engine/runtime/prepare/missing_slot.h"
 #include "engine/runtime/prepare/parameter_fit.h"
 #include "engine/runtime/prepare/pass_errors.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/sampler_types.h"
 #include "engine/runtime/prepare/shader_advice.h"
+#include "engine/runtime/prepare/shader_words.h"
 #include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {
@@ -48,7 +50,7 @@ class Checker : PassErrors {
 
   bool run() {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
-    const bool parametersFit = checkParameters(graph_, spec_, variant_, shaders_, diagnostics_);
+    const bool parametersFit = checkParameters(graph_, spec_, variant_, words_, shaders_, diagnostics_);
     checkRest();
     checkSlices(graph_.passes[pass_]);
     checkGroups();
@@ -73,10 +75,7 @@ class Checker : PassErrors {
           d.hint = fmt::format("a slot has the name of the block: call it '{}'", block);
           return;
         }
-    d.hint = base::nearestHint(slot.name, declaredNames(variant_));
-    if (!d.hint.starts_with("did you mean"))
-      d.hint = fmt::format("declare `{}`{}{}", declarationFor(slot, slot.kind, use, resourceOf(use)),
-                           d.hint.empty() ? "" : "; ", d.hint);
+    sayMissingSlot(graph_, spec_, slot, words_, shaders_, declaredNames(variant_), d);
   }
 
   const FlatResource& resourceOf(const FlatUse& use) const { return graph_.resources[use.resource]; }
@@ -127,11 +126,14 @@ class Checker : PassErrors {
         checkTable(reflection_.findStorageBlock(slot.name), columnsOf(graph_, use), slot.place);
         return;
       case Kind::color:
-        if (!reflection_.findOutput(slot.name) && (!mentioned(slot) || !otherUse(slot.name).empty()))
+        if (!reflection_.findOutput(slot.name) && (!declared(slot) || !otherUse(slot.name).empty()))
           missing(slot, "an output", otherUse(slot.name), use);
         checkOutput(slot, use);
         return;
       case Kind::depth:
+        if (reflection_.findOutput(slot.name))
+          sayOutputToDepth(graph_, slot, fail(Code::slotTypeMismatch, slot.place, ""));
+        return;
       case Kind::copy:
       case Kind::vertex:
       case Kind::index:
@@ -140,10 +142,10 @@ class Checker : PassErrors {
     }
   }
 
-  bool mentioned(const SlotSpec& slot) const { return variant_.mentions(slot.name); }
+  bool declared(const SlotSpec& slot) const { return words_.declares(slot.name, slot.kind); }
 
   void checkBlock(const SlotSpec& slot, const gl::Block* block, const char* what, const FlatUse& use) {
-    if (!block && (!mentioned(slot) || !otherUse(slot.name).empty()))
+    if (!block && (!declared(slot) || !otherUse(slot.name).empty()))
       missing(slot, what, otherUse(slot.name), use);
   }
 
@@ -190,7 +192,7 @@ class Checker : PassErrors {
   void checkSampler(const SlotSpec& slot, const FlatUse& use) {
     const gl::OpaqueUniform* sampler = reflection_.findSampler(slot.name);
     if (!sampler) {
-      if (!mentioned(slot) || !otherUse(slot.name).empty())
+      if (!declared(slot) || !otherUse(slot.name).empty())
         missing(slot, "a sampler", otherUse(slot.name), use);
       return;
     }
@@ -200,7 +202,7 @@ class Checker : PassErrors {
   void checkImage(const SlotSpec& slot, const FlatUse& use) {
     const gl::OpaqueUniform* image = reflection_.findImage(slot.name);
     if (!image) {
-      if (!mentioned(slot) || !otherUse(slot.name).empty())
+      if (!declared(slot) || !otherUse(slot.name).empty())
         missing(slot, "an image", otherUse(slot.name), use);
       return;
     }
@@ -210,29 +212,9 @@ class Checker : PassErrors {
 
   // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
   void checkImageFormat(const SlotSpec& slot, const FlatUse& use) {
-    const graph::Format format = resourceOf(use).format;
-    for (const gl::StageSource& stage : variant_.stages) {
-      const auto declared = stage.source->parts.imageFormats.find(slot.name);
-      if (declared == stage.source->parts.imageFormats.end()) continue;
-      std::string other;  // a format that is declared and is none of the texture's
-      bool same = false;
-      for (const std::string& word : declared->second)
-        if (const auto named = graph::findFormat(word)) {
-          same = same || *named == format;
-          other = word;
-        }
-      if (same || other.empty()) continue;
-      const char* const own = graph::infoOf(format).name;
-      base::Diagnostic& d = fail(
-          Code::slotTypeMismatch, slot.place,
-          fmt::format("slot '{}' is a texture of {}, and the shader's image of {}", slot.name, own, other));
-      d.resource = graph_.resourceNames[use.resource];
-      d.expected = fmt::format("layout({})", own);
-      d.found = fmt::format("layout({}) in '{}'", other, shaders_);
-      d.hint = fmt::format("declare `{}`, or make the texture {}",
-                           declarationFor(slot, Kind::image, use, resourceOf(use)), other);
-      return;
-    }
+    const std::string other = otherFormat(words_.imageFormatsOf(slot.name), resourceOf(use).format);
+    if (!other.empty())
+      sayImageFormat(graph_, slot, other, shaders_, fail(Code::slotTypeMismatch, slot.place, ""));
   }
 
   void checkOpaque(const SlotSpec& slot, const FlatUse& use, const gl::OpaqueUniform& uniform, bool compare) {
@@ -375,6 +357,8 @@ class Checker : PassErrors {
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
+  RoleCache roles_;
+  const ShaderWords words_{variant_.stages, variant_.defines, roles_};
   bool slotMissing_ = false;
 };
 

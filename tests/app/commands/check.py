@@ -57,6 +57,19 @@ def check_formats(weft, report):
                 report.check(place["artifactLocation"]["uri"] == diagnostic["file"], f"{graph}: {result}")
 
 
+def check_words(weft, report):
+    """Without OpenGL: what the words of the shaders tell, of the variant that is meant."""
+    graph = "tests/bad_graphs/w183_image_format_of_a_variant.json"
+    for arguments, code in ((["--set", "mode=a"], 0), (["--set", "mode=b"], 1)):
+        done = run(weft, "check", "--no-shaders", graph, *arguments)
+        report.check(done.code == code and done.codes() == ["W183"] * code, f"{arguments}: {done.code}\n{done.err}")
+    every = run(weft, "check", "--no-shaders", graph, "--set", "mode=a", "--all")
+    report.check(every.code == 1 and "(with --set mode=b)" in every.err, f"--all: {every.code}\n{every.err}")
+    for graph in (GLOW, "graphs/studio_gi.json", "graphs/deferred_gi.json"):
+        done = run(weft, "check", "--no-shaders", "--all", graph)
+        report.check(done.code == 0 and not done.codes() and not done.codes("warning"), f"{graph}: {done.err}")
+
+
 def check_matrix(weft, report):
     result = run(weft, "check", "--no-shaders", GLOW, "--matrix", "--format", "json")
     matrix = json.loads(result.out)["matrix"]
@@ -209,6 +222,7 @@ def main():
         check_all(weft, report)
     else:
         check_formats(weft, report)
+        check_words(weft, report)
         check_matrix(weft, report)
         check_many_mistakes(weft, report)
         check_watch(weft, report)

@@ -44,6 +44,8 @@ class Judge {
   void run() {
     for (std::size_t i = 0; i < model_.missing.size() && !isOver(model_); ++i)
       judge(model_.missing[i], found_[i]);
+    for (const EmptyRepeat& empty : model_.emptied)
+      if (empty.written && !isOver(model_) && blamed_.insert(empty.pass).second) warnOfEmpty(empty);
   }
 
  private:
@@ -61,7 +63,8 @@ class Judge {
         if (write.pass != kNone && write.pass == missing.pass)
           writers.self = &write;
         else if (write.disabled != kNone && write.position < missing.position)
-          writers.disabledEarlier = &write;
+          writers.disabledEarlier =
+              write.passesOn && writers.disabledEarlier ? writers.disabledEarlier : &write;
         else if (write.disabled != kNone && !writers.disabledLater)
           writers.disabledLater = &write;
         else if (write.pass != kNone && write.position > missing.position && !writers.enabledLater)
@@ -232,6 +235,7 @@ class Judge {
         fmt::format("{} {} {}, but pass '{}' that would write it is not there once: its \"repeat\" is empty",
                     subject, verb(missing), thing, empty.pass));
     if (!d) return;
+    blamed_.insert(empty.pass);
     d->found = fmt::format("\"{}\": [{}, {}{}]", empty.index, empty.first, empty.last,
                            empty.step == 1 ? "" : fmt::format(", {}", empty.step));
     const std::string clear = fmt::format("give '{}' a \"clear\"", d->resource);
@@ -239,6 +243,19 @@ class Judge {
                   ? fmt::format("a range counts down with a step: \"{}\": [{}, {}, -1]; or {}", empty.index,
                                 empty.first, empty.last, clear)
                   : fmt::format("let the range have an index, or {}", clear);
+  }
+
+  // Nobody needs what it would write, and yet nobody writes a range to have nothing.
+  void warnOfEmpty(const EmptyRepeat& empty) {
+    auto& d = model_.diagnostics.warning(
+        Code::culledUnread, empty.place,
+        fmt::format("pass '{}' is not there once: its \"repeat\" is empty", empty.pass));
+    d.pass = empty.pass;
+    d.found = fmt::format("\"{}\": [{}, {}{}]", empty.index, empty.first, empty.last,
+                          empty.step == 1 ? "" : fmt::format(", {}", empty.step));
+    d.hint = fmt::format("a range counts {}: \"{}\": [{}, {}{}]",
+                         empty.step > 0 ? "down with a step" : "up without a negative step", empty.index,
+                         empty.first, empty.last, empty.step > 0 ? ", -1" : "");
   }
 
   // A pass reads what it writes itself, and neither is a whole resource: there is no earlier version of it.
@@ -309,13 +326,14 @@ class Judge {
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> wouldRead_;
   std::vector<Writers> found_;
   std::set<std::string> said_;
+  std::set<std::string> blamed_;  // passes with an empty "repeat" that an error names
   int searches_ = 0;
 };
 
 }  // namespace
 
 void judgeMissing(Model& model) {
-  if (!model.missing.empty()) Judge(model).run();
+  if (!model.missing.empty() || std::ranges::any_of(model.emptied, &EmptyRepeat::written)) Judge(model).run();
 }
 
 }  // namespace weft::graph::expansion

@@ -1,9 +1,11 @@
 // Imports: their arguments, and what the registry says of them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
 
+#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/expand/names/resources.h"
@@ -55,7 +57,21 @@ bool evaluateArgument(Model& model, Names& names, const Entity& entity, const Im
                 "");
 }
 
+// What others call the argument "file".
+bool isPathName(std::string_view name) {
+  constexpr std::string_view kNames[] = {"path",     "url",       "uri",      "src",      "source",
+                                         "filename", "file_name", "filepath", "file_path"};
+  return std::ranges::find(kNames, name) != std::end(kNames);
+}
+
 }  // namespace
+
+std::string hintForImport(std::string_view name, const std::vector<std::string>& types) {
+  for (const base::Foreign kind : {base::Foreign::value, base::Foreign::import_type})
+    if (std::string foreign = base::hintForForeign(kind, name); !foreign.empty()) return foreign;
+  std::string hint = base::nearestHint(name, types);
+  return hint.empty() ? fmt::format("imports are {}", fmt::join(types, ", ")) : hint;
+}
 
 bool evaluateImport(Model& model, Entity& entity) {
   const std::string typeName = entity.desc ? entity.desc->import.type : entity.name.substr(1);
@@ -67,7 +83,7 @@ bool evaluateImport(Model& model, Entity& entity) {
         Code::unknownImport, entity.desc->place,
         fmt::format("resource '{}' is of the unknown import '{}'", entity.name, typeName));
     d.resource = entity.name;
-    d.hint = base::nearestHint(typeName, types);
+    d.hint = hintForImport(typeName, types);
     return false;
   }
   ImportRequest request;
@@ -88,6 +104,8 @@ bool evaluateImport(Model& model, Entity& entity) {
                                 fmt::format("import '{}' has no argument '{}'", typeName, argument.name));
     d.resource = entity.name;
     d.hint = base::nearestHint(argument.name, known);
+    if (isPathName(argument.name) && std::ranges::find(known, "file") != known.end())
+      d.hint = "write \"file\"";
     good = false;
   }
   for (const ImportArgument& argument : type->arguments) {
@@ -97,6 +115,7 @@ bool evaluateImport(Model& model, Entity& entity) {
     if (found != given.end()) {
       good = evaluateArgument(model, names, entity, argument, found->expr, value) && good;
     } else if (argument.initial.type == Value::Type::none) {
+      if (!good) continue;  // one misspelling is one mistake
       auto& d = model.diagnostics.error(
           Code::badImportArgument, entity.desc ? entity.desc->place : Place{},
           fmt::format("import '{}' needs the argument '{}'", typeName, argument.name));

@@ -1,5 +1,6 @@
 // What expressions depend on through lets: age(), live parameters, and parameters that structure depends on. Walks without
 // recursion, because lets may stand in long rows.
+#include <set>
 #include <utility>
 
 #include "engine/graph/expand/names/scope.h"
@@ -96,6 +97,23 @@ bool isDynamic(Model& model, Scope& scope, const Expr& expr) {
   for (const std::string& name : expr.variables()) {
     const Variable variable = findVariable(model, scope, name);
     if (variable.kind == Variable::Kind::let && model.lets[variable.index].dynamic) return true;
+  }
+  return false;
+}
+
+bool countsElements(Model& model, Scope& scope, const Expr& expr) {
+  std::vector<std::pair<Scope*, const Expr*>> open{{&scope, &expr}};
+  std::set<std::uint32_t> seen;  // lets
+  while (!open.empty()) {
+    const auto [from, each] = open.back();
+    open.pop_back();
+    if (!each->present() || each->isConstant()) continue;
+    for (const auto& [fact, name] : each->facts())
+      if (fact == Fact::count || fact == Fact::has) return true;
+    for (const std::string& name : each->variables())
+      if (const Variable variable = findVariable(model, *from, name);
+          variable.kind == Variable::Kind::let && seen.insert(variable.index).second)
+        open.emplace_back(model.lets[variable.index].scope, &model.lets[variable.index].desc->expr);
   }
   return false;
 }

@@ -158,12 +158,16 @@ struct WriteRecord {
   std::uint32_t pass = kNone;      // of FlatGraph::passes when enabled
   std::uint32_t disabled = kNone;  // of FlatGraph::disabled otherwise
   bool whole = false;
+  bool passesOn =
+      false;  // of a disabled one: it reads the resource too, and enabling it alone would not help
 };
 
 // A pass whose "repeat" leaves nothing of it.
 struct EmptyRepeat {
   std::string pass, index;
   std::int64_t first = 0, last = 0, step = 1;
+  Place place;
+  bool written = false;  // its bounds are numbers, not computed: a mistake, whoever needs it
 };
 
 // A slot that found no version. Only when it is known which passes live, it is known whether that is an error or a warning.

@@ -69,8 +69,9 @@ bool evaluateSize(Model& model, Names& names, Entity& entity) {
   }
   const std::uint32_t limit = value.count == 3 ? kMaxSize3d : kMaxSize;
   for (std::size_t i = 0; i < value.count; ++i) {
-    // Written as such, 0 is a mistake; computed, a size is floored and at least 1.
-    const bool low = value.v[i] < 0 || (value.v[i] < 1 && desc.size.isConstant());
+    // 0 is a mistake, but for an empty list; what is computed between 0 and 1 is 1.
+    const bool low = value.v[i] < 0 || (value.v[i] < 1 && desc.size.isConstant()) ||
+                     (value.v[i] == 0 && !countsElements(model, names.scope(), desc.size));
     if (!std::isfinite(value.v[i]) || low || value.v[i] > limit) {
       rangeError(model, desc.size, fmt::format("the size of '{}'", entity.name),
                  fmt::format("1 to {} texels a side", limit), value.v[i]);

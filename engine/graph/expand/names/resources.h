@@ -25,6 +25,8 @@ std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind,
 std::uint32_t staticTarget(Model& model, std::uint32_t entity, std::uint32_t* mip = nullptr);
 
 const ImportType* findImportType(const Registry& registry, std::string_view name);
+// What else an unknown import may mean: what Weft calls it, the nearest of its types, or all of them.
+std::string hintForImport(std::string_view name, const std::vector<std::string>& types);
 
 constexpr std::uint32_t kMaxSize = 16384, kMaxSize3d = 2048, kMaxMips = 32, kMaxLayers = 2048,
                         kMaxHistory = 16, kMaxArray = 256;

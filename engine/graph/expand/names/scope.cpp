@@ -294,7 +294,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
     d.pass = pass;
     d.hint = scope.resources.contains(name)
                  ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
-                 : base::nearestHint(name, types);
+                 : hintForImport(name, types);
     return kNone;
   }
   auto& d = model.diagnostics.error(Code::unknownResource, place,

@@ -50,6 +50,8 @@ void markStructural(Model& model, Scope& scope, const Expr& expr);
 void markStructural(Model& model, Scope& scope, const RefDesc& ref);
 // True when the expression contains age(), perhaps through a let.
 bool isDynamic(Model& model, Scope& scope, const Expr& expr);
+// True when the expression asks count() or has(), perhaps through a let: it may be 0 where a list is empty.
+bool countsElements(Model& model, Scope& scope, const Expr& expr);
 // Finds for every let whether it reads a live parameter, perhaps through another let. To be called when everything
 // structural is known.
 void findLiveLets(Model& model);

@@ -1,0 +1,128 @@
+#include "engine/runtime/prepare/shader_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace weft::runtime {
+
+using gl::Role;
+using gl::ShaderRoles;
+
+namespace {
+
+Role roleFor(graph::Kind kind) {
+  switch (kind) {
+    case graph::Kind::uniform:
+      return Role::uniform_block;
+    case graph::Kind::storage:
+      return Role::storage_block;
+    case graph::Kind::color:
+    case graph::Kind::depth:
+      return Role::output;
+    default:
+      return Role::opaque;
+  }
+}
+
+}  // namespace
+
+const ShaderRoles& RoleCache::ofText(const gl::ShaderSource& source) {
+  const auto [known, fresh] = known_.try_emplace(fmt::format("{:016x} {}", source.hash, source.text.size()));
+  if (fresh) known->second = gl::rolesIn(source.text);
+  return known->second;
+}
+
+const ShaderRoles& RoleCache::ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines) {
+  std::string key = fmt::format("{:016x} {}", source.hash, source.text.size());
+  for (const gl::Define& define : defines) key += fmt::format("|{}={}", define.name, define.value);
+  const auto [known, fresh] = known_.try_emplace(key + "|");
+  if (fresh) known->second = gl::rolesIn(source.text, defines);
+  return known->second;
+}
+
+bool ShaderWords::maybe(std::string_view name, Role role, bool lastOnly) const {
+  for (const gl::StageSource& stage : stages_) {
+    if ((lastOnly && &stage != &stages_.back()) || !stage.source->mentions(name)) continue;
+    if (cache_.ofText(*stage.source).maybe(name, role)) return true;
+  }
+  // A macro may paste the name together, or declare it in this variant only.
+  for (const gl::StageSource& stage : stages_)
+    if ((!lastOnly || &stage == &stages_.back()) &&
+        cache_.ofVariant(*stage.source, defines_).maybe(name, role))
+      return true;
+  return false;
+}
+
+bool ShaderWords::declares(std::string_view name, graph::Kind kind) const {
+  if (maybe(name, roleFor(kind), kind == graph::Kind::color)) return true;
+  // Of a block that is not named by its own name, the shader's side has a better message (W187).
+  const bool block = kind == graph::Kind::uniform || kind == graph::Kind::storage;
+  return block && maybe(name, Role::instance, false);
+}
+
+bool ShaderWords::declaresParameter(std::string_view name) const {
+  // A uniform outside a block has a message of its own.
+  return maybe(name, Role::parameter, false) || maybe(name, Role::opaque, false);
+}
+
+bool ShaderWords::hasOutput(std::string_view name) const {
+  return !stages_.empty() && stages_.back().source->mentions(name) &&
+         cache_.ofVariant(*stages_.back().source, defines_).is(name, Role::output);
+}
+
+std::string ShaderWords::whatIs(std::string_view name) const {
+  std::uint16_t roles = 0;
+  bool mentioned = false;
+  // The outputs of a vertex shader are the inputs of what follows it.
+  for (auto stage = stages_.rbegin(); stage != stages_.rend() && roles == 0; ++stage) {
+    if (!stage->source->mentions(name)) continue;
+    mentioned = true;
+    const ShaderRoles& all = cache_.ofText(*stage->source);
+    if (const auto found = all.roles.find(name); found != all.roles.end()) roles = found->second;
+  }
+  if (const std::string_view role = gl::nameOfRole(roles); !role.empty()) return std::string(role);
+  if (gl::isBuiltinFunction(name)) return "a built-in function";
+  return mentioned ? "a word that declares nothing" : "";
+}
+
+std::vector<std::string> ShaderWords::namesFor(graph::Kind kind) const {
+  std::vector<std::string> names;
+  for (const gl::StageSource& stage : stages_) {
+    if (kind == graph::Kind::color && &stage != &stages_.back()) continue;
+    for (std::string& name : cache_.ofText(*stage.source).namesOf(roleFor(kind)))
+      if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::vector<std::string> ShaderWords::imageFormatsOf(std::string_view name) const {
+  for (const gl::StageSource& stage : stages_) {
+    if (!stage.source->mentions(name)) continue;
+    const ShaderRoles& roles = cache_.ofVariant(*stage.source, defines_);
+    if (roles.unsure) continue;
+    if (const auto found = roles.imageFormats.find(name); found != roles.imageFormats.end())
+      return found->second;
+  }
+  return {};
+}
+
+std::vector<ShaderRoles::Member> ShaderWords::parameters() const {
+  for (const gl::StageSource& stage : stages_) {
+    if (!stage.source->mentions("Parameters")) continue;
+    const ShaderRoles& roles = cache_.ofVariant(*stage.source, defines_);
+    if (!roles.unsure && std::ranges::any_of(roles.parameters, [&](const ShaderRoles::Member& member) {
+          return roles.reachable.contains(member.name);
+        }))
+      return roles.parameters;
+  }
+  return {};
+}
+
+bool ShaderWords::uses(std::string_view name) const {
+  return std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
+    return stage.source->mentions(name) && cache_.ofVariant(*stage.source, defines_).reachable.contains(name);
+  });
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,62 @@
+// What the names in the texts of a pass's shaders are (engine/gl/shaders/roles.h), as the checks of slots and parameters ask
+// for it: whether the text declares what a slot needs, which the linker may have dropped, and what carries the name
+// instead. Keeps what it scanned, by text and defines. Does not: need a context, or report.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gl/programs/program.h"
+#include "engine/gl/shaders/roles.h"
+#include "engine/gl/shaders/source.h"
+#include "engine/graph/flat_graph.h"
+
+namespace weft::runtime {
+
+// Texts that were scanned. Answers stay valid until clear().
+class RoleCache {
+ public:
+  const gl::ShaderRoles& ofText(const gl::ShaderSource& source);
+  const gl::ShaderRoles& ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines);
+  std::size_t size() const { return known_.size(); }
+  void clear() { known_.clear(); }
+
+ private:
+  std::map<std::string, gl::ShaderRoles> known_;
+};
+
+class ShaderWords {
+ public:
+  // All must outlive this. The last stage is the one that has outputs.
+  ShaderWords(std::span<const gl::StageSource> stages, std::span<const gl::Define> defines, RoleCache& cache)
+      : stages_(stages), defines_(defines), cache_(cache) {}
+
+  // Whether the text declares the name as what a slot of this kind needs, in any branch, or may do so.
+  bool declares(std::string_view name, graph::Kind kind) const;
+  // The same for a parameter: a member of the block Parameters.
+  bool declaresParameter(std::string_view name) const;
+  // Whether the fragment shader of this variant has an output of that name.
+  bool hasOutput(std::string_view name) const;
+  // "an input", "a built-in function", "a word that declares nothing"; "" when no text has the name.
+  std::string whatIs(std::string_view name) const;
+  // The names that a slot of this kind could have.
+  std::vector<std::string> namesFor(graph::Kind kind) const;
+  // The words of the layout of an image, in this variant.
+  std::vector<std::string> imageFormatsOf(std::string_view name) const;
+  // Members of the block Parameters that this variant reads, or of which it reads another one.
+  std::vector<gl::ShaderRoles::Member> parameters() const;
+  // Whether main() of some stage reaches the name.
+  bool uses(std::string_view name) const;
+
+ private:
+  bool maybe(std::string_view name, gl::Role role, bool lastOnly) const;
+
+  const std::span<const gl::StageSource> stages_;
+  const std::span<const gl::Define> defines_;
+  RoleCache& cache_;
+};
+
+}  // namespace weft::runtime

@@ -1,0 +1,101 @@
+#include "engine/runtime/prepare/word_check.h"
+
+#include <algorithm>
+
+#include "engine/runtime/prepare/missing_slot.h"
+#include "engine/runtime/prepare/pass_errors.h"
+
+namespace weft::runtime {
+
+using base::Code;
+using graph::Access;
+using graph::Kind;
+
+namespace {
+
+class WordChecker : PassErrors {
+ public:
+  WordChecker(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
+              std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics)
+      : PassErrors(plan.graph->specs[pass].name, diagnostics),
+        plan_(plan),
+        graph_(*plan.graph),
+        spec_(graph_.specs[pass]),
+        stages_(stages),
+        words_(stages, defines, cache) {}
+
+  void run() {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
+    for (const graph::UniformSpec& uniform : spec_.uniforms) {
+      if (uniform.choosesVariant() || words_.declaresParameter(uniform.name)) continue;
+      sayMissingParameter(uniform, words_, shaders_, declared(),
+                          fail(Code::parameterNotInShader, uniform.place, ""));
+    }
+    // One misspelling is one mistake.
+    if (any()) return;
+    for (const auto& [type, name] : words_.parameters())
+      if (std::ranges::find(spec_.uniforms, name, &graph::UniformSpec::name) == spec_.uniforms.end())
+        sayUnset(name, type, spec_, shaders_, fail(Code::undeclaredShaderInput, spec_.shaderPlace, ""));
+  }
+
+ private:
+  void checkSlot(const graph::SlotSpec& slot) {
+    if (slot.useCount == 0) return;
+    if (slot.access != Access::read && !plan_.attached[slot.firstUse]) return;
+    switch (slot.kind) {
+      case Kind::sampled:
+      case Kind::image:
+      case Kind::uniform:
+      case Kind::storage:
+      case Kind::color:
+        if (!words_.declares(slot.name, slot.kind))
+          sayMissingSlot(graph_, spec_, slot, words_, shaders_, declared(),
+                         fail(Code::slotNotInShader, slot.place, ""));
+        else if (slot.kind == Kind::image)
+          checkImageFormat(slot);
+        return;
+      case Kind::depth:
+        if (words_.hasOutput(slot.name))
+          sayOutputToDepth(graph_, slot, fail(Code::slotTypeMismatch, slot.place, ""));
+        return;
+      default:
+        return;
+    }
+  }
+
+  void checkImageFormat(const graph::SlotSpec& slot) {
+    if (!words_.uses(slot.name)) return;
+    const std::string other = otherFormat(words_.imageFormatsOf(slot.name),
+                                          graph_.resources[graph_.uses[slot.firstUse].resource].format);
+    if (!other.empty())
+      sayImageFormat(graph_, slot, other, shaders_, fail(Code::slotTypeMismatch, slot.place, ""));
+  }
+
+  const std::vector<std::string>& declared() {
+    if (declared_.empty())
+      for (const gl::StageSource& stage : stages_)
+        declared_.insert(declared_.end(), stage.source->declared.begin(), stage.source->declared.end());
+    std::ranges::sort(declared_);
+    declared_.erase(std::ranges::unique(declared_).begin(), declared_.end());
+    return declared_;
+  }
+
+  const graph::Plan& plan_;
+  const graph::FlatGraph& graph_;
+  const graph::PassSpec& spec_;
+  const std::span<const gl::StageSource> stages_;
+  const ShaderWords words_;
+  std::vector<std::string> declared_;
+  // For messages, between quotes.
+  const std::string shaders_ =
+      spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
+};
+
+}  // namespace
+
+void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
+                std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics) {
+  WordChecker(plan, pass, stages, defines, cache, diagnostics).run();
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,19 @@
+// Holds the slots and parameters of a pass against the words of its shaders, for those who have no OpenGL: the language
+// server and `weft check --no-shaders`. Says what the check of the linked program (program_check.h) would say, as far as
+// words tell: names that are not declared as what they must be, members of Parameters that the pass does not set, and
+// formats of images (W181, W182, W183, W187). Does not: know types, or compile.
+#pragma once
+
+#include <span>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/prepare/shader_words.h"
+
+namespace weft::runtime {
+
+// `stages` and `defines`: as programRequestOf() has them for the pass.
+void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
+                std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics);
+
+}  // namespace weft::runtime
