@@ -125,7 +125,7 @@ int runImport(const Options& options) {
     const auto isSame = [&](const auto& other) { return other.first == image.substr(0, at); };
     if (std::ranges::any_of(wanted.images, isSame))
       diagnostics
-          .error(Code::duplicateName, graph::placeOfOption("--image " + image),
+          .error(Code::duplicateName, base::placeOfOption("--image " + image),
                  fmt::format("two pictures for '{}'", image.substr(0, at)))
           .hint = "name one";
     checkPicture(image, image.substr(at + 1), diagnostics);

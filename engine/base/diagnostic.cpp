@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "engine/base/printable.h"
 
@@ -11,13 +15,25 @@ namespace weft::base {
 
 namespace {
 
-const std::string& textOf(const std::shared_ptr<const std::string>& text) {
+// Texts of options, each once, by number.
+struct OptionTexts {
+  std::mutex mutex;
+  std::map<std::string, std::uint32_t> numbers;
+  std::vector<const std::string*> texts;
+};
+
+OptionTexts& optionTexts() {
+  static OptionTexts all;
+  return all;
+}
+
+const std::string& textOf(const std::string* text) {
   static const std::string none;
   return text ? *text : none;
 }
 
 auto keyOf(const Diagnostic& d) {
-  return std::tie(textOf(d.place.file), textOf(d.place.option), d.place.line, d.place.column);
+  return std::tie(textOf(d.place.file.get()), textOf(optionOf(d.place)), d.place.line, d.place.column);
 }
 
 // A text of any length fits on a screen, and is one line.
@@ -31,21 +47,31 @@ bool sameText(const Diagnostic& a, const Diagnostic& b) {
 
 }  // namespace
 
-Place placeOfOption(std::string option) {
+Place placeOfOption(const std::string& option) {
+  OptionTexts& all = optionTexts();
+  const std::lock_guard lock(all.mutex);
+  const auto [found, isNew] =
+      all.numbers.try_emplace(option, static_cast<std::uint32_t>(all.texts.size() + 1));
+  if (isNew) all.texts.push_back(&found->first);
   Place place;
-  place.option = std::make_shared<const std::string>(std::move(option));
+  place.column = found->second;
   return place;
 }
 
+const std::string* optionOf(const Place& place) {
+  if (place.file || place.line > 0 || place.column == 0) return nullptr;
+  OptionTexts& all = optionTexts();
+  const std::lock_guard lock(all.mutex);
+  return place.column <= all.texts.size() ? all.texts[place.column - 1] : nullptr;
+}
+
 bool isKnown(const Place& place) {
-  return place.file || place.option;
+  return place.file || optionOf(place);
 }
 
 bool isSamePlace(const Place& a, const Place& b) {
-  const auto same = [](const auto& one, const auto& other) {
-    return one == other || (one && other && *one == *other);
-  };
-  return a.line == b.line && a.column == b.column && same(a.file, b.file) && same(a.option, b.option);
+  return a.line == b.line && a.column == b.column &&
+         (a.file == b.file || (a.file && b.file && *a.file == *b.file));
 }
 
 std::string nameOf(Code code) {
@@ -54,10 +80,9 @@ std::string nameOf(Code code) {
 
 std::string format(const Diagnostic& d) {
   std::string out;
-  if (d.place.option) {
-    const std::string& option = *d.place.option;
+  if (const std::string* option = optionOf(d.place)) {
     out += "command line: ";
-    if (!option.empty()) out += printedText(option) + ": ";
+    if (!option->empty()) out += printedText(*option) + ": ";
   } else if (d.place.file && !d.place.file->empty()) {
     // A file without a line may be one that was named in an option, of any length.
     out += d.place.line > 0 ? printable(*d.place.file) : printedText(*d.place.file);

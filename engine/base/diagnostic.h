@@ -14,16 +14,18 @@
 namespace weft::base {
 
 // A place in a text file, or an option of the command line. Lines and columns count from 1, columns in bytes; 0 means
-// unknown. Copying is cheap.
+// unknown. Copying is cheap, and there may be millions: an option has no file and no line, and `column` is its number.
 struct Place {
   std::shared_ptr<const std::string> file;  // path as the person would write it; null for no file
   std::uint32_t line = 0;
   std::uint32_t column = 0;
-  std::shared_ptr<const std::string> option{};  // as it was written, "--set bloom=yes"; null for no option
 };
 
-// The place of an option, which messages print as "command line: --set bloom=yes"; of "", as "command line".
-Place placeOfOption(std::string option);
+// The place of an option, which messages print as "command line: --set bloom=yes"; of "", as "command line". Its text is kept
+// until the program ends, once.
+Place placeOfOption(const std::string& option);
+// The option as it was written, "--set bloom=yes"; null for a place in a file, or nowhere.
+const std::string* optionOf(const Place& place);
 // Whether it says anything: a file or an option.
 bool isKnown(const Place& place);
 // Two places in files of the same path are the same, however often the file was read.

@@ -71,7 +71,7 @@ std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
               {"title", titleOf(d.code)},
               {"message", d.message}};
     if (d.place.file) each["file"] = *d.place.file;
-    if (d.place.option) each["option"] = *d.place.option;
+    if (const std::string* option = optionOf(d.place)) each["option"] = *option;
     if (d.place.line > 0) each["line"] = d.place.line;
     if (d.place.line > 0 && d.place.column > 0) each["column"] = d.place.column;
     for (const auto& [key, value] : {std::pair<const char*, const std::string&>{"pointer", d.pointer},

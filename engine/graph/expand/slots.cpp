@@ -33,8 +33,7 @@ bool evaluateSpan(Names& names, const SpanDesc& desc, const char* word, std::opt
   const auto first = evaluateWhole(names, desc.first, 0, -kFar, kFar, word);
   const auto last = evaluateWhole(names, desc.last, 0, -kFar, kFar, word);
   if (!first || !last) return false;
-  span.first = *first;
-  span.last = desc.range ? *last : *first;
+  span.first = *first, span.last = desc.range ? *last : *first;
   span.place = desc.first.present() ? desc.first.place() : desc.last.place();
   out = span;
   return true;
