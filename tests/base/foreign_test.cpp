@@ -5,6 +5,7 @@
 
 #include "engine/base/foreign_formats.h"
 #include "engine/base/foreign_words.h"
+#include "engine/base/glsl_words.h"
 
 using namespace weft::base;
 
