@@ -293,7 +293,8 @@ base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<
       const Variable variable = findVariable(model, scope, name);
       if (variable.kind != Variable::Kind::parameter) continue;
       const Parameter& parameter = model.parameters[variable.index];
-      if (parameter.value.symbol == file && parameter.valuePlace.file) problem.place = parameter.valuePlace;
+      if (parameter.value.symbol == file && isKnown(parameter.valuePlace))
+        problem.place = parameter.valuePlace;
     }
   }
   return problem;
