@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/session/session.h"
 #include "engine/graph/language/enough.h"
 #include "engine/passes/pass_registry.h"
@@ -20,6 +22,20 @@ std::string keyOf(const gl::ProgramRequest& request) {
   for (const gl::Define& define : request.defines) key += "|" + define.name + "=" + define.value;
   for (const std::string& output : request.outputs) key += "|" + output;
   return key;
+}
+
+// Whether two instances of one stanza have the same variant, so that one of them is enough. There may be a million.
+bool isAlike(const graph::FlatGraph& graph, const graph::PassSpec& a, const graph::PassSpec& b) {
+  const auto sameDefine = [](const graph::DefineSpec& x, const graph::DefineSpec& y) {
+    return x.name == y.name && x.text == y.text;
+  };
+  if (!base::isSamePlace(a.shaderPlace, b.shaderPlace) || a.shader != b.shader ||
+      a.slotCount != b.slotCount || !std::ranges::equal(a.defines, b.defines, sameDefine))
+    return false;
+  for (std::uint32_t i = 0; i < a.slotCount; ++i)
+    if ((graph.slots[a.firstSlot + i].useCount > 0) != (graph.slots[b.firstSlot + i].useCount > 0))
+      return false;
+  return true;
 }
 
 }  // namespace
@@ -65,8 +81,12 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
         runtime::shaderRootsOf(options_.graph, options_.presets, dataFolder()));
   const passes::PassRegistry types = passes::PassRegistry::builtin();
   base::Diagnostics said, unread;  // --no-shaders asks for no files
+  const graph::PassSpec* last = nullptr;
   for (const graph::Step& step : plan.steps) {
+    if (graph::enoughErrors(said)) break;
     const graph::PassSpec& spec = plan.graph->specs[step.pass];
+    if (last && isAlike(*plan.graph, *last, spec)) continue;
+    last = &spec;
     const graph::PassType type = types.find(spec.type)->reflect();
     if (type.shader == graph::ShaderShape::none) continue;
     const std::uint32_t combinations = 1u << runtime::conditionCount(spec);
