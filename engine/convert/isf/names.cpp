@@ -33,8 +33,12 @@ IsfNames::IsfNames(const IsfHeader& header) {
 }
 
 std::string IsfNames::fresh(std::string_view wanted) {
-  std::string name(wanted);
-  while (!used_.insert(name).second) name += '_';
+  std::string one;  // GLSL keeps names with two underscores in a row
+  for (const char c : wanted)
+    if (c != '_' || !one.ends_with('_')) one += c;
+  std::string name = one;
+  for (int i = 2; !used_.insert(name).second; ++i)
+    name = one + (one.ends_with('_') ? "" : "_") + (i == 2 && !one.ends_with('_') ? "" : std::to_string(i));
   return name;
 }
 

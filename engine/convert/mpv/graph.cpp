@@ -69,7 +69,8 @@ class MpvGraphWriter {
   std::string fresh(std::string wanted) {
     if (base::isGlslWord(wanted)) wanted += '_';
     std::string name = wanted;
-    for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
+    for (int i = 2; !taken_.insert(name).second; ++i)
+      name = fmt::format("{}{}{}", wanted, wanted.ends_with('_') ? "" : "_", i);
     return name;
   }
 

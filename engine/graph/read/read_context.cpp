@@ -118,7 +118,8 @@ bool ReadContext::checkShaderName(std::string_view name, const Place& place, con
                                   std::string_view what) {
   if (!checkName(name, place, pointer, what)) return false;
   const bool define = what == "a define";
-  const bool reserved = name.find("__") != std::string_view::npos ||
+  // HAS_A__B of a parameter is a warning of drivers, and importers keep the names of parameters.
+  const bool reserved = (what != "a parameter" && name.find("__") != std::string_view::npos) ||
                         (define && (name.starts_with("GL_") || name.starts_with("HAS_")));
   const bool function = define && base::isGlslFunction(name);
   if (!base::isGlslWord(name) && !reserved && !function) return true;
