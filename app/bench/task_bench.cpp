@@ -37,7 +37,7 @@ struct Look {
   MeshOrder order;
   bool sun = false;
 };
-// As graphs/deferred.json looks at them; the last draws what is opaque as what one sees through is drawn.
+// The views of graphs/deferred.json; the last draws opaque meshes in the order of transparent ones.
 constexpr Look kLooks[] = {{"camera", DrawList::opaque, MeshOrder::by_mesh},
                            {"sun", DrawList::shadow_casters, MeshOrder::by_mesh, true},
                            {"camera, back to front", DrawList::opaque, MeshOrder::back_to_front}};

@@ -102,7 +102,7 @@ struct Preset {
   std::string name, title, description;  // of the file, "name" and "description" in it
 };
 
-// Of all folders; of two of one name that which --preset finds.
+// The presets of all folders; of two with one name, the one that --preset finds.
 std::vector<Preset> knownPresets(const std::string& own, base::Diagnostics& diagnostics) {
   std::vector<Preset> presets;
   std::set<std::string> seen;  // also of files that cannot be read: --preset takes those, too

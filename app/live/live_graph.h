@@ -52,7 +52,7 @@ class LiveGraph {
   void stepEnvironment(int by);
   // The size of the screen. False when it is what it was.
   bool resize(std::uint32_t width, std::uint32_t height, base::Diagnostics& diagnostics);
-  // By the full name of a parameter, of a pass. A live parameter is set at once; everything else takes another
+  // These take the full name of a parameter, of a pass. A live parameter is set at once; everything else takes another
   // plan. False after errors, and nothing has changed.
   bool setParameter(const std::string& name, const graph::Value& value, base::Diagnostics& diagnostics);
   bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);

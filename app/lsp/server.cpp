@@ -14,7 +14,7 @@ namespace weft::app::lsp {
 
 namespace {
 
-// Of the protocol.
+// Error codes of the protocol.
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kUnknownMethod = -32601,
               kInvalidParameters = -32602, kInternalError = -32603, kNotInitialized = -32002,
               kRequestFailed = -32803;

@@ -33,7 +33,7 @@ std::vector<CommandText> describeCommands(CLI::App& app);
 
 // "bash", "zsh", "fish": a script that the shell reads.
 std::string completionScript(const std::vector<CommandText>& commands, const std::string& shell);
-// As one word of a shell.
+// The text as one word of a shell.
 std::string quotedForShell(const std::string& text);
 // For man(1), in the macros of groff_man(7).
 std::string manPage(const std::vector<CommandText>& commands);

@@ -36,7 +36,7 @@ void chooseFiles(const Options& options) {
     base::allowFolder(dataFolder() + "/" + folder);
 }
 
-// As messages print what files say.
+// Text as messages print it.
 std::string shown(const std::string& text) {
   return base::shortened(base::printable(text));
 }

@@ -107,7 +107,7 @@ class Viewer {
   bool resting_ = false, shown_ = false;  // as it was said last; a picture was
   bool lastSaved_ = false;
   bool acted_ = false;   // an action ran since panels were drawn
-  bool broken_ = false;  // the driver or an output complained
+  bool broken_ = false;  // the driver or an output reported an error
 };
 
 }  // namespace weft::app

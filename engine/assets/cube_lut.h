@@ -1,5 +1,5 @@
 // .cube colour tables (Adobe "Cube LUT Specification" 1.0): 1D or 3D of any legal size, DOMAIN_MIN/MAX,
-// comments. Errors are W154 with line and column; an unreadable file is W1. Does not apply the table: that is
+// comments. Errors are W154 with line and column; an unreadable file is W001. Does not apply the table: that is
 // a shader's work.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Named material presets from materials/*.json: an array of {"name", "albedo", "metallic", "roughness"} and,
-// when known, "category" and "source". JSON mistakes are W2..W6 with their place; W155 is a value out of
+// when known, "category" and "source". JSON mistakes are W002..W006 with their place; W155 is a value out of
 // range, W156 a name that stands twice. Does not: know textures or shader parameters.
 #pragma once
 

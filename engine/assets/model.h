@@ -20,7 +20,7 @@ using Matrix4 = std::array<float, 16>;  // column-major
 
 constexpr std::uint32_t kNoRow = 0xffffffffu;
 
-// Of one use: equal texels that are used as colour and as numbers are two textures.
+// A texture has one use: equal texels that are used as colour and as numbers are two textures.
 struct ModelTexture {
   std::string name;                     // the file's, or what the model calls it
   std::shared_ptr<const Image8> image;  // 4 channels, row 0 on top

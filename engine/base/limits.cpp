@@ -12,7 +12,7 @@ namespace weft::base {
 
 namespace {
 
-// By the order of the table.
+// The values, in the order of the table.
 std::array kValues{
 #define WEFT_LIMIT_VALUE(name, value, what) std::uint64_t{value},
     WEFT_LIMITS(WEFT_LIMIT_VALUE)

@@ -29,7 +29,7 @@ std::uint64_t classesOf(std::string_view text) {
   return classes;
 }
 
-// Of names in lower case. Only the cells within `limit` of the diagonal can lie on a way that is short
+// The distance of names in lower case. Only the cells within `limit` of the diagonal can lie on a way that is short
 // enough.
 std::size_t bandedDistance(std::string_view a, std::string_view b, std::size_t limit) {
   if (a.size() > b.size()) std::swap(a, b);

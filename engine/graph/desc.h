@@ -51,7 +51,7 @@ enum class Compare : std::uint8_t {
   greater_equal,
   always
 };
-// As "depth_test" and `as compare(…)` spell them, in the order of Compare.
+// The words of "depth_test" and `as compare(…)`, in the order of Compare.
 constexpr std::array<std::string_view, 8> kCompareNames = {
     "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
 

@@ -30,7 +30,7 @@ class Files {
     };
     return std::static_pointer_cast<const T>(getAny(path, typeid(T), readAny, diagnostics));
   }
-  // As if it had been asked for: a file whose contents are not kept here.
+  // Counts a file as asked for whose contents are not kept here.
   void touch(const std::string& path) { touched_.insert(path); }
   // The paths asked for since forgetTouched(), also of files that are not there.
   const std::set<std::string>& touched() const { return touched_; }

@@ -38,8 +38,8 @@ struct MeshDraw {
   GLsizei count = 0;
 };
 
-// Of one draw pass: where its program wants the attributes, and what it draws. What its view sees is brought up to date from
-// outside, with that of other passes.
+// The meshes of one draw pass: where its program wants the attributes, and what it draws. What its view sees is brought up to
+// date from outside, with that of other passes.
 class MeshPass {
  public:
   // The names of vertex attributes: position, normal, tangent, uv, joints, weights; and `instance`, the row.
@@ -47,7 +47,7 @@ class MeshPass {
   static bool isAttribute(std::string_view name);
 
   scene::MeshView& view() { return view_; }
-  // As its view is now.
+  // Draws what its view sees now.
   MeshDraw draw(const MeshBuffers& buffers, base::Diagnostics& diagnostics);
 
  private:

@@ -20,7 +20,7 @@
 
 namespace weft::imports {
 
-// Of the rows of a list's spheres, and of its meshes.
+// The columns of a list's spheres, and of its meshes.
 std::span<const graph::TableColumn> sphereColumns();
 std::span<const graph::TableColumn> meshColumns();
 

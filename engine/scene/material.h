@@ -35,7 +35,7 @@ struct Material {
   glm::vec3 specular{0};
   float shininess = 0;
   bool doubleSided = false;
-  // As in glTF: roughness is g, metallic b, occlusion r.
+  // Channels are those of glTF: roughness is g, metallic b, occlusion r.
   TextureId albedoMap, normalMap, metallicRoughnessMap, occlusionMap, emissiveMap;
 };
 using MaterialId = Table<Material>::Id;

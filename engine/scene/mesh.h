@@ -40,8 +40,8 @@ struct Mesh {
   std::uint32_t firstIndex = 0, indexCount = 0;  // indices count from firstVertex
   Box bounds;                                    // of the vertices as they are in the file
   bool skinned = false;
-  // Of the vertices that a joint moves, per row of the skin: a skinned vertex is a mean of what its joints make of it, so
-  // that it lies in the box of these boxes, each moved by its joint. Empty unless skinned.
+  // Per row of the skin, the box of the vertices that this joint moves. A skinned vertex is a mean of what its joints make of
+  // it, so it lies in the box of these boxes, each moved by its joint. Empty unless skinned.
   std::vector<Box> jointBounds{};
 };
 using MeshId = Table<Mesh>::Id;

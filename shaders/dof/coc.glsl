@@ -5,7 +5,7 @@
 
 #include "common/view.glsl"
 
-// Radius in pixels of the full picture: positive behind the focus, negative before it. `infinity` is that of the sky.
+// Radius in pixels of the full picture: positive in the far field, negative in the near field. `infinity` is that of the sky.
 float cocRadius(float depth, float infinity, float focus, float largest) {
   return clamp(infinity * (1.0 - focus * depth / near_plane), -largest, largest);
 }

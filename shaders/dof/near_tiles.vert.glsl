@@ -1,4 +1,4 @@
-// The tiles that something in the near field reaches, for the fragment shaders bokeh, fill and before.
+// The tiles that something in the near field reaches, for near_bokeh, fill and near_field.
 // params  see parameters.glsl
 // defines FULL_SIZE   default 0; 1: the target is the full picture, not the half size
 #include "parameters.glsl"

@@ -22,7 +22,7 @@ out vec4 near;
 out vec2 disc;
 out vec4 far;
 
-// A surface of the far field ends where radii are larger than this, of the least radius in the pixel. What is behind it has larger discs, and is
+// A surface of the far field ends where radii are larger than this, of the least radius in the pixel. What lies farther away has larger discs, and is
 // seen in other pixels, too: so small things keep their own discs.
 float endOfSurface(float radius) { return 1.3 * radius + 0.5; }
 

@@ -13,6 +13,7 @@
 #include "engine/graph/language/keys.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/ref_words.h"
+#include "engine/graph/subresource.h"
 
 namespace weft::app::lsp {
 
@@ -274,9 +275,8 @@ class Completer {
         if (before.substr(0, open).ends_with("compare")) addWords(graph::kCompareNames, ItemKind::keyword);
         return;
       }
-      addWords(std::initializer_list<const char*>{"sampled", "image", "uniform", "storage", "color", "depth",
-                                                  "copy"},
-               ItemKind::keyword);
+      for (std::size_t kind = 0; kind < graph::kKindNames.size(); ++kind)
+        if (!isCommandInput(static_cast<graph::Kind>(kind))) add(graph::kKindNames[kind], ItemKind::keyword);
       addWords(graph::kSamplerWords, ItemKind::keyword);
       return;
     }

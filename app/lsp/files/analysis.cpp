@@ -30,7 +30,7 @@ std::string pathOf(const base::Diagnostic& diagnostic, const std::string& root) 
   return diagnostic.place.file && diagnostic.place.line > 0 ? pathKey(*diagnostic.place.file) : root;
 }
 
-// Of a pass, described or expanded.
+// The shader files of a pass, described or expanded.
 template <class Pass>
 std::vector<std::string> shaderFilesOf(const Pass& pass, graph::ShaderShape shape) {
   if (!pass.vertexShader.empty()) return {pass.shader, pass.vertexShader};
@@ -153,7 +153,7 @@ void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
   }
 }
 
-// Of a graph without a plan: whether its shaders are there.
+// Reports which shaders of a graph without a plan are missing.
 void Analysis::checkFiles(Graph& graph, const graph::GraphDesc& desc) {
   for (const graph::PassDesc& pass : desc.passes) {
     if (pass.include && pass.include->graph) checkFiles(graph, *pass.include->graph);

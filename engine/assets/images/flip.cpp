@@ -30,7 +30,7 @@ Color toXyz(const Color& rgb) {
   return xyz;
 }
 
-// By Cramer's rule, so that the two directions agree to the last bits.
+// Solves by Cramer's rule, so that the two directions agree to the last bits.
 Color fromXyz(const Color& xyz) {
   const auto& m = kToXyz;
   const auto minor = [&](std::size_t r, std::size_t c) {

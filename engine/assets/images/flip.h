@@ -23,7 +23,7 @@ struct FlipSummary {
   int x = 0, y = 0;  // of the peak, from the upper left
 };
 
-// Of sRGB pictures with 3 or 4 channels.
+// Compares sRGB pictures with 3 or 4 channels.
 FlipMap computeFlip(const Image8& reference, const Image8& test,
                     double pixelsPerDegree = kFlipPixelsPerDegree);
 

@@ -198,7 +198,7 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
 
   double lost = 0, whole = 0;
   if (tooBright > 0) {
-    // Of the brightest channel of each texel, weighted by solid angle.
+    // The share is that of the brightest channel of each texel, weighted by solid angle.
     for (int pass = 0; pass < 2; ++pass)
       for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {

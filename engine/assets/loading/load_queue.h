@@ -54,7 +54,7 @@ class LoadQueue {
   // Returns a ticket above all earlier ones, or 0 when too many requests are under way. Channel 0 replaces
   // nothing.
   std::uint64_t request(std::string path, std::uint32_t channel = 0);
-  // Of an unknown or fetched ticket: nothing. A cancelled request has no result.
+  // A cancelled request has no result. An unknown or fetched ticket is ignored.
   void cancel(std::uint64_t ticket);
 
   // The oldest finished result, if there is one. Never waits for a load.
@@ -62,7 +62,7 @@ class LoadQueue {
   // Waits for one request. Empty when it was fetched, replaced or cancelled.
   std::optional<Result> wait(std::uint64_t ticket);
 
-  // Of the request that runs now; `waiting` when it has not begun, `idle` for every other.
+  // How far the request is that runs now; `waiting` when it has not begun, `idle` for every other.
   LoadProgress progress(std::uint64_t ticket) const;
 
  private:

@@ -15,7 +15,7 @@
 
 namespace weft::assets {
 
-// By the end of its name.
+// Whether a name is that of a model, by its end.
 bool isModelName(const std::string& name);
 
 // Empty after errors, and without any when `observer` gave up. `files`, when given, is set to everything that was read or

@@ -11,7 +11,7 @@
 
 namespace weft::base {
 
-// As readFile (file.h). Reports Code::limitExceeded for a file beyond the limit json_bytes, and reads only its beginning.
+// Does what readFile (file.h) does. Reports Code::limitExceeded for a file beyond the limit json_bytes, and reads only its beginning.
 std::optional<std::string> readTextFile(const std::string& path, Diagnostics& diagnostics,
                                         Code code = Code::unreadableFile, const Place& place = {});
 

@@ -113,7 +113,7 @@ class Writer {
 
   // ---- several lines ----
 
-  // Of the document's sections, those that hold several entries with keys of their own have a line for each.
+  // A section of the document that holds several entries with keys of their own has a line for each.
   static bool isTable(const Node& node, const Place& place) {
     if (place.depth == 0) return !node.items.empty();
     return place.depth == 1 && node.items.size() > 1 && holdsObjects(node);
@@ -208,7 +208,7 @@ class Writer {
     value(item.value, place);
   }
 
-  // Of the rows up to the next blank line: the width of the longest key, where some values are objects or
+  // The width of the longest key in the rows up to the next blank line, where some values are objects or
   // lists.
   static int paddingOf(std::span<const Item> items) {
     int longest = 0, shortest = kColumns;

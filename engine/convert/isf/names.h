@@ -14,7 +14,7 @@ namespace weft::convert {
 class IsfNames {
  public:
   explicit IsfNames(const IsfHeader& header);
-  // As in the graph and in the shader.
+  // The name that it has in the graph and in the shader.
   const std::string& of(std::string_view name) const { return names_.find(name)->second; }
   const std::map<std::string, std::string, std::less<>>& all() const { return names_; }
   // A name for something of the graph alone, that nothing else has.

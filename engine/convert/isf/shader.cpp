@@ -140,7 +140,7 @@ class ShaderTranslator {
     }
   }
 
-  // By the prelude: an input, or a variable of ISF.
+  // Whether the prelude declares it: an input, or a variable of ISF.
   bool isDeclared(const std::string& name) const {
     return names_.all().contains(name) || name == "TIME" || name == "RENDERSIZE" || name == "PASSINDEX" ||
            name == "DATE" || name == "TIMEDELTA" || name == "FRAMEINDEX";

@@ -15,8 +15,8 @@ namespace weft::convert {
 struct IsfShader {
   std::vector<ConvertedText> texts;
   std::string fragment, vertex;  // paths below shaders/; `vertex` is empty without one
-  // By their names in the file: images that the shader reads, and those of them that stand elsewhere than in the
-  // functions of ISF, so that they must always be there.
+  // Images that the shader reads, by their names in the file, and those of them that stand elsewhere than in the functions
+  // of ISF, so that they must always be there.
   std::set<std::string, std::less<>> read, needed;
   bool usesDate = false;
 };

@@ -189,7 +189,7 @@ class MpvGraphWriter {
   static std::string joined(const std::vector<std::string>& all) {
     return all.size() == 1 ? all[0] : all.empty() ? "" : fmt::format("({})", fmt::join(all, ") && ("));
   }
-  // As many as Weft reads in one expression, or fewer.
+  // At least as many as Weft counts in the expression.
   static std::size_t operatorsIn(std::string_view expression) {
     return static_cast<std::size_t>(std::ranges::count_if(expression, [](char c) {
       return std::string_view("+-*/%<>=!&|?:(,").find(c) != std::string_view::npos;
@@ -276,7 +276,7 @@ class MpvGraphWriter {
                         const std::string& height) {
     const std::string resource = fresh(wanted);
     static constexpr const char* kFormats[] = {"rgba16f", "r16f", "rg16f", "rgba16f", "rgba16f"};
-    // As mpv rounds.
+    // Rounds as mpv does.
     const auto side = [&](const std::optional<MpvText>& own, const std::string& expression) {
       return quoteJson(own ? fmt::format("floor({} + 0.5)", expression) : expression);
     };

@@ -80,8 +80,8 @@ class ProgramCache {
   // A graph begins to load: trials have all of shader_seconds again.
   void startTrials() { trialTime_ = {}; }
 
-  // As get() of the request that `variant` is the answer to, without a look at its sources: for a pass that is known to
-  // be what it was.
+  // Does what get() does for the request that `variant` answers, and does not look at its sources. It is for a pass that is
+  // known to be unchanged.
   void touch(const std::shared_ptr<const Variant>& variant);
 
   const ProgramCacheStats& stats() const { return stats_; }

@@ -51,7 +51,7 @@ constexpr bool kBoundsMemory = false;  // the sanitizers map more than there is
 constexpr bool kBoundsMemory = true;
 #endif
 
-// Of the address space of this process.
+// The size of this process's address space.
 std::uint64_t mappedBytes() {
   std::ifstream file("/proc/self/statm");
   std::uint64_t pages = 0;

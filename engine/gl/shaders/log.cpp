@@ -129,7 +129,7 @@ std::vector<std::string_view> argumentsOf(std::string_view call) {
   return arguments;
 }
 
-// Of a function's forms those that are most like the call, at most three: a list of 28 helps nobody.
+// The forms of a function that are most like the call, at most three: a list of 28 helps nobody.
 std::string nearestForms(std::string_view call, const std::vector<std::string>& forms) {
   const std::vector<std::string_view> given = argumentsOf(call);
   const auto likeness = [&](const std::string& form) {

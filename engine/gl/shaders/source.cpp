@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t kMostText = std::size_t{16}
                                   << 20;  // of one stage; a guarded include may repeat its text
 
-// Of an unsaved text another number for each, which is no time of a file.
+// When the file was written. Each unsaved text has a number of its own, which is no time of a file.
 std::int64_t timeOf(const std::string& path) {
   if (const auto unsaved = base::overlayOf(path)) return -1 - static_cast<std::int64_t>(unsaved->generation);
   std::error_code ec;
@@ -47,8 +47,8 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-// As base::readFile(), but a file of more than `most` bytes is not read: `bytes` says then how many, and nothing
-// is reported.
+// Does what base::readFile() does, but does not read a file of more than `most` bytes: then `bytes` says how many it
+// has, and nothing is reported.
 std::optional<std::string> readWithin(const std::string& path, std::uint64_t most, std::uint64_t& bytes,
                                       Diagnostics& diagnostics, Code code, const Place& place) {
   return base::readFile(path, diagnostics, code, place, [&](std::uint64_t done, std::uint64_t total) {
@@ -98,7 +98,7 @@ class IncludeExpander {
   }
 
   const std::vector<std::string>& paths() const { return paths_; }
-  // Of each of these but the first, as they were before they were read: what changes meanwhile is read again next time.
+  // The state of each of these but the first before it was read: what changes meanwhile is read again next time.
   const std::vector<FileState>& states() const { return states_; }
   // Where includes that were not found would have been.
   const std::vector<std::string>& missing() const { return missing_; }
@@ -315,7 +315,7 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
       for (const std::string& root : roots_)
         touched_.insert((fs::path(root) / path).lexically_normal().string());
     std::vector<fs::path> candidates = candidatesOf(path);
-    // As it is, a path is from the current folder: where nobody looks for shaders on purpose.
+    // The last candidate is the path seen from the current folder, where nobody looks for shaders on purpose.
     if (candidates.size() > 1) candidates.pop_back();
     if (const auto outside = outsideOf(candidates)) {
       base::reportOutside(*outside, diagnostics, place);

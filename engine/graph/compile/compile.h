@@ -12,7 +12,7 @@ namespace weft::graph {
 struct CompileOptions {
   bool share = true;            // false: every resource its own storage (fuzz)
   std::uint64_t orderSeed = 0;  // not 0: a random legal order instead of the declared one (fuzz)
-  // Of the live passes in declared order, those that the random order may move; the others stay where they are.
+  // The live passes, counted in declared order, that the random order may move; the others stay where they are.
   std::uint32_t orderFirst = 0, orderLast = ~0u;
 };
 

@@ -16,11 +16,6 @@ bool isTexture(const FlatResource& shape) {
 
 namespace {
 
-// What the draw or dispatch command itself fetches from a buffer.
-bool isCommandInput(Kind kind) {
-  return kind == Kind::vertex || kind == Kind::index || kind == Kind::indirect;
-}
-
 bool isInteger(Format format) {
   const TexelKind kind = infoOf(format).kind;
   return kind == TexelKind::unsigned_integer || kind == TexelKind::signed_integer;

@@ -1,4 +1,4 @@
-// What cannot be spread over frames, reported once all passes are known: W77.
+// What cannot be time-sliced, reported once all passes are known: W077.
 #include "engine/graph/expand/slices.h"
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@ base::Diagnostic& fail(Model& model, std::uint32_t pass, std::uint32_t resource,
   return d;
 }
 
-// W76 says the same of what the pass modifies, unless that is version zero.
-bool isToldAlready(const Model& model, std::uint32_t pass) {
+// W076 says the same of what the pass modifies, unless that is version zero.
+bool isReportedAlready(const Model& model, std::uint32_t pass) {
   return std::ranges::any_of(model.diagnostics.items(), [&](const base::Diagnostic& each) {
     return each.code == Code::addsUp && each.pass == model.graph.passNames[pass];
   });
@@ -83,7 +83,7 @@ void checkSlices(Model& model) {
       if (use.access == Access::read) return;
       alwaysWriter[use.resource] = p;
       if (groups.slicedWriterOf(use.resource) == kNone) return;
-      if (use.access == Access::modify && isToldAlready(model, p)) return;
+      if (use.access == Access::modify && isReportedAlready(model, p)) return;
       fail(
           model, p, use.resource,
           fmt::format("pass '{}' runs in every frame and writes '{}', which others write over several frames",
@@ -99,7 +99,7 @@ void checkSlices(Model& model) {
           use.access == Access::read && use.history == 0 ? alwaysWriter[use.resource] : kNone;
       if (writer == kNone || groups.slicedWriterOf(use.resource) != kNone) return;
       fail(model, p, use.resource,
-           fmt::format("pass '{}' is spread over frames and reads '{}', which pass '{}' makes anew in each",
+           fmt::format("pass '{}' is time-sliced and reads '{}', which pass '{}' makes anew in each",
                        graph.passNames[p], graph.resourceNames[use.resource], graph.passNames[writer]))
           .hint =
           fmt::format("make '{}' \"update\": \"on_change\", or remove \"slices\"", graph.passNames[writer]);

@@ -1,4 +1,4 @@
-// Reports what cannot be spread over frames (W077): a group with a writer or an input that changes in every frame, or with
+// Reports what cannot be time-sliced (W077): a group with a writer or an input that changes in every frame, or with
 // a dependency that leads out of the group and back into it. Does not: check a single stanza (stanza.h), or know what is
 // live.
 #pragma once

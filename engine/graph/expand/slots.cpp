@@ -80,7 +80,7 @@ bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity
 }
 
 // Fills open ends and holds a span against `count`. `written` is what the file says: levels between the two
-// were taken away by the clamp to the size. False after a report; `empty` when nothing of the span is there.
+// were removed by the clamp to the size. False after a report; `empty` when nothing of the span is there.
 bool closeSpan(const SlotContext& context, const RefDesc& ref, const Entity& entity, const char* word,
                std::int64_t count, std::int64_t written, const Selection::Span& span, std::int64_t& first,
                std::int64_t& size, bool& empty) {

@@ -244,8 +244,7 @@ void checkExpressions(const Stanza& stanza) {
 void checkCadence(const Stanza& stanza) {
   const PassDesc& desc = stanza.desc;
   if (desc.cadence == Cadence::always && desc.slices.present()) {
-    auto& d =
-        stanza.error(Code::badSlices, desc.slices.place(), "is spread over slices but runs in every frame");
+    auto& d = stanza.error(Code::badSlices, desc.slices.place(), "is time-sliced but runs in every frame");
     d.hint = "slices go with \"update\": \"on_change\" or \"once\"";
   }
   if (desc.cadence == Cadence::always) return;

@@ -108,7 +108,7 @@ constexpr KeySpec kPass[] = {
     {"state", "@state", "fixed-function state"},
     {"update", R"({"enum":["always","on_change","once"]})", "when it runs; always when absent"},
     {"group", R"({"type":"string"})", "passes of one group publish together"},
-    {"slices", "@value", "frames one run is spread over; 0 rides with its predecessor"},
+    {"slices", "@value", "frames that one run takes (time-sliced); 0 rides with its predecessor"},
     {"threads", "@value", "compute invocations, rounded up to the local size"},
     {"instances", "@value", "instances of a draw without a list"},
     {"list", R"({"type":"string"})", "draw list"},

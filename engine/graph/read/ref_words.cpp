@@ -78,7 +78,7 @@ class WordParser {
     return takeKind(word);
   }
 
-  // Of words of which one may stand.
+  // Takes a word where only one of several may stand.
   bool takeOneOf(std::string_view word, std::string_view& earlier) {
     if (earlier == word) return fail(start_, fmt::format("'{}' stands twice", word), "keep one of them");
     if (!earlier.empty())

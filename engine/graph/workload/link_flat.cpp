@@ -30,7 +30,7 @@ class Linker {
     walk_.finish();
     if (graph_.present.resource != kNone && !isImported(graph_.resources[graph_.present.resource]) &&
         seesNothing(links.present))
-      complainOfPresent();
+      reportPresent();
     return diagnostics_.errorCount() == before;
   }
 
@@ -69,7 +69,7 @@ class Linker {
                                                   : "#" + std::to_string(resource);
   }
 
-  void complain(Code code, std::uint32_t pass, const FlatUse& use, const char* what) {
+  void report(Code code, std::uint32_t pass, const FlatUse& use, const char* what) {
     const std::string& name = graph_.passNames[pass];
     auto& diagnostic =
         diagnostics_.error(code, {}, "pass '" + name + "' " + what + " '" + nameOf(use.resource) + "'");
@@ -84,7 +84,7 @@ class Linker {
     for (std::uint32_t u = pass.firstUse; u < end; ++u) {
       const FlatUse& use = graph_.uses[u];
       if (!inRange(use)) {
-        complain(Code::useOutsideResource, p, use, "goes outside the range of");
+        report(Code::useOutsideResource, p, use, "goes outside the range of");
         good = false;
         continue;
       }
@@ -92,15 +92,15 @@ class Linker {
       if (use.history > 0) continue;
       const FlatResource& r = graph_.resources[use.resource];
       if (use.access != Access::write && !r.hasClear && !isImported(r) && seesNothing(graph_.links.seen[u]))
-        complain(Code::flatReadBeforeWrite, p, use,
-                 use.access == Access::read ? "reads before any write" : "modifies before any write");
-      if (touchedBefore(use, r, p)) complain(Code::touchedTwice, p, use, "touches one sub-resource twice of");
+        report(Code::flatReadBeforeWrite, p, use,
+               use.access == Access::read ? "reads before any write" : "modifies before any write");
+      if (touchedBefore(use, r, p)) report(Code::touchedTwice, p, use, "touches one sub-resource twice of");
     }
     for (std::uint32_t u = pass.firstUse; u < end; ++u)
       if (graph_.uses[u].access != Access::read && (good || inRange(graph_.uses[u]))) walk_.write(u);
   }
 
-  // Some of what the link tells of has no writer.
+  // Whether some of what the link covers has no writer.
   bool seesNothing(std::uint32_t link) const {
     bool nothing = link == kNone;
     if (!VersionLinks::hasRuns(link)) return nothing;
@@ -131,7 +131,7 @@ class Linker {
   // Present and outputs name resources and ranges that are there.
   bool checkFinals() {
     bool good = graph_.present.resource == kNone || inRange(graph_.present);
-    if (!good) complainOfPresent();
+    if (!good) reportPresent();
     for (const FlatUse& output : graph_.outputs) {
       if (inRange(output)) continue;
       good = false;
@@ -142,7 +142,7 @@ class Linker {
     }
     return good;
   }
-  void complainOfPresent() {
+  void reportPresent() {
     diagnostics_.error(Code::presentsUnwritten, {},
                        "nothing writes '" + nameOf(graph_.present.resource) + "', which is presented");
   }

@@ -66,7 +66,7 @@ class Reader {
         passesAt = json_.position();
         json_.skipValue();
       } else {
-        complain(Code::notAWorkload, position, "unknown key '" + std::string(key) + "' in a workload").hint =
+        report(Code::notAWorkload, position, "unknown key '" + std::string(key) + "' in a workload").hint =
             "known: textures, passes";
         json_.skipValue();
       }
@@ -77,14 +77,14 @@ class Reader {
       counted_ = 0, line_ = 1, lineStart_ = 0;
       json_.array([&] { readPass(); });
     }
-    if (json_.failed()) complain(Code::notAWorkload, json_.position(), "not a workload: " + json_.error());
+    if (json_.failed()) report(Code::notAWorkload, json_.position(), "not a workload: " + json_.error());
     if (diagnostics_.errorCount() > before) return std::nullopt;
     graph_.present.resource = kNone;
     return std::move(graph_);
   }
 
  private:
-  base::Diagnostic& complain(Code code, std::size_t position, std::string message) {
+  base::Diagnostic& report(Code code, std::size_t position, std::string message) {
     if (position < counted_) counted_ = 0, line_ = 1, lineStart_ = 0;
     for (; counted_ < std::min(position, text_.size()); ++counted_)
       if (text_[counted_] == '\n') ++line_, lineStart_ = counted_ + 1;
@@ -100,7 +100,7 @@ class Reader {
     if (value >= 1 && value <= kLargest && value == static_cast<std::uint32_t>(value))
       return static_cast<std::uint32_t>(value);
     auto& diagnostic =
-        complain(Code::notAWorkload, position, "a texture's " + std::string(key) + " is out of range");
+        report(Code::notAWorkload, position, "a texture's " + std::string(key) + " is out of range");
     diagnostic.expected = "a whole number from 1 to 65536";
     return 1;
   }
@@ -125,21 +125,21 @@ class Reader {
         r.format = formats_.find(spelled);
         if (r.format == Format::none) format = spelled;
       } else {
-        complain(Code::notAWorkload, keyAt, "unknown key '" + std::string(key) + "' in a texture").hint =
+        report(Code::notAWorkload, keyAt, "unknown key '" + std::string(key) + "' in a texture").hint =
             "known: name, width, height, format";
         json_.skipValue();
       }
     });
     if (json_.failed()) return;
-    if (!named || !sized) complain(Code::notAWorkload, nameAt, "a texture without name or width");
+    if (!named || !sized) report(Code::notAWorkload, nameAt, "a texture without name or width");
     if (r.format == Format::none)
-      complain(Code::unknownWorkloadFormat, formatAt == 0 ? nameAt : formatAt,
-               "texture '" + name + "' has unknown format '" + format + "'")
+      report(Code::unknownWorkloadFormat, formatAt == 0 ? nameAt : formatAt,
+             "texture '" + name + "' has unknown format '" + format + "'")
           .hint = base::nearestHint(format, formatNames());
     r.bytes = std::uint64_t{r.width} * r.height * infoOf(r.format).bytes;
     graph_.resources.push_back(r);
     if (!textureNames_.add(static_cast<std::uint32_t>(graph_.resources.size() - 1)))
-      complain(Code::duplicateFlatName, nameAt, "two textures are named '" + name + "'").resource = name;
+      report(Code::duplicateFlatName, nameAt, "two textures are named '" + name + "'").resource = name;
   }
 
   void readUses(Access access, bool compute) {
@@ -150,7 +150,7 @@ class Reader {
       const std::uint32_t r = textureNames_.find(name);
       if (r == kNone) {
         auto& diagnostic =
-            complain(Code::unknownWorkloadTexture, position, "unknown texture '" + std::string(name) + "'");
+            report(Code::unknownWorkloadTexture, position, "unknown texture '" + std::string(name) + "'");
         diagnostic.pass = graph_.passNames.back();
         if (graph_.resourceNames.size() <= 2000)
           diagnostic.hint = base::nearestHint(name, graph_.resourceNames);
@@ -187,13 +187,13 @@ class Reader {
       } else if (key == "side_effect") {
         pass.sideEffect = json_.boolean();
       } else {
-        complain(Code::notAWorkload, keyAt, "unknown key '" + std::string(key) + "' in a pass").hint =
+        report(Code::notAWorkload, keyAt, "unknown key '" + std::string(key) + "' in a pass").hint =
             "known: name, reads, writes, side_effect";
         json_.skipValue();
       }
     });
     if (!json_.failed() && graph_.passNames.back().empty())
-      complain(Code::notAWorkload, nameAt, "a pass without a name");
+      report(Code::notAWorkload, nameAt, "a pass without a name");
     pass.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - pass.firstUse;
     graph_.passes.push_back(pass);
   }

@@ -10,7 +10,7 @@ namespace weft::imports {
 
 namespace {
 
-// Of a transfer: sending the rows; that and making the levels. The rest is the GPU.
+// Shares of a transfer: sending the rows; that and making the levels. The rest is the GPU.
 constexpr float kShareOfRows = 0.7f, kShareOfTransfer = 0.99f;
 
 // Row 0 of the map is its top row, and row 0 of the texture is +Y: the same order.

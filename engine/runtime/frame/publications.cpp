@@ -195,7 +195,7 @@ void Publications::beginRound() {
   std::fill(turned_.begin(), turned_.end(), std::uint8_t{0});
 }
 
-// Of what a time-sliced group writes nothing turns yet.
+// What a time-sliced group writes does not turn here; it turns when the group publishes.
 void Publications::publishWritten(const PreparedPass& pass) {
   for (const std::uint32_t r : pass.written) {
     if (pool_[r].group != kNone) continue;
@@ -235,7 +235,7 @@ void Publications::takeOver(Publications& before) {
   adoptStandIns(before);
 }
 
-// By storage: a resource that lies where it lay before holds what it held.
+// Generations go with storage: a resource that lies where it lay before holds what it held.
 void Publications::takeGenerations(const Publications& before) {
   for (std::uint64_t& generation : generations_) generation += before.nextGeneration_;
   nextGeneration_ += before.nextGeneration_;

@@ -22,7 +22,7 @@ NumberKind kindOf(GLenum base) {
                                  : NumberKind::floating;
 }
 
-// Of the members of the first block that a pass binds the buffer to.
+// The kind of the members of the first block that a pass binds the buffer to.
 NumberKind kindOfBuffer(std::uint32_t resource, std::span<const PreparedPass> passes) {
   for (const PreparedPass& pass : passes)
     for (const BufferBinding& binding : pass.buffers) {

@@ -23,7 +23,7 @@ UniformValues::UniformValues(const graph::FlatGraph& graph) : graph_(graph) {
   }
 }
 
-// Of a uniform without age().
+// The value of a uniform without age().
 graph::Value UniformValues::valueOf(const graph::UniformSpec& uniform) const {
   return uniform.dynamic.live() ? uniform.dynamic.evaluateFolded(trialAge, parameters_) : uniform.value;
 }

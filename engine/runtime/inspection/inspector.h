@@ -15,7 +15,7 @@
 
 namespace weft::runtime {
 
-// By name, so that it outlives a change of the graph.
+// What to look at, by name, so that it outlives a change of the graph.
 struct InspectTarget {
   std::string resource;     // FlatGraph::resourceNames: "hdr", "hdr#2"
   std::string pass;         // full instance name of the pass after which to look; "": the last that writes it

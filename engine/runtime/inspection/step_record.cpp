@@ -54,7 +54,7 @@ double differenceOf(const Signature& a, const Signature& b) {
   return worst;
 }
 
-// Of one resource, over all that the step wrote of it.
+// The sums of one resource, over all that the step wrote of it.
 struct StepRecorder::Sum {
   static constexpr std::size_t kParts = Signature::kSide * Signature::kSide;
   std::uint64_t hash = base::kHashSeed;

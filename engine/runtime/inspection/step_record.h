@@ -45,7 +45,7 @@ class StepRecorder {
   // Keeps the texels that this pass writes to this resource (names as in StepRecord), too.
   void keep(std::string pass, std::string resource);
 
-  // Of the steps since the last call, in their order.
+  // The records of the steps since the last call, in their order.
   std::vector<StepRecord> take() { return std::exchange(records_, {}); }
   const std::optional<WrittenTexels>& kept() const { return kept_; }
 

@@ -102,7 +102,7 @@ gl::TextureRef PhysicalTexture::view(std::uint32_t copy, const gl::ViewDesc& des
 
 namespace {
 
-// Of those that share the arena; kNone when there are none.
+// The largest of the buffers that share the arena; kNone when there are none.
 std::uint32_t largestTransientOf(const Plan& plan) {
   std::uint32_t largest = kNone;
   for (std::uint32_t r = 0; r < plan.bufferOffsetOf.size(); ++r)

@@ -1,4 +1,4 @@
-// Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W2..W6 with
+// Scene files (scenes/*.json) to Scene. Everything wrong is reported at once: JSON mistakes as W002..W006 with
 // their place, values out of range and an unknown camera as W160, unknown materials as W161, unknown draw
 // lists as W162, and what its material library reports. The format is described in docs/scenes.md.
 #pragma once

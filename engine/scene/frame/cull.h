@@ -27,7 +27,7 @@ void cull(const Frustum& frustum, std::span<const Box> boxes, std::vector<std::u
 std::size_t cullRows(const Frustum& frustum, std::span<const Box> boxes, std::size_t from, std::size_t to,
                      std::uint32_t* visible);
 
-// As glMultiDrawElementsIndirect reads it.
+// A command as glMultiDrawElementsIndirect reads it.
 struct DrawCommand {
   std::uint32_t count = 0, instanceCount = 0, firstIndex = 0;
   std::int32_t baseVertex = 0;

@@ -34,7 +34,7 @@ class MeshFrame {
   // Nothing happens for a generation and times that are those of the last call.
   void update(const Scene& scene, std::uint64_t sceneGeneration, double time, double previousTime);
 
-  // Of the last update. Rows of one mesh stand together, in the order of Scene::meshes, and those in table order.
+  // The rows of the last update. Those of one mesh stand together, in table order; meshes stand in the order of Scene::meshes.
   std::span<const MeshRow> rows(DrawList list) const { return tableOf(list).rows; }
   // World space, parallel to rows.
   std::span<const Box> bounds(DrawList list) const { return tableOf(list).bounds; }
@@ -43,7 +43,7 @@ class MeshFrame {
   // Moves when a row may be another.
   std::uint64_t generation(DrawList list) const { return tableOf(list).generation; }
   std::uint64_t jointsGeneration() const { return jointsGeneration_; }
-  // Of everything that stands in any list, spheres too, at the time of the last update.
+  // The box of everything that stands in any list, spheres too, at the time of the last update.
   Box sceneBounds() const { return bounds_; }
   // Whether any row of the list can ever be another.
   bool isMoving(DrawList list) const { return !tableOf(list).moving.empty(); }

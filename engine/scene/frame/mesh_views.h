@@ -52,7 +52,7 @@ class MeshView {
 class MeshViews {
  public:
   MeshViews();
-  // As MeshFrame::setThreads().
+  // The same as MeshFrame::setThreads().
   void setThreads(int threads) { threads_ = threads; }
   // Brings the views up to date whose list or wish is another than they were made of.
   void update(const Scene& scene, const MeshFrame& frame, std::span<MeshView* const> views);

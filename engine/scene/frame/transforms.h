@@ -22,7 +22,7 @@ class WorldTransforms {
   void animate(const Scene& scene, Moment moment);
   void place(const Scene& scene, Moment moment);
 
-  // By row of Scene::nodes.
+  // One matrix per row of Scene::nodes.
   std::span<const glm::mat4> now() const { return now_.world; }
   std::span<const glm::mat4> previous() const { return previous_.world; }
   // Whether a row can ever stand elsewhere.

@@ -16,7 +16,7 @@ constexpr float kPi = 3.14159265358979f;
 // The functions in a unit direction.
 std::array<float, kShCount> shBasis(glm::vec3 direction);
 
-// By what each band of a radiance is multiplied in its irradiance: the cosine lobe, pi, 2 pi / 3, pi / 4.
+// The factor of each band from radiance to irradiance, the cosine lobe: pi, 2 pi / 3, pi / 4.
 constexpr glm::vec3 kCosineLobe{kPi, kPi * 2 / 3, kPi / 4};
 
 // Radiance 1 in a cone around a direction w whose half angle has this sine (0..1, at most a right angle): the coefficient

@@ -12,7 +12,7 @@ STUDIO = "graphs/studio.json"
 def render(report, weft, label, output, *arguments):
     result = run(weft, "render", STUDIO, "-o", output, *arguments)
     report.check(result.code == 0, f"{label}: exit code {result.code}\n{result.err}")
-    report.check("W120" not in result.err, f"{label}: the driver complains\n{result.err}")
+    report.check("W120" not in result.err, f"{label}: the driver reports\n{result.err}")
     # W153 is about the input: two texels of the real environment are beyond half floats.
     loud = [d for d in result.diagnostics if d["severity"] == "error" or d["code"] != "W153"]
     report.check(not loud, f"{label}: {result.err}")

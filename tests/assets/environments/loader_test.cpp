@@ -269,7 +269,7 @@ TEST_CASE("progress of a pipe, which has no size, begins with what came of it") 
   CHECK(map->width == 32);
 }
 
-TEST_CASE("an observer that gives up ends a load at every step, without a result or a complaint") {
+TEST_CASE("an observer that gives up ends a load at every step, without a result or a report") {
   const TemporaryFolder folder;
   const std::string path = writeHdr(folder, "a.hdr", 600, 300);
   int steps = 0;

@@ -21,7 +21,7 @@ std::uint16_t bitsBefore(Kind storeKind, Kind useKind, bool buffer, Access acces
   use.keep = true;
   b.pass("use").use(use).write(shown).present(shown);
   const Plan plan = b.compiled();
-  CHECK(oracle::judgeBarriers(plan, 1).complaint == "");
+  CHECK(oracle::judgeBarriers(plan, 1).problem == "");
   return plan.steps.at(1).barriers;
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("a history is waited for where it was published") {
   // The copy stored to was sampled in the frame before; the barrier may come no earlier than that frame's
   // end.
   CHECK((plan.steps[0].barriers | plan.steps[1].barriers) == (kBarrierTexture | kBarrierImage));
-  CHECK(oracle::judgeBarriers(plan, 1).complaint == "");
+  CHECK(oracle::judgeBarriers(plan, 1).problem == "");
 }
 
 TEST_CASE(
@@ -194,7 +194,7 @@ TEST_CASE(
   CHECK(plan.steps[1].barriers == kBarrierTexture);
   CHECK(plan.steps[2].barriers == 0);
   const oracle::Verdict verdict = oracle::judgeBarriers(plan, 1);
-  CHECK(verdict.complaint == "");
+  CHECK(verdict.problem == "");
   CHECK(verdict.bits == 2);
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("barriers stand whether or not a pass runs") {
   const Plan plan = b.compiled();
   CHECK(plan.steps[1].barriers == kBarrierTexture);
   CHECK(plan.steps[2].barriers == 0);
-  CHECK(oracle::judgeBarriers(plan, 1).complaint == "");
+  CHECK(oracle::judgeBarriers(plan, 1).problem == "");
 }
 
 TEST_CASE("stabbing a circle leaves nothing out and nothing over") {

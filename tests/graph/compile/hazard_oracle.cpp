@@ -228,12 +228,12 @@ class Replay {
     const auto visit = [&](const Unit& unit) {
       const Past& past = memory_[unit];
       const std::uint32_t see = bitToSeeShaderWrites(op, isBuffer(r));
-      if (past.store >= 0 && issued_[see] < past.store) complain(use, past.storeBy, "stored to it", see);
+      if (past.store >= 0 && issued_[see] < past.store) report(use, past.storeBy, "stored to it", see);
       // "image stores and atomics / assignments to buffer variables after the barrier will not execute until
       // all memory accesses initiated prior to the barrier complete"
       const std::uint32_t wait = op == Op::storage ? kShaderStorage : kShaderImageAccess;
       if (store && past.access >= 0 && issued_[wait] < past.access)
-        complain(use, past.accessBy, "accessed it", wait);
+        report(use, past.accessBy, "accessed it", wait);
       pending_.emplace_back(unit, store);
     };
     if (plan_.bufferOffsetOf[use.resource] != Plan::kNoOffset) {
@@ -248,7 +248,7 @@ class Replay {
     });
   }
 
-  void complain(const FlatUse& use, const std::string& before, const char* did, std::uint32_t bit) {
+  void report(const FlatUse& use, const std::string& before, const char* did, std::uint32_t bit) {
     if (!hazard_.empty()) return;
     hazard_ = now_ + " uses '" + graph_.resourceNames[use.resource] + "' after " + before + " " + did +
               " without barrier bit " + std::to_string(bit);
@@ -349,9 +349,9 @@ Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples)
       if (std::string found = findHazard(p, schedule); !found.empty()) return found;
     return std::string();
   };
-  if (std::string found = findHazard(plan, full); !found.empty()) verdict.complaint = "hazard: " + found;
+  if (std::string found = findHazard(plan, full); !found.empty()) verdict.problem = "hazard: " + found;
   if (std::string found = hazardUnder(plan, schedules); !found.empty())
-    verdict.complaint = "hazard by cadence: " + found;
+    verdict.problem = "hazard by cadence: " + found;
   for (const Plan& mutant : withoutOneBit(plan)) {
     ++verdict.bits;
     if (!findHazard(mutant, full).empty()) continue;
@@ -360,13 +360,13 @@ Verdict judgeBarriers(const Plan& plan, std::uint64_t seed, std::size_t samples)
       ++verdict.byCadenceOnly;
       continue;
     }
-    verdict.complaint = "spare bit at the end of the frame";
+    verdict.problem = "redundant bit at the end of the frame";
     for (std::size_t t = 0; t < plan.steps.size(); ++t) {
       const int spare = (plan.steps[t].barriers ^ mutant.steps[t].barriers) |
                         (plan.steps[t].barriersAfterClears ^ mutant.steps[t].barriersAfterClears);
       if (spare != 0)
-        verdict.complaint = "spare bit " + std::string(barrierName(static_cast<BarrierBit>(spare))) +
-                            " before " + plan.graph->passNames[plan.steps[t].pass];
+        verdict.problem = "redundant bit " + std::string(barrierName(static_cast<BarrierBit>(spare))) +
+                          " before " + plan.graph->passNames[plan.steps[t].pass];
     }
   }
   return verdict;

@@ -27,8 +27,8 @@ Schedule everythingRuns(const Plan& plan);
 std::vector<Schedule> cadenceSchedules(const Plan& plan, std::uint64_t seed, std::size_t samples);
 
 struct Verdict {
-  std::string complaint;  // "" when there is no hazard under any schedule and no bit is redundant
-  std::size_t bits = 0;   // of the plan
+  std::string problem;   // "" when there is no hazard under any schedule and no bit is redundant
+  std::size_t bits = 0;  // of the plan
   // Bits that can be dropped while everything runs and publishes, but not under some cadence.
   std::size_t byCadenceOnly = 0;
 };

@@ -78,8 +78,8 @@ TEST_CASE("no hazard is left under any cadence, and there are no redundant barri
     steps += plan.steps.size();
     (plan.groups.ofResource.empty() ? byCadenceOnly : ofSliced) += verdict.byCadenceOnly;
     const bool excused = verdict.byCadenceOnly == 0 || turnsNowAndThen(plan);
-    if ((!verdict.complaint.empty() || !excused) && ++failures < 10)
-      FAIL_CHECK("graph " << seed << how << ": " << verdict.complaint);
+    if ((!verdict.problem.empty() || !excused) && ++failures < 10)
+      FAIL_CHECK("graph " << seed << how << ": " << verdict.problem);
   };
   for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) {
     const FlatBuilder b = randomGraph(seed);
@@ -98,8 +98,8 @@ TEST_CASE("no hazard is left under any cadence, and there are no redundant barri
 
 TEST_CASE("liveness, order and storage agree with slow second opinions") {
   std::size_t failures = 0;
-  const auto check = [&](const std::string& complaint, std::uint64_t seed) {
-    if (!complaint.empty() && ++failures < 10) FAIL_CHECK("graph " << seed << ": " << complaint);
+  const auto check = [&](const std::string& problem, std::uint64_t seed) {
+    if (!problem.empty() && ++failures < 10) FAIL_CHECK("graph " << seed << ": " << problem);
   };
   for (std::uint64_t seed = 1; seed <= kPropertyGraphs; ++seed) {
     const FlatBuilder b = randomGraph(seed);

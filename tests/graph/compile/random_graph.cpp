@@ -188,8 +188,8 @@ class Generator {
     }
   }
 
-  // What a time-sliced group writes is no other's to write (W77): who does joins the group. False: nobody does any
-  // more.
+  // What a time-sliced group writes must not be written by passes of other groups (W077): a pass that does joins the
+  // group. False when no pass is left that does.
   bool joinAlwaysWriters() {
     const auto every = [](std::uint32_t) { return true; };
     const Groups groups = formGroups(b_.graph, every, every);

@@ -89,14 +89,14 @@ TEST_CASE("the reader knows every key of the schema, and looks at its value") {
       // the reader forgot to read would pass in silence.
       Json object = host.whole;
       object[std::string(spec.key)] = nullptr;
-      bool complained = false;
+      bool reported = false;
       const Diagnostics said = diagnose(host.wrap(object));
       for (const auto& d : said.items()) {
         CHECK_MESSAGE(d.code != Code::unknownKey, format(d));
-        complained =
-            complained || (d.code == Code::wrongType && d.pointer.ends_with("/" + std::string(spec.key)));
+        reported =
+            reported || (d.code == Code::wrongType && d.pointer.ends_with("/" + std::string(spec.key)));
       }
-      CHECK(complained);
+      CHECK(reported);
     }
 }
 

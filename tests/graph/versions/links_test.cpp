@@ -28,8 +28,8 @@ TEST_CASE("the links of random graphs are the last writers in declared order, pe
   checks::LinkCount count;
   std::size_t failures = 0;
   for (std::uint64_t seed = 1; seed <= 2500; ++seed) {
-    const std::string complaint = checks::checkLinks(*randomGraph(seed).linked(), count);
-    if (!complaint.empty() && ++failures < 10) FAIL_CHECK("graph " << seed << ": " << complaint);
+    const std::string problem = checks::checkLinks(*randomGraph(seed).linked(), count);
+    if (!problem.empty() && ++failures < 10) FAIL_CHECK("graph " << seed << ": " << problem);
   }
   CHECK(failures == 0);
   MESSAGE(count.links << " links, " << count.several << " of several writers, " << count.none << " of none, "

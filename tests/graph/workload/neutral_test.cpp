@@ -98,7 +98,7 @@ TEST_CASE("escapes are read") {
 }
 
 TEST_CASE("what compile takes for granted is checked") {
-  const auto complains = [](FlatBuilder& b, Code code) {
+  const auto reports = [](FlatBuilder& b, Code code) {
     base::Diagnostics d;
     return !linkFlat(b.graph, d) && d.contains(code);
   };
@@ -106,38 +106,38 @@ TEST_CASE("what compile takes for granted is checked") {
     FlatBuilder b = emptyGraph();
     const auto a = b.texture("a");
     b.pass("p").read(a);
-    CHECK(complains(b, Code::flatReadBeforeWrite));
+    CHECK(reports(b, Code::flatReadBeforeWrite));
     b.resource(a).hasClear = true;
-    CHECK_FALSE(complains(b, Code::flatReadBeforeWrite));
+    CHECK_FALSE(reports(b, Code::flatReadBeforeWrite));
   }
   {
     FlatBuilder b = emptyGraph();
     const auto a = b.texture("a", Format::rgba8, 8, 2);
     b.pass("p").mip(a, 0, Kind::color, Access::write);
     b.pass("q").read(a);
-    CHECK(complains(b, Code::flatReadBeforeWrite));  // level 1 was never written
+    CHECK(reports(b, Code::flatReadBeforeWrite));  // level 1 was never written
   }
   {
     FlatBuilder b = emptyGraph();
     const auto a = b.texture("a");
     b.pass("p").write(a);
     b.pass("q").read(a).write(a);
-    CHECK(complains(b, Code::touchedTwice));
+    CHECK(reports(b, Code::touchedTwice));
   }
   {
     FlatBuilder b = emptyGraph();
     const auto a = b.texture("a");
     b.pass("p").mip(a, 1, Kind::color, Access::write);
-    CHECK(complains(b, Code::useOutsideResource));
+    CHECK(reports(b, Code::useOutsideResource));
   }
   {
     FlatBuilder b = emptyGraph();
     const auto a = b.texture("a");
     b.pass("p").write(a);
     b.pass("p").write(b.texture("a"));
-    CHECK(complains(b, Code::duplicateFlatName));
+    CHECK(reports(b, Code::duplicateFlatName));
     b.present(b.texture("c"));
-    CHECK(complains(b, Code::presentsUnwritten));
+    CHECK(reports(b, Code::presentsUnwritten));
   }
 }
 

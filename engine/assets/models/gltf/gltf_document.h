@@ -40,7 +40,7 @@ class GltfDocument {
   // A number of an object, or `otherwise`; W165 outside the range.
   double number(const base::JsonValue& object, std::string_view key, double otherwise, double min,
                 double max);
-  // As many numbers as `count`, within ±1e9; false after W165 or when the key is absent.
+  // Reads `count` numbers, within ±1e9; false after W165 or when the key is absent.
   bool numbers(const base::JsonValue& object, std::string_view key, std::size_t count, float* out);
   std::string text(const base::JsonValue& object, std::string_view key) const;
 

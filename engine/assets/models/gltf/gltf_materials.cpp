@@ -43,7 +43,7 @@ class MaterialReader {
     std::uint32_t number = kNoRow;  // in the pool
     std::string name;
   };
-  // Of a map, before its image is decoded.
+  // A map before its image is decoded.
   struct Use {
     std::uint32_t image = kNoRow;  // number in the pool
     std::string name;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTiny = 1e-12;
 
-// Of a rotation matrix with columns x, y, z. Shepperd, "Quaternion from Rotation Matrix", 1978.
+// The quaternion of a rotation matrix with columns x, y, z. Shepperd, "Quaternion from Rotation Matrix", 1978.
 Float4 rotationOf(const double m[3][3]) {
   const double trace = m[0][0] + m[1][1] + m[2][2];
   double q[4];

@@ -8,7 +8,7 @@ namespace weft::assets {
 // False for a quaternion without length.
 bool normalizeRotation(Float4& q);
 
-// Of a matrix without shear; a mirror becomes a negative x scale. False when a column is not finite.
+// Takes a matrix without shear apart; a mirror becomes a negative x scale. False when a column is not finite.
 bool decompose(const Matrix4& matrix, ModelNode& node);
 
 }  // namespace weft::assets

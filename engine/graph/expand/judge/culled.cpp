@@ -90,7 +90,7 @@ void warnUnread(Model& model) {
     const Fate& fate = fates[pass];
     if (live.pass[pass] != 0 || fate.intended || !said.insert(graph.specs[pass].declared).second) continue;
     const PassSpec& spec = graph.specs[pass];
-    // Of a chain that is read in part, the other levels are no mistake.
+    // When a chain is read in part, its other levels are no mistake.
     if (fate.otherLevels && running.contains(spec.declared)) continue;
     const std::string resource = fate.entity == kNone ? "" : model.entities[fate.entity].name;
     base::Diagnostic* d = nullptr;

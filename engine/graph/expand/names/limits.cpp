@@ -11,7 +11,7 @@ namespace {
 // Operators of expressions nested in each other through definitions; fits the smallest usual stack several
 // times.
 constexpr std::uint32_t kMostHeight = 3000;
-// Of the greatest height of one expression, what a definition adds by itself.
+// The part of the greatest height that a definition adds by itself.
 constexpr int kOwnHeight = 4;
 // Comparisons for each slot that all passes may have.
 constexpr std::uint64_t kComparedPerUse = 100;

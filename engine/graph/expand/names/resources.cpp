@@ -230,7 +230,7 @@ bool evaluateDeclared(Model& model, Entity& entity) {
 
 namespace {
 
-// Of the expressions that say what it is.
+// The greatest height of the expressions that say what the entity is.
 int heightOf(const Entity& entity) {
   if (!entity.desc) return 0;
   int height = 0;
