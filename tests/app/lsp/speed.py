@@ -11,9 +11,10 @@ import shutil
 import sys
 import time
 
+from editor import Editor, cpu_seconds
 from program import SLOWER, Report, temporary_folder
-from session import HERE, Editor, cpu_seconds
 
+HERE = pathlib.Path(__file__).resolve().parent
 MOST_CPU_MS = 50 * SLOWER  # of a change, on average
 CHANGES = 40
 

@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""Messages that no editor sends to `weft lsp`, files that no person writes, and what they cost.
+
+    hostile.py WEFT
+"""
+import pathlib
+import random
+import re
+import subprocess
+import sys
+
+from editor import Editor, cpu_seconds, flatten
+from program import SLOWER, Report, count_run, temporary_folder
+
+
+def framed(text):
+    data = text if isinstance(text, bytes) else text.encode()
+    return b"Content-Length: %d\r\n\r\n" % len(data) + data
+
+
+HOSTILE = [  # bytes, the code of the error that answers
+    (b"Content-Length: seven\r\n\r\n", -32700),
+    (b"Content-Length: -5\r\n\r\n", -32700),
+    (b"Content-Length: 99999999999999999999999\r\n\r\n", -32700),
+    (b"No header at all\r\n\r\n", -32700),
+    (b"X: " + b"y" * 100_000 + b"\r\n\r\n", -32700),
+    (b"Content-Type: text\r\n\r\n", -32700),
+    (framed("{"), -32700),
+    (framed(""), -32700),
+    (framed(b"\xff\xfe\x00{}"), -32700),
+    (framed("[" * 100_000), -32700),
+    (framed("[]"), -32600),
+    (framed("17"), -32600),
+    (framed("{}"), -32600),
+    (framed('{"jsonrpc":"2.0","id":{"a":1},"method":"shutdown"}'), -32600),
+    (framed('{"jsonrpc":"2.0","id":1,"method":17}'), -32600),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":{}}'), -32601),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":' + "[" * 200_000 + "]" * 200_000 + "}"), -32700),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":' + '{"a":' * 200_000 + "0" + "}" * 200_000 + "}"), -32700),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":' + "[" * 499 + "]" * 499 + "}"), -32601),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"no/such","params":["\\\\\\"' + "[" * 1000 + '"]}'), -32601),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover"}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover","params":[1,2]}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/hover","params":{"textDocument":{"uri":"http://x/y"},"position":{"line":0,"character":0}}}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/rename","params":{"textDocument":{"uri":"file:///x.json"},"position":{"line":-1,"character":0},"newName":"a"}}'), -32602),
+    (framed('{"jsonrpc":"2.0","id":1,"method":"textDocument/completion","params":{"textDocument":{"uri":"file:///x.json"},"position":{"line":1e99,"character":0}}}'), -32602),
+    (b"Content-Length: 68000000\r\n\r\n" + b" " * 68_000_000, -32700),
+    (framed('{"jsonrpc":"2.0","id":"again","method":"initialize","params":{}}'), -32600),
+]
+IGNORED = [  # notifications have no answer
+    framed('{"jsonrpc":"2.0","method":"textDocument/didOpen","params":{}}'),
+    framed('{"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///never/opened.json"},"contentChanges":[{"text":"{}"}]}}'),
+    framed('{"jsonrpc":"2.0","method":"textDocument/didChange","params":{"textDocument":{"uri":"file:///never/opened.json"},"contentChanges":17}}'),
+    framed('{"jsonrpc":"2.0","method":"no/such","params":null}'),
+    framed('{"jsonrpc":"2.0","method":"workspace/didChangeWatchedFiles","params":{"changes":' + "[" * 400 + "]" * 400 + "}}"),
+    framed('{"jsonrpc":"2.0","method":"workspace/didChangeWatchedFiles","params":{"changes":{"uri":7}}}'),
+    framed('{"jsonrpc":"2.0","method":"$/cancelRequest","params":{"id":7}}'),
+    framed('{"jsonrpc":"2.0","id":3,"result":null}'),
+]
+TEXTS = ["", "{", '{"passes": [{"name": "', "[" * 50_000, '{"a":' * 50_000, "\0\0\0", '{"passes": [' + '{"name": "a", "type": "fullscreen", "shader": "a", "read": {"x": "@@[[", "y": ".", "z": "a.."}},' * 50,
+         '{"resources": {"a": ["a", "b"], "b": "a"}, "passes": [], "present": "a.b.c.mip[$"}', '{"extends": "odd.json"}', '{"passes": [{"include": "odd.json"}]}',
+         '{"passes": [{"name": "a", "like": "b", "read": {"s": "x"}}, {"name": "b", "like": "a"}]}', '"\\', '{"passes": 7, "resources": 7, "let": []}', "é😀" * 1000]
+ENDS = [(b"", "without 'exit'"), (b"Content-Len", "within the header of a message, which begins 'Content-Len'"), (b"Content-Length: 5\r\n", "within the header"),
+        (b"Content-Length: 50\r\n\r\n{", "after 1 of 50 bytes"), (b"Content-Length: 99999999999\r\n\r\n{", "of 99999999999 bytes")]
+
+
+def check_hostile(weft, report, folder):
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    for data, code in HOSTILE:
+        editor.send_bytes(data)
+        answer = editor.receive()
+        report.check(answer.get("error", {}).get("code") == code and answer["error"]["message"], f"{data[:120]}: {answer}")
+    # A body of whose length nothing is known: behind it the next message is found again, the first of its kind or the third.
+    for body in (b"{}", b'{"jsonrpc": "2.0",\n "id": 1,\n "method": "shutdown"}', b'{"text": "' + b"x" * 10_000 + b'"}'):
+        for header in (b"Content-Length: abc", b"Content-Type: text"):
+            editor.send_bytes(header + b"\r\n\r\n" + body)
+            report.check(editor.receive().get("error", {}).get("code") == -32700, f"{header} {body[:40]}")
+            answer = editor.ask("no/such", {})
+            report.check(answer.get("error", {}).get("code") == -32601, f"after {header} {body[:40]}: {answer}")
+    for data in IGNORED:
+        editor.send_bytes(data)
+    # Whatever a file holds, everything can be asked of every place of it.
+    for text in TEXTS:
+        editor.open("odd.json", text)
+        for where in ("0:0", "0:1", "0:7", "0:24", "0:60", "0:200", "3:0"):
+            for method in ("completion", "hover", "definition", "references", "prepareRename"):
+                answer = editor.ask(f"textDocument/{method}", editor.at("odd.json", where))
+                report.check("result" in answer, f"{method} of {text[:60]!r} at {where}: {answer}")
+            answer = editor.ask("textDocument/rename", editor.at("odd.json", where) | {"newName": "new name"})
+            report.check("error" in answer, f"{answer}")
+        editor.tell("textDocument/didClose", {"textDocument": {"uri": editor.uri("odd.json")}})
+    editor.open("odd.json", "{}")
+    editor.change("odd.json", [("5:0-2:0", "x"), ("0:1-0:1", "\"passes\": []")])
+    editor.settle("odd.json")
+    report.check(editor.published["odd.json"]["version"] == 2 and editor.end() == 0, f"{editor.published}")
+    # Without shutdown the end of the input is an error, and a sentence says where it came.
+    for data, says in ENDS:
+        count_run()
+        ended = subprocess.run([weft, "lsp"], input=data, capture_output=True, timeout=60)
+        text = ended.stderr.decode()
+        report.check(ended.returncode == 1 and says in text and text.count("\n") == 1, f"the input {data!r} ends: {ended.returncode} {text}")
+
+
+def check_bounds(weft, report, folder):
+    """What grows faster than the text, or without end, in files that no person writes."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+
+    def spent(name, where):
+        """Processor seconds for the definition of what stands there."""
+        editor.settle(name)
+        before = cpu_seconds(editor)
+        answer = editor.ask("textDocument/definition", editor.at(name, where))
+        report.check("result" in answer, f"{name}: {answer}")
+        return cpu_seconds(editor) - before
+
+    # Two ways on at each step, again and again: as many look-ups as there are names, not as there are ways.
+    name = "a." * 8 + "b"
+    circle = '{{"extends": "circle.json", "passes": [{{"include": "circle.json", "as": "a"}}{}], {}}}'
+    for what, text in {"resource": circle.format("", f'"present": "{name}"'), "parameter": circle.format("", f'"let": {{"c": "${name}"}}'),
+                       "pass": circle.format(f', {{"name": "c", "after": "{name}"}}', '"let": {}')}.items():
+        editor.open("circle.json", text)
+        seconds = spent("circle.json", f"0:{text.index(name) + len(name)}")
+        report.check(seconds < 2 * SLOWER, f"a {what} in a circle of files took {seconds} s of processor time")
+    # More files than a graph may include: the others are not looked for, and none is compared with all.
+    many = ", ".join(f'{{"include": "{i:040}.json"}}' for i in range(8000))
+    before = cpu_seconds(editor)
+    editor.open("circle.json", f'{{"passes": [{many}]}}')
+    editor.settle("circle.json")
+    seconds = cpu_seconds(editor) - before
+    report.check(seconds < 4 * SLOWER, f"8,000 includes took {seconds} s of processor time")
+    # Each part of a dotted name is a mention of all before it: not of parts without end.
+    editor.open("circle.json", f'{{"passes": [], "present": "{"a." * 40000}b"}}')
+    editor.settle("circle.json")
+    report.check("result" in editor.ask("textDocument/hover", editor.at("circle.json", "0:50")), "hover in a name of 40,001 parts")
+    kilobytes = int(re.search(r"VmHWM:\s+(\d+) kB", pathlib.Path(f"/proc/{editor.process.pid}/status").read_text())[1])
+    report.check(kilobytes < 600_000 * SLOWER, f"a name of 40,001 parts took {kilobytes} kB")
+    # Places in one long line: those that Python counts, and not each from the beginning of the line.
+    seconds = {}
+    for between in ("\n", ""):
+        text = '{"passes": [], "resources": {' + f", {between}".join(f'/* é😀 */ "r{i}": {{"texture": "rgba8", "size": 1}}' for i in range(6000)) + "}}"
+        editor.open("long.json", text)
+        editor.settle("long.json")
+        before = cpu_seconds(editor)
+        answer = editor.ask("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri("long.json")}})
+        seconds[between] = cpu_seconds(editor) - before
+        found = [symbol for symbol in flatten(answer["result"]) if symbol.startswith("  r")]
+        expected, line, column, at = [], 0, 0, 0
+        for match in re.finditer(r'(?<=")r\d+', text):
+            passed = text[at:match.start()].split("\n")
+            line, column, at = line + len(passed) - 1, len(passed[-1].encode("utf-16-le")) // 2 + (column if len(passed) == 1 else 0), match.start()
+            expected.append(f"  {match[0]} {line}:{column}-{line}:{column + len(match[0])}")
+        report.check(found == expected and len(found) == 6000, f"symbols of a long line: {[pair for pair in zip(found, expected) if pair[0] != pair[1]][:3]}")
+    report.check(seconds[""] < 4 * seconds["\n"] + 0.5, f"processor seconds for the symbols of 6,000 lines and of one: {seconds}")
+    editor.end()
+
+
+def check_hints(weft, report, folder):
+    """Names that are near to a misspelt one are said, however many were compared before."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    # 400 million steps are the budget of one run. Names of the same letters, as long as names may be, take the most.
+    order = random.Random(1)
+    names = ["n" + "".join(order.sample("ab" * 100, 200)) for _ in range(1040)]
+    resources = ", ".join(f'"{name}": {{"texture": "rgba8", "size": 1}}' for name in names[:1000])
+    unknown = ", ".join(f'"s{i}": "{name}"' for i, name in enumerate(names[1000:]))
+    editor.open("spent.json", f'{{"resources": {{{resources}}}, "passes": [{{"name": "a", "type": "fullscreen", "shader": "x.frag.glsl", "read": {{{unknown}}}}}]}}')
+    editor.settle("spent.json")
+    editor.open("hint.json", '{"resources": {"picture": {"texture": "rgba8", "size": 1}}, "passes": [], "present": "pictrue"}')
+    editor.settle("hint.json")
+    said = [d["message"] for d in editor.published["hint.json"]["diagnostics"]]
+    report.check(any("did you mean 'picture'?" in message for message in said), f"no hint: {said}")
+    editor.end()
+
+
+def main():
+    weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
+    with temporary_folder() as folder:
+        for name, check in (("bounds", check_bounds), ("hints", check_hints), ("odd", check_hostile)):
+            pathlib.Path(folder, name).mkdir()
+            check(weft, report, pathlib.Path(folder, name).resolve())
+    report.end()
+
+
+main()

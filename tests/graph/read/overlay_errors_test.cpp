@@ -1,0 +1,113 @@
+// Mistakes in overlays and presets, each with its place.
+#include "tests/graph/read/overlay_files.h"
+
+using namespace weft;
+using namespace weft::graph;
+using namespace weft::graph::test;
+using namespace weft::graph::test::overlays;
+using base::Code;
+
+TEST_CASE("values that do not fit are reported where they stand") {
+  const Folder folder;
+  const auto only = [&](const std::string& text) {
+    const Expanded e = expandFile(folder.file("base.json"), {folder.write("p.json", text)});
+    REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
+    const base::Diagnostic& d = e.diagnostics.items()[0];
+    REQUIRE(d.place.file);
+    CHECK(*d.place.file == folder.file("p.json"));
+    return base::nameOf(d.code) + " " + std::to_string(d.place.line) + ":" + std::to_string(d.place.column);
+  };
+  CHECK(only(R"({ "set": { "curve": "filmc" } })") == "W047 1:12");
+  CHECK(only(R"({ "set": { "gain": 9 } })") == "W048 1:12");
+  CHECK(only(R"({ "set": { "gian": 1 } })") == "W044 1:12");
+  CHECK(only(R"({ "set": { "gain": null } })") == "W003 1:20");
+  CHECK(only(R"({ "set": { "gain": [1, "x"] } })") == "W003 1:20");
+  CHECK(only(R"({ "set": 3 })") == "W003 1:10");
+  CHECK(only(R"([])") == "W003 1:1");
+  CHECK(only(R"({ "extends": "parts/post.json" })") == "W019 1:14");
+  CHECK(only(R"({ "passes": [ { "name": "sohw", "enabled": false } ] })") == "W016 1:25");
+  CHECK(expandFile(folder.file("base.json"), {folder.file("none.json")}).has(Code::unreadableFile));
+}
+
+TEST_CASE("what does not fit its base") {
+  const Folder folder;
+  const auto said = [&](const std::string& keys) { return wrong(folder.over(keys)); };
+  CHECK(said(R"("passes": [ { "name": "nw", "type": "compute", "after": "shwo" } ])") ==
+        "W016 over.json 1:83");
+  CHECK(said(R"("passes": [ { "name": "nw", "remove": true } ])") == "W017 over.json 1:49");
+  CHECK(said(R"("passes": [ { "name": "show", "remove": 1 } ])") == "W003 over.json 1:67");
+  CHECK(said(R"("passes": [ { "name": "show", "after": 1 } ])") == "W003 over.json 1:66");
+  CHECK(said(R"("passes": { })") == "W003 over.json 1:37");
+  CHECK(said(R"("passes": [ 3 ])") == "W003 over.json 1:39");
+  CHECK(said(R"("resources": { "glw": null })") == "W017 over.json 1:42");
+  CHECK(said(R"("resources": { "a.glow": { "texture": "r8", "size": 1 } })") == "W017 over.json 1:42");
+  CHECK(said(R"("resources": { "either": { "size": 1 } })") == "W018 over.json 1:42");
+  CHECK(said(R"("resources": { "hdr": { "import": "camera" } })") == "W018 over.json 1:42");
+  CHECK(said(R"("resources": { "hdr": { "texture": null, "size": null, "mips": null, "import": "camera" } })")
+            .empty());
+  CHECK(said(R"("parameters": { "gian": { "max": 2 } })") == "W017 over.json 1:43");
+  CHECK(said(R"("passes": [ { "name": "show", "include": "parts/glow.json", "as": "show" } ])") ==
+        "W018 over.json 1:68");
+  CHECK(said(R"("outputs": { "x": null })") == "W017 over.json 1:40");
+  CHECK(said(R"("presnt": "ldr")") == "W004 over.json 1:27");
+  // a mistake in the base stays where it stands
+  folder.write("base.json", "{ \"passes\": [\n { \"name\": \"p\", \"type\": 3 } ] }");
+  CHECK(said("") == "W003 base.json 2:25");
+  folder.write("base.json", "{ \"passes\": [");
+  CHECK(said("") == "W002 base.json 1:14");
+}
+
+TEST_CASE(
+    "a pass with a misspelt anchor stands where it was meant, so that its readers are no second mistake") {
+  const Folder folder;
+  base::Diagnostics diagnostics;
+  const auto desc = readGraph(
+      folder.over(R"("passes": [ { "name": "nw", "type": "compute", "before": "shwo" } ])"), diagnostics);
+  REQUIRE(desc);
+  CHECK(diagnostics.errorCount() == 1);
+  std::vector<std::string> names;
+  for (const PassDesc& pass : desc->passes) names.push_back(pass.name);
+  CHECK(names == std::vector<std::string>{"fill", "post", "nw", "show"});
+}
+
+TEST_CASE("a name that several includes have must be longer") {
+  const Folder folder;
+  const std::string twin =
+      R"("passes": [ { "before": "post", "include": "parts/glow.json", "as": "twin", "bind": { "source": "hdr" } })";
+  base::Diagnostics diagnostics;
+  readGraph(folder.over(twin + R"(, { "name": "spread", "enabled": false } ])"), diagnostics);
+  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+  CHECK(diagnostics.items()[0].code == Code::ambiguousName);
+  CHECK(diagnostics.items()[0].found == "twin.spread, post.bloom.spread");
+  CHECK(fine(folder.over(twin + R"(, { "name": "bloom.spread", "enabled": true } ])")).graph);
+}
+
+TEST_CASE("circles of extends and include end") {
+  const Folder folder;
+  CHECK(wrong(folder.write("a.json", R"({ "extends": "b.json" })")) == "W001 a.json 1:14");
+  folder.write("b.json", R"({ "extends": "a.json" })");
+  CHECK(wrong(folder.file("a.json")) == "W015 b.json 1:14");
+  folder.write("b.json", R"({ "passes": [ { "include": "a.json" } ] })");
+  CHECK(wrong(folder.file("a.json")) == "W008 b.json 1:28");
+  CHECK(wrong(folder.file("b.json")).starts_with("W0"));
+  folder.write("b.json", R"({ "passes": [ { "include": "c.json" } ] })");
+  folder.write("c.json", R"({ "extends": "a.json", "resources": { "r": { "size": 3 } } })");
+  for (const char* name : {"a.json", "b.json", "c.json"}) CHECK(!wrong(folder.file(name)).empty());
+}
+
+TEST_CASE("a list of extends that cannot be has its place: two graphs, a circle, what is no path") {
+  const Folder folder;
+  const auto over = [&](const char* text) { return wrong(folder.write("over.json", text)); };
+  CHECK(over(R"({ "extends": ["base.json", "parts/post.json"] })") == "W019 over.json 1:28");
+  folder.write("other.json", R"({ "passes": [{ "name": "one", "type": "fullscreen", "shader": "a.frag.glsl" },
+                                            { "name": "two", "like": "one" }] })");
+  CHECK(over(R"({ "extends": ["base.json", "other.json"] })") == "W019 over.json 1:28");
+  CHECK(over(R"({ "extends": ["base.json", "over.json"] })") == "W015 over.json 1:28");
+  CHECK(over(R"({ "extends": ["base.json", 3] })") == "W003 over.json 1:28");
+  CHECK(over(R"({ "extends": [] })") == "W003 over.json 1:14");
+  CHECK(over(R"({ "extends": ["base.json", "none.json"] })") == "W001 over.json 1:28");
+  folder.write("a.json", R"({ "extends": "b.json" })");
+  folder.write("b.json", R"({ "extends": "a.json" })");
+  CHECK(over(R"({ "extends": ["base.json", "a.json"] })") == "W015 b.json 1:14");
+  CHECK(wrong(folder.file("base.json"), {folder.file("a.json")}) == "W015 b.json 1:14");
+}
