@@ -4,27 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <cassert>
-#include <map>
 #include <utility>
 
 namespace weft::runtime::test {
 
 namespace {
 
-struct Recording {
-  std::vector<GLbitfield> barriers;
-  std::vector<std::string> redundant;
-  std::size_t stateCalls = 0;
-  std::map<std::string, std::string> state;  // "glBindSampler 3" -> "7"
-};
+using Recording = std::vector<GlCall>;
 Recording* recording = nullptr;
 
 // The state `key` is set to `value`.
 void note(const std::string& key, const std::string& value) {
-  ++recording->stateCalls;
-  const auto [at, fresh] = recording->state.try_emplace(key, value);
-  if (!fresh && at->second == value) recording->redundant.push_back(key + " " + value);
-  at->second = value;
+  recording->push_back({.name = key, .value = value});
 }
 
 // One entry of glad's table: what it was, and a function that records how many leading arguments name the state.
@@ -32,6 +23,7 @@ void note(const std::string& key, const std::string& value) {
 // clang-format off
 #define WEFT_RECORDED(X)                                                                           \
   X(UseProgram, 0) X(BindTextureUnit, 1) X(BindSampler, 1) X(BindImageTexture, 1)                  \
+  X(BindBuffer, 1)                                                                                 \
   X(BindBufferBase, 2) X(BindBufferRange, 2) X(BindVertexArray, 0) X(Viewport, 0) X(Scissor, 0)    \
   X(DepthFunc, 0) X(DepthMask, 0) X(ColorMask, 0) X(StencilMask, 0) X(CullFace, 0)                 \
   X(PolygonMode, 0) X(PolygonOffset, 0) X(BlendEquationi, 1) X(BlendFuncSeparatei, 1)              \
@@ -94,13 +86,29 @@ enum Id : int {
 };
 
 PFNGLMEMORYBARRIERPROC realBarrier = nullptr;
+PFNGLTEXTUREBARRIERPROC realTextureBarrier = nullptr;
+PFNGLPUSHDEBUGGROUPPROC realPush = nullptr;
+PFNGLPOPDEBUGGROUPPROC realPop = nullptr;
 PFNGLENABLEPROC realEnable = nullptr, realDisable = nullptr;
 PFNGLENABLEIPROC realEnablei = nullptr, realDisablei = nullptr;
 PFNGLBINDFRAMEBUFFERPROC realBindFramebuffer = nullptr;
 
 void GLAD_API_PTR recordBarrier(GLbitfield bits) {
-  recording->barriers.push_back(bits);
+  recording->push_back({.kind = GlCall::Kind::barrier, .bits = bits});
   realBarrier(bits);
+}
+void GLAD_API_PTR recordTextureBarrier() {
+  recording->push_back({.kind = GlCall::Kind::texture_barrier});
+  realTextureBarrier();
+}
+void GLAD_API_PTR recordPush(GLenum source, GLuint id, GLsizei length, const GLchar* message) {
+  const std::string name = length < 0 ? message : std::string(message, static_cast<std::size_t>(length));
+  recording->push_back({.kind = GlCall::Kind::group, .name = name});
+  realPush(source, id, length, message);
+}
+void GLAD_API_PTR recordPop() {
+  recording->push_back({.kind = GlCall::Kind::group_end});
+  realPop();
 }
 void GLAD_API_PTR recordEnable(GLenum capability) {
   note(fmt::format("capability {:#x}", capability), "on");
@@ -122,7 +130,7 @@ void GLAD_API_PTR recordDisablei(GLenum capability, GLuint index) {
 void GLAD_API_PTR recordBindFramebuffer(GLenum target, GLuint framebuffer) {
   const std::string value = fmt::format("{}", framebuffer);
   if (target == GL_FRAMEBUFFER) {
-    recording->state["glBindFramebuffer read"] = value;
+    recording->push_back({.name = "glBindFramebuffer read", .value = value, .bySideEffect = true});
     note("glBindFramebuffer draw", value);
   } else {
     note(target == GL_READ_FRAMEBUFFER ? "glBindFramebuffer read" : "glBindFramebuffer draw", value);
@@ -139,6 +147,9 @@ GlRecorder::GlRecorder() {
   WEFT_RECORDED(WEFT_REPLACE)
 #undef WEFT_REPLACE
   realBarrier = std::exchange(glad_glMemoryBarrier, &recordBarrier);
+  realTextureBarrier = std::exchange(glad_glTextureBarrier, &recordTextureBarrier);
+  realPush = std::exchange(glad_glPushDebugGroup, &recordPush);
+  realPop = std::exchange(glad_glPopDebugGroup, &recordPop);
   realEnable = std::exchange(glad_glEnable, &recordEnable);
   realDisable = std::exchange(glad_glDisable, &recordDisable);
   realEnablei = std::exchange(glad_glEnablei, &recordEnablei);
@@ -151,6 +162,9 @@ GlRecorder::~GlRecorder() {
   WEFT_RECORDED(WEFT_RESTORE)
 #undef WEFT_RESTORE
   glad_glMemoryBarrier = realBarrier;
+  glad_glTextureBarrier = realTextureBarrier;
+  glad_glPushDebugGroup = realPush;
+  glad_glPopDebugGroup = realPop;
   glad_glEnable = realEnable;
   glad_glDisable = realDisable;
   glad_glEnablei = realEnablei;
@@ -160,16 +174,10 @@ GlRecorder::~GlRecorder() {
 }
 
 void GlRecorder::start() {
-  *recording = Recording{};
+  recording->clear();
 }
-const std::vector<GLbitfield>& GlRecorder::barriers() const {
-  return recording->barriers;
-}
-const std::vector<std::string>& GlRecorder::redundant() const {
-  return recording->redundant;
-}
-std::size_t GlRecorder::stateCalls() const {
-  return recording->stateCalls;
+const std::vector<GlCall>& GlRecorder::calls() const {
+  return *recording;
 }
 
 }  // namespace weft::runtime::test

@@ -1,14 +1,24 @@
-// Records the GL calls of the frame loop by putting functions of its own into glad's table of function pointers:
-// glMemoryBarrier with its bits, and state calls that set what is current already. What is current is followed from the
-// calls alone; unknown at start(). Does not: look into GL, or record draws. One recorder at a time.
+// Records the GL calls of the frame loop, in their order, by putting functions of its own into glad's table of function
+// pointers: beginnings and ends of debug groups (a step has one), barriers, and calls that set state. Does not: judge them
+// (gl_replay.h), look into GL, or record draws. One recorder at a time.
 #pragma once
 
 #include <glad/gl.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace weft::runtime::test {
+
+struct GlCall {
+  enum class Kind : std::uint8_t { group, group_end, barrier, texture_barrier, state };
+  Kind kind = Kind::state;
+  GLbitfield bits = 0;        // of a barrier
+  std::string name{};         // of a group; of a state: "glBindSampler 3"
+  std::string value{};        // that the state is set to
+  bool bySideEffect = false;  // the call sets another state too, and that is this one
+};
 
 class GlRecorder {
  public:
@@ -18,10 +28,7 @@ class GlRecorder {
   GlRecorder& operator=(const GlRecorder&) = delete;
 
   void start();  // forgets everything
-  const std::vector<GLbitfield>& barriers() const;
-  // "glUseProgram 7" for each call that changed nothing.
-  const std::vector<std::string>& redundant() const;
-  std::size_t stateCalls() const;
+  const std::vector<GlCall>& calls() const;
 };
 
 }  // namespace weft::runtime::test

@@ -44,14 +44,15 @@ CleanScope::~CleanScope() {
 }
 
 Stage::Stage(const std::string& graph, std::uint32_t width, std::uint32_t height, const std::string& scene,
-             const std::string& cacheFolder)
+             const std::string& cacheFolder, std::vector<std::string> presets)
     : world(worldOf(scene)) {
   settings.screenWidth = width;
   settings.screenHeight = height;
   settings.software = true;
   renderer_ = std::make_unique<Renderer>(
       context(), sourcePath(graph),
-      Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = cacheFolder});
+      Renderer::Options{
+          .dataFolder = WEFT_SOURCE_DIR, .cacheFolder = cacheFolder, .presets = std::move(presets)});
 }
 
 bool Stage::load() {

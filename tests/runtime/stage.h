@@ -39,7 +39,8 @@ class Stage {
  public:
   // `graph` relative to the source folder, or absolute.
   explicit Stage(const std::string& graph, std::uint32_t width = 160, std::uint32_t height = 90,
-                 const std::string& scene = "scenes/spheres.json", const std::string& cacheFolder = "");
+                 const std::string& scene = "scenes/spheres.json", const std::string& cacheFolder = "",
+                 std::vector<std::string> presets = {});
 
   graph::Settings settings;
   World world;

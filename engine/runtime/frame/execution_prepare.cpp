@@ -7,6 +7,7 @@
 
 #include "engine/runtime/cadence/lasting.h"
 #include "engine/runtime/frame/execution.h"
+#include "engine/runtime/prepare/prepare.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/storage/formats.h"
@@ -19,7 +20,7 @@ namespace {
 template <class Place>
 void appendWithPlaces(const base::Diagnostics& said, const Place& place, base::Diagnostics& diagnostics) {
   for (base::Diagnostic each : said.items()) {
-    if (!each.place.file) place(each);
+    if (!isKnown(each.place)) place(each);
     diagnostics.add(std::move(each));
   }
 }

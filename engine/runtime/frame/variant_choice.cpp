@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/runtime/prepare/prepare.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
 

@@ -1,9 +1,9 @@
-// A step of a plan to a PreparedPass: program, bindings, attachments, clears.
+#include "engine/runtime/prepare/prepare.h"
+
 #include <algorithm>
 #include <cassert>
 
 #include "engine/base/hash.h"
-#include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/sampler_types.h"
 #include "engine/runtime/storage/formats.h"
@@ -134,7 +134,7 @@ class Preparer {
     return good;
   }
 
-  // Of a read of @-n: what `first` of the resource names, in the same place.
+  // For a read of @-n: binds what `first` of the resource names, in the same place.
   bool bindFirst(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
     if (slot.firstValue == kNone) return true;
     const std::size_t textures = out_.textures.size(), images = out_.images.size(),

@@ -15,10 +15,8 @@
 #include "engine/graph/plan.h"
 #include "engine/imports/mesh_draws.h"
 #include "engine/imports/row_layout.h"
-#include "engine/passes/draw/geometry.h"
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/prepare/import_part.h"
-#include "engine/runtime/prepare/sampler_cache.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/runtime/storage/resource_pool.h"
 
@@ -130,20 +128,5 @@ struct PreparedPass {
   bool idle = false;             // that variant does not run, and binds nothing
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
-
-// What preparePass() needs of the executor.
-struct PrepareContext {
-  const graph::Plan& plan;
-  const passes::PassRegistry& types;
-  std::shared_ptr<const gl::Variant> variant;  // of the pass to prepare; null for types without a shader
-  std::uint32_t conditions = 0;                // of that variant
-  ResourcePool& pool;
-  passes::Geometries& geometries;
-  SamplerCache& samplers;
-  base::Diagnostics& diagnostics;
-};
-
-// Fills everything but the uniform offsets. Reports what does not fit; `usable` says whether the pass can run.
-PreparedPass preparePass(PrepareContext& context, std::size_t step);
 
 }  // namespace weft::runtime

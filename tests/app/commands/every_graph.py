@@ -20,7 +20,7 @@ from program import TOP, Report, run, temporary_folder
 import schema
 
 sys.path.insert(0, str(TOP / "tests/app/lsp"))
-from session import Editor  # noqa: E402
+from editor import Editor  # noqa: E402
 
 CRASH = re.compile(r"terminate called|Assertion|Segmentation|Aborted|what\(\):|AddressSanitizer|runtime error")
 SMALL = ["--size", "64x36"]

@@ -1,0 +1,84 @@
+// One step at a time, without a frame around it: what it writes, whether it clears, which barriers it issues itself, and which
+// state it sets again.
+#include <algorithm>
+
+#include "engine/runtime/frame/step_runner.h"
+#include "engine/runtime/frame/uniform_values.h"
+#include "tests/runtime/gl_recorder.h"
+#include "tests/runtime/prepared_plan.h"
+#include "tests/runtime/stage.h"
+
+using namespace weft;
+using namespace weft::runtime::test;
+
+namespace {
+
+struct Steps {
+  PreparedPlan prepared;
+  runtime::UniformArena arena{256};
+  runtime::StepRunner runner;
+  base::Diagnostics diagnostics;
+
+  explicit Steps(const std::string& graph)
+      : prepared(graph), runner(*prepared.plan, prepared.device, *prepared.pool, arena) {
+    arena.layOut(prepared.all(), diagnostics);
+    runtime::UniformValues(*prepared.plan->graph).fill(prepared.all(), arena);
+    arena.upload();
+    prepared.device.timers.beginFrame(static_cast<std::uint32_t>(prepared.passes.size()));
+  }
+  void run(const char* pass, bool clears = true) {
+    const std::size_t step = prepared.step(pass);
+    runner.run(step, prepared.passes[step], clears, diagnostics);
+    REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
+  }
+};
+
+std::size_t countOf(const GlRecorder& recorder, GlCall::Kind kind) {
+  return static_cast<std::size_t>(std::ranges::count(recorder.calls(), kind, &GlCall::kind));
+}
+
+}  // namespace
+
+TEST_CASE("a step draws with the uniforms and textures of its pass") {
+  const CleanScope clean;
+  Steps steps("tests/runtime/graphs/live.json");
+  steps.run("kept");
+  CHECK(steps.prepared.texel("kept") == 50);
+  steps.run("start");
+  steps.run("scale[1]");
+  CHECK(steps.prepared.texel("sum") == (50 + 4) * 2);
+}
+
+TEST_CASE("clears run when they are asked for, and the barrier after them is the step's own") {
+  const CleanScope clean;
+  Steps steps("tests/runtime/graphs/stores.json");
+  steps.run("veil");
+  CHECK(steps.prepared.texel("dots") == 0.25f);
+  steps.run("veil", false);  // adds to what is there
+  CHECK(steps.prepared.texel("dots") == 0.5f);
+  steps.run("veil");
+  CHECK(steps.prepared.texel("dots") == 0.25f);
+  GlRecorder recorder;
+  for (const graph::Step& step : steps.prepared.plan->steps) {
+    recorder.start();
+    steps.run(steps.prepared.plan->graph->specs[step.pass].name.c_str());
+    CHECK(countOf(recorder, GlCall::Kind::barrier) == (step.barriersAfterClears != 0 ? 1 : 0));
+    CHECK(countOf(recorder, GlCall::Kind::texture_barrier) == 0);
+  }
+}
+
+TEST_CASE("a step that runs again sets no state again, until others may have changed it") {
+  const CleanScope clean;
+  Steps steps("tests/runtime/graphs/live.json");
+  GlRecorder recorder;
+  const auto stateCalls = [&] {
+    recorder.start();
+    steps.run("start");
+    return countOf(recorder, GlCall::Kind::state);
+  };
+  const std::size_t first = stateCalls();
+  CHECK(first > 0);
+  CHECK(stateCalls() == 0);
+  steps.runner.forgetState();
+  CHECK(stateCalls() == first);
+}
