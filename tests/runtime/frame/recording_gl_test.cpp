@@ -80,6 +80,36 @@ TEST_CASE(
   CHECK(tally.barriers > 0);
 }
 
+TEST_CASE("the judge finds a barrier that is missing, moved or has other bits, and calls too many") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/stores.json", 64, 64);
+  REQUIRE(stage.load());
+  GlRecorder recorder;
+  stage.run();
+  const std::vector<GlCall> calls = recorder.calls();
+  GlReplay replay(stage.execution().plan());
+  CHECK(replay.judge(calls) == "");
+  std::size_t barriers = 0;
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    std::vector<GlCall> wrong = calls;
+    if (calls[i].kind == GlCall::Kind::barrier) {
+      ++barriers;
+      wrong[i].bits ^= GL_TEXTURE_FETCH_BARRIER_BIT;
+      CHECK(replay.judge(wrong) != "");
+      wrong.erase(wrong.begin() + static_cast<std::ptrdiff_t>(i));
+      CHECK(replay.judge(wrong) != "");
+    } else if (calls[i].kind == GlCall::Kind::state && !calls[i].bySideEffect) {
+      wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(i), calls[i]);
+      CHECK(replay.judge(wrong) != "");
+    } else if (calls[i].kind == GlCall::Kind::group) {
+      wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                   {.kind = GlCall::Kind::texture_barrier});
+      CHECK(replay.judge(wrong) != "");
+    }
+  }
+  CHECK(barriers > 0);
+}
+
 TEST_CASE("the same where headless frames finish time-sliced work ahead, a walk for each round of it") {
   const CleanScope clean;
   Tally tally;
