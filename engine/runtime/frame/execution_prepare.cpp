@@ -58,7 +58,7 @@ bool Execution::prepare(Execution* before, ShaderFiles files, base::Diagnostics&
   if (before) runner_->framebuffers().takeOver(before->runner_->framebuffers(), pool_->textureNames());
   if (!preparePasses(before, keeper.get(), variants, diagnostics)) return false;
   publications_->listWritten();
-  if (before) arena_.takeBuffer(before->arena_);
+  if (before) arena_.takeOver(before->arena_);
   layOutUniforms(diagnostics);
   if (!readBack_.prepare(*plan_, passes_, before ? &before->readBack_ : nullptr, diagnostics)) return false;
   if (before) takeOver(*before);

@@ -13,25 +13,73 @@ namespace {
 
 constexpr std::size_t kLargestMember = 32;  // bytes of a vector of four doubles
 
+// Bytes from `at` on that no block has.
+struct Gap {
+  std::uint32_t at = 0, bytes = 0;
+};
+
 }  // namespace
 
-void UniformArena::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
-  std::uint32_t total = 0;
-  const auto place = [&](const gl::Block* block) {
-    const std::uint32_t at = total;
-    if (block) total += (block->bytes + alignment_ - 1) / alignment_ * alignment_;
-    return at;
+void UniformArena::takeOver(UniformArena& before) {
+  buffer_ = std::move(before.buffer_);
+  bytes_ = std::move(before.bytes_);
+  changed_ = before.changed_;
+}
+
+std::vector<UniformArena::Place> UniformArena::placesOf(std::span<PreparedPass* const> passes) const {
+  std::vector<Place> places;
+  const auto add = [&](const gl::Block* block, std::uint32_t& offset) {
+    if (block) places.push_back({&offset, (block->bytes + alignment_ - 1) / alignment_ * alignment_});
   };
   for (PreparedPass* pass : passes) {
-    pass->parametersOffset = place(pass->parametersBlock);
-    pass->viewOffset = place(pass->viewBlock);
-    pass->sliceOffset = place(pass->sliceBlock);
+    add(pass->parametersBlock, pass->parametersOffset);
+    add(pass->viewBlock, pass->viewOffset);
+    add(pass->sliceBlock, pass->sliceOffset);
   }
-  bytes_.assign(total, std::byte{0});
+  return places;
+}
+
+void UniformArena::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
+  std::vector<Place> places = placesOf(passes);
+  const auto middle = std::ranges::stable_partition(places, [](const Place& place) {
+                        return *place.offset != PreparedPass::kNoPlace;
+                      }).begin();
+  const std::span<Place> kept(places.begin(), middle), fresh(middle, places.end());
+  std::ranges::sort(kept, {}, [](const Place& place) { return *place.offset; });
+  std::vector<Gap> gaps;
+  std::uint32_t end = 0, used = 0;
+  for (const Place& place : kept) {
+    if (*place.offset > end) gaps.push_back({end, *place.offset - end});
+    end = *place.offset + place.bytes;
+    used += place.bytes;
+  }
+  for (const Place& place : fresh) {
+    const auto gap = std::ranges::find_if(gaps, [&](const Gap& each) { return each.bytes >= place.bytes; });
+    std::uint32_t& at = gap == gaps.end() ? end : gap->at;
+    *place.offset = at;
+    at += place.bytes;
+    if (gap != gaps.end()) gap->bytes -= place.bytes;
+    used += place.bytes;
+  }
+  const bool grows = end > bytes_.size();
+  if (grows) bytes_.resize(end);
+  for (const Place& place : fresh) std::fill_n(bytes_.begin() + *place.offset, place.bytes, std::byte{0});
+  if (grows && end / 2 > used) moveTogether(places);
+  changed_ |= !fresh.empty();
+  if (bytes_.empty() || (buffer_ && buffer_.bytes() >= bytes_.size())) return;
   changed_ = true;
-  if (total == 0 || (buffer_ && buffer_.bytes() >= total)) return;
-  auto buffer = gl::Buffer::create(total, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
+  auto buffer = gl::Buffer::create(bytes_.size(), GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
   if (buffer) buffer_ = std::move(*buffer);
+}
+
+void UniformArena::moveTogether(std::span<const Place> places) {
+  std::vector<std::byte> together;
+  for (const Place& place : places) {
+    const auto from = bytes_.begin() + *place.offset;
+    *place.offset = static_cast<std::uint32_t>(together.size());
+    together.insert(together.end(), from, from + place.bytes);
+  }
+  bytes_ = std::move(together);
 }
 
 void UniformArena::write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value) {

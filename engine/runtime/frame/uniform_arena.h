@@ -1,5 +1,6 @@
 // The uniform blocks of all passes, one after the other in one buffer. Their bytes are kept on the CPU, and are uploaded
-// to the GPU only when a byte has changed. Does not: know which value a uniform has (uniform_values.h).
+// to the GPU only when a byte has changed. A block keeps its offset as long as its pass is prepared, also from one
+// execution to the next. Does not: know which value a uniform has (uniform_values.h).
 #pragma once
 
 #include <cstddef>
@@ -19,10 +20,12 @@ class UniformArena {
   // `alignment` of offsets in bytes, as the device wants it.
   explicit UniformArena(std::uint32_t alignment) : alignment_(alignment) {}
 
-  // Gives each block of `passes` its offset, makes the buffer large enough, and sets all bytes to 0.
+  // Gives each block of `passes` that has no offset yet the first room that is free, its bytes 0, and makes the buffer
+  // large enough. All others keep offset and bytes, except when the buffer must grow though more than half of it would
+  // be free: then blocks move together, with their bytes. Room of passes that are not named is free.
   void layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
-  // Takes over the buffer of the execution before.
-  void takeBuffer(UniformArena& before) { buffer_ = std::move(before.buffer_); }
+  // Takes over buffer and bytes of the execution before, some of whose passes are laid out next.
+  void takeOver(UniformArena& before);
 
   // Writes the bytes of one member. `value` must fit it (memberTakes). `block` is the offset of the block.
   void write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value);
@@ -37,6 +40,13 @@ class UniformArena {
   void upload();
 
  private:
+  struct Place {  // of a block, in bytes
+    std::uint32_t* offset = nullptr;
+    std::uint32_t bytes = 0;
+  };
+  std::vector<Place> placesOf(std::span<PreparedPass* const> passes) const;
+  void moveTogether(std::span<const Place> places);
+
   std::uint32_t alignment_;
   std::vector<std::byte> bytes_;
   gl::Buffer buffer_;

@@ -115,11 +115,13 @@ struct PreparedPass {
   bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
   std::unique_ptr<imports::MeshPass> meshes;  // of a draw of the list's meshes
-  // uniform bytes live in one shared buffer; offsets are aligned, size 0: the program has no such block
+  // Uniform bytes live in one shared buffer. Null: the program has no such block. Offsets are aligned; UniformArena
+  // gives them.
   const gl::Block* parametersBlock = nullptr;
   const gl::Block* viewBlock = nullptr;
   const gl::Block* sliceBlock = nullptr;
-  std::uint32_t parametersOffset = 0, viewOffset = 0, sliceOffset = 0;
+  static constexpr std::uint32_t kNoPlace = ~std::uint32_t{0};
+  std::uint32_t parametersOffset = kNoPlace, viewOffset = kNoPlace, sliceOffset = kNoPlace;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
   bool conditional = false;      // has dynamic defines, or is timed
