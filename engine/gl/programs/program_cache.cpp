@@ -20,6 +20,7 @@ namespace {
 using base::Diagnostics;
 
 constexpr std::size_t kMostFailures = 256;
+constexpr std::size_t kMostMeasured = 4096;
 constexpr std::size_t kMostEvicted = 256;  // above it, those that nobody holds are forgotten
 constexpr std::size_t kKeyLength = kBinaryKeyLength;
 
@@ -96,13 +97,20 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   }
   ++stats_.misses;
   if (auto held = revive(key)) return remember(key, std::move(held));
+  const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
+  // What was measured before and is on disk needs no other look at its size.
+  if (measured_.contains(key))
+    if (auto program = loadBinary(key, compute, request.label))
+      return remember(key,
+                      std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages), key}));
   Diagnostics refused;
   const ProgramSize size = measureProgram(stages, request.defines, refused);
   if (refused.hasErrors()) {
     ++stats_.refusals;
     return refuse(key, request, std::move(refused), diagnostics);
   }
-  const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
+  if (measured_.size() >= kMostMeasured) measured_.clear();
+  measured_.insert(key);
   std::optional<Program> program = loadBinary(key, compute, request.label);
   if (!program) {
     if (size.unusual && !options_.trial.empty()) {

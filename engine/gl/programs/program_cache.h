@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -113,6 +114,7 @@ class ProgramCache {
   std::unordered_map<std::string, std::list<Entry>::iterator> index_;
   std::unordered_map<std::string, std::weak_ptr<const Variant>> evicted_;
   std::unordered_map<std::string, base::Diagnostics> failures_;
+  std::unordered_set<std::string> measured_;  // keys of programs within all bounds
 };
 
 }  // namespace weft::gl

@@ -102,10 +102,9 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
   }
   for (const RefDesc& ref : entity.desc->resetRefs) {
     markStructural(model, *entity.scope, ref);
-    const auto holds =
-        evaluateCondition(names, ref.condition, true, fmt::format("a reset of '{}'", entity.name));
+    const auto holds = evaluateCondition(names, ref.condition, true, {"a reset of '{}'", entity.name});
     const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
-                                                   fmt::format("the reset of '{}' names the", entity.name));
+                                                   {"the reset of '{}' names the", entity.name});
     if (found == kNone) continue;
     mention(model, found, kNone);
     if (!holds || !*holds) continue;

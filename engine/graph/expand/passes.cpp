@@ -45,13 +45,12 @@ class PassWalk {
     markStructural(model_, scope, desc.enabled);
     const std::uint32_t timing = timingOf(model_, scope, desc, outer);
     Names names(model_, scope);
-    const auto enabled =
-        holds(names, desc.enabled, fmt::format("'enabled' of include '{}'", desc.include->as));
+    const auto enabled = holds(names, desc.enabled, {"'enabled' of include '{}'", desc.include->as});
     walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why, timing);
   }
 
   // One that contains age() decides in each frame, not here.
-  std::optional<bool> holds(Names& names, const Expr& enabled, std::string_view what) {
+  std::optional<bool> holds(Names& names, const Expr& enabled, const Called& what) {
     if (isDynamic(model_, names.scope(), enabled)) return true;
     return evaluateCondition(names, enabled, true, what);
   }
@@ -143,7 +142,7 @@ class PassWalk {
 
   // Why it is disabled; empty: it is not. nullopt after a report.
   std::optional<std::string> whyDisabled(Names& names, const std::string& name, bool& byItself) {
-    const auto enabled = holds(names, desc_->enabled, fmt::format("'enabled' of pass '{}'", name));
+    const auto enabled = holds(names, desc_->enabled, {"'enabled' of pass '{}'", name});
     if (!enabled) return std::nullopt;
     byItself = !*enabled;
     if (rules_)
@@ -227,8 +226,7 @@ class PassWalk {
     flat.sideEffect = desc_->sideEffect;
     if (type_) flat.touches = type_->touches;
     flat.group = groupOf();
-    const auto slices =
-        evaluateWhole(names, desc_->slices, 1, 0, 65536, fmt::format("the slices of {}", context.user));
+    const auto slices = evaluateWhole(names, desc_->slices, 1, 0, 65536, {"the slices of {}", context.user});
     if (!slices) return;
     flat.slices = static_cast<std::uint32_t>(*slices);
     if (flat.slices > 1 && type_ && type_->shader == ShaderShape::none) {

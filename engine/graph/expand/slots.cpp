@@ -119,7 +119,7 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   Model& model = context.model;
   Leaf leaf = outer;
   leaf.entity = findEntityOrReport(model, names.scope(), ref.name, ref.import, ref.place,
-                                   context.user + " uses the", context.pass);
+                                   {"{} uses the", context.user}, context.pass);
   if (leaf.entity == kNone) return false;
   if (!addSelection(context, names, ref, leaf.selection)) return false;
   if (!leaf.kind) leaf.kind = ref.kind;
@@ -299,10 +299,10 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
 
   const std::uint32_t found =
       findEntityOrReport(model, context.names.scope(), ref.name, ref.import, ref.place,
-                         fmt::format("{} {} the", context.user,
-                                     slot.access == Access::read    ? "reads"
-                                     : slot.access == Access::write ? "writes"
-                                                                    : "modifies"),
+                         {slot.access == Access::read    ? "{} reads the"
+                          : slot.access == Access::write ? "{} writes the"
+                                                         : "{} modifies the",
+                          context.user},
                          context.pass, slot.name);
   if (found == kNone) return work;
   const std::size_t mentioned = model.entities[found].mentions.size();
@@ -310,8 +310,8 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   const bool fresh = model.entities[found].mentions.size() > mentioned;
   if (slot.access != Access::read && !isWritable(context, slot, found)) return work;
 
-  const auto holds = evaluateCondition(context.names, ref.condition, true,
-                                       fmt::format("the condition of slot '{}'", slot.name));
+  const auto holds =
+      evaluateCondition(context.names, ref.condition, true, {"the condition of slot '{}'", slot.name});
   if (!holds) return work;
   // A slot whose condition is false may select what is not there; the rest of it must make sense all the
   // same.

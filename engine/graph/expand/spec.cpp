@@ -80,8 +80,7 @@ class SpecFiller {
   }
 
   bool flag(const NamedExpr& state, bool absent) {
-    return evaluateCondition(names_, state.expr, absent, fmt::format("the state '{}'", state.name))
-        .value_or(absent);
+    return evaluateCondition(names_, state.expr, absent, {"the state '{}'", state.name}).value_or(absent);
   }
 
   bool isColorSlot(const std::string& name) const {

@@ -194,9 +194,17 @@ void print(const ExprNode& node, int outer, std::string& out) {
   if (parens) out += ')';
 }
 
-void collectVariables(const ExprNode& node, std::vector<std::string>& out, std::set<std::string_view>& seen) {
-  if (node.op == ExprOp::variable && seen.insert(node.name).second) out.push_back(node.name);
-  for (const ExprPtr& child : node.children) collectVariables(*child, out, seen);
+std::size_t countVariables(const ExprNode& node) {
+  std::size_t count = node.op == ExprOp::variable ? 1 : 0;
+  for (const ExprPtr& child : node.children) count += countVariables(*child);
+  return count;
+}
+
+// `isNew` says whether a name is not in `out` yet.
+template <class IsNew>
+void collectVariables(const ExprNode& node, std::vector<std::string>& out, const IsNew& isNew) {
+  if (node.op == ExprOp::variable && isNew(node.name)) out.push_back(node.name);
+  for (const ExprPtr& child : node.children) collectVariables(*child, out, isNew);
 }
 
 void collectParameters(const ExprNode& node, std::vector<std::uint32_t>& out) {
@@ -292,9 +300,18 @@ const base::Place& Expr::place() const {
 }
 
 std::vector<std::string> Expr::variables() const {
+  constexpr std::size_t kFew = 16;  // a look at each is faster than a set
   std::vector<std::string> out;
+  const std::size_t count = root_ && root_->op != ExprOp::constant ? countVariables(*root_) : 0;
+  if (count == 0) return out;
+  if (count <= kFew) {
+    out.reserve(count);
+    collectVariables(*root_, out,
+                     [&](const std::string& name) { return std::ranges::find(out, name) == out.end(); });
+    return out;
+  }
   std::set<std::string_view> seen;
-  if (root_ && root_->op != ExprOp::constant) collectVariables(*root_, out, seen);
+  collectVariables(*root_, out, [&](const std::string& name) { return seen.insert(name).second; });
   return out;
 }
 

@@ -93,7 +93,7 @@ void findCandidates(Model& model) {
       if (isOver(model)) return;
       markStructural(model, *entity.scope, ref);
       entity.candidates.push_back(findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
-                                                     fmt::format("resource '{}' lists the", entity.name)));
+                                                     {"resource '{}' lists the", entity.name}));
     }
   }
 }

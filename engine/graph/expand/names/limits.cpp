@@ -19,9 +19,10 @@ constexpr std::uint64_t kVersionsPerUse = 10;
 
 }  // namespace
 
-bool exceeds(Model& model, Limit limit, std::uint64_t count, const Place& place, const std::string& message) {
+bool exceeds(Model& model, Limit limit, std::uint64_t count, const Place& place, const Called& message) {
   if (count <= base::limitOf(limit)) return false;
-  if (!std::exchange(model.effort.stopped, true)) base::reportLimit(model.diagnostics, limit, place, message);
+  if (!std::exchange(model.effort.stopped, true))
+    base::reportLimit(model.diagnostics, limit, place, message.text());
   model.incomplete = true;
   return true;
 }
@@ -78,12 +79,13 @@ bool mayExpand(Model& model, const StanzaCost& cost, const Place& place, const s
   effort.uses += cost.uses;
   effort.bytes += cost.bytes;
   effort.terms += cost.terms;
-  const auto tooMuch = [&](Limit limit, std::uint64_t count, const char* what) {
-    return exceeds(model, limit, count, place, fmt::format("with pass '{}' the graph {}", declared, what));
+  const auto tooMuch = [&](Limit limit, std::uint64_t count, const char* words) {
+    return exceeds(model, limit, count, place, {words, declared});
   };
-  return !tooMuch(Limit::uses, effort.uses, "has too many slots, parameters and defines") &&
-         !tooMuch(Limit::graph_bytes, effort.bytes, "takes too much memory") &&
-         !tooMuch(Limit::terms, effort.terms, "evaluates too many expressions");
+  return !tooMuch(Limit::uses, effort.uses,
+                  "with pass '{}' the graph has too many slots, parameters and defines") &&
+         !tooMuch(Limit::graph_bytes, effort.bytes, "with pass '{}' the graph takes too much memory") &&
+         !tooMuch(Limit::terms, effort.terms, "with pass '{}' the graph evaluates too many expressions");
 }
 
 bool mayUse(Model& model, std::uint32_t index, const FlatUse& rect, std::uint32_t elements,

@@ -14,7 +14,7 @@ namespace weft::graph::expansion {
 using base::Limit;
 
 // True when `count` is beyond the limit; reported the first time only.
-bool exceeds(Model& model, Limit limit, std::uint64_t count, const Place& place, const std::string& message);
+bool exceeds(Model& model, Limit limit, std::uint64_t count, const Place& place, const Called& message);
 // Counts `count` more alternatives as looked at. False when that is too many.
 bool lookAt(Model& model, std::uint64_t count, const Place& place);
 // What one alternative counts: more than 1 when its condition is long.

@@ -6,6 +6,10 @@
 
 namespace weft::graph::expansion {
 
+std::string Called::text() const {
+  return named_ ? fmt::format(fmt::runtime(words_), name_) : std::string(words_);
+}
+
 std::string cyclePath(const Model& model, const std::string& again) {
   std::string path;
   auto at = std::find(model.evaluating.begin(), model.evaluating.end(), again);

@@ -33,6 +33,21 @@ struct NameHash {
 template <class T>
 using NameMap = std::unordered_map<std::string, T, NameHash, std::equal_to<>>;
 
+// What a message calls a thing: `words`, with `name` in the place of their {}. It becomes text only for a message, because
+// most things are right. Both must outlive it.
+class Called {
+ public:
+  Called(const char* words) : words_(words) {}
+  Called(std::string_view words) : words_(words) {}
+  Called(const std::string& words) : words_(words) {}
+  Called(std::string_view words, std::string_view name) : words_(words), name_(name), named_(true) {}
+  std::string text() const;
+
+ private:
+  std::string_view words_, name_;
+  bool named_ = false;
+};
+
 // For lazy evaluation: a definition that is needed while it is `active` depends on itself.
 enum class Progress : std::uint8_t { fresh, active, done, failed };
 

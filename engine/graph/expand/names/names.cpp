@@ -301,27 +301,27 @@ std::optional<std::uint32_t> Names::parameterKey(std::string_view name) {
   return leaf ? std::optional(found.index) : std::nullopt;
 }
 
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, std::string_view what) {
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const Called& what) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric()) return value.truth();
   auto& d = names.model().diagnostics.error(Code::wrongValueType, expr.place(),
-                                            fmt::format("{} is no condition", what));
+                                            fmt::format("{} is no condition", what.text()));
   d.expected = "true, false or a number";
   d.found = toText(value);
   d.hint = hintForWord(names, value);
   return std::nullopt;
 }
 
-std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, std::string_view what) {
+std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const Called& what) {
   if (!expr.present()) return absent;
   const Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::none) return std::nullopt;
   if (value.isNumeric() && std::isfinite(value.v[0])) return value.v[0];
   auto& d = names.model().diagnostics.error(
       Code::wrongValueType, expr.place(),
-      fmt::format("{} is {}", what, value.isNumeric() ? "not finite" : wordFor(value)));
+      fmt::format("{} is {}", what.text(), value.isNumeric() ? "not finite" : wordFor(value)));
   d.expected = "a number";
   d.found = toText(value);
   d.hint = hintForWord(names, value);
@@ -329,7 +329,7 @@ std::optional<double> evaluateNumber(Names& names, const Expr& expr, double abse
 }
 
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, std::string_view what,
+                                          std::int64_t low, std::int64_t high, const Called& what,
                                           bool floors) {
   if (!expr.present()) return absent;
   std::optional<double> number = evaluateNumber(names, expr, 0, what);
@@ -341,7 +341,7 @@ std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::i
   const bool whole = *number == std::floor(*number);
   auto& d = names.model().diagnostics.error(
       whole ? Code::numberOutOfRange : Code::wrongValueType, expr.place(),
-      fmt::format("{} is {}", what, whole ? "out of its range" : "not a whole number"));
+      fmt::format("{} is {}", what.text(), whole ? "out of its range" : "not a whole number"));
   d.expected = fmt::format("a whole number from {} to {}", low, high);
   d.found = numberText(*number);
   return std::nullopt;

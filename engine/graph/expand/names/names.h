@@ -49,11 +49,11 @@ class Names final : public EvalScope {
 };
 
 // Evaluation with the expected type held: nullopt after a report. An absent expression yields `absent`.
-std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, std::string_view what);
-std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, std::string_view what);
+std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absent, const Called& what);
+std::optional<double> evaluateNumber(Names& names, const Expr& expr, double absent, const Called& what);
 // A whole number from `low` to `high`, floored first when `floors`.
 std::optional<std::int64_t> evaluateWhole(Names& names, const Expr& expr, std::int64_t absent,
-                                          std::int64_t low, std::int64_t high, std::string_view what,
+                                          std::int64_t low, std::int64_t high, const Called& what,
                                           bool floors = false);
 
 }  // namespace weft::graph::expansion

@@ -16,11 +16,11 @@ namespace weft::graph::expansion {
 namespace {
 
 // A clear or first value: a number or a list.
-Value evaluateTexel(Names& names, const Expr& expr, const std::string& what) {
+Value evaluateTexel(Names& names, const Expr& expr, const Called& what) {
   if (!expr.present()) return {};
   Value value = expr.evaluate(names, names.model().diagnostics);
   if (value.type == Value::Type::symbol) {
-    auto& d = names.model().diagnostics.error(Code::wrongValueType, expr.place(), what + " is a word");
+    auto& d = names.model().diagnostics.error(Code::wrongValueType, expr.place(), what.text() + " is a word");
     d.expected = "a number or a list of numbers";
     d.found = value.symbol;
     return {};
@@ -148,12 +148,12 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
     good = false;
   }
   good = evaluateSize(model, names, entity) && good;
-  const auto mips = evaluateWhole(names, desc.mips, 1, 1, kMaxMips,
-                                  fmt::format("the number of mips of '{}'", entity.name), true);
+  const auto mips =
+      evaluateWhole(names, desc.mips, 1, 1, kMaxMips, {"the number of mips of '{}'", entity.name}, true);
   const auto layers = evaluateWhole(names, desc.layers, 1, 0, kMaxLayers,
-                                    fmt::format("the number of layers of '{}'", entity.name), true);
+                                    {"the number of layers of '{}'", entity.name}, true);
   const auto samples =
-      evaluateWhole(names, desc.samples, 1, 1, 32, fmt::format("the number of samples of '{}'", entity.name));
+      evaluateWhole(names, desc.samples, 1, 1, 32, {"the number of samples of '{}'", entity.name});
   if (!mips || !layers || !samples) return false;
   if ((*samples & (*samples - 1)) != 0) {
     rangeError(model, desc.samples, fmt::format("the number of samples of '{}'", entity.name),
@@ -178,12 +178,12 @@ bool evaluateTexture(Model& model, Names& names, Entity& entity) {
 bool evaluateBuffer(Model& model, Names& names, Entity& entity) {
   const ResourceDesc& desc = *entity.desc;
   entity.shape.kind = ResourceKind::buffer;
-  const std::string what = fmt::format("the size of buffer '{}'", entity.name);
+  const Called what("the size of buffer '{}'", entity.name);
   const std::optional<double> bytes = evaluateNumber(names, desc.bytes, 0, what);
   if (!bytes) return false;
   const bool low = *bytes < 0 || (*bytes < 1 && desc.bytes.isConstant());
   if (low || *bytes > static_cast<double>(kMaxBufferBytes)) {
-    rangeError(model, desc.bytes, what, fmt::format("1 to {} bytes", kMaxBufferBytes), *bytes);
+    rangeError(model, desc.bytes, what.text(), fmt::format("1 to {} bytes", kMaxBufferBytes), *bytes);
     return false;
   }
   entity.shape.bytes = static_cast<std::uint64_t>(std::max(1.0, std::floor(*bytes)));
@@ -198,7 +198,7 @@ void takeFirst(Model& model, Entity& entity, const ResourceDesc& desc, Scope& sc
     entity.firstRef = &*desc.firstRef;
     entity.firstScope = &scope;
   } else {
-    entity.first = evaluateTexel(names, desc.first, fmt::format("the first value of '{}'", entity.name));
+    entity.first = evaluateTexel(names, desc.first, {"the first value of '{}'", entity.name});
   }
 }
 
@@ -212,11 +212,11 @@ bool evaluateDeclared(Model& model, Entity& entity) {
   const bool shaped = entity.kind == ResourceDesc::Kind::texture ? evaluateTexture(model, names, entity)
                                                                  : evaluateBuffer(model, names, entity);
   const auto array =
-      evaluateWhole(names, desc.array, 0, 1, kMaxArray, fmt::format("the array size of '{}'", entity.name));
+      evaluateWhole(names, desc.array, 0, 1, kMaxArray, {"the array size of '{}'", entity.name});
   const auto depth =
-      evaluateWhole(names, desc.history, 0, 0, kMaxHistory, fmt::format("the history of '{}'", entity.name));
+      evaluateWhole(names, desc.history, 0, 0, kMaxHistory, {"the history of '{}'", entity.name});
   const std::size_t before = model.diagnostics.errorCount();
-  entity.clear = evaluateTexel(names, desc.clear, fmt::format("the clear value of '{}'", entity.name));
+  entity.clear = evaluateTexel(names, desc.clear, {"the clear value of '{}'", entity.name});
   takeFirst(model, entity, desc, *entity.scope);
   if (!shaped || !array || !depth || model.diagnostics.errorCount() > before) return false;
   entity.arrayCount = static_cast<std::uint32_t>(*array);
@@ -304,8 +304,8 @@ void takeInputHistories(Model& model) {
     Names names(model, *entity.scope);
     markStructural(model, *entity.scope, entity.desc->history);
     markStructural(model, *entity.scope, entity.desc->first);
-    const auto depth = evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory,
-                                     fmt::format("the history of '{}'", entity.name));
+    const auto depth =
+        evaluateWhole(names, entity.desc->history, 0, 0, kMaxHistory, {"the history of '{}'", entity.name});
     entity.badHistory = !depth;
     std::set<std::uint32_t> seen;
     if (depth && *depth > 0) deepen(model, entity.bound, i, static_cast<std::uint32_t>(*depth), seen);

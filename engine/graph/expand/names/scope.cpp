@@ -275,19 +275,19 @@ std::vector<std::string> resourceNames(Model& model, const Scope& scope) {
 }
 
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
-                                 const Place& place, std::string_view user, const std::string& pass,
+                                 const Place& place, const Called& user, const std::string& pass,
                                  std::string_view slot, bool orPass) {
   const std::size_t before = model.diagnostics.errorCount();
   const std::uint32_t found = findEntity(model, scope, name, import);
   if (found == kNone && (model.effort.tooDeep || isOver(model))) return kNone;
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
   if (isUnread(scope, name)) return kNone;  // the reader reported its declaration
-  if (isUnincluded(model, scope, name, place, user, pass)) return kNone;
+  if (isUnincluded(model, scope, name, place, user.text(), pass)) return kNone;
   // An input with nothing behind it was reported where it stands.
   if (!import && scope.resources.contains(name)) return kNone;
   if (import) {
     auto& d = model.diagnostics.error(Code::unknownImport, place,
-                                      fmt::format("{} unknown import '@{}'", user, name));
+                                      fmt::format("{} unknown import '@{}'", user.text(), name));
     std::vector<std::string> types;
     for (const ImportType& type : model.registry.imports) types.push_back(type.name);
     d.resource = "@" + std::string(name);
@@ -298,7 +298,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
     return kNone;
   }
   auto& d = model.diagnostics.error(Code::unknownResource, place,
-                                    fmt::format("{} unknown resource '{}'", user, name));
+                                    fmt::format("{} unknown resource '{}'", user.text(), name));
   d.resource = std::string(name);
   d.pass = pass;
   std::vector<std::string> names = resourceNames(model, scope);

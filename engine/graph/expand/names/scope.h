@@ -27,7 +27,7 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 // The same, but reports W040 or W043 at `place`, with the nearest name, of the file's passes, too, when `orPass`. `slot` is the
 // slot that asks, if any.
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
-                                 const Place& place, std::string_view user, const std::string& pass = {},
+                                 const Place& place, const Called& user, const std::string& pass = {},
                                  std::string_view slot = {}, bool orPass = false);
 // The pass of the scope's own file that has(name) is about where no resource has the name; null: there is none.
 const PassDesc* findPass(const Scope& scope, std::string_view name);
