@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/bench/allocation_counter.h"
 #include "app/live/live_graph.h"
+#include "app/session/allocation_counter.h"
 #include "app/session/device_session.h"
 #include "app/session/session.h"
 
@@ -109,9 +109,9 @@ class EditBench {
   template <class Work>
   void count(EditCost& cost, const Work& work) {
     const std::uint64_t before = renderer_.plansBuilt();
-    startCountingAllocations();
+    const AllocationCount allocations;
     work();
-    cost.allocations = stopCountingAllocations().value_or(0);
+    cost.allocations = allocations.taken().value_or(0);
     cost.plans = renderer_.plansBuilt() - before;
   }
 

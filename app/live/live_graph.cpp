@@ -7,6 +7,7 @@
 #include <ranges>
 #include <utility>
 
+#include "app/session/allocation_counter.h"
 #include "app/session/session.h"
 #include "engine/base/files/file_access.h"
 #include "engine/graph/edit/write_back.h"
@@ -241,12 +242,7 @@ bool LiveGraph::trySettings(graph::Settings settings, base::Diagnostics& diagnos
 
 bool LiveGraph::setParameter(const std::string& name, const graph::Value& value,
                              base::Diagnostics& diagnostics) {
-  if (renderer_.setParameter(name, value)) {
-    ++changes_;
-    ++livesSet_;
-    remember(name, value);
-    return true;
-  }
+  if (trySetLive(name, value)) return true;
   graph::Settings settings = settings_;
   const auto same = [&](const graph::Setting& set) { return set.name == name; };
   std::erase_if(settings.sets, same);
@@ -255,19 +251,31 @@ bool LiveGraph::setParameter(const std::string& name, const graph::Value& value,
   return trySettings(std::move(settings), diagnostics);
 }
 
-// In place where that is the last word on the parameter: a slider that moves allocates nothing.
-void LiveGraph::remember(const std::string& name, const graph::Value& value) {
+bool LiveGraph::trySetLive(const std::string& name, const graph::Value& value) {
+  const AllocationCount allocations;
+  if (!renderer_.setParameter(name, value)) return false;
+  ++changes_;
+  ++livesSet_;
+  if (!remember(name, value)) return true;
+  const auto taken = allocations.taken();
+  liveAllocations_ = taken ? std::optional(*liveAllocations_ + *taken) : std::nullopt;
+  return true;
+}
+
+// True where the settings had it already, as the last word on the parameter: so a slider that moves allocates nothing.
+bool LiveGraph::remember(const std::string& name, const graph::Value& value) {
   auto& sets = settings_.sets;
   const auto last = std::find_if(sets.rbegin(), sets.rend(),
                                  [&](const graph::Setting& set) { return graph::hasSuffix(name, set.name); });
   if (last != sets.rend() && last->name == name && last->origin == graph::Origin::panel) {
     last->value = value;
-    return;
+    return true;
   }
   const auto same = [&](const graph::Setting& set) { return set.name == name; };
   std::erase_if(sets, same);
   std::erase_if(lostSets_, same);
   sets.emplace_back(name, value, graph::Origin::panel);
+  return false;
 }
 
 bool LiveGraph::resetParameter(const std::string& name, base::Diagnostics& diagnostics) {

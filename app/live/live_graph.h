@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,6 +79,9 @@ class LiveGraph {
   // Count switches to another plan, live parameters that were set, and calls of setParameter and setEnabled.
   std::uint64_t switches() const { return switches_; }
   std::uint64_t livesSet() const { return livesSet_; }
+  // Calls of operator new that the live parameters took: all but the first change of each, when the settings begin
+  // to remember it. Empty where nothing counts.
+  std::optional<std::uint64_t> liveAllocations() const { return liveAllocations_; }
   std::uint64_t changes() const { return changes_; }
 
  private:
@@ -87,7 +91,8 @@ class LiveGraph {
   bool tryScene(runtime::World& world, base::Diagnostics& diagnostics);
   bool tryGraph(Attempt attempt, const runtime::World& world, base::Diagnostics& diagnostics);
   bool tryWorld(runtime::World world, base::Diagnostics& diagnostics);
-  void remember(const std::string& name, const graph::Value& value);
+  bool trySetLive(const std::string& name, const graph::Value& value);
+  bool remember(const std::string& name, const graph::Value& value);
   bool trySettings(graph::Settings settings, base::Diagnostics& diagnostics);
   void watch(base::Diagnostics* diagnostics = nullptr);
 
@@ -106,6 +111,7 @@ class LiveGraph {
   std::string changedEnvironment_;    // to be loaded again, or empty
   double changedAt_ = 0, quiet_ = 0;  // seconds
   std::uint64_t switches_ = 0, livesSet_ = 0, changes_ = 0;
+  std::optional<std::uint64_t> liveAllocations_ = 0;
 };
 
 }  // namespace weft::app

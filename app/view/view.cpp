@@ -126,6 +126,7 @@ int runView(const Options& options) {
     if (options.stats) {
       stats = statsOf(*session, {{"frames", viewer.frames()}, {"redraws", viewer.redraws()}});
       stats["live_values_set"] = live.livesSet();
+      if (const auto allocations = live.liveAllocations()) stats["live_allocations"] = *allocations;
     }
   }
   const std::string left = closeDevice(std::move(session));

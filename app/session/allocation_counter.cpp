@@ -1,4 +1,4 @@
-#include "app/bench/allocation_counter.h"
+#include "app/session/allocation_counter.h"
 
 #include <cstdlib>
 #include <new>
@@ -11,22 +11,24 @@
 
 namespace {
 
-thread_local bool counting = false;
+thread_local int counting = 0;  // how many count
 thread_local std::size_t count = 0;
 
 }  // namespace
 
 namespace weft::app {
 
-void startCountingAllocations() {
-  count = 0;
-  counting = true;
+AllocationCount::AllocationCount() : before_(count) {
+  ++counting;
 }
 
-std::optional<std::size_t> stopCountingAllocations() {
-  counting = false;
+AllocationCount::~AllocationCount() {
+  --counting;
+}
+
+std::optional<std::size_t> AllocationCount::taken() const {
   if (!WEFT_COUNTS_ALLOCATIONS) return std::nullopt;
-  return count;
+  return count - before_;
 }
 
 }  // namespace weft::app
@@ -36,7 +38,7 @@ std::optional<std::size_t> stopCountingAllocations() {
 namespace {
 
 void* takeOrNull(std::size_t size, std::size_t alignment) noexcept {
-  count += counting ? 1 : 0;
+  count += counting > 0 ? 1 : 0;
   if (size == 0) size = 1;
   return alignment ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
                    : std::malloc(size);
