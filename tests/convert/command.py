@@ -10,6 +10,7 @@ import resource
 import sys
 import tempfile
 
+from pictures import read_png
 from program import TOP, run
 
 WEFT = sys.argv[1]
@@ -34,6 +35,22 @@ vec4 hook() {
 
 def files_in(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+
+
+def check_dials(top):
+    """tests/convert/mpv/dials.glsl, which Debian's mpv does not take: stripes of two pixels, every other one times `gain`, all times the number of frames."""
+    card = read_png((TOP / "tests/convert/pictures/card.png").read_bytes())
+    made = run(WEFT, "import", "tests/convert/mpv/dials.glsl", "-o", top / "dials", "--image", f"picture={TOP / 'tests/convert/pictures/card.png'}")
+    assert made.code == 0 and "LUMA" in made.err, made.err
+    for options, frame, gain in (([], 0, 0.5), ([], 1, 0.5), (["--set", "gain=0.25"], 2, 0.25)):
+        done = run(WEFT, "render", top / "dials/dials.json", "--size", f"{len(card[0])}x{len(card)}", "--frames", frame, *options, "--quiet", "-o", top / "dials.png")
+        assert done.code == 0, done.err
+        for row, shown in zip(card, read_png((top / "dials.png").read_bytes())):
+            for x, (texel, found) in enumerate(zip(row, shown)):
+                factor = (1 if x % 4 < 2 else gain) * (frame + 1)
+                assert all(abs(min(255, c * factor) - f) <= 1 for c, f in zip(texel[:3], found)), f"frame {frame}, x {x}: {texel} times {factor} is {found}"
+    said = run(WEFT, "render", top / "dials/dials.json", "--set", "gain=2.5", "-o", top / "dials.png")
+    assert said.code == 1 and "0 to 2" in said.err + said.out, said.err
 
 
 def main():
@@ -129,6 +146,7 @@ def main():
         confined = run(WEFT, "import", TOP / "tests/convert/isf/corners.fs", "-o", top / "confined", "--confine", top)
         assert confined.code == 0, confined.err
 
+        check_dials(top)
         help_text = run(WEFT, "import", "--help").out
         assert "Example: weft import" in help_text, help_text
     print("import: files, refusals, lines and help")

@@ -114,6 +114,14 @@ TEST_CASE("labels become words, and their numbers reach the shader") {
   CHECK(has(graph, R"("m": "$m_value")"));
 }
 
+TEST_CASE("labels that are one word as names stay as many choices as they are") {
+  const std::string graph = graphOf(
+      R"({"INPUTS": [{"NAME": "m", "TYPE": "long", "VALUES": [1, 2, 3, 4], "LABELS": ["a b", "a_b_2", "a-b", "a.b"], "DEFAULT": 3}]})",
+      "void main() { gl_FragColor = vec4(m); }\n");
+  CHECK(has(graph, R"("default": "a_b_3", "choices": ["a_b", "a_b_2", "a_b_3", "a_b_4"])"));
+  CHECK(has(graph, R"("m_value": "$m == a_b ? 1 : $m == a_b_2 ? 2 : $m == a_b_3 ? 3 : 4")"));
+}
+
 TEST_CASE("reverse Polish becomes expressions") {
   const auto hooked = [](const std::string& headers) {
     return mpvGraphOf("//!HOOK MAIN\n//!BIND HOOKED\n" + headers +

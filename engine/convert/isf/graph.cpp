@@ -131,7 +131,10 @@ class IsfGraphWriter {
       if (word == "mip" || word == "layer" || word == "face" || word == "stencil" || word == "true" ||
           word == "false" || word == "screen" || word == "device")
         word += '_';
-      if (word.size() > 60 || !seen.insert(word).second) return false;
+      // Labels such as "Soft light" and "Soft-light" are one word: the second gets a number.
+      const std::string first = word;
+      for (int number = 2; !seen.insert(word).second; ++number) word = fmt::format("{}_{}", first, number);
+      if (word.size() > 60) return false;
       words.push_back(std::move(word));
     }
     const double wanted = input.initial.empty() ? input.values[0] : input.initial[0];
