@@ -62,7 +62,7 @@ class Sheet:
         """What the language server says of the file is what `check` says. It knows no settings, and a preset only as part of a graph."""
         editor = Editor(self.weft, TOP)
         editor.ask("initialize", {"capabilities": {}, "rootUri": None})
-        editor.open(self.path)
+        editor.open(self.path, (TOP / self.path).read_bytes().decode(errors="replace"))
         editor.settle(self.path)
         codes = sorted({d["code"] for each in editor.published.values() for d in each["diagnostics"] if d["severity"] == 1})
         code = editor.end()
@@ -168,9 +168,13 @@ def check_new(sheet, folder, sound):
 
 
 def is_graph(path):
-    """Of a preset and a scene an editor says only whether they are JSON."""
+    """Of a preset and a scene an editor says only whether they are JSON, of an empty file nothing; and what it sends is UTF-8."""
     try:
+        if not (TOP / path).read_bytes().strip():
+            return False
         graph = schema.read(TOP / path)
+    except UnicodeDecodeError:
+        return False
     except ValueError:
         return True
     return not isinstance(graph, dict) or bool({"passes", "extends"} & set(graph))
