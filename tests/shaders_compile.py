@@ -3,7 +3,8 @@
 
 Usage: shaders_compile.py SOURCE_DIR [GRAPH...]; default: every .json with passes below graphs/, tests/golden and tests/theory.
 Per pass: everything connected, then each optional input, each output and each parameter left out alone, all optional
-ones left out together, and each value of each define (all combinations where they are few). Needs glslangValidator; exits 77 (skipped) without it.
+ones left out together, and each value of each define (all combinations where they are few; a number has one). Needs
+glslangValidator; exits 77 (skipped) without it.
 """
 import itertools
 import json
@@ -98,7 +99,10 @@ def variants(stanza, desc, constants):
     for name, value in stanza.get("defines", {}).items():
         name = define_name(name)
         source = desc.get("parameters", {}).get(str(value).lstrip("$"), {}) if str(value).startswith("$") else {}
-        if "choices" in source:
+        number = desc.get("let", {}).get(str(value).lstrip("$"), value)
+        if isinstance(number, (int, float)) and not isinstance(number, bool):
+            choices[name] = [{name: str(number)}]
+        elif "choices" in source:
             named = {f"{name}_{define_name(c)}": str(i) for i, c in enumerate(source["choices"])}
             choices[name] = [{name: str(i), **named} for i in range(len(source["choices"]))]
         elif str(value) in constants:
