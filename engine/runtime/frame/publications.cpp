@@ -129,7 +129,13 @@ void Publications::refreshImports(base::Diagnostics& diagnostics) {
     if (desc.import == kNone) continue;
     const graph::ImportSpec& import = importOf(r);
     if (desc.kind == ResourceKind::imported_texture) {
-      pool_[r].imported = imports_.texture(import, diagnostics);
+      base::Diagnostics said;
+      pool_[r].imported = imports_.texture(import, said);
+      for (base::Diagnostic each : said.items()) {
+        if (each.place.line == 0 && import.place.file) each.place = import.place;
+        if (each.resource.empty()) each.resource = plan_.graph->resourceNames[r];
+        diagnostics.add(std::move(each));
+      }
       if (pool_[r].publisher == kNone && !imports_.isPublished(import)) imports_.publish(import);
     }
     generations_[r] = imports_.generation(import);

@@ -17,7 +17,7 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, base::Di
   const GLuint framebuffer = pass.attachments.empty() ? 0 : framebufferOf(pass, diagnostics);
   if (clears && !pass.clears.empty()) clear(pass, framebuffer, diagnostics);
   if (const std::uint16_t after = plan_.steps[step].barriersAfterClears) glMemoryBarrier(glBarriersOf(after));
-  bind(pass, diagnostics);
+  const bool bound = bind(pass, diagnostics);
   if (framebuffer) {
     states_.bindFramebuffer(framebuffer);
     applyState(pass, states_);
@@ -26,7 +26,7 @@ void StepRunner::run(std::size_t step, PreparedPass& pass, bool clears, base::Di
     openMasks(states_);
   }
   if (pass.feedback) glTextureBarrier();
-  pass.type->execute(pass.context);
+  if (bound) pass.type->execute(pass.context);
   device_.timers.end(static_cast<std::uint32_t>(step));
 }
 
@@ -122,7 +122,7 @@ GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
                               device_.imports.generation(import), diagnostics);
 }
 
-void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
+bool StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   if (pass.meshes) gatherMeshes(pass, diagnostics);
   if (pass.variant) states_.useProgram(pass.variant->program.id());
   if (pass.context.geometry.vertexArray) states_.bindVertexArray(pass.context.geometry.vertexArray);
@@ -144,10 +144,12 @@ void StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   bindBlock(pass.parametersBlock, pass.parametersOffset);
   bindBlock(pass.viewBlock, pass.viewOffset);
   bindBlock(pass.sliceBlock, pass.sliceOffset);
+  bool bound = true;
   for (const FixedBinding& binding : pass.fixed)
-    if (holds(binding.firstOf)) bindFixed(binding, pass, diagnostics);
+    if (holds(binding.firstOf)) bound = bindFixed(binding, pass, diagnostics) && bound;
   if (pass.list >= 0 && !pass.meshes)
     pass.context.instances = device_.imports.tables().countOf(static_cast<scene::DrawList>(pass.list));
+  return bound;
 }
 
 // What its view sees of the meshes of its list.
@@ -185,10 +187,10 @@ void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
 }
 
 // What a pass type without a shader works on: names of textures, and framebuffers around them if it wants some.
-void StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
+bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
   passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
   bound.name = textureOf(binding, pass, diagnostics);
-  if (!pass.framebuffers) return;
+  if (!pass.framebuffers || !bound.name) return bound.name != 0;
   const GLenum point = attachmentPointOf(plan_.graph->resources[binding.resource].format);
   const gl::Attachment attachment{
       .point = point,
@@ -196,6 +198,7 @@ void StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base
       .mip = binding.mip,
       .layer = binding.layer};
   bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);
+  return true;
 }
 
 }  // namespace weft::runtime

@@ -31,11 +31,12 @@ class StepRunner {
  private:
   void clear(const PreparedPass& pass, GLuint framebuffer, base::Diagnostics& diagnostics);
   static void clearAttachment(GLuint framebuffer, GLenum point, const ClearCommand& clear);
-  void bind(PreparedPass& pass, base::Diagnostics& diagnostics);
+  // False: a pass type without a shader lacks the texture of an import, which was reported.
+  bool bind(PreparedPass& pass, base::Diagnostics& diagnostics);
   void gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics);
   void bindBuffer(const BufferBinding& binding, std::uint32_t group, base::Diagnostics& diagnostics);
   void bindBlock(const gl::Block* block, std::uint32_t offset);
-  void bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics);
+  bool bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics);
   // What a binding of `pass` names now; of an import, the part that it is about.
   template <class Binding>
   GLuint textureOf(const Binding& binding, const PreparedPass& pass, base::Diagnostics& diagnostics);

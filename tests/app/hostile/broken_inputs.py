@@ -28,8 +28,19 @@ def graph(size='"screen"', extra="", shader="sky/sky.frag.glsl", write="ldr", mo
 """
 
 
+def shows(picture):
+    return f"""{{ "resources": {{
+    "photo": {{ "import": "image", "file": "{picture}" }}, "ldr": {{ "texture": "rgba8", "size": "screen" }} }},
+  "passes": [ {{ "name": "show", "type": "blit", "read": {{ "source": "photo" }}, "write": {{ "destination": "ldr" }} }} ], "present": "ldr" }}
+"""
+
+
 SPHERE = '{ "spheres": [\n  { "center": [0, 0, 0], %s } ] }\n'
 HDR_HEAD = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n"
+
+# Pictures that an import cannot take. (The texels of truncated.png cannot be read; of all others not even the header.)
+PICTURES = (("W150", ("no_such.png", "shaders", "empty.hdr", "garbage.hdr", "truncated.hdr", "garbage.exr", "huge.exr", "truncated.png", "huge.png", "truncated.jpg",
+                      "####.png")), ("W152", ("huge.hdr",)), ("W151", ("picture.gif",)))
 
 # file -> contents
 FILES = {
@@ -77,6 +88,16 @@ FILES = {
     "garbage.exr": b"\x76\x2f\x31\x01\x02\x00\x00\x00" + bytes(200),
     "huge.exr": b"\x76\x2f\x31\x01\x02\x00\x00\x00" + b"dataWindow\x00box2i\x00" + struct.pack("<i4i", 16, 0, 0, 2**31 - 1, 2**31 - 1) + b"\x00",
     "picture.gif": b"GIF89a",
+    "truncated.png": (TOP / "tests/convert/references/mosaic.png").read_bytes()[:200],
+    "huge.png": b"\x89PNG\r\n\x1a\n" + struct.pack(">I4s2I5B4x", 13, b"IHDR", 2**31 - 1, 2**31 - 1, 8, 6, 0, 0, 0),
+    "truncated.jpg": b"\xff\xd8\xff\xe0\x00\x10JFIF\x00\x01\x01\x00\x00\x01\x00\x01\x00\x00\xff\xc0\x00\x0b\x08\x00\x10\x00\x10\x01\x01\x11\x00",
+    **{f"{picture}.json": shows(picture) for _, pictures in PICTURES for picture in pictures},
+    "truncated.fs": '/*{ "INPUTS": [ { "NAME": "a", "TYPE"',
+    "deep.fs": "/*{ \"INPUTS\": " + "[" * 100_000 + "*/\nvoid main() {}\n",
+    "binary.fs": b"\x00\xff\xfe{}*/" * 10,
+    "far.fs": '/*{ "ISFVSN": "2",\n  "PASSES": [ { "TARGET": "a", "WIDTH": "$WIDTH*1e30" }, {} ] }*/\nvoid main() { gl_FragColor = IMG_THIS_PIXEL(a); }\n',
+    "stack.glsl": "//!HOOK MAIN\n//!BIND HOOKED\n//!WIDTH " + "HOOKED.w " * 10_000 + "\nvec4 hook() { return HOOKED_tex(HOOKED_pos); }\n",
+    "texture.glsl": "//!TEXTURE T\n//!SIZE 1000000 1000000\n//!FORMAT rgba16f\n00\n\n//!HOOK MAIN\n//!BIND T\nvec4 hook() { return vec4(0.0); }\n",
     "truncated_workload.json": '{ "textures": [',
     "short.cube": "LUT_3D_SIZE 2\n0 0 0\n1 1 1\n",
     "sun.hdr": b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes([128, 128, 128, 160]) + bytes([128, 128, 128, 128]) * 7,
@@ -144,6 +165,10 @@ CASES = [
     *((rendered(GLOW, "--environment", image), 1, code, re.escape(image)) for code, images in (
         ("W150", ("no_such.hdr", "shaders", "empty.hdr", "garbage.hdr", "truncated.hdr", "garbage.exr", "huge.exr")),
         ("W152", ("huge.hdr",)), ("W151", ("picture.gif",))) for image in images),
+    *((rendered(f"{picture}.json"), 1, code, rf"{re.escape(picture)}\.json:2:\d+", f"'{picture}'") for code, pictures in PICTURES for picture in pictures),
+    *((["import", file, "-o", "imported"], 1, code, place) for file, code, place in (
+        ("truncated.fs", "W220", r"truncated\.fs:1:1"), ("deep.fs", "W007", r"deep\.fs:1:\d+"), ("binary.fs", "W220", r"binary\.fs:1:1"),
+        ("far.fs", "W222", r"far\.fs:2:\d+"), ("stack.glsl", "W225", r"stack\.glsl:3:\d+"), ("texture.glsl", "W225", r"texture\.glsl:2:1"), ("/dev/zero", "W001", "/dev/zero"))),
     (rendered(GLOW, "--scene", "no_such.json"), 1, "W001", r"no_such\.json"),
     (rendered(GLOW, "--scene", "shaders"), 1, "W001", "shaders"),
     (rendered(GLOW, "--scene", "truncated_scene.json"), 1, "W002", r"truncated_scene\.json:1:\d+"),
