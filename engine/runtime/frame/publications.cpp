@@ -132,7 +132,11 @@ void Publications::refreshImports(base::Diagnostics& diagnostics) {
       base::Diagnostics said;
       pool_[r].imported = imports_.texture(import, said);
       for (base::Diagnostic each : said.items()) {
-        if (each.place.line == 0 && import.place.file) each.place = import.place;
+        if (each.place.line == 0 && import.place.file) {
+          if (each.place.file && each.message.find(*each.place.file) == std::string::npos)
+            each.message += " (" + *each.place.file + ")";
+          each.place = import.place;
+        }
         if (each.resource.empty()) each.resource = plan_.graph->resourceNames[r];
         diagnostics.add(std::move(each));
       }
