@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "engine/base/foreign_formats.h"
-#include "engine/base/foreign_words.h"
-#include "engine/base/glsl_words.h"
+#include "engine/base/words/foreign_formats.h"
+#include "engine/base/words/foreign_words.h"
+#include "engine/base/words/glsl_words.h"
 
 using namespace weft::base;
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/base/glsl_words.h"
+#include "engine/base/words/glsl_words.h"
 #include "engine/convert/text/glsl_text.h"
 
 namespace weft::convert {

@@ -7,10 +7,10 @@
 #include <array>
 #include <map>
 
-#include "engine/base/glsl_words.h"
 #include "engine/base/json/edit.h"
 #include "engine/base/nearest.h"
 #include "engine/base/printable.h"
+#include "engine/base/words/glsl_words.h"
 #include "engine/convert/mpv/rpn.h"
 #include "engine/convert/mpv/texture_data.h"
 #include "engine/convert/text/json_text.h"

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/gl/shaders/vocabulary.h"
 
 namespace weft::gl {

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/view.h"
 #include "engine/graph/language/expr_node.h"

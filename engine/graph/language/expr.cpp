@@ -7,8 +7,8 @@
 #include <cctype>
 #include <set>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr_node.h"
 
 namespace weft::graph {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr_math.h"
 #include "engine/graph/language/expr_node.h"
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/expr_node.h"
 #include "engine/graph/language/expr_token.h"
 #include "engine/graph/language/names.h"

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "engine/base/files/text_file.h"
-#include "engine/base/glsl_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/glsl_words.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/ref_parse.h"
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/json/dom.h"
 #include "engine/base/limit_report.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/language/enough.h"
 #include "engine/graph/language/keys.h"

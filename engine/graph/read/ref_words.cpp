@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/subresource.h"
 

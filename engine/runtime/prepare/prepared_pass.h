@@ -16,7 +16,7 @@
 #include "engine/imports/mesh_draws.h"
 #include "engine/imports/row_layout.h"
 #include "engine/passes/pass_registry.h"
-#include "engine/runtime/prepare/import_part.h"
+#include "engine/runtime/imports/import_part.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/runtime/storage/resource_pool.h"
 

@@ -25,7 +25,7 @@ TEST_CASE("filters: nearest unless the slot says linear, between levels only whe
   const CleanScope clean;
   runtime::SamplerCache cache;
   const auto filtersOf = [&](bool linear, bool mipmapped) {
-    const GLuint id = cache.get({.linear = linear}, mipmapped, Compare::always, TexelKind::floating);
+    const GLuint id = cache.get({.linear = linear}, {}, mipmapped, Compare::always, TexelKind::floating);
     return std::array<GLenum, 2>{asked(id, GL_TEXTURE_MIN_FILTER), asked(id, GL_TEXTURE_MAG_FILTER)};
   };
   CHECK(filtersOf(false, false) == std::array<GLenum, 2>{GL_NEAREST, GL_NEAREST});
@@ -40,7 +40,7 @@ TEST_CASE(
   const CleanScope clean;
   runtime::SamplerCache cache;
   const auto comparedBy = [&](const Sampler& sampler, Compare depthTest) {
-    const GLuint id = cache.get(sampler, false, depthTest, TexelKind::depth);
+    const GLuint id = cache.get(sampler, {}, false, depthTest, TexelKind::depth);
     CHECK(asked(id, GL_TEXTURE_COMPARE_MODE) == GL_COMPARE_REF_TO_TEXTURE);
     CHECK(asked(id, GL_TEXTURE_MAG_FILTER) == GL_LINEAR);
     return asked(id, GL_TEXTURE_COMPARE_FUNC);
@@ -48,7 +48,7 @@ TEST_CASE(
   CHECK(comparedBy({.compare = true}, Compare::greater) == GL_GREATER);
   CHECK(comparedBy({.compare = true}, Compare::always) == GL_LEQUAL);
   CHECK(comparedBy({.compare = true, .function = Compare::always}, Compare::greater) == GL_ALWAYS);
-  const GLuint plain = cache.get({.linear = true}, false, Compare::greater, TexelKind::depth);
+  const GLuint plain = cache.get({.linear = true}, {}, false, Compare::greater, TexelKind::depth);
   CHECK(asked(plain, GL_TEXTURE_COMPARE_MODE) == GL_NONE);
 }
 
@@ -56,8 +56,9 @@ TEST_CASE(
     "equal wishes share a sampler, and the colour of a border tells samplers apart only where there is one") {
   const CleanScope clean;
   runtime::SamplerCache cache;
-  const auto get = [&](const Sampler& sampler, TexelKind texels = TexelKind::floating) {
-    return cache.get(sampler, false, Compare::always, texels);
+  const auto get = [&](const Sampler& sampler, const graph::BorderColor& color = {},
+                       TexelKind texels = TexelKind::floating) {
+    return cache.get(sampler, color, false, Compare::always, texels);
   };
   using graph::Wrap;
   std::set<GLuint> samplers;
@@ -66,20 +67,19 @@ TEST_CASE(
     CHECK(samplers.insert(id).second);
     CHECK(get({.wrap = wrap}) == id);
   }
-  CHECK(get({.color = {1, 2, 3, 4}}) == get({}));
-  const GLuint red = get({.wrap = Wrap::border, .color = {1, 0, 0, 1}});
+  CHECK(get({}, {1, 2, 3, 4}) == get({}));
+  const GLuint red = get({.wrap = Wrap::border}, {1, 0, 0, 1});
   CHECK(red != get({.wrap = Wrap::border}));
-  CHECK(red != get({.wrap = Wrap::border, .color = {1, 0, 0, 1}}, TexelKind::unsigned_integer));
+  CHECK(red != get({.wrap = Wrap::border}, {1, 0, 0, 1}, TexelKind::unsigned_integer));
   std::array<float, 4> color{};
   glGetSamplerParameterfv(red, GL_TEXTURE_BORDER_COLOR, color.data());
   CHECK(color == std::array<float, 4>{1, 0, 0, 1});
   // Integers: whole numbers, held within the range of the texels.
-  const GLuint below = get({.wrap = Wrap::border, .color = {-3, 7, 0, 5e9f}}, TexelKind::unsigned_integer);
+  const GLuint below = get({.wrap = Wrap::border}, {-3, 7, 0, 5e9f}, TexelKind::unsigned_integer);
   std::array<GLuint, 4> naturals{};
   glGetSamplerParameterIuiv(below, GL_TEXTURE_BORDER_COLOR, naturals.data());
   CHECK(naturals == std::array<GLuint, 4>{0, 7, 0, 4294967295u});
-  const GLuint signedBorder =
-      get({.wrap = Wrap::border, .color = {-3, 7, 0, 5e9f}}, TexelKind::signed_integer);
+  const GLuint signedBorder = get({.wrap = Wrap::border}, {-3, 7, 0, 5e9f}, TexelKind::signed_integer);
   std::array<GLint, 4> wholes{};
   glGetSamplerParameterIiv(signedBorder, GL_TEXTURE_BORDER_COLOR, wholes.data());
   CHECK(wholes == std::array<GLint, 4>{-3, 7, 0, 2147483647});

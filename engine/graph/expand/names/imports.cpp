@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "engine/base/foreign_words.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/expand/names/resources.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "engine/base/foreign_formats.h"
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_formats.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/language/expr_node.h"
 

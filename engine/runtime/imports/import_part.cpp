@@ -1,4 +1,4 @@
-#include "engine/runtime/prepare/import_part.h"
+#include "engine/runtime/imports/import_part.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "engine/base/foreign_formats.h"
+#include "engine/base/words/foreign_formats.h"
 
 #include <algorithm>
 #include <cctype>

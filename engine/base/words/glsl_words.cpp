@@ -1,4 +1,4 @@
-#include "engine/base/glsl_words.h"
+#include "engine/base/words/glsl_words.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "engine/base/foreign_words.h"
+#include "engine/base/words/foreign_words.h"
 
 #include <fmt/format.h>
 
