@@ -137,6 +137,10 @@ def check_case(report, weft, name, case, full):
         folder = pathlib.Path(folder_name)
         for file, value in make().items():
             (folder / file).write_text(value if isinstance(value, str) else text(value))
+        (folder / "shaders").mkdir()
+        for shader in ("a.frag.glsl", "a.comp.glsl"):
+            # A bracket that nothing closes: it may declare anything, so that slots and parameters fit.
+            (folder / "shaders" / shader).write_text("void main() { (\n")
         ended = Ended([str(weft), "check", "--no-shaders", "g.json", *arguments], folder)
     if full:
         print(f"{ended.seconds:6.2f} s ({ended.busy:5.2f} of the processor) {ended.bytes / 1e6:6.0f} MB  exit {ended.code}  {name}", flush=True)
