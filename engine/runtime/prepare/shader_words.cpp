@@ -41,6 +41,12 @@ const ShaderRoles& RoleCache::ofVariant(const gl::ShaderSource& source, std::spa
   return known->second;
 }
 
+const ShaderRoles& ShaderWords::variantOf(const gl::StageSource& stage) const {
+  const ShaderRoles*& known = variants_[static_cast<std::size_t>(&stage - stages_.data())];
+  if (!known) known = &cache_.ofVariant(*stage.source, defines_);
+  return *known;
+}
+
 bool ShaderWords::maybe(std::string_view name, Role role, bool lastOnly) const {
   for (const gl::StageSource& stage : stages_) {
     if ((lastOnly && &stage != &stages_.back()) || !stage.source->mentions(name)) continue;
@@ -48,9 +54,7 @@ bool ShaderWords::maybe(std::string_view name, Role role, bool lastOnly) const {
   }
   // A macro may paste the name together, or declare it in this variant only.
   for (const gl::StageSource& stage : stages_)
-    if ((!lastOnly || &stage == &stages_.back()) &&
-        cache_.ofVariant(*stage.source, defines_).maybe(name, role))
-      return true;
+    if ((!lastOnly || &stage == &stages_.back()) && variantOf(stage).maybe(name, role)) return true;
   return false;
 }
 
@@ -68,7 +72,7 @@ bool ShaderWords::declaresParameter(std::string_view name) const {
 
 bool ShaderWords::hasOutput(std::string_view name) const {
   return !stages_.empty() && stages_.back().source->mentions(name) &&
-         cache_.ofVariant(*stages_.back().source, defines_).is(name, Role::output);
+         variantOf(stages_.back()).is(name, Role::output);
 }
 
 std::string ShaderWords::whatIs(std::string_view name) const {
@@ -99,7 +103,7 @@ std::vector<std::string> ShaderWords::namesFor(graph::Kind kind) const {
 std::vector<std::string> ShaderWords::imageFormatsOf(std::string_view name) const {
   for (const gl::StageSource& stage : stages_) {
     if (!stage.source->mentions(name)) continue;
-    const ShaderRoles& roles = cache_.ofVariant(*stage.source, defines_);
+    const ShaderRoles& roles = variantOf(stage);
     if (roles.unsure) continue;
     if (const auto found = roles.imageFormats.find(name); found != roles.imageFormats.end())
       return found->second;
@@ -110,7 +114,7 @@ std::vector<std::string> ShaderWords::imageFormatsOf(std::string_view name) cons
 std::vector<ShaderRoles::Member> ShaderWords::parameters() const {
   for (const gl::StageSource& stage : stages_) {
     if (!stage.source->mentions("Parameters")) continue;
-    const ShaderRoles& roles = cache_.ofVariant(*stage.source, defines_);
+    const ShaderRoles& roles = variantOf(stage);
     if (!roles.unsure && std::ranges::any_of(roles.parameters, [&](const ShaderRoles::Member& member) {
           return roles.reachable.contains(member.name);
         }))
@@ -121,7 +125,7 @@ std::vector<ShaderRoles::Member> ShaderWords::parameters() const {
 
 bool ShaderWords::uses(std::string_view name) const {
   return std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
-    return stage.source->mentions(name) && cache_.ofVariant(*stage.source, defines_).reachable.contains(name);
+    return stage.source->mentions(name) && variantOf(stage).reachable.contains(name);
   });
 }
 

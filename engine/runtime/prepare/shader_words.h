@@ -32,7 +32,7 @@ class ShaderWords {
  public:
   // All must outlive this. The last stage is the one that has outputs.
   ShaderWords(std::span<const gl::StageSource> stages, std::span<const gl::Define> defines, RoleCache& cache)
-      : stages_(stages), defines_(defines), cache_(cache) {}
+      : stages_(stages), defines_(defines), cache_(cache), variants_(stages.size()) {}
 
   // Whether the text declares the name as what a slot of this kind needs, in any branch, or may do so.
   bool declares(std::string_view name, graph::Kind kind) const;
@@ -53,10 +53,13 @@ class ShaderWords {
 
  private:
   bool maybe(std::string_view name, gl::Role role, bool lastOnly) const;
+  // Of this variant. Asked for once for each stage: a pass may have many slots, and as many defines.
+  const gl::ShaderRoles& variantOf(const gl::StageSource& stage) const;
 
   const std::span<const gl::StageSource> stages_;
   const std::span<const gl::Define> defines_;
   RoleCache& cache_;
+  mutable std::vector<const gl::ShaderRoles*> variants_;  // by stage; null: not asked for yet
 };
 
 }  // namespace weft::runtime
