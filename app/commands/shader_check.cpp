@@ -24,17 +24,28 @@ std::string keyOf(const gl::ProgramRequest& request) {
   return key;
 }
 
-// Whether two instances of one stanza have the same variant, so that one of them is enough. There may be a million.
-bool isAlike(const graph::FlatGraph& graph, const graph::PassSpec& a, const graph::PassSpec& b) {
+// Whether two instances of one stanza have the same variant with the same things in its slots, so that one of them is enough. There
+// may be a million.
+bool isAlike(const graph::Plan& plan, const graph::PassSpec& a, const graph::PassSpec& b) {
+  const graph::FlatGraph& graph = *plan.graph;
   const auto sameDefine = [](const graph::DefineSpec& x, const graph::DefineSpec& y) {
     return x.name == y.name && x.text == y.text;
   };
-  if (!base::isSamePlace(a.shaderPlace, b.shaderPlace) || a.shader != b.shader ||
-      a.slotCount != b.slotCount || !std::ranges::equal(a.defines, b.defines, sameDefine))
+  if (a.declared != b.declared || a.shader != b.shader || a.vertexShader != b.vertexShader ||
+      a.slotCount != b.slotCount || !std::ranges::equal(a.defines, b.defines, sameDefine) ||
+      !std::ranges::equal(a.uniforms, b.uniforms, {}, &graph::UniformSpec::name, &graph::UniformSpec::name))
     return false;
-  for (std::uint32_t i = 0; i < a.slotCount; ++i)
-    if ((graph.slots[a.firstSlot + i].useCount > 0) != (graph.slots[b.firstSlot + i].useCount > 0))
+  for (std::uint32_t i = 0; i < a.slotCount; ++i) {
+    const graph::SlotSpec &mine = graph.slots[a.firstSlot + i], &theirs = graph.slots[b.firstSlot + i];
+    if (mine.name != theirs.name || mine.kind != theirs.kind || (mine.useCount > 0) != (theirs.useCount > 0))
       return false;
+    if (mine.useCount == 0) continue;
+    if (plan.attached[mine.firstUse] != plan.attached[theirs.firstUse]) return false;
+    const auto formatOf = [&](const graph::SlotSpec& slot) {
+      return graph.resources[graph.uses[slot.firstUse].resource].format;
+    };
+    if (formatOf(mine) != formatOf(theirs)) return false;
+  }
   return true;
 }
 
@@ -85,7 +96,7 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
   for (const graph::Step& step : plan.steps) {
     if (graph::enoughErrors(said)) break;
     const graph::PassSpec& spec = plan.graph->specs[step.pass];
-    if (last && isAlike(*plan.graph, *last, spec)) continue;
+    if (last && isAlike(plan, *last, spec)) continue;
     last = &spec;
     const graph::PassType type = types.find(spec.type)->reflect();
     if (type.shader == graph::ShaderShape::none) continue;

@@ -125,6 +125,7 @@ void addDiffOptions(CLI::App& diff, Options& options, RawOptions& raw) {
       ->type_name("FOLDER")
       ->needs(render);
   addFrame(diff, raw)->needs(render);
+  addPointerOption(diff, options);
   diff.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
   addBackendOptions(diff, options);
   diff.footer(

@@ -101,8 +101,8 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   // What was measured before and is on disk needs no other look at its size.
   if (measured_.contains(key))
     if (auto program = loadBinary(key, compute, request.label))
-      return remember(key,
-                      std::make_shared<const Variant>(Variant{std::move(*program), std::move(stages), key}));
+      return remember(key, std::make_shared<const Variant>(
+                               Variant{std::move(*program), std::move(stages), key, request.defines}));
   Diagnostics refused;
   const ProgramSize size = measureProgram(stages, request.defines, refused);
   if (refused.hasErrors()) {

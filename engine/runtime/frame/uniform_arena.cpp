@@ -22,7 +22,7 @@ struct Gap {
 
 void UniformArena::takeOver(UniformArena& before) {
   buffer_ = std::move(before.buffer_);
-  bytes_ = std::move(before.bytes_);
+  bytes_ = before.bytes_;  // whose frames may go on, if what comes next fails
   changed_ = before.changed_;
 }
 
