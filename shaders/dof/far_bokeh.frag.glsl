@@ -67,10 +67,10 @@ void main() {
   over *= shape;
   over /= max(over.a, 1.0);
   // What the own surface leaves is what is behind it, as far as that is seen. In a gap between things so narrow that they share each texel of it,
-  // that is seen farther away only.
+  // that is seen farther away only: of the texels two away, eight.
   float rest = 1.0 - over.a, seen = shape * (behind.a + unseen);
-  for (int i = 0; i < (unseen > 0.0 && behind.a <= 0.0 ? 25 : 0); ++i) {
-    ivec2 at = clamp(pixel + ivec2(i % 5, i / 5) - 2, ivec2(0), textureSize(source, 0) - 1);
+  for (int i = 0; i < (unseen > 0.0 && behind.a <= 0.0 && search.texels >= 0 ? 9 : 0); ++i) {
+    ivec2 at = clamp(pixel + 2 * ivec2(i % 3, i / 3) - 2, ivec2(0), textureSize(source, 0) - 1);
     vec4 c = texelFetch(source, at, 0);
     behind += liesBehind(texelFetch(discs, at, 0).g / max(c.a, 1e-4), own_radius) * c;
   }
