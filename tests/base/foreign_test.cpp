@@ -65,3 +65,10 @@ TEST_CASE("words that GLSL keeps for itself") {
                            "position", "result", "mix"})
     CHECK_MESSAGE(!isGlslWord(name), name);
 }
+
+TEST_CASE("functions that GLSL has by itself") {
+  for (const char* name : {"mix", "texture", "atomicAnd", "textureGatherOffset", "uaddCarry", "fwidthCoarse"})
+    CHECK_MESSAGE(isGlslFunction(name), name);
+  for (const char* name : {"saturate", "main", "mixed", "Texture"})
+    CHECK_MESSAGE(!isGlslFunction(name), name);
+}

@@ -2,6 +2,7 @@
 // before, which foreign_words.h translates.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 namespace weft::base {
@@ -9,7 +10,9 @@ namespace weft::base {
 // Whether GLSL 4.5 keeps the word: a keyword, a type, or one that is reserved. Nothing in a shader can have such a name.
 bool isGlslWord(std::string_view word);
 
-// A function that GLSL 4.5 has by itself: a define of that name would hide it.
+// The functions that GLSL 4.5 has by itself, sorted.
+std::span<const std::string_view> glslFunctions();
+// One of them: a define of that name would hide it.
 bool isGlslFunction(std::string_view word);
 
 }  // namespace weft::base

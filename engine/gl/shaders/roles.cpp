@@ -7,7 +7,6 @@
 
 #include "engine/gl/shaders/source.h"
 #include "engine/gl/shaders/tokens.h"
-#include "engine/gl/shaders/vocabulary.h"
 
 namespace weft::gl {
 
@@ -334,10 +333,6 @@ std::string_view nameOfRole(std::uint16_t roles) {
   for (const auto& [role, name] : kNames)
     if ((roles & static_cast<std::uint16_t>(role)) != 0) return name;
   return {};
-}
-
-bool isBuiltinFunction(std::string_view name) {
-  return std::ranges::find(kFunctions, name) != std::end(kFunctions);
 }
 
 }  // namespace weft::gl

@@ -59,7 +59,5 @@ ShaderRoles rolesIn(std::string_view text, std::span<const Define> defines);
 
 // "an input", "a function", …: the plainest of the roles that a name has; "" when it has none.
 std::string_view nameOfRole(std::uint16_t roles);
-// A function that GLSL has by itself, as far as they are not rare.
-bool isBuiltinFunction(std::string_view name);
 
 }  // namespace weft::gl

@@ -12,6 +12,7 @@
 
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
+#include "engine/base/words/glsl_words.h"
 #include "engine/gl/shaders/vocabulary.h"
 
 namespace weft::gl {
@@ -82,7 +83,7 @@ std::string nearestOf(std::string_view name, bool function, const ShaderSource& 
   std::vector<std::string> names(source.declared.begin(), source.declared.end());
   if (std::string near = base::nearestName(name, names); !near.empty()) return near;
   names.assign(std::begin(kWords), std::end(kWords));
-  if (function) names.assign(std::begin(kFunctions), std::end(kFunctions));
+  if (function) names.assign(base::glslFunctions().begin(), base::glslFunctions().end());
   // Names of variables and functions of its own are not told apart from other words of the text.
   for (const std::string& word : source.identifiers)
     if (word != name) names.push_back(word);

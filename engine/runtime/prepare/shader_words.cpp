@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/base/words/glsl_words.h"
+
 namespace weft::runtime {
 
 using gl::Role;
@@ -86,7 +88,7 @@ std::string ShaderWords::whatIs(std::string_view name) const {
     if (const auto found = all.roles.find(name); found != all.roles.end()) roles = found->second;
   }
   if (const std::string_view role = gl::nameOfRole(roles); !role.empty()) return std::string(role);
-  if (gl::isBuiltinFunction(name)) return "a built-in function";
+  if (base::isGlslFunction(name)) return "a built-in function";
   return mentioned ? "a word that declares nothing" : "";
 }
 
