@@ -63,7 +63,8 @@ SUB_ROOMS = {
         "cadence": set(),
         "imports": {"storage"},
         "prepare": {"storage", "imports"},
-        "frame": {"storage", "cadence", "imports", "prepare"},
+        "uniforms": {"storage", "cadence", "imports", "prepare"},
+        "frame": {"storage", "cadence", "imports", "prepare", "uniforms"},
         "inspection": {"frame", "storage"},
     },
     "app": {

@@ -110,9 +110,9 @@ nlohmann::ordered_json statsOf(DeviceSession& session, nlohmann::ordered_json ti
   out["bytes"] = {{"declared", plan.bytesDeclared},
                   {"allocated", plan.bytesAllocated},
                   {"lower_bound", plan.bytesLowerBound}};
-  execution->finishReadBack();
+  execution->readBack().finish();
   nlohmann::ordered_json outputs = nlohmann::ordered_json::object();
-  for (const runtime::Output& output : execution->outputs()) {
+  for (const runtime::Output& output : execution->readBack().outputs()) {
     nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < output.count(); ++i)
       if (output.kind == runtime::NumberKind::floating)

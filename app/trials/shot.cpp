@@ -114,7 +114,7 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
     const auto number = static_cast<std::uint32_t>(frame);
     const bool shown = std::ranges::find(wish.frames, number) != wish.frames.end();
     const bool keeps = !wish.keep.first.empty() && number == wish.keepFrame;
-    runtime::Execution::StepWatch watch;
+    runtime::StepWatch watch;
     if (poison) watch.before = [&](std::uint32_t step) { poison->fill(step); };
     if ((wish.records && (shown || frame == first)) || keeps)
       watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };

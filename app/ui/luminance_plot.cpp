@@ -13,7 +13,7 @@ namespace {
 constexpr double kBrightest = 16, kBinsPerStop = 8;
 
 const runtime::Output* find(const runtime::Execution& execution, std::string_view name, std::size_t least) {
-  for (const runtime::Output& output : execution.outputs())
+  for (const runtime::Output& output : execution.readBack().outputs())
     if (output.arrived && output.count() >= least && isCalled(output.name, name)) return &output;
   return nullptr;
 }
@@ -25,7 +25,7 @@ bool isCalled(std::string_view dotted, std::string_view name) {
 }
 
 bool drawLuminance(runtime::Execution& execution) {
-  execution.collectOutputs();
+  execution.readBack().collect();
   const runtime::Output* histogram = find(execution, "histogram", 3);
   if (!histogram) return false;
   const std::size_t bins = histogram->count();  // the first is black

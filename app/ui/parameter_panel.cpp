@@ -121,7 +121,7 @@ bool matches(const std::string& wanted, const std::string& text) {
 
 void Panels::drawParameters(base::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *renderer_.execution()->plan().graph;
-  const std::span<const Value> values = renderer_.execution()->parameters();
+  const std::span<const Value> values = renderer_.execution()->uniforms().parameters();
   char search[128] = {};
   search_.copy(search, sizeof search - 1);
   ImGui::SetNextItemWidth(-1);

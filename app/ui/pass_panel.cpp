@@ -56,7 +56,7 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
         const std::uint32_t index = plan.steps[step].pass;
         const std::string& name = graph.passNames[index];
         const bool ran = execution.ran(name);
-        const std::string slice = ran ? sliceText(execution.slices(step)) : "";
+        const std::string slice = ran ? sliceText(execution.steps().slices(step)) : "";
         ImGui::PushID(row);
         ImGui::TableNextRow();
         ImGui::TableNextColumn();

@@ -131,7 +131,7 @@ void Panels::drawHistogram(base::Diagnostics& diagnostics) {
     const graph::ParameterSpec& parameter = parameters[i];
     if (parameter.desc.type != graph::ParameterDesc::Type::boolean || !isCalled(parameter.path, "histogram"))
       continue;
-    bool on = execution.parameters()[i].truth();
+    bool on = execution.uniforms().parameters()[i].truth();
     if (!ImGui::Checkbox("before the tone curve", &on)) break;
     live_.setParameter(parameter.path, graph::Value::boolean(on), diagnostics);
     return;  // with another plan: in the next frame

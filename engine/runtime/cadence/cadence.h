@@ -62,6 +62,7 @@ class FrameCadence {
   bool isHeld(std::uint32_t group) const;
 
   std::vector<PassMemory>& memories() { return memories_; }
+  const std::vector<PassMemory>& memories() const { return memories_; }
 
  private:
   struct Group {

@@ -77,4 +77,16 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
   return false;
 }
 
+bool readsPointer(const graph::Plan& plan, Imports& imports) {
+  const graph::FlatGraph& graph = *plan.graph;
+  const auto follows = [&](const graph::FlatUse& use) {
+    const std::uint32_t import = graph.resources[use.resource].import;
+    return import != graph::kNone && imports.followsPointer(graph.imports[import]);
+  };
+  return std::ranges::any_of(plan.steps, [&](const graph::Step& step) {
+    const graph::FlatPass& pass = graph.passes[step.pass];
+    return std::ranges::any_of(std::span(graph.uses).subspan(pass.firstUse, pass.useCount), follows);
+  });
+}
+
 }  // namespace weft::runtime

@@ -1,5 +1,4 @@
-// Whether a frame may differ by which frames ran before it: a live history, an import that remembers, or something kept that was made of what moves.
-// If not, headless frame n may be the first to run.
+// What a frame may depend on besides its own input: on the frames before it, and on the mouse.
 #pragma once
 
 #include <span>
@@ -10,8 +9,11 @@
 
 namespace weft::runtime {
 
-// `passes` per step of the plan.
+// Whether a frame may differ by which frames ran before it: by a live history, by an import that remembers, or by what is
+// kept and was made of something that moves. If not, headless frame n may be the first to run. `passes` per step.
 bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> passes, Imports& imports,
                      const World& world);
+// Whether a step reads an import that follows the mouse.
+bool readsPointer(const graph::Plan& plan, Imports& imports);
 
 }  // namespace weft::runtime

@@ -221,4 +221,9 @@ void ReadBack::take(const Slot& slot) {
   }
 }
 
+const Output* ReadBack::find(std::string_view name) const {
+  const auto found = std::ranges::find(outputs_, name, &Output::name);
+  return found == outputs_.end() ? nullptr : &*found;
+}
+
 }  // namespace weft::runtime

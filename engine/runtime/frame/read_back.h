@@ -50,13 +50,15 @@ class ReadBack {
   // At the end of a frame, after the plan's last barriers.
   void copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers, std::uint32_t frame,
             base::Diagnostics& diagnostics);
-  // Takes what has arrived.
+  // Takes what has arrived; never waits.
   void collect();
   // The same, after waiting for all copies that are on their way.
   void finish();
 
   // In the order of the graph; live ones only.
   std::span<const Output> outputs() const { return outputs_; }
+  // Null when there is none of that name.
+  const Output* find(std::string_view name) const;
 
  private:
   struct Source {

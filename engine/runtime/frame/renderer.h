@@ -41,9 +41,9 @@ class Renderer {
   // The same without reading files: runs the last description under other settings or in another world. Passes that do not
   // change keep their programs, whatever is on disk.
   bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
-  // Sets a live parameter at once, as Execution::setParameter() does.
+  // Sets a live parameter at once, as FrameUniforms::set() does.
   bool setParameter(std::string_view path, const graph::Value& value) {
-    return execution_ && execution_->setParameter(path, value);
+    return execution_ && execution_->uniforms().set(path, value);
   }
   // The settings that the graph of the last load() does not take; empty when there was no error.
   std::span<const graph::Refusal> refused() const { return refused_; }

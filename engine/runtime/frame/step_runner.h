@@ -9,10 +9,10 @@
 #include "engine/gl/context/state_cache.h"
 #include "engine/graph/plan.h"
 #include "engine/runtime/frame/device.h"
-#include "engine/runtime/frame/uniform_arena.h"
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/storage/framebuffer_cache.h"
 #include "engine/runtime/storage/resource_pool.h"
+#include "engine/runtime/uniforms/uniform_arena.h"
 
 namespace weft::runtime {
 

@@ -25,7 +25,7 @@ class Poison {
  public:
   // `execution` must outlive this.
   Poison(Execution& execution, PoisonPattern pattern);
-  // To be called in Execution::StepWatch::before.
+  // To be called in StepWatch::before.
   void fill(std::uint32_t step) const;
 
  private:

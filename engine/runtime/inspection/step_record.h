@@ -40,7 +40,7 @@ struct WrittenTexels {
 
 class StepRecorder {
  public:
-  // To be called in Execution::StepWatch::after.
+  // To be called in StepWatch::after.
   void look(Execution& execution, std::uint32_t step);
   // Keeps the texels that this pass writes to this resource (names as in StepRecord), too.
   void keep(std::string pass, std::string resource);

@@ -80,8 +80,8 @@ TEST_CASE("history: a first value that is a texture, an image or a buffer is wha
     CHECK(stage.value() == expected.sum);
     CHECK(stage.read("growing")[0] == expected.growing);
     CHECK(stage.read("copied")[0] == expected.copied);
-    stage.execution().finishReadBack();
-    CHECK(stage.execution().output("count")->number(0) == expected.count);
+    stage.execution().readBack().finish();
+    CHECK(stage.execution().readBack().find("count")->number(0) == expected.count);
   };
   runtime::FrameInput input = runtime::headlessFrame(stage.world, 0, 60);
   check(input, {6, 10, 4, 8});

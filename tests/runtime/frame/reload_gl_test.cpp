@@ -112,7 +112,7 @@ TEST_CASE("reload: a toggle leaves the uniforms of passes that do not differ whe
   CHECK(stage.value() == 66);
   // Offset of a uniform by its value; -1 where nobody has it.
   const auto placeOf = [&](float value) {
-    const std::span<const std::byte> bytes = stage.execution().uniformBytes();
+    const std::span<const std::byte> bytes = stage.execution().uniforms().arena().bytes();
     for (std::size_t at = 0; at + sizeof value <= bytes.size(); at += sizeof value)
       if (std::memcmp(bytes.data() + at, &value, sizeof value) == 0) return static_cast<int>(at);
     return -1;

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "engine/runtime/frame/step_runner.h"
-#include "engine/runtime/frame/uniform_values.h"
+#include "engine/runtime/uniforms/uniform_values.h"
 #include "tests/runtime/gl_recorder.h"
-#include "tests/runtime/prepared_plan.h"
+#include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
 
 using namespace weft;
@@ -14,7 +14,7 @@ using namespace weft::runtime::test;
 namespace {
 
 struct Steps {
-  PreparedPlan prepared;
+  PlanOnDevice prepared;
   runtime::UniformArena arena{256};
   runtime::StepRunner runner;
   base::Diagnostics diagnostics;

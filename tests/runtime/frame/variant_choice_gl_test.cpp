@@ -1,7 +1,7 @@
 // Which variant of a pass an age asks for, and how often one is made.
 #include "engine/runtime/frame/variant_choice.h"
 #include "tests/gl/temp_folder.h"
-#include "tests/runtime/prepared_plan.h"
+#include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
 
 using namespace weft;
@@ -12,7 +12,7 @@ namespace {
 constexpr double kYoung = 0.5, kOld = 1e9;  // seconds
 
 struct Choosing {
-  PreparedPlan prepared;
+  PlanOnDevice prepared;
   runtime::VariantChoice choice;
   base::Diagnostics diagnostics;
 
@@ -53,11 +53,12 @@ TEST_CASE("a timed pass runs while its resource is young, and each variant is pr
 TEST_CASE("a variant that does not compile is reported once, and the pass keeps the one that it has") {
   const CleanScope clean;
   gl::test::TempFolder folder;
-  folder.write("shaders/young.frag.glsl", R"(out vec4 result;
+  folder.write("shaders/young.frag.glsl", R"(uniform sampler2D pulse;
+out vec4 result;
 #if YOUNG
 void main() { result = vec4(missing); }
 #else
-void main() { result = vec4(1); }
+void main() { result = texelFetch(pulse, ivec2(0), 0); }
 #endif
 )");
   folder.write("shaders/pulse.frag.glsl", "out vec4 result;\nvoid main() { result = vec4(1); }\n");

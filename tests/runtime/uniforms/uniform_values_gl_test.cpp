@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "engine/runtime/frame/uniform_values.h"
-#include "tests/runtime/prepared_plan.h"
+#include "engine/runtime/uniforms/uniform_values.h"
+#include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
 
 using namespace weft;
@@ -14,7 +14,7 @@ using graph::Value;
 namespace {
 
 struct LiveValues {
-  PreparedPlan prepared{"tests/runtime/graphs/live.json"};
+  PlanOnDevice prepared{"tests/runtime/graphs/live.json"};
   runtime::UniformArena arena{256};
   runtime::UniformValues values{*prepared.plan->graph};
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/graph/flat_graph.h"
-#include "engine/runtime/frame/uniform_arena.h"
+#include "engine/runtime/uniforms/uniform_arena.h"
 
 namespace weft::runtime {
 

@@ -1,4 +1,4 @@
-#include "engine/runtime/frame/uniform_arena.h"
+#include "engine/runtime/uniforms/uniform_arena.h"
 
 #include <algorithm>
 #include <array>

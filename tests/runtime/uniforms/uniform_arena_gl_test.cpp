@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/runtime/frame/uniform_arena.h"
+#include "engine/runtime/uniforms/uniform_arena.h"
 #include "tests/gl/gl_test.h"
 
 namespace weft::runtime {

@@ -1,4 +1,4 @@
-#include "engine/runtime/frame/uniform_values.h"
+#include "engine/runtime/uniforms/uniform_values.h"
 
 #include <algorithm>
 #include <string>

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "engine/runtime/frame/device.h"
-#include "engine/runtime/prepare/prepared_pass.h"
-#include "engine/runtime/storage/resource_pool.h"
+#include "engine/runtime/frame/prepared_plan.h"
 
 namespace weft::runtime::test {
 
-struct PreparedPlan {
-  // `graphFile` relative to the source folder, or absolute. Fails the test when anything is reported.
-  explicit PreparedPlan(const std::string& graphFile);
+// The plan of a graph file, relative to the source folder or absolute. Fails the test when anything is reported.
+std::shared_ptr<const graph::Plan> compiledPlan(const std::string& graphFile);
+
+struct PlanOnDevice {
+  explicit PlanOnDevice(const std::string& graphFile);
 
   std::size_t step(std::string_view pass) const;
   PreparedPass& operator[](std::string_view pass) { return passes[step(pass)]; }
@@ -25,9 +26,10 @@ struct PreparedPlan {
   std::vector<PreparedPass*> all();
 
   Device device;
-  std::shared_ptr<const graph::Plan> plan;
-  std::unique_ptr<ResourcePool> pool;
-  std::vector<PreparedPass> passes;  // per step, under the conditions that time settles on
+  PreparedPlan prepared;
+  const std::shared_ptr<const graph::Plan>& plan = prepared.plan;
+  const std::unique_ptr<ResourcePool>& pool = prepared.pool;
+  std::vector<PreparedPass>& passes = prepared.passes;  // per step, under the conditions that time settles on
 };
 
 // Every resource was published `seconds` ago.

@@ -1,0 +1,37 @@
+// A plan that can run on a device: its storage, and for each step what runs it. A new plan is prepared beside the one that
+// runs; passes that are the same, in the same storage, are taken over from that. Does not: lay out uniforms, or run
+// anything (Execution does).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+#include "engine/graph/plan.h"
+#include "engine/runtime/frame/device.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/resource_pool.h"
+
+namespace weft::runtime {
+
+// Whether shader files are read again for passes that do not change.
+enum class ShaderFiles : std::uint8_t { read, keep };
+
+struct PreparedPlan {
+  std::shared_ptr<const graph::Plan> plan;
+  std::unique_ptr<ResourcePool> pool;
+  std::vector<PreparedPass>
+      passes;  // per step, of the variant that is in use; at first of that which time settles on
+  std::uint32_t passesPrepared = 0;  // how many were prepared for this plan; the others were taken over
+};
+
+// A pass that differs from those of `before` (which may be null) is prepared whole; of an equal pass only what has other
+// storage now. Empty after errors. While a program has an error, `before` is as it was; after that it gives up its storage,
+// and passes, as far as they fit.
+std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
+                                        PreparedPlan* before, ShaderFiles files,
+                                        base::Diagnostics& diagnostics);
+
+}  // namespace weft::runtime

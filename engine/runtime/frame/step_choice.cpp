@@ -1,0 +1,78 @@
+#include "engine/runtime/frame/step_choice.h"
+
+#include <algorithm>
+#include <string_view>
+#include <unordered_map>
+
+#include "engine/base/hash.h"
+#include "engine/runtime/cadence/lasting.h"
+
+namespace weft::runtime {
+
+using graph::kNone;
+
+StepChoice::StepChoice(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
+                       const std::vector<PreparedPass>& passes)
+    : plan_(plan),
+      pool_(pool),
+      imports_(imports),
+      passes_(passes),
+      cadence_(plan),
+      hashes_(plan.steps.size()),
+      lasting_(findLastingSteps(plan)),
+      ran_(plan.steps.size()) {}
+
+void StepChoice::takeOver(const StepChoice& before) {
+  std::unordered_map<std::string_view, std::size_t> stepOf;
+  for (std::size_t step = 0; step < before.plan_.steps.size(); ++step)
+    stepOf[before.plan_.graph->specs[before.plan_.steps[step].pass].name] = step;
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    if (const auto old = stepOf.find(passes_[step].context.spec->name); old != stepOf.end())
+      cadence_.memories()[step] = before.cadence_.memories()[old->second];
+}
+
+void StepChoice::beginFrame() {
+  std::ranges::fill(ran_, std::uint8_t{0});
+}
+
+void StepChoice::refreshHashes(const UniformArena& arena) {
+  for (std::size_t step = 0; step < passes_.size(); ++step)
+    if (!isAlways(step)) hashes_[step] = hashOf(passes_[step], arena);
+}
+
+std::uint64_t StepChoice::hashOf(const PreparedPass& pass, const UniformArena& arena) {
+  std::uint64_t hash = pass.programHash;
+  hash = arena.hash(pass.parametersOffset, pass.parametersBlock, hash);
+  hash = arena.hash(pass.viewOffset, pass.viewBlock, hash);
+  for (const std::uint32_t resource : pass.written)
+    hash = base::hashCombine(hash, pool_[resource].serial + (pool_[resource].resets << 40));
+  // An import that is shown later than it changes.
+  for (const std::uint32_t resource : pass.read)
+    if (const std::uint32_t publisher = pool_[resource].publisher;
+        publisher != kNone && publisher != pass.group)
+      hash = base::hashCombine(
+          hash, imports_.publications(plan_.graph->imports[plan_.graph->resources[resource].import]));
+  for (const std::uint32_t axis : pass.context.spec->threads) hash = base::hashCombine(hash, axis);
+  if (pass.list >= 0)
+    hash = base::hashCombine(
+        hash, imports_.generation(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr));
+  return hash;
+}
+
+void StepChoice::choose(const std::vector<std::uint64_t>& generations) {
+  cadence_.decide(hashes_, generations);
+}
+
+bool StepChoice::chooseAhead(const std::vector<std::uint64_t>& generations) {
+  return cadence_.decideAhead(hashes_, generations);
+}
+
+bool StepChoice::isAlways(std::size_t step) const {
+  return plan_.graph->passes[plan_.steps[step].pass].cadence == graph::Cadence::always;
+}
+
+void StepChoice::endRound(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after) {
+  cadence_.endFrame(hashes_, before, after);
+}
+
+}  // namespace weft::runtime

@@ -1,0 +1,66 @@
+// Chooses the steps that run in a frame: those that FrameCadence lets run, without those whose variant is idle. Tells the
+// cadence what each pass is made of: a hash of its program, uniforms and storage. Knows which steps a frame that nobody
+// will see must still run, and which have run. Does not: know the generations of resources (Publications), or run anything.
+// A frame allocates nothing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/graph/plan.h"
+#include "engine/runtime/cadence/cadence.h"
+#include "engine/runtime/imports/imports.h"
+#include "engine/runtime/prepare/prepared_pass.h"
+#include "engine/runtime/storage/resource_pool.h"
+#include "engine/runtime/uniforms/uniform_arena.h"
+
+namespace weft::runtime {
+
+class StepChoice {
+ public:
+  // All must outlive this. `passes` are those of the steps of `plan`, each with the variant that is in use.
+  StepChoice(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
+             const std::vector<PreparedPass>& passes);
+
+  // Takes over what passes of the same name remember of their last run.
+  void takeOver(const StepChoice& before);
+
+  // Nothing has run yet.
+  void beginFrame();
+  // Hashes anew what each pass that is not `always` is made of, besides the generations of what it reads.
+  void refreshHashes(const UniformArena& arena);
+  // The choice for the frame, or for a round ahead of it, as FrameCadence makes it. `generations` per resource.
+  void choose(const std::vector<std::uint64_t>& generations);
+  bool chooseAhead(const std::vector<std::uint64_t>& generations);
+
+  // Of the last choice.
+  bool runs(std::size_t step) const { return cadence_.runs(step) && !passes_[step].idle; }
+  SliceRange slices(std::size_t step) const { return cadence_.slices(step); }
+
+  bool isAlways(std::size_t step) const;
+  // Whether later frames need the step.
+  bool isLasting(std::size_t step) const { return lasting_[step] != 0; }
+  void markRan(std::size_t step) { ran_[step] = 1; }
+  // Whether it ran in this frame, in whatever round.
+  bool ran(std::size_t step) const { return ran_[step] != 0; }
+
+  // After the steps of a round: the generations before and after it.
+  void endRound(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after);
+
+  // For what is published, and held.
+  FrameCadence& cadence() { return cadence_; }
+
+ private:
+  std::uint64_t hashOf(const PreparedPass& pass, const UniformArena& arena);
+
+  const graph::Plan& plan_;
+  ResourcePool& pool_;
+  Imports& imports_;
+  const std::vector<PreparedPass>& passes_;
+  FrameCadence cadence_;
+  std::vector<std::uint64_t> hashes_;        // per step
+  std::vector<std::uint8_t> lasting_, ran_;  // per step
+};
+
+}  // namespace weft::runtime

@@ -1,0 +1,69 @@
+// What preparing a plan costs the one that runs: equal passes are taken over, and a broken shader takes nothing.
+#include <algorithm>
+
+#include "engine/runtime/frame/prepared_plan.h"
+#include "tests/runtime/plan_on_device.h"
+#include "tests/runtime/stage.h"
+#include "tests/temporary_folder.h"
+
+using namespace weft;
+using namespace weft::runtime::test;
+using runtime::ShaderFiles;
+
+TEST_CASE("a plan of equal passes takes all of them over, with their storage") {
+  const CleanScope clean;
+  PlanOnDevice running("tests/runtime/graphs/live.json");
+  CHECK(running.prepared.passesPrepared == 4);
+  const std::uint64_t serial = (*running.pool)[running["kept"].written.at(0)].serial;
+  const auto variant = running["kept"].variant;
+  base::Diagnostics diagnostics;
+  const auto next = preparePlan(running.device, compiledPlan("tests/runtime/graphs/live.json"),
+                                &running.prepared, ShaderFiles::keep, diagnostics);
+  REQUIRE_MESSAGE(next, diagnostics.text());
+  CHECK(diagnostics.empty());
+  CHECK(next->passesPrepared == 0);
+  const runtime::PreparedPass& kept = next->passes.at(running.step("kept"));
+  CHECK(kept.variant == variant);
+  CHECK((*next->pool)[kept.written.at(0)].serial == serial);
+}
+
+TEST_CASE("a plan of other passes prepares its own") {
+  const CleanScope clean;
+  PlanOnDevice running("tests/runtime/graphs/live.json");
+  base::Diagnostics diagnostics;
+  const auto next = preparePlan(running.device, compiledPlan("tests/runtime/graphs/obsolete.json"),
+                                &running.prepared, ShaderFiles::keep, diagnostics);
+  REQUIRE_MESSAGE(next, diagnostics.text());
+  CHECK(next->passesPrepared == next->passes.size());
+  CHECK(std::ranges::all_of(next->passes, &runtime::PreparedPass::usable));
+}
+
+TEST_CASE("a shader that does not compile leaves the running plan as it was") {
+  const CleanScope clean;
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "shaders");
+  const auto write = [&](const char* result) {
+    folder.write("shaders/a.frag.glsl",
+                 std::string("out vec4 result;\nvoid main() { result = ") + result + "; }\n");
+  };
+  folder.write("graph.json", R"({
+  "resources": { "a": { "texture": "r32f", "size": 4 }, "b": { "texture": "r32f", "size": 4 } },
+  "passes": [
+    { "name": "a", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "result": "a" }, "side_effect": true },
+    { "name": "b", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "result": "b" } }
+  ],
+  "present": "b"
+})");
+  write("vec4(1)");
+  PlanOnDevice running(folder.at("graph.json"));
+  write("vec4(missing)");
+  base::Diagnostics diagnostics;
+  CHECK_FALSE(preparePlan(running.device, running.plan, &running.prepared, ShaderFiles::read, diagnostics));
+  CHECK(diagnostics.contains(base::Code::shaderDoesNotCompile));
+  REQUIRE(running.passes.size() == 2);
+  for (const runtime::PreparedPass& pass : running.passes) {
+    CHECK(pass.usable);
+    CHECK(pass.variant);
+    CHECK((*running.pool)[pass.written.at(0)].texture);
+  }
+}

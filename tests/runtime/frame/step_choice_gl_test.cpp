@@ -1,0 +1,125 @@
+// What runs in a frame, and why: hashes of what a pass is made of, idle variants, obsolete frames, slices. Which steps must run
+// is read off the graphs by hand. Nothing is drawn.
+#include <memory>
+
+#include "engine/runtime/frame/step_choice.h"
+#include "engine/runtime/frame/variant_choice.h"
+#include "engine/runtime/uniforms/frame_uniforms.h"
+#include "tests/runtime/plan_on_device.h"
+#include "tests/runtime/stage.h"
+
+using namespace weft;
+using namespace weft::runtime::test;
+using graph::Value;
+
+namespace {
+
+constexpr std::uint32_t kAlignment = 256;
+
+struct ChosenSteps {
+  PlanOnDevice on;
+  runtime::FrameUniforms uniforms;
+  runtime::StepChoice steps;
+  std::vector<std::uint64_t> generations;  // nothing that passes read ever changes
+
+  explicit ChosenSteps(const std::string& graph)
+      : on(graph),
+        uniforms(*on.plan, on.device.imports, kAlignment),
+        steps(*on.plan, *on.pool, on.device.imports, on.passes),
+        generations(on.plan->graph->resources.size(), 1) {
+    base::Diagnostics diagnostics;
+    uniforms.layOut(on.all(), diagnostics);
+    REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());
+  }
+  // The names of the steps that a frame runs, in order.
+  std::string frame() {
+    steps.beginFrame();
+    steps.refreshHashes(uniforms.arena());
+    steps.choose(generations);
+    std::string names;
+    for (std::size_t step = 0; step < on.passes.size(); ++step) {
+      if (!steps.runs(step)) continue;
+      steps.markRan(step);
+      names += on.passes[step].context.spec->name + " ";
+    }
+    steps.endRound(generations, generations);
+    return names;
+  }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a pass that is not `always` runs when its parameters, its storage or its program change, and else not") {
+  const CleanScope clean;
+  ChosenSteps live("tests/runtime/graphs/live.json");
+  const std::string all = "kept start scale[1] timed ", others = "start scale[1] timed ";
+  CHECK(live.frame() == all);
+  CHECK(live.frame() == others);
+  REQUIRE(live.uniforms.set("gain", Value::number(4)));  // which `kept` does not read
+  CHECK(live.frame() == others);
+  REQUIRE(live.uniforms.set("slow", Value::number(3)));
+  CHECK(live.frame() == all);
+  CHECK(live.frame() == others);
+  const std::uint32_t written = live.on["kept"].written.at(0);
+  ++(*live.on.pool)[written].serial;
+  CHECK(live.frame() == all);
+  ++(*live.on.pool)[written].resets;
+  CHECK(live.frame() == all);
+  ++live.on["kept"].programHash;
+  CHECK(live.frame() == all);
+  CHECK(live.frame() == others);
+}
+
+TEST_CASE("a step ran or not: in this frame, and always or not") {
+  const CleanScope clean;
+  ChosenSteps live("tests/runtime/graphs/live.json");
+  const std::size_t kept = live.on.step("kept"), start = live.on.step("start");
+  live.frame();
+  CHECK(live.steps.ran(kept));
+  CHECK(live.steps.ran(start));
+  live.frame();
+  CHECK_FALSE(live.steps.ran(kept));
+  CHECK(live.steps.ran(start));
+  live.steps.beginFrame();
+  CHECK_FALSE(live.steps.ran(start));
+  CHECK_FALSE(live.steps.isAlways(kept));
+  CHECK(live.steps.isAlways(start));
+}
+
+TEST_CASE("a step whose variant is idle does not run") {
+  const CleanScope clean;
+  ChosenSteps timed("tests/runtime/graphs/timed.json");
+  runtime::VariantChoice variants(*timed.on.plan, timed.on.device, *timed.on.pool, timed.on.passes);
+  base::Diagnostics diagnostics;
+  CHECK(timed.frame() == "pulse start ");
+  REQUIRE(variants.choose(agedBy(0.5), false, diagnostics));  // prepared as time settles on: idle
+  timed.uniforms.layOut(variants.all(), diagnostics);
+  CHECK(timed.frame() == "start take add ");
+  variants.choose(agedBy(1e9), false, diagnostics);
+  CHECK(timed.frame() == "start ");
+  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
+}
+
+TEST_CASE("later frames need the steps that lead to a history, and not those that lead to the picture") {
+  const CleanScope clean;
+  ChosenSteps obsolete("tests/runtime/graphs/obsolete.json");
+  for (const auto& [pass, lasts] :
+       {std::pair{"next", true}, {"keep", true}, {"scale", false}, {"show", false}})
+    CHECK_MESSAGE(obsolete.steps.isLasting(obsolete.on.step(pass)) == lasts, pass);
+}
+
+TEST_CASE("what takes over from an execution of the same passes runs none of them again") {
+  const CleanScope clean;
+  ChosenSteps live("tests/runtime/graphs/live.json");
+  live.frame();
+  runtime::StepChoice next(*live.on.plan, *live.on.pool, live.on.device.imports, live.on.passes);
+  const auto runsKept = [&] {
+    next.refreshHashes(live.uniforms.arena());
+    next.choose(live.generations);
+    return next.runs(live.on.step("kept"));
+  };
+  CHECK(runsKept());
+  next.takeOver(live.steps);
+  CHECK_FALSE(runsKept());
+}
