@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Holds every #include of engine/ and app/ against the tables below: rooms (folders of engine/, and app) and sub-rooms (folders inside a
 room, along its pipeline), and finds circles of #includes and headers without #pragma once. In engine/, app/, tests/ and shaders/ every
-folder has less than 25 source files, and every source file at most 400 lines.
+folder has less than 25 source files, and every source file at most 400 lines. A .cpp file of engine/ or app/ without a header of its own
+shows which header declares its functions: the only one of its folder that it includes, or "Declared in x.h" in its first comment.
 
     rooms.py TOP
 """
@@ -86,6 +87,8 @@ SUB_ROOMS = {
 MOST_FILES = 24
 MOST_LINES = 400
 SOURCES = {".h", ".cpp", ".py", ".glsl"}
+# Files that define no function that another file calls.
+UNDECLARED = {"app/main.cpp", "engine/assets/images/stb_implementation.cpp"}
 # Third-party headers by prefix, and the rooms that may name them (directly).
 OUTSIDE = {
     "fmt/": set(ROOMS),
@@ -172,6 +175,21 @@ def check_file(name: str, text: str, arrows: set) -> list[str]:
     return problems
 
 
+def check_header(name: str, text: str, files: set[str]) -> list[str]:
+    """Whether a reader sees which header declares the functions of a .cpp file."""
+    if not name.endswith(".cpp") or name in UNDECLARED or name.removesuffix(".cpp") + ".h" in files:
+        return []
+    folder = name.rpartition("/")[0] + "/"
+    headers = {included.removeprefix(folder) for _, included in includes_of(text) if included.rpartition("/")[0] + "/" == folder}
+    opening = re.match(r"(?://.*\n)*", text).group()
+    declared = set(re.findall(r"\bDeclared in (\w+\.h)", opening))
+    if declared - headers:
+        return [f"{name}: declared in {', '.join(sorted(declared - headers))}, which is no header of its folder that it includes"]
+    if len(headers) == 1 or declared:
+        return []
+    return [f"{name}: has no header of its own and includes {len(headers)} of its folder: say \"Declared in x.h\" in its first comment"]
+
+
 def check_sizes(top: pathlib.Path) -> tuple[list[str], dict[str, int]]:
     """Problems, and the number of source files of each folder."""
     problems: list[str] = []
@@ -193,12 +211,16 @@ def main() -> int:
     top = pathlib.Path(sys.argv[1])
     problems, arrows = check_tables(), set()
     edges: dict[str, list[str]] = {}
+    texts: dict[str, str] = {}
     for path in sorted([*(top / "engine").rglob("*"), *(top / "app").rglob("*")]):
         if path.suffix not in {".h", ".cpp"}:
             continue
         name, text = path.relative_to(top).as_posix(), path.read_text()
         edges[name] = [included for _, included in includes_of(text)]
         problems += check_file(name, text, arrows)
+        texts[name] = text
+    for name, text in texts.items():
+        problems += check_header(name, text, set(texts))
     sizes, per_folder = check_sizes(top)
     problems += sizes
     circle = find_circle(edges)

@@ -1,4 +1,5 @@
 // weft check: everything wrong with a graph, as text, JSON or SARIF; once, or again after every save.
+// Declared in commands.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>

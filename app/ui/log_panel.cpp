@@ -1,4 +1,4 @@
-// The log's window.
+// The log's window. Declared in panels.h.
 #include <imgui.h>
 
 #include <algorithm>

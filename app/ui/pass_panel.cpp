@@ -1,4 +1,4 @@
-// Passes in the order they run; below, those that do not, and why.
+// Passes in the order they run; below, those that do not, and why. Declared in panels.h.
 #include <fmt/format.h>
 #include <imgui.h>
 

@@ -1,5 +1,5 @@
 // Which physical texture, or which bytes of the arena, hold which resource over the steps of the frame; and how bright the
-// picture is.
+// picture is. Declared in panels.h.
 #include <fmt/format.h>
 #include <imgui.h>
 

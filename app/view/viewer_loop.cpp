@@ -1,4 +1,4 @@
-// The viewer's loop: events, files, camera, frame, panels.
+// The viewer's loop: events, files, camera, frame, panels. Declared in viewer.h.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>

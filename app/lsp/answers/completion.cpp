@@ -1,4 +1,4 @@
-// What may stand at the cursor: keys by the object they are in, words and names by their key.
+// What may stand at the cursor: keys by the object they are in, words and names by their key. Declared in features.h.
 #include <fmt/format.h>
 
 #include <algorithm>

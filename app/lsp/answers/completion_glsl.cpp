@@ -1,3 +1,4 @@
+// What may stand at the cursor in a shader.
 #include <fmt/format.h>
 
 #include "app/lsp/answers/items.h"

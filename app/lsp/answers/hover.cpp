@@ -1,4 +1,4 @@
-// What is shown of the thing under the cursor, and the outline of a file.
+// What is shown of the thing under the cursor, and the outline of a file. Declared in features.h.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The header of an .exr file, checked before it is decoded.
 #include <fmt/format.h>
 
 #include <cstddef>

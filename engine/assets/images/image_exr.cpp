@@ -1,5 +1,6 @@
 // .exr through tinyexr: single-part scanline pictures in, 32-bit float ZIP scanlines out.
 // Built on the library's low-level calls: its one-call LoadEXRFromMemory leaks whenever it fails.
+// Declared in image_codecs.h and image.h.
 #include <fmt/format.h>
 #include <tinyexr.h>
 

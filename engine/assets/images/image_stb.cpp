@@ -1,4 +1,4 @@
-// .hdr, .png, .jpg and .tga through stb_image and stb_image_write.
+// .hdr, .png, .jpg and .tga through stb_image and stb_image_write. Declared in image_codecs.h and image.h.
 #include <fmt/format.h>
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>

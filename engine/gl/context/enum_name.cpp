@@ -1,3 +1,4 @@
+// The names of GL enums.
 #include <fmt/format.h>
 
 #include "engine/gl/context/debug.h"

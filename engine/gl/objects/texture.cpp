@@ -1,3 +1,4 @@
+// Textures, views of them and framebuffers.
 #include <fmt/format.h>
 
 #include <algorithm>

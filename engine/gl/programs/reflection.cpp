@@ -1,4 +1,5 @@
 // Program interface queries (OpenGL 4.5 core, 7.3.1) to plain data, and the assignment of units and bindings.
+// Declared in program.h.
 #include <algorithm>
 #include <array>
 #include <numeric>

@@ -1,4 +1,4 @@
-// The process of a trial: shader_trial.h.
+// The process of a trial. Declared in shader_trial.h.
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-// A driver's compile or link log to diagnostics with true places.
+// A driver's compile or link log to diagnostics with true places. Declared in source.h.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Evaluation and checking of expression trees. One evaluator serves both the static case (a scope,
-// with diagnostics) and the folded one (an age function, silent).
+// with diagnostics) and the folded one (an age function, silent). Declared in expr_node.h and expr.h.
 #include <fmt/format.h>
 
 #include <algorithm>

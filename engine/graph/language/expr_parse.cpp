@@ -1,6 +1,6 @@
 // The grammar of docs/graph-format.md: one token of lookahead and precedence climbing. Stops at
 // the first error of an expression; recursion is bounded by kMaxNesting and the height of the tree by
-// kMaxParsedHeight.
+// kMaxParsedHeight. Declared in expr_node.h.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,3 +1,4 @@
+// What overlays name, found in the sources below them.
 #include <algorithm>
 
 #include "engine/base/limits.h"

@@ -1,4 +1,4 @@
-// Pass and include stanzas.
+// Pass and include stanzas. Declared in read_context.h.
 #include <fmt/format.h>
 
 #include <filesystem>

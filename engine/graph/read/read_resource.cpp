@@ -1,4 +1,4 @@
-// Resources: textures, buffers, imports, inputs, alternatives.
+// Resources: textures, buffers, imports, inputs, alternatives. Declared in read_context.h.
 #include <fmt/format.h>
 
 #include <algorithm>

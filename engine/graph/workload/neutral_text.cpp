@@ -1,3 +1,4 @@
+// The workloads of the bench as text.
 #include <vector>
 
 #include "engine/base/hash.h"

@@ -1,6 +1,6 @@
 // Links lists of alternatives to what they name, and reports those that lead back to themselves or lead on in
 // too long a row. Walks without recursion; everything that follows the lists later goes down the stack, so
-// the length is limited here.
+// the length is limited here. Declared in scope.h.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Imports: their arguments, and what the registry says of them.
+// Imports: their arguments, and what the registry says of them. Declared in resources.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
