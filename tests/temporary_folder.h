@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -25,12 +26,18 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::string at(std::string_view name) const { return (path_ / name).string(); }
-  // Writes a file and returns its path.
+  // Writes a file, makes its folders, and returns its path. The file has a time of its own, so that a rewrite within the
+  // clock's grain is seen.
   std::string write(std::string_view name, std::string_view bytes) const {
-    std::ofstream(at(name), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return at(name);
+    const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++writes_));
+    return file.string();
   }
 
  private:
+  mutable int writes_ = 0;
   std::filesystem::path path_;
 };

@@ -44,7 +44,7 @@ Radiance render(Sets sets, std::uint32_t width = kWidth, std::uint32_t height = 
   Lab lab(setupOf(std::move(sets), width, height));
   lab.frame(0);
   Radiance result{lab.read("panels"), width};
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return result;
 }
 

@@ -29,5 +29,5 @@ TEST_CASE("BRDF table: both channels within 0.005 of the integral at texel centr
   CHECK(scale < 0.005);
   CHECK(bias < 0.005);
   CHECK(sum < 0.004);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
 }

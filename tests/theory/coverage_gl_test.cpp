@@ -65,7 +65,7 @@ TEST_CASE("coverage: alpha sums to the projected area within 0.2 %") {
     CHECK(sum.finite);
     CHECK(sum.alpha == doctest::Approx(area).epsilon(0.002));
     worst = std::max(worst, std::abs(sum.alpha / area - 1));
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
   }
   MESSAGE("worst relative error ", worst);
 }
@@ -123,7 +123,7 @@ TEST_CASE("coverage: the eye inside, the sphere behind, across the eye's plane, 
     lab.frame();
     const Sum sum = sumOf(lab.read("hdr"));
     CHECK(sum.finite);
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
     return sum.alpha;
   };
   CHECK(alphaOf({.center = {0.2, 0.1, 0.3}, .radius = 2}) == whole);  // inside: its inner surface everywhere
@@ -162,7 +162,7 @@ TEST_CASE("octagons draw what rectangles draw, byte for byte") {
     setup.sets = {{"octagon", octagon ? "true" : "false"}};
     Lab lab(setup);
     lab.frame();
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
     return lab.read("hdr").texels;
   };
   // Many at once; stretched and cut by the picture's border; the eye inside, beside and almost touching;

@@ -29,6 +29,6 @@ TEST_CASE("a million spheres: rendered, and one picture for all sorts") {
     CHECK(covered > 300);
     if (first.empty()) first = panels.texels;
     CHECK(first == panels.texels);
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
   }
 }

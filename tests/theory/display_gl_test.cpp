@@ -43,7 +43,7 @@ Levels levelsOf(float radiance, std::vector<weft::graph::Setting> sets, const ch
       levels.low = std::min(levels.low, value);
       levels.high = std::max(levels.high, value);
     }
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return levels;
 }
 

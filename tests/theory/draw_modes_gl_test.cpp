@@ -48,7 +48,7 @@ Picture draw(const Setup& setup) {
   Lab lab(setup);
   lab.frame(1);
   Picture panels = lab.read("panels");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return panels;
 }
 

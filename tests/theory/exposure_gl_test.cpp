@@ -35,7 +35,7 @@ double adapted(Lab& lab) {
 double stopsAfterOneFrame(const Setup& setup) {
   Lab lab(setup);
   lab.frame(0);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return std::log2(adapted(lab));
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("auto-exposure: converges to the key value from 8 stops either side, m
     CHECK(std::abs(before) < 0.0126);
     // And the picture is at the key value.
     const Picture picture = lab.read("post.ldr");
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
     const auto hable = [](double v) {
       return (v * (0.15 * v + 0.05) + 0.004) / (v * (0.15 * v + 0.5) + 0.06) - 0.02 / 0.3;
     };
@@ -105,7 +105,7 @@ TEST_CASE("auto-exposure: a black picture changes nothing, and is no reason for 
   CHECK(adapted(lab) == -1);
   const Picture picture = lab.read("post.ldr");
   for (std::uint32_t x = 0; x < picture.width; ++x) CHECK(picture.at(x, 7)[0] == 0);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
 }
 
 TEST_CASE(
@@ -128,6 +128,6 @@ TEST_CASE(
       lab.frame(frame);
       CHECK(std::abs(adapted(lab) * level / kKey - 1) < 0.012);
     }
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
   }
 }

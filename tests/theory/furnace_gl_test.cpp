@@ -69,7 +69,7 @@ std::vector<Range> rangesOf(const Setup& setup) {
         range.high = std::max<double>(range.high, texel[c] / texel[3]);
       }
     }
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return ranges;
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("white furnace: a partial metal is the mix of metal and dielectric, wi
       Lab lab(setup);
       lab.frame();
       pictures.push_back(lab.read("hdr"));
-      CHECK(lab.complaints() == "");
+      CHECK(lab.reports() == "");
     }
     double worst = 0;
     int seen = 0;

@@ -90,7 +90,7 @@ std::string Lab::passNames() const {
   return names;
 }
 
-std::string Lab::complaints() {
+std::string Lab::reports() {
   sharedContext().debugLog().drain(diagnostics_);
   return diagnostics_.text();
 }

@@ -55,7 +55,7 @@ class Lab {
   std::vector<std::uint32_t> readBuffer(const std::string& resource, std::size_t words);
   std::string passNames() const;  // of what runs, in order, a line each
   // Everything the driver and the engine said; "" when there is nothing above a note.
-  std::string complaints();
+  std::string reports();
   const runtime::World& world() const { return world_; }
   scene::ViewData view() const;
   // The view of a frame at 60 frames per second, with the one before it.

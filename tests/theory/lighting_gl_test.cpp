@@ -54,7 +54,7 @@ TEST_CASE("irradiance: within 0.5 % of its greatest value") {
     }
   MESSAGE("worst error, relative to the peak: ", worst / peak);
   CHECK(worst < 0.005 * peak);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
 }
 
 TEST_CASE("prefilter: each level matches its roughness, 0.1 to 1, within 2.5 % of the lobe's peak") {
@@ -100,7 +100,7 @@ float meanLuminance(std::shared_ptr<const weft::assets::ImageF> environment) {
   setup.environment = std::move(environment);
   Lab lab(setup);
   lab.frame();
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return std::bit_cast<float>(lab.readBuffer("ibl.luminance", 1)[0]);
 }
 
@@ -140,7 +140,7 @@ Spot spotOf(std::shared_ptr<const weft::assets::ImageF> environment) {
   setup.environment = std::move(environment);
   Lab lab(setup);
   lab.frame();
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   Spot spot;
   const std::vector<std::uint32_t> words = lab.readBuffer("ibl.brightest", 8);
   static_assert(sizeof spot == 32);
@@ -181,5 +181,5 @@ TEST_CASE("the maps made in slices are those made at once, byte for byte") {
     CHECK(sliced.read("ibl.specular", level).texels == whole.read("ibl.specular", level).texels);
   CHECK(sliced.read("ibl.irradiance").texels == whole.read("ibl.irradiance").texels);
   CHECK(sliced.readBuffer("ibl.luminance", 1) == whole.readBuffer("ibl.luminance", 1));
-  CHECK(sliced.complaints() == "");
+  CHECK(sliced.reports() == "");
 }

@@ -46,7 +46,7 @@ Sets plain(Color left, Color right, Sets more = {}) {
 Picture render(Sets sets, std::uint32_t frame = 0, std::uint32_t width = kWidth) {
   Lab lab({.graph = "tests/theory/look.json", .width = width, .height = kHeight, .sets = std::move(sets)});
   lab.frame(frame);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return lab.read("post.ldr");
 }
 
@@ -291,7 +291,7 @@ TEST_CASE("aberration: white lines spread into a spectrum without gaps, as many 
   Lab lab(setup);
   lab.frame(0);
   const Picture panels = lab.read("panels");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   const double corner = 0.5 * std::hypot(kWide, kWide);
   // impulse_exact.json has a linear curve that ends at 32. The picture between the texels of a square of light, linear as a sampler makes it.
   const auto light = [&](double x, double y) {

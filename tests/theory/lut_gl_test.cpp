@@ -61,7 +61,7 @@ Picture render(const std::string& file, const char* strength = "1") {
                 {"lut_strength", strength}};
   Lab lab(setup);
   lab.frame();
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return lab.read("post.ldr");
 }
 

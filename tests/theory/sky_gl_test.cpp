@@ -52,7 +52,7 @@ Picture draw(const Setup& setup) {
   Lab lab(setup);
   lab.frame();
   const Picture picture = lab.read("hdr");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return picture;
 }
 

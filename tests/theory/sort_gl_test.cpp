@@ -35,7 +35,7 @@ void compare(std::vector<Ball> balls) {
   for (std::size_t i = 0; i < balls.size(); ++i) wrong += words[i * 2 + 1] != truth[i];
   CAPTURE(balls.size());
   CHECK(wrong == 0);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
 }
 
 std::vector<Ball> randomBalls(std::size_t count, std::uint32_t seed, bool special) {

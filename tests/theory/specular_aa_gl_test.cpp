@@ -50,7 +50,7 @@ Picture draw(const Setup& setup) {
   Lab lab(setup);
   lab.frame();
   Picture panels = lab.read("panels");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return panels;
 }
 

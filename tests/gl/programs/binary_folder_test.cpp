@@ -9,10 +9,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "tests/gl/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft::gl;
-using weft::gl::test::TempFolder;
 namespace fs = std::filesystem;
 
 namespace {
@@ -33,49 +32,49 @@ std::uint64_t bytesIn(const std::string& folder) {
 }
 
 // File i was used i minutes after the first.
-void fill(TempFolder& folder, int count) {
+void fill(TemporaryFolder& folder, int count) {
   const auto now = fs::file_time_type::clock::now();
   for (int i = 0; i < count; ++i) {
     folder.write(nameOf(i), bytesFor(1000));
-    fs::last_write_time(folder.path(nameOf(i)), now - std::chrono::minutes(count + 10 - i));
+    fs::last_write_time(folder.at(nameOf(i)), now - std::chrono::minutes(count + 10 - i));
   }
 }
 
 }  // namespace
 
 TEST_CASE("the binaries used longest ago go first, down to seven eighths of the limit") {
-  TempFolder folder;
+  TemporaryFolder folder;
   fill(folder, 20);
-  touchBinary(folder.path(nameOf(0)));
-  CHECK(pruneBinaries(folder.path(), 20000).removed == 0);
-  const BinaryFolderUse use = pruneBinaries(folder.path(), 16000);
+  touchBinary(folder.at(nameOf(0)));
+  CHECK(pruneBinaries(folder.path().string(), 20000).removed == 0);
+  const BinaryFolderUse use = pruneBinaries(folder.path().string(), 16000);
   CHECK(use.removed == 6);
   CHECK(use.bytes == 14000);
-  CHECK(bytesIn(folder.path()) == 14000);
-  CHECK(fs::exists(folder.path(nameOf(0))));
-  for (int i = 1; i <= 6; ++i) CHECK_FALSE(fs::exists(folder.path(nameOf(i))));
-  for (int i = 7; i < 20; ++i) CHECK(fs::exists(folder.path(nameOf(i))));
+  CHECK(bytesIn(folder.path().string()) == 14000);
+  CHECK(fs::exists(folder.at(nameOf(0))));
+  for (int i = 1; i <= 6; ++i) CHECK_FALSE(fs::exists(folder.at(nameOf(i))));
+  for (int i = 7; i < 20; ++i) CHECK(fs::exists(folder.at(nameOf(i))));
 }
 
 TEST_CASE("files of others are never removed") {
-  TempFolder folder;
+  TemporaryFolder folder;
   fill(folder, 4);
   const std::string other = bytesFor(100000);
   folder.write("notes.bin", other);
   folder.write(nameOf(4) + ".txt", other);
   folder.write(nameOf(5), std::string(100000, 'y'));
   folder.write("kept", bytesFor(100000));
-  fs::create_symlink(folder.path("kept"), folder.path(nameOf(6)));
-  fs::create_directory(folder.path(nameOf(7)));
-  CHECK(pruneBinaries(folder.path(), 100).removed == 4);
+  fs::create_symlink(folder.at("kept"), folder.at(nameOf(6)));
+  fs::create_directory(folder.at(nameOf(7)));
+  CHECK(pruneBinaries(folder.path().string(), 100).removed == 4);
   for (const std::string& name :
        {std::string("notes.bin"), nameOf(4) + ".txt", nameOf(5), nameOf(6), nameOf(7), std::string("kept")})
-    CHECK_MESSAGE(fs::exists(folder.path(name)), name);
-  CHECK(pruneBinaries(folder.path("nowhere"), 100).bytes == 0);
+    CHECK_MESSAGE(fs::exists(folder.at(name)), name);
+  CHECK(pruneBinaries(folder.at("nowhere"), 100).bytes == 0);
 }
 
 TEST_CASE("several processes write and remove at once") {
-  TempFolder folder;
+  TemporaryFolder folder;
   fill(folder, 100);
   std::vector<pid_t> processes;
   for (int p = 1; p <= 4; ++p) {
@@ -83,15 +82,15 @@ TEST_CASE("several processes write and remove at once") {
     REQUIRE(pid >= 0);
     if (pid == 0) {
       for (int i = 0; i < 50; ++i) {
-        const std::string path = folder.path(nameOf(1000 * p + i));
+        const std::string path = folder.at(nameOf(1000 * p + i));
         {
           std::ofstream file(path + ".tmp", std::ios::binary);
           file << bytesFor(1000);
         }
         std::error_code ec;
         fs::rename(path + ".tmp", path, ec);
-        touchBinary(folder.path(nameOf(i)));
-        if (ec || pruneBinaries(folder.path(), 20000).bytes > 20000) ::_exit(1);
+        touchBinary(folder.at(nameOf(i)));
+        if (ec || pruneBinaries(folder.path().string(), 20000).bytes > 20000) ::_exit(1);
       }
       ::_exit(0);
     }
@@ -102,6 +101,6 @@ TEST_CASE("several processes write and remove at once") {
     CHECK(::waitpid(pid, &status, 0) == pid);
     CHECK(status == 0);
   }
-  CHECK(bytesIn(folder.path()) <= 24000);  // each process may have written one more
-  CHECK(pruneBinaries(folder.path(), 20000).bytes <= 20000);
+  CHECK(bytesIn(folder.path().string()) <= 24000);  // each process may have written one more
+  CHECK(pruneBinaries(folder.path().string(), 20000).bytes <= 20000);
 }

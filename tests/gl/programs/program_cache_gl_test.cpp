@@ -10,15 +10,14 @@
 #include "engine/gl/programs/program_cache.h"
 #include "tests/gl/documented.h"
 #include "tests/gl/gl_test.h"
-#include "tests/gl/temp_folder.h"
 #include "tests/skip.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft::gl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::gl::test::CleanScope;
 using weft::gl::test::context;
-using weft::gl::test::TempFolder;
 namespace fs = std::filesystem;
 
 namespace {
@@ -71,8 +70,8 @@ void skipBinaries() {
 
 struct Fixture {
   CleanScope clean;
-  TempFolder folder;
-  SourceLoader loader{{folder.path()}};
+  TemporaryFolder folder;
+  SourceLoader loader{{folder.path().string()}};
   Diagnostics diagnostics;
   Fixture() { folder.write("n.comp.glsl", kShader); }
 };
@@ -127,7 +126,7 @@ TEST_CASE_FIXTURE(Fixture, "the default holds 32") {
 TEST_CASE_FIXTURE(Fixture, "an evicted variant comes back from disk without a compile, also in a new cache" *
                                doctest::test_suite("binaries")) {
   if (!hasBinaries()) return skipBinaries();
-  const std::string disk = folder.path("cache/binaries");
+  const std::string disk = folder.at("cache/binaries");
   {
     ProgramCache cache(context().device(), loader, {.capacity = 1, .folder = disk});
     for (const int n : {1, 2, 1, 2}) {
@@ -151,7 +150,7 @@ TEST_CASE_FIXTURE(Fixture, "an evicted variant comes back from disk without a co
 TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written anew, and is no error" *
                                doctest::test_suite("binaries")) {
   if (!hasBinaries()) return skipBinaries();
-  const std::string disk = folder.path("cache");
+  const std::string disk = folder.at("cache");
   const auto fill = [&] {
     ProgramCache cache(context().device(), loader, {.capacity = 4, .folder = disk});
     const auto variant = cache.get(variantOf(7), diagnostics);
@@ -194,7 +193,7 @@ TEST_CASE_FIXTURE(Fixture, "a damaged or foreign binary is a miss, is written an
 TEST_CASE_FIXTURE(Fixture, "a binary of another driver or backend is not even looked at" *
                                doctest::test_suite("binaries")) {
   if (!hasBinaries()) return skipBinaries();
-  const std::string disk = folder.path("cache");
+  const std::string disk = folder.at("cache");
   ProgramCache(context().device(), loader, {.capacity = 4, .folder = disk}).get(variantOf(1), diagnostics);
   DeviceInfo other = context().device();
   other.driverKey = "0123456789abcdef";
@@ -214,7 +213,7 @@ TEST_CASE_FIXTURE(
     Diagnostics errors;
     CHECK_FALSE(cache.get(variantOf(1), errors));
     REQUIRE(errors.contains(Code::shaderDoesNotCompile));
-    CHECK(*errors.items()[0].place.file == folder.path("n.comp.glsl"));
+    CHECK(*errors.items()[0].place.file == folder.at("n.comp.glsl"));
     CHECK(errors.items()[0].pass == "count");
   }
   CHECK(runVariant(*good) == 1);  // the last good one is still there for who holds it
@@ -222,7 +221,7 @@ TEST_CASE_FIXTURE(
   CHECK(cache.stats().failures == 1);
   folder.write("n.comp.glsl", kShader);
   CHECK(cache.get(variantOf(1), diagnostics) == good);
-  fs::remove(folder.path("n.comp.glsl"));
+  fs::remove(folder.at("n.comp.glsl"));
   Diagnostics missing;
   CHECK_FALSE(cache.get(variantOf(1), missing));
   CHECK(missing.contains(Code::unreadableShader));
@@ -232,7 +231,7 @@ TEST_CASE_FIXTURE(
 TEST_CASE_FIXTURE(Fixture, "ten thousand random requests compile each combination once" *
                                doctest::test_suite("binaries")) {
   if (!hasBinaries()) return skipBinaries();
-  ProgramCache cache(context().device(), loader, {.capacity = 8, .folder = folder.path("cache")});
+  ProgramCache cache(context().device(), loader, {.capacity = 8, .folder = folder.at("cache")});
   std::mt19937 random(7);
   std::set<int> asked;
   for (int i = 0; i < 10000; ++i) {
@@ -371,7 +370,7 @@ TEST_CASE_FIXTURE(Fixture, "functions in a circle are reported where they stand"
 TEST_CASE_FIXTURE(Fixture, "the folder of binaries stays below its limit, and what is used stays in it" *
                                doctest::test_suite("binaries")) {
   if (!hasBinaries()) return skipBinaries();
-  const std::string disk = folder.path("bounded");
+  const std::string disk = folder.at("bounded");
   std::uint64_t each = 0;
   {
     ProgramCache cache(context().device(), loader, {.capacity = 32, .folder = disk});

@@ -3,15 +3,14 @@
 #include "engine/gl/programs/program.h"
 #include "tests/gl/documented.h"
 #include "tests/gl/gl_test.h"
-#include "tests/gl/temp_folder.h"
 #include "tests/skip.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft::gl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::base::Severity;
 using weft::gl::test::CleanScope;
-using weft::gl::test::TempFolder;
 
 namespace {
 
@@ -147,14 +146,14 @@ void main() {
 
 TEST_CASE("compile errors stand at the true line and column of an include, all stages at once") {
   CleanScope clean;
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write(
       "bad.glsl",
       "float fine() { return 1.0; }\nfloat bad() {\n  float  x =\t 1.0;   return x + no_such_name;\n}\n");
   folder.write("x.frag.glsl",
                "#include \"bad.glsl\"\nout vec4 result;\nvoid main() { result = vec4(fine()); }\n");
   folder.write("x.vert.glsl", "void main() {\n  gl_Position = vec5(0);\n}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const StageSource stages[] = {{GL_VERTEX_SHADER, loader.load("x.vert.glsl", diagnostics)},
                                 {GL_FRAGMENT_SHADER, loader.load("x.frag.glsl", diagnostics)}};
@@ -164,8 +163,8 @@ TEST_CASE("compile errors stand at the true line and column of an include, all s
   for (const auto& d : diagnostics.items()) {
     CHECK(d.code == Code::shaderDoesNotCompile);
     REQUIRE(d.place.file);
-    if (*d.place.file == folder.path("x.vert.glsl") && d.place.line == 2) vertex = true;
-    if (*d.place.file == folder.path("bad.glsl") && d.place.line == 3 &&
+    if (*d.place.file == folder.at("x.vert.glsl") && d.place.line == 2) vertex = true;
+    if (*d.place.file == folder.at("bad.glsl") && d.place.line == 3 &&
         d.message.find("no_such_name") != std::string::npos) {
       fragment = true;
       CHECK(d.place.column == 33);

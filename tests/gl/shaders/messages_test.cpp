@@ -3,19 +3,18 @@
 
 #include "engine/gl/shaders/source.h"
 #include "tests/gl/documented.h"
-#include "tests/gl/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft::gl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::base::Severity;
-using weft::gl::test::TempFolder;
 
 TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("a.glsl", "float a;\n  float  b;\n");
   folder.write("x.frag.glsl", "float before;\n#include \"a.glsl\"\nvoid main() {\n}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics none;
   const auto source = loader.load("x.frag.glsl", none);
   REQUIRE(source);
@@ -25,12 +24,12 @@ TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column"
                "0:2(9): preprocessor error: bad\n",
                *source, Code::shaderDoesNotCompile, mesa) == 3);
   REQUIRE(mesa.size() == 3);
-  CHECK(*mesa.items()[0].place.file == folder.path("a.glsl"));
+  CHECK(*mesa.items()[0].place.file == folder.at("a.glsl"));
   CHECK(mesa.items()[0].place.line == 2);
   CHECK(mesa.items()[0].place.column == 6);
   CHECK(mesa.items()[0].message == "'foo' is not declared");
   CHECK(mesa.items()[0].severity == Severity::error);
-  CHECK(*mesa.items()[1].place.file == folder.path("x.frag.glsl"));
+  CHECK(*mesa.items()[1].place.file == folder.at("x.frag.glsl"));
   CHECK(mesa.items()[1].place.line == 3);
   CHECK(mesa.items()[1].severity == Severity::warning);
   CHECK(*mesa.items()[2].place.file == "<defines>");
@@ -42,7 +41,7 @@ TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column"
                "0(10005) : warning C7050: \"x\" might be used before being initialized\n",
                *source, Code::shaderDoesNotCompile, nvidia) == 2);
   REQUIRE(nvidia.size() == 2);
-  CHECK(*nvidia.items()[0].place.file == folder.path("a.glsl"));
+  CHECK(*nvidia.items()[0].place.file == folder.at("a.glsl"));
   CHECK(nvidia.items()[0].place.line == 1);
   CHECK(nvidia.items()[0].place.column == 0);
   CHECK(nvidia.items()[0].message == "'foo' is not declared");
@@ -54,7 +53,7 @@ TEST_CASE("logs of Mesa and NVIDIA are mapped to the true file, line and column"
                "needed\nsomething\n",
                *source, Code::programDoesNotLink, others) == 2);
   REQUIRE(others.size() == 2);
-  CHECK(*others.items()[0].place.file == folder.path("x.frag.glsl"));
+  CHECK(*others.items()[0].place.file == folder.at("x.frag.glsl"));
   CHECK(others.items()[0].place.line == 1);
   CHECK(others.items()[1].message == "fragment shader lacks main which is needed something");
   CHECK(others.items()[1].place.line == 0);
@@ -77,9 +76,9 @@ TEST_CASE("the broken shaders give the messages of docs/errors.md") {
 
 TEST_CASE(
     "of overloads that do not fit the nearest are named, an undeclared name gets the nearest declared one") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("a.frag.glsl", "uniform sampler2D skyy;\nvoid main() { textureSize(sky, 0); }\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source = loader.load("a.frag.glsl", diagnostics);
   REQUIRE(source);

@@ -6,14 +6,13 @@
 #include <algorithm>
 
 #include "engine/base/files/file_access.h"
-#include "tests/gl/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft::gl;
 using weft::base::Code;
 using weft::base::Diagnostic;
 using weft::base::Diagnostics;
 using weft::base::Severity;
-using weft::gl::test::TempFolder;
 
 namespace {
 
@@ -36,33 +35,33 @@ std::pair<std::string, std::uint32_t> placeOf(const ShaderSource& source, const 
 }  // namespace
 
 TEST_CASE("includes are found beside the includer and below the roots, once each, with true lines") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("common/a.glsl", "#pragma once\n#include \"deep/b.glsl\"\nfloat a() { return b(); }\n");
   folder.write("common/deep/b.glsl", "// first line\nfloat b() { return 1.0; }\n");
   folder.write("fx/x.frag.glsl",
                "#include \"common/a.glsl\"\n#include \"local.glsl\"\n#include \"common/deep/b.glsl\"\nvoid "
                "main() { a(); }\n");
   folder.write("fx/local.glsl", "float local_value;");  // no newline at the end
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source = loader.load("fx/x.frag.glsl", diagnostics);
   REQUIRE_MESSAGE(source, diagnostics.text());
   CHECK(diagnostics.empty());
   CHECK(occurrences(source->text, "float b()") == 1);
-  CHECK(placeOf(*source, "float b()") == std::pair(folder.path("common/deep/b.glsl"), 2u));
-  CHECK(placeOf(*source, "float a()") == std::pair(folder.path("common/a.glsl"), 3u));
-  CHECK(placeOf(*source, "local_value") == std::pair(folder.path("fx/local.glsl"), 1u));
-  CHECK(placeOf(*source, "void main") == std::pair(folder.path("fx/x.frag.glsl"), 4u));
-  CHECK(*source->file == folder.path("fx/x.frag.glsl"));
+  CHECK(placeOf(*source, "float b()") == std::pair(folder.at("common/deep/b.glsl"), 2u));
+  CHECK(placeOf(*source, "float a()") == std::pair(folder.at("common/a.glsl"), 3u));
+  CHECK(placeOf(*source, "local_value") == std::pair(folder.at("fx/local.glsl"), 1u));
+  CHECK(placeOf(*source, "void main") == std::pair(folder.at("fx/x.frag.glsl"), 4u));
+  CHECK(*source->file == folder.at("fx/x.frag.glsl"));
 }
 
 TEST_CASE("a file included inside an #if is still there when it is included again") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("v.glsl", "float v;\n");
   folder.write(
       "x.frag.glsl",
       "#ifdef A\n#include \"v.glsl\"\n#endif\n#include \"v.glsl\"\n#include \"v.glsl\"\nvoid main() {}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source = loader.load("x.frag.glsl", diagnostics);
   REQUIRE(source);
@@ -72,21 +71,20 @@ TEST_CASE("a file included inside an #if is still there when it is included agai
 }
 
 TEST_CASE("cycles are reported with their path, once, at the include that closes them") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("a.glsl", "#include \"b.glsl\"\n");
   folder.write("b.glsl", "\n\n  #include \"a.glsl\"\n");
   folder.write("x.frag.glsl", "#include \"a.glsl\"\nvoid main() {}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
   REQUIRE(diagnostics.size() == 1);
   const Diagnostic& cycle = diagnostics.items()[0];
   CHECK(cycle.code == Code::shaderIncludeCycle);
-  CHECK(*cycle.place.file == folder.path("b.glsl"));
+  CHECK(*cycle.place.file == folder.at("b.glsl"));
   CHECK(cycle.place.line == 3);
   CHECK(cycle.place.column == 3);
-  const std::string chain =
-      folder.path("a.glsl") + " -> " + folder.path("b.glsl") + " -> " + folder.path("a.glsl");
+  const std::string chain = folder.at("a.glsl") + " -> " + folder.at("b.glsl") + " -> " + folder.at("a.glsl");
   CHECK(cycle.message.find(chain) != std::string::npos);
   folder.write("self.frag.glsl", "#include \"self.frag.glsl\"\n");
   Diagnostics itself;
@@ -95,13 +93,13 @@ TEST_CASE("cycles are reported with their path, once, at the include that closes
 }
 
 TEST_CASE("everything wrong with the directives is reported at once, with places and the nearest file") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("common/view.glsl", "");
   folder.write(
       "x.frag.glsl",
       "#version 330\n#include \"common/veiw.glsl\"\n#include <common/view.glsl>\n// #include \"no.glsl\"\n"
       "/*\n#include \"no.glsl\"\n*/\n#include\nvoid main() {}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
   REQUIRE_MESSAGE(diagnostics.size() == 4, diagnostics.text());
@@ -118,9 +116,9 @@ TEST_CASE("everything wrong with the directives is reported at once, with places
 }
 
 TEST_CASE("a missing shader is reported at the one who named it, a directory as a directory") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("sky/sky.frag.glsl", "void main() {}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const weft::base::Place graph{std::make_shared<const std::string>("studio.json"), 12, 40};
   CHECK_FALSE(loader.load("sky/skye.frag.glsl", diagnostics, graph));
@@ -134,9 +132,9 @@ TEST_CASE("a missing shader is reported at the one who named it, a directory as 
 }
 
 TEST_CASE("an empty shader is reported as that, where it is") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("empty.frag.glsl", " \n\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   CHECK_FALSE(loader.load("empty.frag.glsl", diagnostics));
   REQUIRE(diagnostics.size() == 1);
@@ -148,35 +146,33 @@ TEST_CASE("an empty shader is reported as that, where it is") {
 }
 
 TEST_CASE("a shader's path leads where it says, until reading is confined") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("secret.glsl", "float secret;\n");
   folder.write("x/shaders/a.frag.glsl", "void main() {}\n");
   folder.write("x/shaders/up.frag.glsl", "#include \"../../secret.glsl\"\nvoid main() {}\n");
   folder.write("x/shaders/gone.frag.glsl", "#include \"../../gone.glsl\"\nvoid main() {}\n");
-  SourceLoader loader({folder.path("x/shaders")});
+  SourceLoader loader({folder.at("x/shaders")});
   Diagnostics diagnostics;
   for (const std::string& path :
        {std::string("./a.frag.glsl"), std::string("sky/../a.frag.glsl"), std::string("../../secret.glsl"),
-        folder.path("secret.glsl"), std::string("up.frag.glsl")})
+        folder.at("secret.glsl"), std::string("up.frag.glsl")})
     CHECK_MESSAGE(loader.load(path, diagnostics), diagnostics.text());
   CHECK_FALSE(loader.load("../../gone.glsl", diagnostics));
   CHECK(diagnostics.items()[0].code == Code::unreadableShader);
   diagnostics.clear();
 
   loader.clear();
-  REQUIRE_FALSE(weft::base::confineTo(folder.path("x")));
+  REQUIRE_FALSE(weft::base::confineTo(folder.at("x")));
   CHECK(loader.load("a.frag.glsl", diagnostics));
-  const std::pair<std::string, std::string> outside[] = {{"../../secret.glsl", "secret.glsl"},
-                                                         {"../../gone.glsl", "gone.glsl"},
-                                                         {folder.path("secret.glsl"), "secret.glsl"},
-                                                         {folder.path("gone.glsl"), "gone.glsl"},
-                                                         {"up.frag.glsl", "secret.glsl"},
-                                                         {"gone.frag.glsl", "gone.glsl"}};
+  const std::pair<std::string, std::string> outside[] = {
+      {"../../secret.glsl", "secret.glsl"},      {"../../gone.glsl", "gone.glsl"},
+      {folder.at("secret.glsl"), "secret.glsl"}, {folder.at("gone.glsl"), "gone.glsl"},
+      {"up.frag.glsl", "secret.glsl"},           {"gone.frag.glsl", "gone.glsl"}};
   for (const auto& [path, told] : outside) {
     CHECK_FALSE(loader.load(path, diagnostics));
     REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
     CHECK(diagnostics.items()[0].code == Code::outsideConfinement);
-    CHECK(diagnostics.items()[0].message.starts_with("'" + folder.path(told.c_str()) + "'"));
+    CHECK(diagnostics.items()[0].message.starts_with("'" + folder.at(told.c_str()) + "'"));
     diagnostics.clear();
   }
   CHECK_FALSE(loader.load("b.frag.glsl", diagnostics));
@@ -186,9 +182,9 @@ TEST_CASE("a shader's path leads where it says, until reading is confined") {
 }
 
 TEST_CASE("a shader that is a pipe is refused") {
-  TempFolder folder;
-  REQUIRE(::mkfifo(folder.path("pipe.frag.glsl").c_str(), 0600) == 0);
-  SourceLoader loader({folder.path()});
+  TemporaryFolder folder;
+  REQUIRE(::mkfifo(folder.at("pipe.frag.glsl").c_str(), 0600) == 0);
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   CHECK_FALSE(loader.load("pipe.frag.glsl", diagnostics));
   REQUIRE(diagnostics.size() == 1);
@@ -196,10 +192,10 @@ TEST_CASE("a shader that is a pipe is refused") {
 }
 
 TEST_CASE("an unchanged file is expanded once, a changed include again") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("a.glsl", "float one;\n");
   folder.write("x.frag.glsl", "#include \"a.glsl\"\nvoid main() {}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto first = loader.load("x.frag.glsl", diagnostics);
   CHECK(loader.load("x.frag.glsl", diagnostics) == first);
@@ -220,11 +216,11 @@ TEST_CASE("an unchanged file is expanded once, a changed include again") {
 }
 
 TEST_CASE("what was read, and what was looked for in vain, is what to watch") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("x/a.glsl", "#include \"b.glsl\"\n");
   folder.write("x/b.glsl", "float b;\n");
   folder.write("x/wants.glsl", "#include \"b.glsl\"\n#include \"late.glsl\"\n");
-  const std::string root = folder.path(), other = folder.path("other");
+  const std::string root = folder.path().string(), other = folder.at("other");
   SourceLoader loader({root, other});
   Diagnostics diagnostics;
   using Paths = std::set<std::string>;
@@ -244,34 +240,34 @@ TEST_CASE("what was read, and what was looked for in vain, is what to watch") {
 }
 
 TEST_CASE("a shader that is too large is not read, and is watched until it is smaller") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("x/a.glsl", "float a;\n");
   folder.write("x/includes.glsl", "#include \"large.glsl\"\n");
   for (const char* name : {"x/large.glsl", "x/large.frag.glsl"}) {
     folder.write(name, "void main() {}\n");
-    std::filesystem::resize_file(folder.path(name), (std::uintmax_t{16} << 20) + 1);
+    std::filesystem::resize_file(folder.at(name), (std::uintmax_t{16} << 20) + 1);
   }
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   CHECK_FALSE(loader.load("x/large.frag.glsl", diagnostics));
   REQUIRE(diagnostics.size() == 1);
   const Diagnostic& large = diagnostics.items()[0];
   CHECK(large.code == Code::shaderTooLarge);
-  CHECK(*large.place.file == folder.path("x/large.frag.glsl"));
+  CHECK(*large.place.file == folder.at("x/large.frag.glsl"));
   CHECK(large.expected == "at most 1048576 bytes of one shader with what it includes");
   CHECK(large.found == "16777217");
   CHECK(large.hint.ends_with("raise it with --limit shader_bytes=2097152, if that is meant"));
-  CHECK(loader.touched() == std::set{folder.path("x/large.frag.glsl")});
+  CHECK(loader.touched() == std::set{folder.at("x/large.frag.glsl")});
 
   diagnostics.clear();
   loader.forgetTouched();
   CHECK_FALSE(loader.load("x/includes.glsl", diagnostics));
   REQUIRE(diagnostics.size() == 1);
   CHECK(diagnostics.items()[0].message == "includes expand to more than 16 MiB");
-  CHECK(diagnostics.items()[0].found == "'" + folder.path("x/large.glsl") + "' of 16777217 bytes");
-  CHECK(*diagnostics.items()[0].place.file == folder.path("x/includes.glsl"));
+  CHECK(diagnostics.items()[0].found == "'" + folder.at("x/large.glsl") + "' of 16777217 bytes");
+  CHECK(*diagnostics.items()[0].place.file == folder.at("x/includes.glsl"));
   CHECK(diagnostics.items()[0].place.line == 1);
-  CHECK(loader.touched() == std::set{folder.path("x/includes.glsl"), folder.path("x/large.glsl")});
+  CHECK(loader.touched() == std::set{folder.at("x/includes.glsl"), folder.at("x/large.glsl")});
 
   diagnostics.clear();
   folder.write("x/large.glsl", "float b;\n");
@@ -280,25 +276,25 @@ TEST_CASE("a shader that is too large is not read, and is watched until it is sm
 }
 
 TEST_CASE("no more files than a number are looked at for names near to missing ones") {
-  TempFolder folder;
+  TemporaryFolder folder;
   for (int i = 0; i < 20; ++i) folder.write("f" + std::to_string(i) + "/a.glsl", "float a;\n");
-  const std::string root = folder.path();
+  const std::string root = folder.path().string();
   const auto seen = [&](ShaderNames& names) { return names.below({&root, 1}).size(); };
   ShaderNames all, some(10);
   CHECK(seen(all) == 20);
   const std::size_t few = seen(some);  // folders count as well
   CHECK(few > 0);
   CHECK(few <= 5);
-  const std::string other = folder.path("f0");
+  const std::string other = folder.at("f0");
   CHECK(some.below({&other, 1}).empty());
   some.forget();
   CHECK(some.below({&other, 1}).size() == 1);
 }
 
 TEST_CASE("text in memory includes from the roots only, and the prefix holds version and defines in order") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("a.glsl", "float a;\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source =
       loader.loadText("#include \"a.glsl\"\nvoid main() {}\n", "<fullscreen.vert>", diagnostics);
@@ -310,7 +306,7 @@ TEST_CASE("text in memory includes from the roots only, and the prefix holds ver
 }
 
 TEST_CASE("the scan knows comments, and finds what is declared") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("x.frag.glsl", R"(
 // uniform sampler2D commented;
 /* out vec4 also_commented; */
@@ -328,7 +324,7 @@ struct Row { vec3 center; };
 float helper(in float parameter_x, out float y) { float local_z = 1.0; y = local_z; return parameter_x; }
 void main() { int loose; result = texture(source, uv); }
 )");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source = loader.load("x.frag.glsl", diagnostics);
   REQUIRE(source);

@@ -5,21 +5,20 @@
 
 #include <algorithm>
 
-#include "tests/gl/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft::gl;
 using weft::base::Code;
 using weft::base::Diagnostic;
 using weft::base::Diagnostics;
-using weft::gl::test::TempFolder;
 
 namespace {
 
 // What a log says of a text; `at` 0:LINE(COLUMN) or 0(LINE) with lines of the text from 1.
 Diagnostics said(const std::string& text, const std::string& log) {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("x.frag.glsl", text);
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source = loader.load("x.frag.glsl", diagnostics);
   REQUIRE(source);
@@ -175,9 +174,9 @@ TEST_CASE("a member of a block with an instance name says so") {
 }
 
 TEST_CASE("a define that hides a name of the shader is told apart from a syntax error") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("x.frag.glsl", "uniform sampler2D source;\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source = loader.load("x.frag.glsl", diagnostics);
   REQUIRE(source);
@@ -190,13 +189,13 @@ TEST_CASE("a define that hides a name of the shader is told apart from a syntax 
 }
 
 TEST_CASE("the scan finds instance names of blocks, and the words of layout() of images") {
-  TempFolder folder;
+  TemporaryFolder folder;
   folder.write("x.comp.glsl",
                "layout(std430) buffer Rows { float value[]; } rows;\nlayout(std140) uniform Parameters { "
                "float gain; };\n"
                "layout(rgba16f, binding = 1) uniform writeonly image2D result;\nuniform sampler2D map;\n"
                "struct Row { float gain; } row;\nvoid main() {}\n");
-  SourceLoader loader({folder.path()});
+  SourceLoader loader({folder.path().string()});
   Diagnostics diagnostics;
   const auto source = loader.load("x.comp.glsl", diagnostics);
   REQUIRE(source);

@@ -41,7 +41,6 @@ TEST_CASE("a plan of other passes prepares its own") {
 TEST_CASE("a shader that does not compile leaves the running plan as it was") {
   const CleanScope clean;
   const TemporaryFolder folder;
-  std::filesystem::create_directory(folder.path() / "shaders");
   const auto write = [&](const char* result) {
     folder.write("shaders/a.frag.glsl",
                  std::string("out vec4 result;\nvoid main() { result = ") + result + "; }\n");

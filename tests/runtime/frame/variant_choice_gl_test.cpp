@@ -1,8 +1,8 @@
 // Which variant of a pass an age asks for, and how often one is made.
 #include "engine/runtime/frame/variant_choice.h"
-#include "tests/gl/temp_folder.h"
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::runtime::test;
@@ -52,7 +52,7 @@ TEST_CASE("a timed pass runs while its resource is young, and each variant is pr
 
 TEST_CASE("a variant that does not compile is reported once, and the pass keeps the one that it has") {
   const CleanScope clean;
-  gl::test::TempFolder folder;
+  TemporaryFolder folder;
   folder.write("shaders/young.frag.glsl", R"(uniform sampler2D pulse;
 out vec4 result;
 #if YOUNG
@@ -71,7 +71,7 @@ void main() { result = texelFetch(pulse, ivec2(0), 0); }
   ],
   "present": "shown"
 })");
-  Choosing one(folder.path("graph.json"));
+  Choosing one(folder.at("graph.json"));
   const auto variant = one.prepared["show"].variant;
   CHECK_FALSE(one.choose(kYoung));
   CHECK(one.diagnostics.contains(base::Code::shaderDoesNotCompile));

@@ -9,9 +9,9 @@
 
 #include "engine/runtime/prepare/prepared_pass.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "tests/gl/temp_folder.h"
 #include "tests/runtime/stage.h"
 #include "tests/skip.h"
+#include "tests/temporary_folder.h"
 
 using namespace weft;
 using namespace weft::runtime::test;
@@ -113,12 +113,12 @@ TEST_CASE("ten thousand toggles: each variant is compiled once, and the least re
   if (!context().device().hasProgramBinaries)
     return weft::test::skipCase(
         "the driver offers no program binaries; Mesa offers them with its shader cache on");
-  const gl::test::TempFolder folder;
+  const TemporaryFolder folder;
   for (const bool warm : {false, true}) {
     INFO((warm ? "warm" : "cold"));
     const CleanScope clean;
     Model model;
-    const gl::ProgramCacheStats stats = toggleAll(folder.path("binaries"), model);
+    const gl::ProgramCacheStats stats = toggleAll(folder.at("binaries"), model);
     MESSAGE(model.distinct.size() << " distinct variants, " << stats.compilations << " compiled from source, "
                                   << stats.hits << " hits, " << stats.misses << " misses, " << stats.evictions
                                   << " evictions");

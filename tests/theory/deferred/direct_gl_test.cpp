@@ -92,7 +92,7 @@ TEST_CASE(
                    worst = std::max(worst, std::abs(color[c] - truth) - 0.004 * truth);
                  }
                });
-      CHECK(lab.complaints() == "");
+      CHECK(lab.reports() == "");
     }
   MESSAGE("worst difference beyond 0.4 %: ", worst);
 }
@@ -149,7 +149,7 @@ TEST_CASE(
       }
       worst = std::max({worst, std::abs(sum[0] - 1.0), std::abs(sum[2] - 1.0)});
     }
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   MESSAGE("Cook-Torrance: worst difference from 1: ", worst);
 }
 

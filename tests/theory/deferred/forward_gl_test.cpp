@@ -76,6 +76,6 @@ TEST_CASE(
   CHECK(skies > 10000);
   CHECK(worst < 1);
   CHECK(other_sky == 0);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   MESSAGE("worst difference in steps of 255: ", worst);
 }

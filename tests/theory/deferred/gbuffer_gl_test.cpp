@@ -47,7 +47,7 @@ TEST_CASE("G-buffer: position from reversed-Z depth is the stored one within 1e-
   CHECK(seen > 8000);
   CHECK(worst < 1e-5);
   MESSAGE("worst difference, as a share of the distance: ", worst);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
 }
 
 TEST_CASE(

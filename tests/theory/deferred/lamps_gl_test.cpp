@@ -36,7 +36,7 @@ Picture render(Setup setup, const char* set, const char* value) {
   setup.sets.push_back({set, value});
   Lab lab(setup);
   lab.frame();
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return lab.read("panels");
 }
 

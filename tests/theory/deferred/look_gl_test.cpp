@@ -21,7 +21,7 @@ Picture render(const char* graph, const char* bloom, const std::string& width) {
   if (!width.empty()) setup.sets.push_back({"bloom_width", width});
   Lab lab(setup);
   lab.frame();
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return lab.read("panels");
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("dots: only 0 and 1, and every 4 x 4 of them as bright as the grey wit
           }
           CHECK(std::abs(mean - grey) <= 1.0 / 32 + 1e-5);
         }
-      CHECK(lab.complaints() == "");
+      CHECK(lab.reports() == "");
     }
 }
 

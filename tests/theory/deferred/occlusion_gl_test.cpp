@@ -58,7 +58,7 @@ Errors errorsOf(const Picture& panels, double nearest, double azimuth_low, doubl
 Picture render(const Setup& setup) {
   Lab lab(setup);
   lab.frame();
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return lab.read("panels");
 }
 

@@ -49,7 +49,7 @@ Picture render(Setup setup, const std::string& shadows) {
   setup.sets.push_back({"shadows", shadows});
   Lab lab(setup);
   lab.frame();
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return lab.read("panels");
 }
 

@@ -116,7 +116,7 @@ TEST_CASE(
           .window =
               std::string_view(window) == "hard" ? scene::ProbeWindow::hard : scene::ProbeWindow::smooth};
       CHECK(compare(readGrid(cpu, count), computedAt(cpu, 0, count, rules)).worst == 0);
-      CHECK(cpu.complaints() == "");
+      CHECK(cpu.reports() == "");
     }
 }
 
@@ -158,7 +158,7 @@ TEST_CASE(
     CHECK(mixed < 2e-5 * greatest);
     CHECK(turned < 1e-3);
     CHECK(halves < 1e-3 * greatest);  // half an ulp of a half is 2^-11 of each of nine coefficients
-    CHECK(textures.complaints() == "");
+    CHECK(textures.reports() == "");
   }
 }
 
@@ -220,7 +220,7 @@ std::vector<float> studio(const char* graph, const std::vector<Ball>& balls, flo
   Lab lab(setup);
   lab.frame();
   std::vector<float> texels = lab.read("hdr").texels;
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return texels;
 }
 

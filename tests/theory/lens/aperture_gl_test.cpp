@@ -92,7 +92,7 @@ Radiance throughLens(const View& view, const Lens& lens, const Sets& sets) {
         for (int c = 0; c < 3; ++c) to[c] += double(from[c]) / (double(places.size()) * finer * finer);
       }
   }
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return sum;
 }
 
@@ -110,7 +110,7 @@ Radiance byWeft(const View& view, const Lens& lens, const Sets& sets) {
   Lab lab(setup);
   lab.frame(0);
   const Picture panels = lab.read("panels");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   Radiance result;
   for (std::uint32_t y = 0; y < view.height; ++y)
     for (std::uint32_t x = 0; x < view.width; ++x)

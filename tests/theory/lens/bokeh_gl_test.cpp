@@ -36,7 +36,7 @@ TEST_CASE(
     Lab lab(setup);
     lab.frame(0);
     const Picture panels = lab.read("panels");
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
     Disc disc;
     double r2 = 0, cx = 0, cy = 0;
     const auto value = [&](std::uint32_t px, std::uint32_t py) {

@@ -52,7 +52,7 @@ Panels panelsOf(const Setup& setup) {
   Lab lab(setup);
   lab.frame(0);
   Panels panels{lab.read("panels")};
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return panels;
 }
 
@@ -192,7 +192,7 @@ TEST_CASE(
     Lab lab(setup);
     lab.frame(0);
     const Picture panels = lab.read("panels"), discs = lab.read("post.dof.discs");
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
     double step = 0, left = 0, right = 0;
     std::uint32_t at = 0, row = 0;
     for (std::uint32_t y = 1; y < kHigh; ++y)
@@ -242,7 +242,7 @@ TEST_CASE(
     Lab lab(setup);
     lab.frame(0);
     const Picture panels = lab.read("panels");
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
     double mass = 0, r2 = 0, least = 1, greatest = 0, mean = 0;
     int count = 0;
     for (std::uint32_t y = 64; y < 192; ++y)

@@ -40,7 +40,7 @@ std::vector<double> shown(const Setup& setup, std::uint32_t finer) {
   Lab lab(setup);
   lab.frame(0);
   const Picture picture = lab.read("post.ldr");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   std::vector<double> result(std::size_t{kWidth} * kHeight * 3);
   for (std::uint32_t y = 0; y < setup.height; ++y)
     for (std::uint32_t x = 0; x < setup.width; ++x)

@@ -36,7 +36,7 @@ Panels panelsOf(const Setup& setup) {
   lab.frame(0);
   lab.frame(1);
   Panels panels{lab.read("panels")};
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return panels;
 }
 

@@ -123,7 +123,7 @@ Shape shapeOf(const Light& light) {
   Lab lab(setupOf(light, emitter));
   lab.frame(0);
   const Picture panels = lab.read("panels");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   const double background = light.ball ? 1 : 0, radius = light.diameter / 2;
   // Seen from one place on the lens, what lies behind the focus is moved towards that place, and what lies before it away from it: so the
   // outline is upright behind the focus and upside down before it.

@@ -75,7 +75,7 @@ Radiance throughShutter(double turn) {
         for (std::size_t c = 0; c < 3; ++c)
           sum[(std::size_t{y} * kWidth + x) * 3 + c] += double(sharp.at(x, y)[c]) / kMoments;
   }
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return sum;
 }
 
@@ -88,7 +88,7 @@ Radiance byWeft(double turn, bool blurred = true) {
   lab.frame(0);
   lab.frame(1);
   const Picture panels = lab.read("panels");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   Radiance result;
   for (std::uint32_t y = 0; y < kHeight; ++y)
     for (std::uint32_t x = 0; x < kWidth; ++x)

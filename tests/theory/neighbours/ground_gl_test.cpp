@@ -93,7 +93,7 @@ TEST_CASE("ground: a black sphere leaves of the sky what the integral over the h
     CHECK(count > 150);
     CHECK(least < 0.88);
     CHECK(worst < 2.5e-3);
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
   }
 }
 
@@ -162,7 +162,7 @@ TEST_CASE(
     }
   CHECK(ground > 3000);
   CHECK(darker > 200);
-  CHECK(with.complaints() == "");
+  CHECK(with.reports() == "");
 }
 
 TEST_CASE("ground: in the studio spheres are drawn before it and take nothing of it but light") {
@@ -184,7 +184,7 @@ TEST_CASE("ground: in the studio spheres are drawn before it and take nothing of
     }
     CHECK(darker > 30);
     CHECK(brighter == 0);
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
   }
 }
 
@@ -199,7 +199,7 @@ TEST_CASE(
   Lab uncovered(setup);
   for (Lab* lab : {&whole, &bare, &uncovered}) {
     lab->frame();
-    CHECK(lab->complaints() == "");
+    CHECK(lab->reports() == "");
   }
   CHECK(whole.passNames().find("lit.ground_cover\n") != std::string::npos);
   CHECK(bare.passNames().find("lit.ground_cover\n") == std::string::npos);

@@ -125,7 +125,7 @@ void checkLists(const std::vector<Ball>& balls, std::size_t step, double reach =
   MESSAGE(balls.size(), " spheres: ", entries, " entries");
   CHECK(wrong == 0);
   CHECK((balls.size() == 1 || entries > 0));
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
 }
 
 }  // namespace

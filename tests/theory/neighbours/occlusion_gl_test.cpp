@@ -56,7 +56,7 @@ std::vector<Sample> look(const Setup& setup, std::uint32_t step) {
                        .sun = double(share[2]),
                        .around = double(around.at(x, y)[0])});
   }
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return samples;
 }
 

@@ -53,7 +53,7 @@ void compare(double azimuth) {
   Lab lab(wall.setup);
   lab.frame();
   const Picture picture = lab.read("panels");
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   const ReflectionOracle oracle = bundledOracle();
   std::vector<ReflectionOracle::Metal> metals;
   for (const double roughness : kRoughness) metals.push_back(ReflectionOracle::metalOf(roughness));

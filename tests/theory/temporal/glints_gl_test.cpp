@@ -109,7 +109,7 @@ std::vector<double> lightOf(const Moving& moving, const std::string& graph, cons
         sum += luminanceOf(picture.at(x, y)) - (1 - hidden(frame, x, y)) * luminanceOf(behind.at(x, y));
     light.push_back(sum);
   }
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return light;
 }
 

@@ -102,7 +102,7 @@ Encoded drawn(const Setup& setup, std::uint32_t frames) {
   Lab lab(setup);
   for (std::uint32_t frame = 0; frame < frames; ++frame) lab.frame(frame);
   Encoded out = encodedOf(lab);
-  CHECK(lab.complaints() == "");
+  CHECK(lab.reports() == "");
   return out;
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("temporal anti-aliasing: a still picture comes to rest, to the bit") {
       const bool same = lab.read("post.taa.kept").texels == rest.texels;
       CHECK(same);
     }
-    CHECK(lab.complaints() == "");
+    CHECK(lab.reports() == "");
   }
 }
 
