@@ -84,7 +84,8 @@ bool FrameCadence::wants(std::size_t step, const std::vector<std::uint64_t>& own
                          const std::vector<std::uint64_t>& generations) const {
   const Cadence cadence = passOf(plan_, step).cadence;
   if (cadence == Cadence::always) return true;
-  // Under way, any change of what was seen makes the rest of it another picture, also for `once`.
+  // While a group is under way, any change of what it has read would make the rest of its result another picture, also for
+  // `once`.
   if (groupOf_[step] != kNone && (groups_[groupOf_[step]].active || groups_[groupOf_[step]].finished))
     return differs(step, latches_[step], true, own, generations);
   return differs(step, memories_[step], cadence == Cadence::on_change, own, generations);
@@ -145,7 +146,7 @@ void FrameCadence::settle(const std::vector<std::uint64_t>& own,
       group.active = group.finished = false;
       continue;
     }
-    if (group.wants || (ahead && group.active)) {  // from the start: nothing that is half done is kept
+    if (group.wants || (ahead && group.active)) {  // it starts again: nothing that is half done is kept
       group.active = group.started = true;
       group.finished = false;
       group.at = group.slice = 0;
@@ -154,7 +155,7 @@ void FrameCadence::settle(const std::vector<std::uint64_t>& own,
   }
 }
 
-// The next slice and what rides with it, or all there is.
+// Lets the group's next slice run, with the passes without slices that follow it; `whole`: all of its passes.
 void FrameCadence::takeTurn(Group& group, bool whole) {
   const auto slicesOf = [&](std::uint32_t at) { return passOf(plan_, group.steps[at]).slices; };
   const auto end = static_cast<std::uint32_t>(group.steps.size());

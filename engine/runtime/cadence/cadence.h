@@ -35,8 +35,8 @@ class FrameCadence {
   // Takes `own[step]` and `generations[resource]` as they are before the frame. Afterwards runs(step) and slices(step)
   // give the result.
   void decide(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
-  // The same for a round ahead of the frame, in which time-sliced groups run whole. Of the other passes only those run
-  // that are not `always` and that a group may wait for. False, and nothing runs, when no time-sliced group has to.
+  // Decides a round ahead of the frame, in which time-sliced groups run whole. Of the other passes only those run that are
+  // not `always` and that a group may wait for. False, and nothing runs, when no time-sliced group has to.
   bool decideAhead(const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& generations);
   bool runs(std::size_t step) const { return run_[step] != 0; }
   SliceRange slices(std::size_t step) const { return slices_[step]; }
@@ -52,7 +52,7 @@ class FrameCadence {
   // generations and calls markPublished(). Until then the group counts as running.
   bool isFinished(std::uint32_t group) const { return groups_[group].finished; }
   void markPublished(std::uint32_t group);
-  // For a plan that takes over storage which already holds a publication of the group.
+  // Marks the group as published, for a plan that takes over storage which already holds a publication of it.
   void restorePublished(std::uint32_t group) { groups_[group].published = true; }
   bool isPublished(std::uint32_t group) const { return groups_[group].published; }
 

@@ -43,7 +43,7 @@ void openMasks(gl::StateCache& states) {
   states.depthMask(true);
   states.stencilMask(0xff);
   states.enable(GL_SCISSOR_TEST, false);
-  states.enable(GL_FRAMEBUFFER_SRGB, false);  // clears and copies keep bits
+  states.enable(GL_FRAMEBUFFER_SRGB, false);  // clears and copies do not convert
 }
 
 void openMasks() {
@@ -55,7 +55,7 @@ void openMasks() {
 
 void releaseBindings() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glDisable(GL_FRAMEBUFFER_SRGB);  // present copies bits
+  glDisable(GL_FRAMEBUFFER_SRGB);  // presenting does not convert
   glUseProgram(0);
   glBindVertexArray(0);
   glActiveTexture(GL_TEXTURE0);
@@ -80,7 +80,8 @@ void applyState(const PreparedPass& pass, gl::StateCache& states) {
   }
   states.enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
   states.viewport(static_cast<GLsizei>(pass.width), static_cast<GLsizei>(pass.height));
-  // Writing depth needs the test enabled; a pass that writes it without asking for a test passes always.
+  // OpenGL writes depth only while the test is enabled. So for a pass that writes depth and asks for no test, the test
+  // always passes.
   const bool depthTest = depthAttached && (state.depthTest || depthWritable);
   states.enable(GL_DEPTH_TEST, depthTest);
   if (depthTest) states.depthFunc(state.depthTest ? glCompareOf(state.depthCompare) : GL_ALWAYS);

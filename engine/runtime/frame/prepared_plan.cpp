@@ -13,7 +13,7 @@ namespace weft::runtime {
 
 namespace {
 
-// What the device refuses has no place of its own: `place` gives it that of what asked for it.
+// A refusal by the device has no place: `place` gives it the place of what asked for it.
 template <class Place>
 void appendWithPlaces(const base::Diagnostics& said, const Place& place, base::Diagnostics& diagnostics) {
   for (base::Diagnostic each : said.items()) {
@@ -22,8 +22,8 @@ void appendWithPlaces(const base::Diagnostics& said, const Place& place, base::D
   }
 }
 
-// `label` of storage: the names of all that share it, "a | b". The declaration of the first; no place for a graph
-// that has none.
+// Where the first resource of a storage is declared. `label` has the names of all resources that share it, "a | b". Nowhere
+// for a graph without places.
 base::Place placeOfResource(const graph::FlatGraph& graph, const std::string& label) {
   const auto named = std::ranges::find(graph.resourceNames, label.substr(0, label.find(" | ")));
   const auto at = static_cast<std::size_t>(named - graph.resourceNames.begin());

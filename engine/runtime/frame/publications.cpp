@@ -84,7 +84,7 @@ void Publications::holdFading() {
   }
 }
 
-// Published again while somebody fades from what it was before, the picture would jump.
+// If a resource were published again while a pass fades from its contents before, the picture would jump.
 void Publications::hold(std::uint32_t r) {
   const bool import = plan_.graph->resources[r].import != kNone;
   const bool shown = import ? imports_.publications(importOf(r)) > 0 : pool_[r].publications > 0;
@@ -228,8 +228,8 @@ void Publications::releaseImports() {
   }
 }
 
-// Not published yet: about to be. A headless run publishes everything before its frame 0. What no live pass writes is never
-// published, and counts as old as that.
+// What is not published yet has the age 0, because it is about to be; in a headless run, which publishes everything before
+// its frame 0, its age is infinite. So is the age of what no live pass writes, which is never published.
 double Publications::ageOf(std::uint32_t r) const {
   if (!made_[r]) return kForever;
   const GpuResource& resource = pool_[r];
@@ -261,7 +261,7 @@ void Publications::takeGenerations(const Publications& before) {
   }
 }
 
-// A group is published when all it writes is.
+// A group counts as published when everything that it writes is.
 void Publications::takeGroups() {
   std::vector<std::uint8_t> published(plan_.groups.sliced.begin(), plan_.groups.sliced.end());
   for (std::uint32_t r = 0; r < generations_.size(); ++r) {
@@ -284,7 +284,7 @@ void Publications::takeHistories(const Publications& before) {
       resetState_[h] = before.resetState_[old->second];
 }
 
-// Where an import has taken the place of a texture that stood in for it: that texture is what was shown.
+// An import may have taken the place of a texture that stood in for it; then that texture is what was shown.
 void Publications::adoptStandIns(const Publications& before) {
   const graph::FlatGraph& graph = *plan_.graph;
   for (const graph::FlatResource& mine : graph.resources) {

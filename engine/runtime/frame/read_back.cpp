@@ -128,7 +128,7 @@ bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> pa
 }
 
 bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {
-  // Coherent: what a copy wrote is seen once its fence has signalled, without a barrier of its own.
+  // The mapping is coherent: what a copy wrote is visible once its fence has signalled, without another barrier.
   constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   for (Slot& slot : ring_) {
     auto buffer = gl::Buffer::create(bytes, kAccess | GL_CLIENT_STORAGE_BIT, "read-back", diagnostics);
@@ -163,7 +163,7 @@ void ReadBack::copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCach
   next_ = (next_ + 1) % kRing;
 }
 
-// Through a framebuffer, as the plan's barriers expect it (barrier_rules.h).
+// The copy goes through a framebuffer, as the plan's barriers expect (barrier_rules.h).
 void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, ResourcePool& pool,
                            FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
                            base::Diagnostics& diagnostics) {

@@ -38,8 +38,8 @@ class Renderer {
 
   // Reads the graph file again and switches to it. False after errors.
   bool load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
-  // The same without reading files: runs the last description under other settings or in another world. Passes that do not
-  // change keep their programs, whatever is on disk.
+  // Reads no file: runs the last description under other settings or in another world. Passes that do not change keep their
+  // programs, whatever is on disk.
   bool apply(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics);
   // Sets a live parameter at once, as FrameUniforms::set() does.
   bool setParameter(std::string_view path, const graph::Value& value) {

@@ -152,7 +152,7 @@ bool StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {
   return bound;
 }
 
-// What its view sees of the meshes of its list.
+// Takes the draw commands of what the pass's view sees of the meshes in its list.
 void StepRunner::gatherMeshes(PreparedPass& pass, base::Diagnostics& diagnostics) {
   const imports::MeshDraw draw = device_.imports.tables().draw(*pass.meshes, diagnostics);
   pass.context.geometry = {.vertexArray = draw.vertexArray,

@@ -6,7 +6,7 @@
 namespace weft::runtime {
 
 Imports::Imports(std::shared_ptr<const imports::ImportRegistry> registry) : registry_(std::move(registry)) {
-  // Those that need no arguments, for find().
+  // Providers of the types that need no arguments, for find().
   for (const graph::ImportType& type : registry_->reflect()) {
     graph::ImportRequest request{.type = type.name, .arguments = {}};
     bool complete = type.array == 0;

@@ -88,7 +88,7 @@ std::optional<CaptureItem> captureItemOf(const graph::Plan& plan, const graph::P
           plan.attached[u] && (found->pass == graph::kNone || found->pass == p))
         last = step;
   }
-  // Nobody writes it: an import, or version zero alone.
+  // No pass writes it: it is an import, or has version zero only.
   if (last == graph::kNone && found->pass == graph::kNone && plan.firstStep[found->resource] != graph::kNone)
     last = std::min(plan.firstStep[found->resource], static_cast<std::uint32_t>(plan.steps.size() - 1));
   const bool table = graph.resources[found->resource].kind == graph::ResourceKind::imported_buffer;

@@ -1,5 +1,6 @@
-// What passes wrote, at the place in the frame where they wrote it, read to the CPU: for commands that look at a graph without a
-// person. Through the viewer's inspector, so that both show the same. Does not: write files, or choose names for them.
+// What passes wrote, at the place in the frame where they wrote it, read to the CPU: for commands that look at a graph
+// without a person. Uses the viewer's inspector, so that both show the same. Does not: write files, or choose names for
+// them.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ class Capture {
  public:
   explicit Capture(Device& device) : inspector_(device) {}
 
-  // Called within a frame, for each item, with its index. `inspector` has the copy.
+  // The type of a function that is called within a frame, for each item, with its index. `inspector` has the copy.
   using Visit = std::function<void(std::size_t item, Inspector& inspector)>;
   // Before a frame; holds until stop(), or until `execution` is another. There is one watch, which is this one's until then.
   void start(Execution& execution, std::vector<CaptureItem> items, Visit visit);

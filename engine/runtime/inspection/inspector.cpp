@@ -72,7 +72,7 @@ std::uint32_t Inspector::aim(Execution& execution, const InspectTarget& target) 
     if (target.pass.empty() ? writes(plan, pass, resource) : graph.passNames[pass] == target.pass) step = s;
   }
   if (step == kNone && !target.pass.empty()) return kNone;
-  // Nobody writes it: an import, or version zero alone.
+  // No pass writes it: it is an import, or has version zero only.
   if (step == kNone)
     step = std::min(plan.firstStep[resource], static_cast<std::uint32_t>(plan.steps.size() - 1));
   execution_ = &execution;
@@ -133,8 +133,8 @@ bool Inspector::prepareBuffer(std::uint64_t bytes) {
   return made.has_value();
 }
 
-// Within the frame. What shaders stored must be there to be copied, and the copy must be done before shaders store again:
-// barriers of the inspector's own, since the plan knows nothing of it.
+// Runs within the frame. What shaders stored must be visible to the copy, and the copy must be done before shaders store
+// again. The plan knows nothing of this copy, so the inspector issues barriers of its own.
 void Inspector::copy() {
   const graph::FlatResource& desc = execution_->plan().graph->resources[resource_];
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |

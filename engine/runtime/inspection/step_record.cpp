@@ -45,7 +45,7 @@ double differenceOf(const Signature& a, const Signature& b) {
   measure(b.parts);
   double worst = std::abs(static_cast<double>(a.broken) - static_cast<double>(b.broken));
   const auto compare = [&](float x, float y) {
-    // What is nearly black says little: no part counts as less than a sixteenth of the brightest.
+    // A part that is nearly black says little, so none counts as less than a sixteenth of the brightest.
     const float size = std::max({std::abs(x), std::abs(y), largest / 16});
     worst = std::max(worst, static_cast<double>(std::abs(x - y) / size));
   };
@@ -174,7 +174,7 @@ void StepRecorder::add(Execution& execution, const graph::FlatUse& use, Sum& sum
   }
 }
 
-// What shaders stored must be there to be read: a barrier of its own, since the plan knows nothing of it.
+// What shaders stored must be visible to the read-back. The plan knows nothing of it, so it issues a barrier of its own.
 void StepRecorder::look(Execution& execution, std::uint32_t step) {
   const graph::Plan& plan = execution.plan();
   const graph::FlatGraph& graph = *plan.graph;
