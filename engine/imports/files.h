@@ -20,8 +20,8 @@ namespace weft::imports {
 
 class Files {
  public:
-  // What `read(path, diagnostics)` makes of the file, an optional<T>. Null after errors; those of a file that is as it was
-  // are said again.
+  // What `read(path, diagnostics)` makes of the file, an optional<T>. Null after errors; the errors of a file that has not
+  // changed are reported again.
   template <class T, class Read>
   std::shared_ptr<const T> get(const std::string& path, const Read& read, base::Diagnostics& diagnostics) {
     const auto readAny = [&](base::Diagnostics& said) -> std::shared_ptr<const void> {

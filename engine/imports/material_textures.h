@@ -1,6 +1,6 @@
 // The textures of a scene's materials, batched in arrays by size and kind (sRGB or not), so that a material is an index and
-// never a rebind. What there are too many sizes for is scaled to one that is there. Uploaded with all their levels when a
-// scene with others arrives.
+// never a rebind. Where there are too many sizes, a texture is scaled to a size that has an array. Uploaded with all their
+// levels when a scene with others arrives.
 #pragma once
 
 #include <cstdint>

@@ -88,7 +88,7 @@ void MeshPass::attach(const MeshBuffers& buffers) {
     if (buffers.skin())
       vertexArray_.setVertices(1, buffers.skin(), 0, sizeof(scene::SkinVertex), skin_);
     else
-      vertexArray_.disable(skin_);  // constants then: joints and weights 0
+      vertexArray_.disable(skin_);  // joints and weights are the constant 0 then
   }
   if (attachedRows_ == visibleRows_.id()) return;
   attachedRows_ = visibleRows_.id();

@@ -32,7 +32,7 @@ class EnvironmentProvider : public Provider {
   bool isPending(const World& world) const override { return world.environmentPending(); }
   bool needsStandIn(const World& world) const override;
   void setStandIn(gl::TextureRef texture) override { standIn_ = texture; }
-  // Stays: what the world has dropped cannot be uploaded again.
+  // Always kept, because what the world has dropped cannot be uploaded again.
   bool renew(bool) override { return true; }
   void dropUploaded(World& world) const override;
 

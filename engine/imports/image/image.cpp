@@ -70,7 +70,7 @@ gl::TextureDesc textureDescOf(const StoredHeader& header, const ImageRequest& re
           .mips = levelsOf(header, request.mips)};
 }
 
-// The file that stands for the number `wanted` of a sequence: of a gap, the one before it.
+// The file that is shown for the number `wanted` of a sequence; in a gap, the last file before it.
 std::uint32_t numberAt(const std::vector<std::uint32_t>& numbers, std::uint64_t wanted) {
   const auto after = std::ranges::upper_bound(numbers, wanted);
   return after == numbers.begin() ? numbers.front() : *(after - 1);

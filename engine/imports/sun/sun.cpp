@@ -54,7 +54,7 @@ class SunProvider : public Provider {
     bounds_ = bounds;
     sun_ = sun;
     const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
-    // Another generation only when something is other than it was: the fit follows the bounds in steps.
+    // The generation rises only when a value has changed: the fit follows the bounds in steps.
     if (generation_ != 0 && sceneSeen_ == changed && fitted.shadowMatrix == fitted_.shadowMatrix) return;
     sceneSeen_ = changed;
     fitted_ = fitted;

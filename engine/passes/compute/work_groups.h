@@ -1,5 +1,5 @@
-// The work groups of a compute pass, or of some slices of it. Slices divide the rows of groups, along y when
-// there is more than one, else along x. What is rounded up lies beyond `threads`, as without slices.
+// The work groups of a compute pass, or of some slices of it. Slices divide the rows of groups, along y when there is
+// more than one, else along x. The last groups may reach beyond `threads`, as they do without slices.
 #pragma once
 
 #include "engine/passes/pass_type.h"

@@ -15,7 +15,8 @@ graph::PassType Mipmap::reflect() const {
       .fixedSlots = {{"source", graph::Access::read, "the finest level, already written"},
                      {"result", graph::Access::write, "the levels below it"}},
       .fromSource = true,
-      // The specification names no bit for glGenerateTextureMipmap; drivers fetch, render or copy: all three.
+      // The specification names no bit for glGenerateTextureMipmap. Drivers fetch, render or copy, so it needs all three
+      // bits.
       .touches = graph::kBarrierFramebuffer | graph::kBarrierTexture | graph::kBarrierTextureUpdate};
 }
 
