@@ -189,7 +189,7 @@ using FileClock = std::chrono::file_clock;
 // Until Linux 6.13 a file's time is that of the last tick, so a save may seem to be older by as much.
 constexpr auto kGrain = std::chrono::milliseconds(20);
 
-// The files that were saved since `began`: while they were checked, nobody watched them. A time to come is no save.
+// The files that were saved since `began`: while they were checked, nobody watched them. A time in the future is no save.
 std::vector<std::string> savedSince(const std::vector<std::string>& files, FileClock::time_point began) {
   std::vector<std::string> saved;
   for (const std::string& file : files) {

@@ -75,7 +75,7 @@ std::vector<std::string> pictureFiles(const std::string& folder) {
   return {folder + "/before.png", folder + "/after.png", folder + "/difference.png"};
 }
 
-// All of them or none, and none over a file that was read.
+// Writes all pictures or none, and none over a file that was read.
 void leavePictures(const Options& options, const ShotPair& pair, base::Diagnostics& diagnostics) {
   const std::vector<std::string> files = pictureFiles(options.output);
   std::vector<std::string> read = pair.before.files;

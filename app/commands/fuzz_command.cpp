@@ -68,7 +68,7 @@ class Fuzzer {
     return listTrials(seeds, first, last, shares, poisons);
   }
 
-  // That the places of --order are places of the plan.
+  // Checks that the places of --order are places of the plan.
   bool checkOrder(base::Diagnostics& diagnostics) const {
     std::uint32_t first = 0, last = 0;
     const std::size_t places = base_->plan->steps.size();

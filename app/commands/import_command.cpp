@@ -46,7 +46,7 @@ bool writeImage(const std::string& path, const convert::ConvertedImage& image, D
   return assets::saveExr(path, floats, diagnostics);
 }
 
-// Whether no file that is there would be replaced unasked.
+// Checks that no existing file would be replaced without being asked for.
 bool mayWrite(const Options& options, const convert::Converted& made, Diagnostics& diagnostics) {
   std::error_code ec;
   const auto look = [&](const std::string& path) {
@@ -60,7 +60,7 @@ bool mayWrite(const Options& options, const convert::Converted& made, Diagnostic
   return !diagnostics.hasErrors();
 }
 
-// All files, or none after an error.
+// Writes all files, or none after an error.
 bool writeAll(const Options& options, const convert::Converted& made, Diagnostics& diagnostics) {
   FileBatch batch;
   const auto pathOf = [&](const std::string& path) { return (fs::path(options.folder) / path).string(); };
@@ -76,7 +76,7 @@ bool writeAll(const Options& options, const convert::Converted& made, Diagnostic
   return good && batch.publish(diagnostics);
 }
 
-// That the picture of `--image NAME=FILE`, or the first of a sequence of pictures, can be read.
+// Checks that the picture of `--image NAME=FILE`, or the first of a sequence of pictures, can be read.
 void checkPicture(const std::string& option, const std::string& file, Diagnostics& diagnostics) {
   Diagnostics said;
   if (!base::mayRead(file)) return;

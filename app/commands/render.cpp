@@ -47,7 +47,7 @@ int runRender(const Options& options) {
   if (!opened) return exitCode;
   std::unique_ptr<DeviceSession> session = std::move(opened->session);
   runtime::World& world = opened->world;
-  PickOutputs picks(options);  // goes before the device does
+  PickOutputs picks(options);  // destroyed before the device
   if (whole && session->renderer.execution()->presented().id == 0) {
     diagnostics
         .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
@@ -75,7 +75,7 @@ int runRender(const Options& options) {
   if (!options.trace.empty() && !recorder->start(options.trace, diagnostics)) return report(diagnostics);
   runtime::FrameReport last;
   PictureWriter writer;
-  // So that frame N does not depend on where the range starts.
+  // So frame N does not depend on where the range starts.
   for (std::uint64_t done = 1; done <= total; ++done) {
     const auto frame = static_cast<std::uint32_t>(begin + (done - 1));
     const double before = now();

@@ -86,8 +86,9 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
                      test.frames.size() > 1 ? fmt::format("_{:04}", frame) : "");
 }
 
-// That what --report, -o and --accept write is none of the files that the cases are made of, also of those that do not run, and
-// each picture another file. What a graph names is known when it is loaded: CaseRunner looks at that.
+// Checks that --report, -o and --accept write none of the files that the cases are made of, also of cases that do not run,
+// and that each picture is another file. The files that a graph names are known only when it is loaded: CaseRunner checks
+// those.
 bool checkOutputs(const Options& options, const Cases& cases, base::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
   std::vector<std::string> inputs, made;
@@ -120,7 +121,7 @@ bool checkOutputs(const Options& options, const Cases& cases, base::Diagnostics&
   return checkDistinct(outputs, inputs, diagnostics) && plain;
 }
 
-// The picture and the difference of what failed. `read`: files of all cases.
+// Writes the picture and the difference of what failed. `read`: files of all cases.
 void leaveFiles(const std::string& folder, const TestCase& test, const CaseResult& result,
                 const std::vector<std::string>& read, base::Diagnostics& diagnostics) {
   for (const CaseResult::Pair& pair : result.pairs) {

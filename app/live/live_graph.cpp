@@ -22,7 +22,7 @@ namespace {
 // Editors and version control write several files, or one in several steps: what is wrong may be so no longer
 // when nothing was written for so long.
 constexpr double kQuietSeconds = 0.03;
-// The same for a file that went away: some programs write it anew only a while later.
+// The wait for a file that went away: some programs write it anew only a while later.
 constexpr double kGoneSeconds = 0.3;
 
 }  // namespace
@@ -43,7 +43,7 @@ LiveGraph::LiveGraph(const Options& options, runtime::Renderer& renderer, runtim
 void LiveGraph::expectScene() {
   expectsScene_ = true;
   scene_.outdate();
-  // Not taken by the first load(), however small the file: what arrives is told as an event.
+  // The first load() does not take the scene, however small the file: its arrival is reported as an event.
   scene_.request();
 }
 
@@ -84,7 +84,7 @@ bool LiveGraph::tryGraph(Attempt attempt, const runtime::World& world, base::Dia
     return true;
   }
   if (attempt == Attempt::early) return false;
-  // What the graph as it is has no use for.
+  // The settings that the graph, as its files are, does not take.
   std::vector<graph::Setting> sets;
   std::vector<graph::Disable> disables;
   base::Diagnostics warnings;
@@ -262,7 +262,8 @@ bool LiveGraph::trySetLive(const std::string& name, const graph::Value& value) {
   return true;
 }
 
-// True where the settings had it already, as the last word on the parameter: so a slider that moves allocates nothing.
+// True where the last setting of the parameter was made in a panel, too. It is overwritten then, so that a slider that
+// moves allocates nothing.
 bool LiveGraph::remember(const std::string& name, const graph::Value& value) {
   auto& sets = settings_.sets;
   const auto last = std::find_if(sets.rbegin(), sets.rend(),

@@ -36,18 +36,20 @@ class LiveGraph {
   // for a moment, as more may come. A scene with models is read beside the frames, and loaded when it has
   // arrived. `now` in seconds. True when something came of it that is to be reported.
   bool poll(double now, base::Diagnostics& diagnostics);
-  // Files changed, and poll() has not loaded them yet. While a scene is on its way there is nothing to wait for.
+  // Whether files changed that poll() has not loaded yet. False while a scene is on its way: then there is nothing to wait
+  // for.
   bool pending() const { return (graphStale_ && !scene_.loading()) || !changedEnvironment_.empty(); }
-  // They did, and poll() would load them now. Looks, and costs one system call when there is nothing new.
+  // Whether files changed, and poll() would load them now. Costs one system call when there is nothing new.
   bool wantsLoad(double now);
-  // For whoever wants to sleep until a watched file changes: readable then. -1: nothing is ever reported.
+  // A descriptor that becomes readable when a watched file changes, for whoever wants to sleep until then. -1: nothing is
+  // ever reported.
   int watchDescriptor() const { return watcher_.descriptor(); }
   // Looks at the files that no descriptor tells of; true when poll() has something new. From any thread, about twice a second.
   bool lookAtFiles() { return watcher_.poller().look(); }
   // Once per frame: takes up an environment that has arrived. True when something came of the last request;
   // on failure the environment before stays, or, when it was to be the first, the stand-in comes.
   bool pollEnvironment(base::Diagnostics& diagnostics);
-  // After a frame: what the GPU has is not kept here.
+  // After a frame: frees what the GPU has.
   void dropUploaded() { renderer_.dropUploaded(world_); }
   // Asks for the next (1) or previous (-1) environment of the folder.
   void stepEnvironment(int by);
@@ -58,7 +60,7 @@ class LiveGraph {
   bool setParameter(const std::string& name, const graph::Value& value, base::Diagnostics& diagnostics);
   bool setEnabled(const std::string& pass, bool enabled, base::Diagnostics& diagnostics);
 
-  // What the files say again, instead of what setParameter said. False after errors.
+  // Goes back to what the files say, instead of what setParameter() said. False after errors.
   bool resetParameter(const std::string& name, base::Diagnostics& diagnostics);
   bool isChanged(const std::string& parameter) const;
   // Writes changed parameters and disabled passes into the files they come from (engine/graph/edit/write_back.h);
@@ -99,7 +101,7 @@ class LiveGraph {
   runtime::Renderer& renderer_;
   runtime::World world_;
   graph::Settings settings_;
-  // What the graph as it is has no use for.
+  // The settings that the graph, as its files are, does not take.
   std::vector<graph::Setting> lostSets_;
   std::vector<graph::Disable> lostDisables_;
   LiveScene scene_;

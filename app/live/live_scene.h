@@ -24,7 +24,7 @@ class LiveScene {
   // Everything that was read or should have been, also after errors: what to watch.
   const std::vector<std::string>& files() const { return files_; }
 
-  // The files are others than when they were read: what arrived, or is on its way, is out of date.
+  // To be called when the files have changed since they were read: what arrived, or is on its way, is out of date.
   void outdate();
   bool outdated() const { return outdated_; }
   // What is in the files is shown.
@@ -32,9 +32,9 @@ class LiveScene {
 
   // Whether what is in the files may take long to read: a scene with models. Others are there sooner than a frame.
   bool slow();
-  // Reads it at once: for when there is nothing to keep showing, or it is not slow.
+  // Reads the scene at once: for when there is nothing to keep showing, or reading is not slow.
   void readNow();
-  // It is on its way from now on; what is there at once, too, is taken by arrived() and not before.
+  // Begins to read the scene beside the frames. Even when it is read at once, only arrived() takes it.
   void request();
   // Whether what is in the files has arrived; else it is on its way from now on. Never waits.
   bool arrived();

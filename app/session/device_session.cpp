@@ -62,7 +62,7 @@ std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagn
     return std::nullopt;
   }
   auto session = openDevice(options, diagnostics);
-  if (!session) {  // no matter of the graph
+  if (!session) {  // the graph is checked all the same
     makePlan(options, world->facts(), true, diagnostics);
     report(diagnostics);
     exitCode = 3;

@@ -95,7 +95,7 @@ std::string takeOutputs(const RawOptions& raw, Options& options) {
     if (isMeantAsName(name) && at + 1 == text.size())
       return fmt::format("'-o {0}' has no FILE behind the '='; write {0}picture.png", text);
     if (isMeantAsName(name)) {
-      // What is spelled in another way is the name of nothing: then the graph's names tell which is near.
+      // A word that is spelled in another way names nothing; then the graph's names tell which one is near.
       graph::Pick pick = graph::parsePick(name).value_or(graph::Pick{.text = name, .name = name, .pass = {}});
       pick.option = "-o";
       options.picked.push_back({std::move(pick), text.substr(at + 1)});

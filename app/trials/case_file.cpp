@@ -119,7 +119,7 @@ class CaseReader {
     }
   }
 
-  // What the defaults may say, too.
+  // Reads the keys that "defaults" may have, too.
   void readShared(JsonFields& fields, TestCase& test) {
     Options& options = test.options;
     for (const auto& [key, target] : {std::pair("scene", &options.scene),

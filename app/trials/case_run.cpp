@@ -54,7 +54,7 @@ std::optional<std::vector<std::uint8_t>> readMask(const TestCase& test, const as
   return std::move(mask->texels);
 }
 
-// What does not count is as in the golden: so it reaches no pixel beside it, either.
+// Pixels that do not count are copied from the golden, so that they do not affect the pixels beside them, either.
 assets::Image8 laidUnder(assets::Image8 picture, const assets::Image8& golden,
                          const std::vector<std::uint8_t>& weights) {
   for (std::size_t p = 0; p < weights.size(); ++p)

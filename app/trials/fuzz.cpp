@@ -45,7 +45,7 @@ FuzzTrial shrinkTrial(FuzzTrial trial, std::uint32_t passes,
   smaller.seed = 0;
   keepIf(smaller);
   if (trial.seed == 0 || passes == 0) return trial;
-  // In steps that halve, from both ends.
+  // Narrows the range from both ends, by steps that halve.
   const std::uint32_t end = std::min(trial.last, passes - 1);
   for (std::uint32_t step = std::max(1u, (end - std::min(trial.first, end)) / 2);; step /= 2) {
     for (bool again = true; again;) {

@@ -102,7 +102,7 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
                        remembers ? kRemembers : "", diagnostics) ||
       !checkPictures(options, wish.frames.size(), renderer, diagnostics))
     return std::nullopt;
-  // Where nothing is remembered, those between the frames to look at need not run.
+  // Where nothing is remembered, the frames between those to look at need not run.
   const auto frameAfter = [&](std::uint64_t frame) -> std::uint64_t {
     if (remembers) return frame + 1;
     const auto next = std::ranges::upper_bound(wish.frames, static_cast<std::uint32_t>(frame));

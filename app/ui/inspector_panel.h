@@ -14,9 +14,9 @@ class InspectorPanel {
  public:
   explicit InspectorPanel(runtime::Renderer& renderer) : renderer_(renderer), inspector_(renderer.device()) {}
 
-  // Before each frame; `wanted`: the window is open.
+  // To be called before each frame. `wanted`: the window is open.
   void beforeFrame(bool wanted);
-  // Inside the window.
+  // Draws the contents of the window.
   void draw(base::Diagnostics& diagnostics);
   void release();
   bool wantsFrame() const { return wantsFrame_; }  // something else is to be copied

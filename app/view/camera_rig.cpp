@@ -64,7 +64,7 @@ void CameraRig::setMode(Mode mode) {
     state->velocity = {0, 0, 0};
     if (mode != Mode::fly) state->bobAmount = 0;
   }
-  // What a smoothed pan or wheel had still to cover stays uncovered.
+  // The rest of a smoothed pan or wheel movement is dropped.
   goalPivot_ = now_.pivot;
   goalDistance_ = now_.distance;
   mode_ = mode;
@@ -92,7 +92,7 @@ void CameraRig::advance(double seconds, const CameraInput& raw) {
   };
   pending_.move = input.move;
   pending_.fast = input.fast;
-  // One step more or less must not hang on rounding: 2 x 1/120 is a step.
+  // Rounding must not decide whether there is one step more or less: twice 1/120 s is a step.
   while (rest_ + (length - covered) >= kStep * (1 - 1e-9)) {
     share(std::clamp(covered + kStep - rest_, covered, length));
     rest_ = 0;
@@ -149,7 +149,7 @@ void CameraRig::flyStep(const CameraInput& in) {
   place(now_);
 }
 
-// Eye and pivot from whichever of the two rules.
+// In flight the eye gives the pivot; otherwise the pivot gives the eye.
 void CameraRig::place(State& state) const {
   const glm::dvec3 back = backOf(state.yaw, state.pitch) * state.distance;
   if (mode_ == Mode::fly)

@@ -36,7 +36,7 @@ bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
   });
 }
 
-// Before the window opens. The frames of a recording have no end unless --max-frames gives one.
+// Runs before the window opens. The frames of a recording have no end unless --max-frames gives one.
 bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
   checkFrameCount(options.maxFrames, base::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
                   {}, diagnostics, ", or leave --max-frames out: the window then stays until it is closed");
@@ -45,7 +45,7 @@ bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
   return !diagnostics.hasErrors();
 }
 
-// When everything that is read is known.
+// Runs when all files that are read are known.
 bool checkInputs(const Options& options, const LiveGraph& live, base::Diagnostics& diagnostics) {
   const std::uint32_t last = lastFrameOf(options);
   const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
@@ -69,7 +69,7 @@ int runView(const Options& options) {
   if (diagnostics.hasErrors()) return report(diagnostics);
   auto session = openDevice(options, diagnostics);
   if (!session) {
-    // What is wrong with the files is no matter of the machine.
+    // A mistake in the files is no failure of the machine.
     const auto world = loadWorld(files, diagnostics);
     makePlan(files, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
     report(diagnostics);

@@ -93,8 +93,7 @@ void Viewer::update(gl::Size size) {
   }
   input_.giveButton(readsMouse());
   bool looked = live_.poll(glfwGetTime(), diagnostics_);
-  // The moment in which more may be written is waited out here, not behind another frame of what is out of
-  // date.
+  // Waits here while more may be written, instead of drawing another frame that is out of date.
   for (int i = 0; i < kWaitsForWrites && !looked && live_.pending(); ++i) {
     std::this_thread::sleep_for(kWaitForWrites);
     looked = live_.poll(glfwGetTime(), diagnostics_);
@@ -164,7 +163,7 @@ bool Viewer::busy() {
       input_.movesCamera() || live_.environment().status() || live_.scene().loading())
     return true;
   if (readsMouse() && pointer() != pointer_) return true;
-  // Also what stands still for a while, or out of view: it goes on.
+  // What moves counts also while it pauses or is out of view, because it will go on.
   if (frame_ > 0 && live_.running() && renderer_.execution()->drawsMotion()) return true;
   const scene::Camera* camera = sceneCamera();
   return rig_.mode() == CameraRig::Mode::scene && camera && scene::isMoving(*camera);
@@ -192,11 +191,11 @@ void Viewer::frame(gl::Size size) {
   in.cutGeneration = cuts_ = rig_.cuts();
   if (readsMouse()) in.pointer = pointer_ = pointer();
   input_.pointerShown();
-  // As `weft render` makes the same frames; the first of a window that waited is finished, and does not fade
-  // in.
+  // A recording has the frames that `weft render` makes. The first frame of a window that waited is finished, and
+  // does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
-  // Not shown, when files change meanwhile: at most every second frame, so that a picture comes whatever
-  // happens.
+  // When files change meanwhile, the frame is not shown. That happens to every second frame at most, so that some
+  // picture is shown in any case.
   const bool mayDrop = !std::exchange(dropped_, false) && !recorder_.active() && screenshot_.empty() &&
                        frame_ + 1 != options_.maxFrames;
   if (mayDrop) in.obsolete = [this] { return live_.wantsLoad(glfwGetTime()); };
@@ -236,8 +235,8 @@ void Viewer::moveCamera(const FrameClock::Tick& tick) {
   const scene::Camera* camera = sceneCamera();
   if (camera && rig_.mode() == CameraRig::Mode::scene) {
     const scene::CameraPose pose = scene::poseAt(*camera, tick.time);
-    // Another scene, or the first: what is followed may stand elsewhere. What a person took stays where it
-    // is.
+    // The scene is another, or the first: the camera that is followed may stand elsewhere. A camera that a person
+    // took stays where it is.
     if (sceneGeneration_ != live_.world().sceneGeneration() && pose != rig_.pose())
       rig_.jumpTo(pose);
     else
@@ -248,7 +247,7 @@ void Viewer::moveCamera(const FrameClock::Tick& tick) {
 }
 
 void Viewer::judgeRest() {
-  // Passes that run only when something changed: the picture may follow later (slices, a load in steps).
+  // After a pass that runs only when something changed, the picture may follow later (slices, a load in steps).
   if (report_.slowRun > 0) rest_.disturb();
   const double now = glfwGetTime();
   if (!rest_.wantsLook(now)) return;

@@ -29,7 +29,7 @@ WindowInput::WindowInput(GLFWwindow* window) : window_(window) {
     WindowInput& input = of(w);
     if (!focused) input.capture(false);
   });
-  // Only to be counted: a window that was covered or resized wants its picture again.
+  // These events are only counted: a window that was covered or resized needs its picture again.
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w); });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w); });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w); });
@@ -89,7 +89,7 @@ void WindowInput::onMove(double x, double y) {
   }
   last_ = at;
   moved_ = !captured_;
-  // Who only points: when panels were drawn, and it is known whether one is under the mouse.
+  // A mouse that only points is looked at when panels were drawn: then it is known whether one of them is under it.
   if (!captured_ && (!overlay_ || down_)) point();
 }
 
