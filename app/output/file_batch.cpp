@@ -18,10 +18,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A name that no other file of the folder has, however long that of `path` is.
+// A name that no other file of the folder has, however long that of `path` is. An earlier process of the same number may have
+// left files.
 std::string nameBeside(const std::string& path) {
   static std::atomic<unsigned> made = 0;
-  return (fs::path(path).parent_path() / fmt::format(".weft.{}.{}", ::getpid(), ++made)).string();
+  for (;;) {
+    const fs::path name = fs::path(path).parent_path() / fmt::format(".weft.{}.{}", ::getpid(), ++made);
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(name, ignored))) return name.string();
+  }
+}
+
+// A second name for a file; a copy, on a disk without hard links.
+bool keep(const std::string& path, const std::string& kept, std::error_code& ec) {
+  fs::create_hard_link(path, kept, ec);
+  if (!ec) return true;
+  ec.clear();
+  fs::copy_file(path, kept, ec);
+  std::error_code ignored;
+  if (ec) fs::remove(kept, ignored);  // half of one
+  return !ec;
 }
 
 }  // namespace
@@ -75,41 +91,58 @@ bool FileBatch::writeText(const std::string& path, const std::string& text, base
       diagnostics);
 }
 
-bool FileBatch::rename(Written& file, std::error_code& ec) const {
+void FileBatch::remove(const std::string& path) {
+  files_.push_back({.path = path, .target = path});
+}
+
+bool FileBatch::rename(Written& file, bool isLast, std::error_code& ec) const {
   std::error_code none;
   const auto before = fs::status(file.target, none);
-  file.replaces = fs::is_regular_file(before);
-  if (file.replaces) {
-    fs::permissions(file.temporary, before.permissions(), none);
-    file.before = nameBeside(file.target);
-    fs::create_hard_link(file.target, file.before, none);
-    if (none) file.before.clear();
+  const bool replaces = fs::is_regular_file(before);
+  if (file.temporary.empty()) {
+    if (!replaces) return true;
+    const std::string kept = nameBeside(file.target);
+    fs::rename(file.target, kept, ec);
+    if (!ec) file.before = kept;
+    return !ec;
+  }
+  if (replaces) fs::permissions(file.temporary, before.permissions(), none);
+  if (replaces && !isLast) {  // nothing comes behind the last one for which it would be undone
+    const std::string kept = nameBeside(file.target);
+    if (!keep(file.target, kept, ec)) return false;
+    file.before = kept;
   }
   fs::rename(file.temporary, file.target, ec);
   return !ec;
 }
 
-void FileBatch::undo(const Written& file, std::string& lost) const {
+void FileBatch::undo(Written& file, std::string& left) const {
   std::error_code ec;
-  if (!file.before.empty())
+  const bool replaced = !file.before.empty();
+  if (replaced)
     fs::rename(file.before, file.target, ec);
-  else if (!file.replaces)
+  else if (!file.temporary.empty())
     fs::remove(file.target, ec);
-  if (ec || (file.before.empty() && file.replaces))
-    lost += fmt::format("{}'{}'", lost.empty() ? "" : ", ", file.path);
+  if (!ec) return;
+  left += left.empty() ? "" : "; ";
+  left += replaced
+              ? fmt::format("'{}' cannot be put back, and what it was is in '{}'", file.path, file.before)
+              : fmt::format("'{}' is written, and cannot be removed", file.path);
+  file.before.clear();  // not to be removed
 }
 
 bool FileBatch::publish(base::Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < files_.size(); ++i) {
     std::error_code ec;
-    if (rename(files_[i], ec)) continue;
-    std::string lost;
-    for (std::size_t k = i; k-- > 0;) undo(files_[k], lost);
+    if (rename(files_[i], i + 1 == files_.size(), ec)) continue;
+    std::string left;
+    for (std::size_t k = i; k-- > 0;) undo(files_[k], left);
     auto& d = diagnostics.error(base::Code::outputNotWritten,
                                 {std::make_shared<const std::string>(files_[i].path), 0, 0},
                                 fmt::format("cannot write '{}': {}", files_[i].path, ec.message()));
-    if (!lost.empty()) d.found = fmt::format("{} replaced already", lost);
-    d.hint = "name a folder that can be written to";
+    d.found = left;
+    d.hint = left.empty() ? "name a folder that can be written to"
+                          : "put these files back by hand, and name a folder that can be written to";
     return false;
   }
   std::error_code ignored;

@@ -26,18 +26,22 @@ class FileBatch {
   bool write(const std::string& path, const Writer& writer, base::Diagnostics& diagnostics);
   bool writeText(const std::string& path, const std::string& text, base::Diagnostics& diagnostics);
 
-  // Renames all of them. A file that is there keeps its permissions, and a link still leads to it. False after W180, which names
-  // what could not be undone: files that were replaced on a disk without hard links.
+  // The file, or the link to one, will be gone when the others have appeared; nothing happens where there is none.
+  void remove(const std::string& path);
+
+  // Renames all of them. A file that is there keeps its permissions, and a link still leads to it. False after W180. Where an undo
+  // fails, too, the file that was replaced is kept under another name in its folder, and W180 says which.
   bool publish(base::Diagnostics& diagnostics);
 
  private:
   struct Written {
-    std::string path, target, temporary;  // as named; behind links; where the bytes are
-    std::string before;                   // what the target was, while that can be undone
-    bool replaces = false;                // the target was there
+    std::string path, target,
+        temporary;       // as named; behind links; where the bytes are: empty when it is to be removed
+    std::string before;  // what the target was, while that may have to be undone
   };
-  bool rename(Written& file, std::error_code& ec) const;
-  void undo(const Written& file, std::string& lost) const;
+  bool rename(Written& file, bool isLast, std::error_code& ec) const;
+  // Adds what cannot be undone to `left`.
+  void undo(Written& file, std::string& left) const;
   bool makeFolder(const std::string& path, base::Diagnostics& diagnostics);
 
   std::vector<Written> files_;

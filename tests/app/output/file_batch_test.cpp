@@ -2,10 +2,21 @@
 #include "app/output/file_batch.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <string>
+#include <vector>
 
 #include "tests/temporary_folder.h"
 
@@ -14,6 +25,36 @@ using namespace weft::app;
 namespace fs = std::filesystem;
 
 namespace {
+
+// What somebody else does between two steps of a batch: right before its rename number `at`, counted from 0.
+struct Meanwhile {
+  int at = -1;
+  std::function<void()> act{};
+};
+Meanwhile meanwhile;
+bool hardLinks = true;  // whether the disk has them
+
+}  // namespace
+
+// In place of the ones of the C library, also where the standard library calls them.
+extern "C" int rename(const char* from, const char* to) noexcept {
+  if (meanwhile.at-- == 0) meanwhile.act();
+  return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
+
+extern "C" int link(const char* from, const char* to) noexcept {
+  if (hardLinks) return ::linkat(AT_FDCWD, from, AT_FDCWD, to, 0);
+  errno = EPERM;
+  return -1;
+}
+
+namespace {
+
+// A folder with something in it, where a file was.
+void putFolder(const std::string& path) {
+  fs::remove(path);
+  fs::create_directories(path + "/inside");
+}
 
 std::string contentOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -76,4 +117,111 @@ TEST_CASE("files that are not published leave nothing") {
     CHECK(countOf(folder) == 3);
   }
   CHECK(countOf(folder) == 0);
+}
+
+TEST_CASE("what cannot be put back is kept, and the message says where") {
+  const TemporaryFolder folder;
+  const std::string old = folder.write("old.txt", "before"), made = folder.at("made.txt"),
+                    blocked = folder.at("blocked.txt");
+  base::Diagnostics diagnostics;
+  {
+    FileBatch batch;
+    REQUIRE(batch.writeText(old, "after", diagnostics));
+    REQUIRE(batch.writeText(made, "made", diagnostics));
+    REQUIRE(batch.writeText(blocked, "no", diagnostics));
+    meanwhile = {2, [&] {
+                   for (const std::string& path : {old, made, blocked}) putFolder(path);
+                 }};
+    CHECK_FALSE(batch.publish(diagnostics));
+  }
+  REQUIRE(diagnostics.size() == 1);
+  const base::Diagnostic& said = diagnostics.items()[0];
+  CHECK(said.code == base::Code::outputNotWritten);
+  const std::string begin = fmt::format(
+      "'{}' is written, and cannot be removed; '{}' cannot be put back, and what it was is in '", made, old);
+  REQUIRE_MESSAGE(said.found.starts_with(begin), said.found);
+  CHECK(contentOf(said.found.substr(begin.size(), said.found.size() - begin.size() - 1)) == "before");
+  CHECK(said.hint.find("by hand") != std::string::npos);
+  CHECK(countOf(folder) == 7);  // three folders with one inside each, and what is kept
+}
+
+TEST_CASE("without hard links, what is replaced is copied first; on a full disk nothing is replaced") {
+  const TemporaryFolder folder;
+  const std::string content(5000, 'o'), old = folder.write("old.txt", content),
+                                        blocked = folder.at("blocked.txt");
+  std::signal(SIGXFSZ, SIG_IGN);
+  hardLinks = false;
+  for (const bool full : {false, true}) {
+    CAPTURE(full);
+    base::Diagnostics diagnostics;
+    rlimit before{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const rlimit small{1000, before.rlim_max};
+    {
+      FileBatch batch;
+      REQUIRE(batch.writeText(old, "after", diagnostics));
+      REQUIRE(batch.writeText(blocked, "no", diagnostics));
+      if (!full) putFolder(blocked);
+      if (full) ::setrlimit(RLIMIT_FSIZE, &small);
+      const bool published = batch.publish(diagnostics);
+      ::setrlimit(RLIMIT_FSIZE, &before);
+      CHECK_FALSE(published);
+    }
+    REQUIRE(diagnostics.size() == 1);
+    CHECK(diagnostics.items()[0].message.find(full ? "old.txt'" : "blocked.txt'") != std::string::npos);
+    CHECK(diagnostics.items()[0].found.empty());
+    CHECK(contentOf(old) == content);
+    fs::remove_all(blocked);
+    CHECK(countOf(folder) == 1);
+  }
+  hardLinks = true;
+}
+
+TEST_CASE("files to be removed are gone once the others are there, and stay when they are not") {
+  const TemporaryFolder folder;
+  const std::string old = folder.write("old.txt", "old"), behind = folder.write("behind.txt", "behind"),
+                    link = folder.at("link.txt"), made = folder.at("made.txt");
+  fs::create_symlink(behind, link);
+  for (const bool blocked : {true, false}) {
+    CAPTURE(blocked);
+    base::Diagnostics diagnostics;
+    FileBatch batch;
+    batch.remove(old);
+    batch.remove(link);
+    batch.remove(folder.at("none.txt"));
+    REQUIRE(batch.writeText(made, "made", diagnostics));
+    if (blocked) putFolder(made);
+    CHECK(batch.publish(diagnostics) == !blocked);
+    if (blocked) fs::remove_all(made);
+    CHECK(fs::exists(old) == blocked);
+    CHECK(fs::is_symlink(fs::symlink_status(link)) == blocked);
+    CHECK(contentOf(behind) == "behind");
+  }
+  CHECK(countOf(folder) == 2);
+}
+
+TEST_CASE("what an earlier process of the same number kept is not written over") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  FileBatch batch;
+  std::string temporary;
+  const auto write = [&](const std::string& path, base::Diagnostics&) {
+    temporary = path;
+    return true;
+  };
+  REQUIRE(batch.write(folder.at("first.txt"), write, diagnostics));
+  const std::size_t dot = temporary.rfind('.');
+  const int number = std::stoi(temporary.substr(dot + 1));
+  std::vector<std::string> kept;
+  for (int i = 1; i <= 4; ++i)
+    kept.push_back(folder.write(
+        fs::path(temporary.substr(0, dot)).filename().string() + fmt::format(".{}", number + i), "kept"));
+  const std::string old = folder.write("old.txt", "before");
+  FileBatch other;
+  REQUIRE(other.writeText(old, "after", diagnostics));
+  REQUIRE(other.writeText(folder.at("new.txt"), "new", diagnostics));
+  REQUIRE(other.publish(diagnostics));
+  for (const std::string& path : kept) CHECK(contentOf(path) == "kept");
+  CHECK(contentOf(old) == "after");
+  CHECK(countOf(folder) == kept.size() + 2);
 }
