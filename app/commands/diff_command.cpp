@@ -70,7 +70,8 @@ int exitCodeOf(const std::string& plans, const ShotPair* pair) {
   return plans.empty() && samePictures ? 0 : 1;
 }
 
-// before.png, after.png, difference.png; without the last where the pictures have different sizes.
+// before.png, after.png, difference.png; the last is removed where the pictures have different sizes, because that of an earlier
+// run is not theirs.
 std::vector<std::string> pictureFiles(const std::string& folder) {
   return {folder + "/before.png", folder + "/after.png", folder + "/difference.png"};
 }
@@ -88,7 +89,10 @@ void leavePictures(const Options& options, const ShotPair& pair, base::Diagnosti
   FileBatch batch;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const assets::Image8& image = *images[i];
-    if (image.texels.empty()) continue;
+    if (image.texels.empty()) {
+      batch.remove(files[i]);
+      continue;
+    }
     const auto write = [&](const std::string& path, base::Diagnostics& said) {
       return assets::savePng8(path, image.width, image.height, image.channels, image.texels, said);
     };

@@ -80,9 +80,18 @@ def check_text(weft, report, folder):
                                                          "passes": [{"name": "touch", "type": "fullscreen", "shader": "touch.frag.glsl", "modify": {"result": "ldr"}}]}))
     (folder / "shaders").mkdir()
     (folder / "shaders/touch.frag.glsl").write_text("out vec4 result;\nvoid main() { result = vec4(1.0); }\n")
-    sizes = run(weft, "diff", folder / "whole.json", folder / "half.json", "--render", "--size", SIZE, "-o", folder / "sizes")
-    report.check(sizes.code == 1 and "pictures: of different sizes, 32x18 and 16x9" in sizes.out, f"{sizes.code}\n{sizes.out}{sizes.err}")
-    report.check(sorted(f.name for f in (folder / "sizes").iterdir()) == NAMES[:2], "no difference picture of different sizes")
+    # One of an earlier run goes; what is not of this command stays.
+    target = folder / "sizes"
+    for other, names in (("whole", NAMES), ("half", NAMES[:2])):
+        sizes = run(weft, "diff", folder / "whole.json", folder / f"{other}.json", "--render", "--size", SIZE, "-o", target)
+        report.check(sizes.code == (other == "half") and not sizes.err, f"{sizes.code}\n{sizes.out}{sizes.err}")
+        report.check(sorted(f.name for f in target.iterdir() if f.name != "notes.txt") == names, f"whole and {other}: {list(target.iterdir())}")
+        (target / "notes.txt").write_text("mine")
+    report.check("pictures: of different sizes, 32x18 and 16x9" in sizes.out and (target / "notes.txt").is_file(), sizes.out)
+    # A link of that name goes, what it leads to stays.
+    (target / "difference.png").symlink_to(target / "notes.txt")
+    sizes = run(weft, "diff", folder / "whole.json", folder / "half.json", "--render", "--size", SIZE, "-o", target)
+    report.check(sizes.code == 1 and (target / "notes.txt").read_text() == "mine" and not (target / "difference.png").is_symlink(), f"{sizes.code}\n{sizes.err}")
 
 
 def check_files(weft, report, folder):
