@@ -17,6 +17,20 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
+// Where somebody wrote the name of `file`, or of the sequence that it is of: the value of a parameter that the import has as an
+// argument, such as that of --set; else the import itself.
+base::Place placeOfFile(const graph::FlatGraph& graph, const graph::ImportSpec& import,
+                        const std::string& file) {
+  base::Place place = import.place;
+  for (const auto& [name, value] : import.request.arguments)
+    for (const graph::ParameterSpec& parameter : graph.parameters) {
+      if (value.symbol.empty() || parameter.value != value || !base::isKnown(parameter.valuePlace)) continue;
+      if (value.symbol == file) return parameter.valuePlace;
+      if (parameter.desc.type == graph::ParameterDesc::Type::file) place = parameter.valuePlace;
+    }
+  return place;
+}
+
 }  // namespace
 
 Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
@@ -135,7 +149,7 @@ void Publications::refreshImports(base::Diagnostics& diagnostics) {
         if (each.place.line == 0 && import.place.file) {
           if (each.place.file && each.message.find(*each.place.file) == std::string::npos)
             each.message += " (" + *each.place.file + ")";
-          each.place = import.place;
+          each.place = placeOfFile(*plan_.graph, import, each.place.file ? *each.place.file : "");
         }
         if (each.resource.empty()) each.resource = plan_.graph->resourceNames[r];
         diagnostics.add(std::move(each));

@@ -149,6 +149,22 @@ def check_mistakes(bench):
         for file in (outside, outside.with_name("secret.####.png"), outside.with_name("nothing.####.png")):
             bench.refuses("W200", ["graph.json:"], f"{file.name} outside the folder",
                           bench.render(str(file), options=["--confine", bench.folder]))
+    # Where the name was written: on the command line, in the default of a parameter, in the graph.
+    for number, data in ((1, whole), (2, whole[:60])):
+        bench.write(f"torn.{number}.png", data)
+    by_parameter = json.loads(graph("$photo", ', "end": "$ending"'))
+    by_parameter["parameters"] = {"photo": {"type": "file", "default": "rgba.png"}, "ending": {"type": "choice", "choices": ["loop", "hold"], "default": "loop"}}
+    (bench.folder / "graph.json").write_text(json.dumps(by_parameter))
+    for file, frames in (("cut.png", "0"), ("nothing.png", "0"), ("torn.%d.png", "0:1")):
+        option = f"photo={bench.folder / file}"
+        ran = run(bench.weft, "render", bench.folder / "graph.json", "--size", "8x8", "--quiet", "--frames", frames, "-o", bench.folder / "by_%d.exr", "--set", option, "--set", "ending=hold")
+        bench.refuses("W150", [f"command line: --set {option}: error", file.replace("%d", "2")], f"{file} on the command line", ran)
+    by_parameter["parameters"]["photo"]["default"] = "cut.png"
+    lines = json.dumps(by_parameter, indent=1)
+    (bench.folder / "graph.json").write_text(lines)
+    place = next(str(i) for i, line in enumerate(lines.splitlines(), 1) if '"default": "cut.png"' in line)
+    ran = run(bench.weft, "render", bench.folder / "graph.json", "--size", "8x8", "--quiet", "-o", bench.folder / "by.exr")
+    bench.report.check(ran.code == 1 and [d["line"] for d in ran.diagnostics] == [place], f"cut.png as a default: {ran.err}")
     (bench.folder / "graph.json").write_text(graph("cut.png"))
     ran = run(bench.weft, "check", bench.folder / "graph.json", "--no-shaders")
     bench.report.check(ran.code == 0, f"check reads only the header: {ran.out}{ran.err}")

@@ -284,19 +284,23 @@ base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<
                                   base::Diagnostic problem) {
   if (!problem.place.file || problem.place.line != 0) return problem;
   const std::string file = *problem.place.file;
+  Place ofSequence;  // of which `file` may be a picture
   for (const NamedExpr& argument : arguments) {
     Names names(model, scope);
     base::Diagnostics said;  // by whoever evaluated it for the import
-    if (argument.expr.evaluate(names, said).symbol != file) continue;
-    problem.place = argument.expr.place();
+    const Value value = argument.expr.evaluate(names, said);
+    if (value.type != Value::Type::symbol) continue;
+    if (value.symbol == file) problem.place = argument.expr.place();
     for (const std::string& name : argument.expr.variables()) {
       const Variable variable = findVariable(model, scope, name);
       if (variable.kind != Variable::Kind::parameter) continue;
       const Parameter& parameter = model.parameters[variable.index];
-      if (parameter.value.symbol == file && isKnown(parameter.valuePlace))
-        problem.place = parameter.valuePlace;
+      if (parameter.value != value || !isKnown(parameter.valuePlace)) continue;
+      if (value.symbol == file) problem.place = parameter.valuePlace;
+      if (parameter.desc->type == Type::file) ofSequence = parameter.valuePlace;
     }
   }
+  if (problem.place.file && problem.place.line == 0 && isKnown(ofSequence)) problem.place = ofSequence;
   return problem;
 }
 
