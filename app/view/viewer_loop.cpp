@@ -42,6 +42,7 @@ int Viewer::run() {
   tell(diagnostics_, log_, ui::Log::kFiles);
   if (!options_.record.empty()) toggleRecording();
   while (!glfwWindowShouldClose(window_)) {
+    input_.giveButton(readsMouse());  // before the first events, too: some came while files were loaded
     waitForEvents();
     const gl::Size size = session_.context->framebufferSize();
     minimised_ = size.width == 0 || size.height == 0;
@@ -91,7 +92,6 @@ void Viewer::update(gl::Size size) {
     if (live_.resize(scaled(size.width), scaled(size.height), diagnostics_))
       tell(diagnostics_, log_, ui::Log::kChange);
   }
-  input_.giveButton(readsMouse());
   bool looked = live_.poll(glfwGetTime(), diagnostics_);
   // Waits here while more may be written, instead of drawing another frame that is out of date.
   for (int i = 0; i < kWaitsForWrites && !looked && live_.pending(); ++i) {
@@ -190,18 +190,19 @@ void Viewer::frame(gl::Size size) {
   in.previousPose = frame_ == 0 || cuts_ != rig_.cuts() ? in.pose : previousPose_;
   in.cutGeneration = cuts_ = rig_.cuts();
   if (readsMouse()) in.pointer = pointer_ = pointer();
-  input_.pointerShown();
   // A recording has the frames that `weft render` makes. The first frame of a window that waited is finished, and
   // does not fade in.
   in.headless = !options_.record.empty() || (options_.waitForAssets && frame_ == 0);
   // When files change meanwhile, the frame is not shown. That happens to every second frame at most, so that some
-  // picture is shown in any case.
+  // picture is shown in any case. The one frame that tells of a click is always shown.
   const bool mayDrop = !std::exchange(dropped_, false) && !recorder_.active() && screenshot_.empty() &&
-                       frame_ + 1 != options_.maxFrames;
+                       frame_ + 1 != options_.maxFrames && !in.pointer.clicked;
   if (mayDrop) in.obsolete = [this] { return live_.wantsLoad(glfwGetTime()); };
   panels_.beforeFrame(frame_);
   report_ = renderer_.frame(live_.world(), in, diagnostics_);
   panels_.afterFrame(report_);
+  // While an import is on its way no pass runs, and a click is kept for the frame in which one does.
+  if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
   live_.dropUploaded();
   if (report_.slowRun > 0) clock_.worked();
   previousPose_ = in.pose;

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """A graph that reads the mouse, in a window: it sees where the pointer is over the picture, the left button and where that went down, to the
 pixel and from the lower left corner; panels keep what is theirs; the left button turns the camera with Ctrl only; in idle mode a
-pointer that moves wakes it. A graph that does not read the mouse sleeps on."""
+pointer that moves wakes it. A graph that does not read the mouse sleeps on. A click while files are loaded or an import is on its way is seen once."""
+import json
 import os
 import pathlib
 import re
+import signal
 import sys
 
 from pictures import read_exr
-from program import Report, temporary_folder
+from program import TOP, Report, temporary_folder
 from window import Session, inside_display
 
 WIDTH, HEIGHT = 320, 180
@@ -133,6 +135,91 @@ def sleeps(live, report):
     report.check(frame_of(live.shot()) == frame_of(rest), "a graph that does not read the mouse is drawn when that moves")
 
 
+COUNT = """#include "common/mouse.glsl"
+uniform sampler2D before;
+#ifdef LIGHT
+uniform sampler2D environment;
+#endif
+out vec4 result;
+void main() {
+  Mouse m = mouse_state[0];
+  result = vec4(texelFetch(before, ivec2(gl_FragCoord.xy), 0).x + float(m.clicked), m.pressed, 1.0);
+#ifdef LIGHT
+  result.w = texelFetch(environment, ivec2(0), 0).r;
+#endif
+}
+"""
+
+
+def counting(environment):
+    """A graph that counts clicks, and waits for an environment or does not."""
+    read = {"mouse": "@mouse", "before": "counted@-1", **({"environment": "@environment"} if environment else {})}
+    return json.dumps({"name": "counting", "resources": {"counted": {"texture": "rgba32f", "size": "screen", "history": 1, "first": [0, 0, 0, 0]}},
+                       "passes": [{"name": "count", "type": "fullscreen", "shader": "count.frag.glsl", **({"defines": {"LIGHT": 1}} if environment else {}),
+                                   "read": read, "write": {"result": "counted"}}], "present": "counted"})
+
+
+def radiance(grey, width=8, height=4):
+    """A .hdr of one grey, in bytes."""
+    return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + bytes([grey] * 3 + [128]) * (width * height)
+
+
+class Clicks:
+    """What the counting graph has seen."""
+
+    def __init__(self, live):
+        self.live = live
+
+    def look(self):
+        clicks, *rest = read_exr(self.live.shot("shift+F12").read_bytes())[0][0]
+        return {"clicks": clicks, "pressed": tuple(rest[:2])}
+
+    def come_to(self, number, place):
+        """Waits until there are so many, and takes one more picture: none may follow."""
+        wanted = {"clicks": number, "pressed": place}
+        return self.live.until(lambda: self.look() == wanted) and self.look() == wanted
+
+
+def click(live, x, y):
+    live.tool("mousemove", "--window", live.window, x, y)
+    live.tool("click", 1)
+
+
+def counts_clicks(weft, folder, report):
+    """One click is one, whatever the viewer is busy with when it comes."""
+    (folder / "shaders/count.frag.glsl").write_text(COUNT)
+    scene = (TOP / "scenes/one_sphere.json").read_bytes()
+    for what, environment in (("the scene is loaded", False), ("the environment is on its way", True)):
+        (folder / "counting.json").write_text(counting(environment))
+        # A pipe without a name in any folder, so that writing it is no change of a watched file.
+        reads, writes = os.pipe()
+        late = folder / ("late.hdr" if environment else "late.json")
+        late.symlink_to(f"/proc/{os.getpid()}/fd/{reads}")
+        data = radiance(90) if environment else scene
+        options = ["--environment", late] if environment else ["--scene", late]
+        live = Session(weft, folder, "--no-ui", *options, graph="counting.json", size=f"{WIDTH}x{HEIGHT}", data=False)
+        try:
+            if not report.check(live.open(), f"no window while {what}\n{live.said()}"):
+                continue
+            shown = not environment or live.shot()
+            click(live, 70, 40)
+            shown = shown and (not environment or live.shot())  # of a frame behind the click; nothing was drawn in it
+            report.check(shown, f"no picture while {what}\n{live.said()}")
+            os.write(writes, data)
+            os.close(writes)
+            seen = Clicks(live)
+            report.check(seen.come_to(1, at(70, 40)), f"a click while {what}: {seen.look()}\n{live.said()}")
+            # Pressed and released while the program stands still.
+            os.kill(live.process.pid, signal.SIGSTOP)
+            click(live, 90, 60)
+            os.kill(live.process.pid, signal.SIGCONT)
+            report.check(seen.come_to(2, at(90, 60)), f"a click while the program stands still: {seen.look()}")
+            live.leave(report)
+        finally:
+            live.stop()
+            os.close(reads)
+
+
 def main():
     weft, compare, report = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Report()
     inside_display(report, weft, compare, __file__)
@@ -153,6 +240,7 @@ def main():
                     live.leave(report)
             finally:
                 live.stop()
+        counts_clicks(weft, folder, report)
     report.end()
 
 
