@@ -2,20 +2,27 @@
 """Every command on every file of graphs/ and on every broken graph of tests/bad_graphs: none crashes, each exits as docs/limits.md says, and what is
 wrong is said with a place. Prints a line for each file: what each command ended with, and the codes of what it said; then the table of docs/checking.md.
 
-    every_graph.py WEFT [--all] [--cpu] [--only PART]
+    every_graph.py WEFT [--all] [--cpu] [--only PART] [--jobs N]
 
 A graph that `check` takes is taken by all commands; one that it refuses is refused by all, with the same codes. The manifest of the broken graphs says
 which code is told at which place. --all: all files and the commands that draw, which takes a while; else a few files. --cpu: nothing is drawn.
---only: files with this in their path.
+--only: files with this in their path. --jobs: so many files at a time.
 """
 import argparse
 import collections
+import concurrent.futures
+import contextlib
 import json
+import os
 import pathlib
 import re
+import shutil
+import signal
+import subprocess
 import sys
 
-from program import TOP, Report, run, temporary_folder
+from program import TOP, Report, count_run, run, temporary_folder
+from window import display
 
 import schema
 
@@ -26,9 +33,9 @@ CRASH = re.compile(r"terminate called|Assertion|Segmentation|Aborted|what\(\):|A
 SMALL = ["--size", "64x36"]
 GLOW = "graphs/glow.json"
 # Commands that compare end with 2 where a graph is wrong.
-WRONG = {"test plan": 2, "diff": 2, "diff to": 2, "diff render": 2, "bisect": 2, "bisect set": 2, "fuzz": 2}
+WRONG = {"test plan": 2, "test picture": 2, "diff": 2, "diff to": 2, "diff render": 2, "bisect": 2, "bisect set": 2, "fuzz": 2}
 # These end with 1 where something differs, or say what is wrong on standard output.
-EXIT_ALONE = {"diff to", "bisect set", "test plan", "sarif"}
+EXIT_ALONE = {"diff to", "bisect set", "test plan", "test picture", "sarif", "check json"}
 FEW_BAD, FEW_GOOD = 12, {GLOW, "graphs/gi.json", "graphs/presets/cinema.json"}
 
 
@@ -96,23 +103,54 @@ def names_of(sheet):
     return names, other_setting(parameters), bool(plan["steps"] and plan.get("present")), bool(plan["steps"]), texture
 
 
-def check_plan_case(sheet, folder, sound):
-    """`weft test` with a case that is the plan of this graph: written, and then found the same."""
-    cases = pathlib.Path(folder, "cases")
+def check_case(sheet, folder, column, more, sound):
+    """`weft test` with a case of this graph: its golden is written, and then found the same."""
+    cases = pathlib.Path(folder, column)
     cases.mkdir()
     settings = dict(zip(sheet.more[::2], sheet.more[1::2]))
-    case = {"name": "plan", "graph": str(TOP / sheet.path), "plan": True}
+    case = {"name": "one", "graph": str(TOP / sheet.path), **more}
     if "--disable" in settings:
         case["disable"] = [settings["--disable"]]
     if "--set" in settings:
         name, value = settings["--set"].split("=", 1)
         case["set"] = {name: value if value.isalpha() else json.loads(value)}
     (cases / "one.cases.json").write_text(json.dumps({"cases": [case]}))
-    for more in (["--accept"], []) if sound else ([],):
-        done = sheet.run("test plan", "test", cases, *more)
+    for option in (["--accept"], []) if sound else ([],):
+        done = sheet.run(column, "test", cases, *option)
         # A graph with warnings is accepted, and differs.
         expected = (0, 1) if sound else (2,)
-        sheet.report.check(done.code in expected and (done.code != 1 or "it has warnings" in done.out), f"test of {sheet.path}: {done.code}\n{done.out}{done.err}")
+        sheet.report.check(done.code in expected and (done.code != 1 or "it has warnings" in done.out), f"{column} of {sheet.path}: {done.code}\n{done.out}{done.err}")
+
+
+def check_json(sheet, checked):
+    """`check` as JSON, once and with --watch, which does not end by itself, says what it says as text."""
+    done = sheet.graph("check json", "check --no-shaders --format json", code=checked.code, sound=True)
+    found = json.loads(done.out)
+    codes = {d["code"] for d in found["diagnostics"] if d["severity"] == "error"}
+    sheet.report.check(codes == set(checked.codes()) and (found["errors"] > 0) == (done.code != 0) and not done.err, f"{sheet.path} as JSON: {codes}, as text {checked.codes()}\n{done.err}")
+    count_run()
+    command = [sheet.weft, "check", "--no-shaders", "--format", "json", "--watch", sheet.path, *sheet.more]
+    with subprocess.Popen(list(map(str, command)), cwd=TOP, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, errors="replace") as watching:
+        line = watching.stdout.readline()
+        watching.terminate()
+        code = watching.wait()
+    sheet.cells["check watch"] = "watches" if code == -signal.SIGTERM else str(code)
+    sheet.report.check(code == -signal.SIGTERM and line.startswith("{") and json.loads(line) == found, f"check --watch of {sheet.path} ends with {code}, and says\n{line}, not\n{done.out}")
+
+
+def check_import(sheet, folder):
+    """A graph is none of the files that `import` takes: it says so, and writes nothing."""
+    target = pathlib.Path(folder, "imported")
+    done = sheet.run("import", "import", sheet.path, "-o", target)
+    sheet.report.check(done.code == 1 and not target.exists(), f"import of {sheet.path}: {done.code}\n{done.out}{done.err}")
+
+
+def check_view(sheet, shown):
+    """Two frames in a window; what is wrong with the graph ends it, because nobody could mend it in time."""
+    if "DISPLAY" not in os.environ:
+        sheet.cells["view"] = "skipped"
+        return
+    sheet.graph("view", "view --max-frames 2", *SMALL, code=0, sound=shown is not False)
 
 
 def run_on_cpu(sheet, folder, sound, fits):
@@ -121,7 +159,7 @@ def run_on_cpu(sheet, folder, sound, fits):
     sarif = sheet.graph("sarif", "check --no-shaders --format sarif", sound=sound and fits)
     results = json.loads(sarif.out)["runs"][0]["results"]
     sheet.report.check(any(result["level"] == "error" for result in results) != (sound and fits), f"{sheet.path} as SARIF: {results[:3]}")
-    check_plan_case(sheet, folder, sound)
+    check_case(sheet, folder, "test plan", {"plan": True}, sound)
     names, *rest = names_of(sheet) if sound else (["composite"], None, False, False, None)
     for name in names:
         sheet.graph("explain", "explain", name, sound=sound)
@@ -145,6 +183,8 @@ def run_on_device(sheet, folder, other, shown, runs, texture):
     for column, command, more in (("render", "render", ["--quiet", "-o", f"{folder}/picture.png"]), ("fuzz", "fuzz", ["--runs", "1"]),
                                   ("ablate", "ablate", ["--repeats", "1"]), ("bisect", "bisect", [])):
         sheet.graph(column, command, *more, *SMALL, code=0 if shown else WRONG.get(column, 1))
+    check_case(sheet, folder, "test picture", {"size": SMALL[1]}, shown)
+    check_view(sheet, shown)
     sheet.graph("diff render", "diff --render", sheet.path, *SMALL, code=0 if shown else 2)
     if texture:
         for column, more in (("render name", ["-o", f"{texture}={folder}/texture.exr"]), ("render present", ["--present", texture, "-o", f"{folder}/present.png"])):
@@ -156,6 +196,19 @@ def run_on_device(sheet, folder, other, shown, runs, texture):
     dumped = sheet.graph("dump", "dump", "*", "-o", f"{folder}/dump", *SMALL, code=0 if runs else 1)
     files = [line.split("  ")[0] for line in dumped.out.splitlines()]
     sheet.report.check(bool(files) == runs and all(pathlib.Path(file).stat().st_size > 0 for file in files), f"dump of {sheet.path}: {files[:3]}")
+
+
+def refuse_on_device(sheet, folder):
+    """What draws refuses a wrong graph, too, and leaves nothing."""
+    left = pathlib.Path(folder, "left")
+    for column, command, more in (("check all", "check --all", []), ("render", "render --quiet", ["-o", f"{left}.png"]), ("dump", "dump", ["*", "-o", left]),
+                                  ("fuzz", "fuzz", ["--runs", "1"]), ("ablate", "ablate", []), ("bisect", "bisect", [])):
+        sheet.graph(column, command, *more, *([] if column == "check all" else SMALL), sound=False)
+    sheet.graph("diff render", "diff --render", sheet.path, *SMALL, "-o", left, sound=False)
+    check_case(sheet, folder, "test picture", {"size": SMALL[1]}, False)
+    check_view(sheet, False)
+    found = list(pathlib.Path(folder).glob("left*"))
+    sheet.report.check(not found, f"{sheet.path} is wrong, and leaves {found}")
 
 
 def check_new(sheet, folder, sound):
@@ -200,6 +253,8 @@ def look_at(weft, report, path, draws, more=(), told=None):
             report.check(sound and not checked.codes(), f"{path}: without shaders, {checked.code} {checked.err}")
         # What the editor has of shaders depends on the mistake; settings of the command line it has not.
         sheet.open_in_editor(sound and fits if on_cpu and not more and is_graph(path) else None)
+        check_json(sheet, checked)
+        check_import(sheet, folder)
         of_graph = run_on_cpu(sheet, folder, sound, fits)
         check_new(sheet, folder, sound and fits)
         formatted = sheet.run("format", "format", "--check", path)
@@ -210,6 +265,8 @@ def look_at(weft, report, path, draws, more=(), told=None):
             report.check(drawn.code == 1 and told["code"] in drawn.codes(), f"{path}: {told['code']} is not told\n{drawn.err}")
         elif draws and told is None and sound:
             run_on_device(sheet, folder, *of_graph)
+        elif draws and not sound:
+            refuse_on_device(sheet, folder)
     return sheet
 
 
@@ -221,12 +278,51 @@ def print_table(good, bad):
         print(f"| {column} | " + " | ".join(", ".join(f"{code}: {n}" for code, n in sorted(each.items())) for each in counts) + " |")
 
 
+def check_alone(weft, report):
+    """The commands that take no graph. Returns their line of the table."""
+    sheet = Sheet(weft, report, "no file")
+    for column, command in (("schema", "schema"), ("types", "types"), ("presets", "presets"), ("man", "man"), ("completion", "completion bash")):
+        done = sheet.run(column, *command.split())
+        report.check(done.code == 0 and done.out and not done.err, f"{command}: {done.code}\n{done.err}")
+    return sheet
+
+
+@contextlib.contextmanager
+def a_display(wanted):
+    """For `view`: a virtual one. Without it, `view` is said to be skipped."""
+    if not wanted or not shutil.which("Xvfb"):
+        os.environ.pop("DISPLAY", None)
+        yield
+        return
+    with display() as environment:
+        os.environ.clear()
+        os.environ.update(environment)
+        yield
+
+
+def look_at_all(weft, report, good, bad, draws, jobs):
+    """One sheet for each file, printed as it comes."""
+    def look(entry):
+        if isinstance(entry, str):
+            return look_at(weft, report, entry, draws)
+        more = [word for option in ("set", "disable") for value in entry.get(option, []) for word in (f"--{option}", value)]
+        return look_at(weft, report, f"tests/bad_graphs/{entry['file']}", draws, more, entry)
+
+    sheets = []
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for sheet in pool.map(look, [*good, *bad]):
+            sheets.append(sheet)
+            print(sheet.text(), flush=True)
+    return sheets[: len(good)], sheets[len(good) :]
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("weft", type=pathlib.Path)
     for flag in ("--all", "--cpu", "--sanitized"):
         parser.add_argument(flag, action="store_true")
     parser.add_argument("--only", default="")
+    parser.add_argument("--jobs", type=int, default=1)
     options, report = parser.parse_args(), Report()
     weft = options.weft.resolve()
     good = [str(path.relative_to(TOP)) for path in sorted((TOP / "graphs").rglob("*.json"))]
@@ -235,14 +331,12 @@ def main():
     bad = [entry for entry in bad if options.only in f"tests/bad_graphs/{entry['file']}"]
     bad = bad if options.all else bad[5::max(1, len(bad) // FEW_BAD)]
     report.check(good or bad, f"no file has '{options.only}' in its path")
-    sheets = ([], [])
-    for path in good:
-        sheets[0].append(look_at(weft, report, path, options.all and not options.cpu))
-        print(sheets[0][-1].text(), flush=True)
-    for entry in bad:
-        more = [word for option in ("set", "disable") for value in entry.get(option, []) for word in (f"--{option}", value)]
-        sheets[1].append(look_at(weft, report, f"tests/bad_graphs/{entry['file']}", options.all and not options.cpu, more, entry))
-        print(sheets[1][-1].text(), flush=True)
+    draws = options.all and not options.cpu
+    print(check_alone(weft, report).text(), flush=True)
+    with a_display(draws):
+        if draws and "DISPLAY" not in os.environ:
+            print("skipped: view, because Xvfb is not installed")
+        sheets = look_at_all(weft, report, good, bad, draws, options.jobs)
     print_table(*sheets)
     print(f"{len(good)} files of graphs/, {len(bad)} broken graphs")
     report.end()
