@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 """Bugs of planted_bugs.json, planted one after another in a copy of graphs and shaders: `weft test` finds each, and the pass it is in, with a tolerance of 0;
-and with the one that a case has by default, each but those of SLIGHT. Without a bug it finds nothing, however often it runs.
+and with the one that a case has by default, each but those of SLIGHT. Without a bug it finds nothing, however often it runs, on one thread or on all.
 
-    planted.py WEFT [--all] [--runs N]      some bugs of glow.json, or all bugs of all cases; N runs without a bug (default 2), each case its share
+    planted.py WEFT [--all] [--no-bugs] [--runs N]
+
+Some bugs of glow.json, with --all all bugs of all cases, with --no-bugs none; then N runs (default 2) of the cases without a bug. Every second one has one
+thread. Two of four compare pictures with their goldens, the other two also what each pass wrote, with the record beside the golden.
 """
 import argparse
+import collections
 import json
 import os
 import pathlib
@@ -36,9 +40,11 @@ class Copy:
         defaults = {**self.cases["defaults"], "tolerance": tolerance or {}}
         (self.folder / "planted.cases.json").write_text(json.dumps({**self.cases, "defaults": defaults}))
 
-    def test(self, *arguments):
-        environment = {**os.environ, "WEFT_DATA": str(self.folder)}
-        return run(self.weft, "test", self.folder, "--program-cache", self.cache, *arguments, folder=self.folder, env=environment)
+    def test(self, *arguments, threads=0):
+        """`threads`: 1, or 0 for as many as there are."""
+        environment = {**os.environ, "WEFT_DATA": str(self.folder), **({"LP_NUM_THREADS": "0"} if threads == 1 else {})}
+        confine = (lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})) if threads == 1 else None
+        return run(self.weft, "test", self.folder, "--program-cache", self.cache, *arguments, folder=self.folder, env=environment, preexec_fn=confine)
 
 
 def plant(copy, bug, report):
@@ -60,31 +66,45 @@ def plant(copy, bug, report):
     print(f"{bug['bug']}: {FIRST.findall(results[0].out)}, FLIP {numbers[1]}, at most {numbers[2]}; by default {'found' if results[1].code else 'not found'}" if numbers else results[0].out, flush=True)
 
 
+def run_without_bugs(copy, cases, runs, report):
+    """Prints how many comparisons there were, and how many of them raised an alarm."""
+    began, counts = time.monotonic(), collections.Counter()
+    only = [word for case in cases for word in ("--only", case)]
+    for number in range(runs):
+        threads, records = (1, 0)[number % 2], number % 4 >= 2
+        result = copy.test(*only, *(["--accept"] if records else []), threads=threads)
+        word = "kept" if records else "ok"
+        same = [case for case in cases if re.search(rf"^{word} +{case}$", result.out, re.MULTILINE)]
+        counts[threads, records] += len(cases)
+        counts["alarms"] += len(cases) - len(same)
+        report.check(result.code == 0 and len(same) == len(cases), f"run {number} without a bug, {threads or 'all'} threads: {result.code}\n{result.out}{result.err}")
+        if number % 10 == 9:
+            print(f"{number + 1} runs without a bug, {counts['alarms']} alarms", flush=True)
+    for (threads, records), count in sorted((key, count) for key, count in counts.items() if key != "alarms"):
+        print(f"{'one thread' if threads else 'all threads'}, {'pictures and what each pass wrote' if records else 'pictures'}: {count} comparisons")
+    print(f"{runs} runs without a bug of {', '.join(cases)}: {runs * len(cases)} comparisons, {counts['alarms']} alarms, in {time.monotonic() - began:.0f} s")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("weft", type=pathlib.Path)
-    parser.add_argument("--all", action="store_true")
+    for flag in ("--all", "--no-bugs"):
+        parser.add_argument(flag, action="store_true")
     parser.add_argument("--runs", type=int, default=2)
     options, report = parser.parse_args(), Report()
     bugs = json.loads((HERE / "planted_bugs.json").read_text())
     report.check(len(bugs) >= 20, f"{len(bugs)} bugs")
     with temporary_folder() as folder:
         copy = Copy(options.weft.resolve(), pathlib.Path(folder))
-        only = () if options.all else ("--only", "glow")
-        written = copy.test("--accept", *only)
+        every = options.all or options.no_bugs
+        cases = [case["name"] for case in copy.cases["cases"] if every or case["name"] == "glow"]
+        written = copy.test("--accept", *(word for case in cases for word in ("--only", case)))
         report.check(written.code == 0, f"{written.out}{written.err}")
-        chosen = bugs if options.all else [bug for bug in bugs if bug["case"] == "glow"][1::3]
+        chosen = [] if options.no_bugs else bugs if options.all else [bug for bug in bugs if bug["case"] == "glow"][1::3]
         for bug in chosen:
             plant(copy, bug, report)
-        cases = sorted({bug["case"] for bug in chosen})
-        share, began = -(-options.runs // len(cases)), time.monotonic()
-        for number in range(share):
-            for case in cases:
-                result = copy.test("--only", case)
-                report.check(result.code == 0 and "FAILED" not in result.out, f"run {number} of {case} without a bug\n{result.out}{result.err}")
-            if number % 10 == 9:
-                print(f"{(number + 1) * len(cases)} runs without a bug", flush=True)
-        print(f"{len(chosen)} bugs; {share} runs without one of each of {', '.join(cases)}, in {time.monotonic() - began:.0f} s")
+        print(f"{len(chosen)} bugs planted")
+        run_without_bugs(copy, cases, options.runs, report)
     report.end()
 
 
