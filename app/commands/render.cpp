@@ -52,7 +52,7 @@ int runRender(const Options& options) {
     diagnostics
         .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
                "the graph presents nothing to write")
-        .hint = "add \"present\": \"<texture>\"";
+        .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
     return report(diagnostics);
   }
   const double prepared = now();

@@ -118,4 +118,19 @@ std::string checkSet(const std::string& text) {
   return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
 }
 
+std::string findEmptyName(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    const bool folder = type.find("FOLDER") != std::string::npos;
+    if (option->get_positional() || (!folder && type.find("FILE") == std::string::npos)) continue;
+    for (const std::string& value : option->results())
+      if (value.empty())
+        return fmt::format("{}: expected the name of a {}, found ''", option->get_name(),
+                           folder ? "folder" : "file");
+  }
+  for (const CLI::App* inner : command.get_subcommands())
+    if (std::string wrong = findEmptyName(*inner); !wrong.empty()) return wrong;
+  return {};
+}
+
 }  // namespace weft::app

@@ -1,4 +1,4 @@
-// Values on the command line: what each has to look like. A check gives "" or what is wrong, for CLI11. Does not: know options.
+// Values on the command line: what each has to look like. A check gives "" or what is wrong, for CLI11. Does not: know single options.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -26,6 +26,10 @@ std::string checkPointer(const std::string& text);  // "80,45" or "80,45,down"
 std::string checkFolder(const std::string& path);   // that is there
 // A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
 CLI::Validator numberFrom(double low, double high);
+
+// An option of `command` for a file or a folder that was given as "", as by a variable of a script that is not set. What is wrong
+// with it, or "".
+std::string findEmptyName(const CLI::App& command);
 
 // Set a limit (NAME=VALUE), and confine reading to a folder, for this process.
 std::string takeLimit(const std::string& text);

@@ -74,7 +74,10 @@ int tell(const CLI::App& app, const CLI::ParseError& error) {
   print(out.str());
   // What is wrong repeats what was written; the rest is of the parser.
   const std::string said = err.str(), what = error.what();
-  printError(said.starts_with(what) ? shown(what) + said.substr(what.size()) : said);
+  const std::size_t twice = what.find(": At Most 1 required");
+  const std::string own =
+      twice == std::string::npos ? what : what.substr(0, twice) + ": given more than once";
+  printError(said.starts_with(what) ? shown(own) + said.substr(what.size()) : said);
   return code;
 }
 
@@ -360,6 +363,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     return std::nullopt;
   }
   options.command = app.get_subcommands().front()->get_name();
+  if (const std::string wrong = findEmptyName(*app.get_subcommands().front()); !wrong.empty()) {
+    printError(fmt::format("weft {}: {}\n", options.command, shown(wrong)));
+    exitCode = 2;
+    return std::nullopt;
+  }
   if (options.command == "completion" || options.command == "man")
     options.commandLine = describeCommands(app);
   parsePair(raw.size, 'x', options.width, options.height);

@@ -19,7 +19,7 @@ bool checkPresents(const Options& options, runtime::Renderer& renderer, base::Di
   diagnostics
       .error(base::Code::presentsNothing, {std::make_shared<const std::string>(options.graph), 1, 1},
              "the graph presents nothing to compare")
-      .hint = "add \"present\": \"<texture>\"";
+      .hint = "add \"present\": \"<texture>\", and enable a pass that writes it";
   return false;
 }
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -32,6 +33,9 @@ constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 // The first folder that is not there, or the file of the nearest name.
 std::string hintForMissing(const std::filesystem::path& path) {
   std::error_code ec;
+  if (path == "-") return "name a file; standard input is /dev/stdin";
+  if (!path.has_filename() && std::filesystem::is_regular_file(path.parent_path(), ec))
+    return fmt::format("it is a file: write '{}'", path.parent_path().string());
   const std::filesystem::path folder = path.parent_path().empty() ? "." : path.parent_path();
   if (!std::filesystem::is_directory(folder, ec)) {
     std::filesystem::path missing = folder;
@@ -44,6 +48,15 @@ std::string hintForMissing(const std::filesystem::path& path) {
   const std::string near = nearestName(path.filename().string(), *names);
   return near.empty() ? "check the path"
                       : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
+}
+
+// Where the bytes of a file stand until they are whole: beside it, also where its name is as long as a name may be.
+std::string temporaryOf(const std::string& path) {
+  constexpr std::size_t kLongest = 255;  // bytes, of most file systems
+  static std::atomic<unsigned> made = 0;
+  const std::filesystem::path beside = fmt::format("{}.{}.tmp", path, ::getpid());
+  if (beside.filename().string().size() <= kLongest) return beside.string();
+  return (beside.parent_path() / fmt::format(".weft.{}.{}.tmp", ::getpid(), ++made)).string();
 }
 
 // Whether a pipe has bytes or its end; false after a moment without, so that whoever waits can be asked.
@@ -148,7 +161,7 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
   const auto before = std::filesystem::status(target, ec);
   // A device or a pipe is written to, not replaced.
   const bool special = std::filesystem::exists(before) && !std::filesystem::is_regular_file(before);
-  const std::string temporary = special ? target : fmt::format("{}.{}.tmp", target, ::getpid());
+  const std::string temporary = special ? target : temporaryOf(target);
   FilePtr file(std::fopen(temporary.c_str(), "wb"));
   if (!file) return fail(std::strerror(errno));
   const bool written =

@@ -206,6 +206,12 @@ CASES = [
     (rendered(GLOW, "--size", "0x36"), 2, None, "--size"),
     (rendered(GLOW, "--size", "99999x99999"), 2, None, "--size"),
     (rendered(GLOW, "--size", "large"), 2, None, "--size"),
+    (rendered(GLOW, "--size", "32x18", "--size", "64x36"), 2, None, "--size: given more than once"),
+    # a variable of a script that is not set
+    (["render", GLOW, "-o", ""], 2, None, "--output: expected the name of a file, found ''"),
+    (["dump", GLOW, "*", "-o", ""], 2, None, "--output: expected the name of a folder, found ''"),
+    (["new", "pass", "some", "--graph", GLOW, "-o", ""], 2, None, "--output: expected the name of a folder, found ''"),
+    (["check", GLOW, "--scene", ""], 2, None, "--scene: expected the name of a file, found ''"),
     (rendered(GLOW, "--frames", "3:2"), 2, None, "--frames"),
     (rendered(GLOW, "--frames", "-1"), 2, None, "--frames"),
     (rendered(GLOW, "--set", "bloom"), 2, None, "--set"),

@@ -3,6 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <iterator>
+#include <string>
+#include <utility>
 
 #include "tests/temporary_folder.h"
 
@@ -18,6 +21,33 @@ TEST_CASE("a missing file, a directory and an unwritable place are told apart") 
   CHECK(all.items()[1].code == Code::unreadableImage);
   CHECK(all.items()[1].message.find("directory") != std::string::npos);
   CHECK(all.items()[2].code == Code::outputNotWritten);
+}
+
+TEST_CASE("the hint for a missing file tells a slash too many and a dash from a wrong path") {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.json", "{}");
+  for (const auto& [wrong, hint] : {std::pair(path + "/", "write '" + path + "'"),
+                                    std::pair(path + "/b", std::string("there is no folder")),
+                                    std::pair(std::string("-"), std::string("/dev/stdin"))}) {
+    CAPTURE(wrong);
+    Diagnostics all;
+    CHECK_FALSE(readFile(wrong, all));
+    REQUIRE(all.size() == 1);
+    CHECK_MESSAGE(all.items()[0].hint.find(hint) != std::string::npos, all.items()[0].hint);
+  }
+}
+
+TEST_CASE("a name may be as long as the file system takes it") {
+  const TemporaryFolder folder;
+  const std::string longest(255, 'n');
+  Diagnostics all;
+  for (const char* text : {"one", "two"}) {
+    REQUIRE_MESSAGE(writeFile(folder.at(longest), std::string_view(text), all), all.text());
+    CHECK(readFile(folder.at(longest), all) == text);
+  }
+  CHECK_FALSE(writeFile(folder.at(longest + "n"), std::string_view("x"), all));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()),
+                      std::filesystem::directory_iterator()) == 1);
 }
 
 TEST_CASE("a device is not read: /dev/zero has no end") {
