@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <unordered_map>
 
 #include "engine/base/nearest.h"
@@ -248,16 +250,28 @@ bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::
   };
   const auto writers = static_cast<std::size_t>(std::ranges::count_if(slots, writes));
   if (writers == 0 || !good) return good;
-  // Those that use what is written, by resource: a pass may have thousands of slots.
+  // Those that use what is written: of a few slots by a look at each, else by resource, as a pass may have thousands.
+  constexpr std::size_t kFew = 32;
+  std::array<std::size_t, kFew> room;
   std::unordered_map<std::uint32_t, std::vector<std::size_t>> sharing;
-  for (const SlotWork& work : slots)
-    if (writes(work)) sharing.try_emplace(work.entity);
-  for (std::size_t i = 0; i < slots.size(); ++i)
-    if (const auto found = sharing.find(slots[i].entity); found != sharing.end()) found->second.push_back(i);
+  if (slots.size() > kFew) {
+    for (const SlotWork& work : slots)
+      if (writes(work)) sharing.try_emplace(work.entity);
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (const auto found = sharing.find(slots[i].entity); found != sharing.end())
+        found->second.push_back(i);
+  }
+  const auto usersOf = [&](std::uint32_t entity) -> std::span<const std::size_t> {
+    if (slots.size() > kFew) return sharing[entity];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (slots[i].entity == entity) room[count++] = i;
+    return {room.data(), count};
+  };
   for (std::size_t i = 0; i < slots.size() && good; ++i) {
     const SlotWork& a = slots[i];
     if (!writes(a)) continue;
-    const std::vector<std::size_t>& others = sharing[a.entity];
+    const std::span<const std::size_t> others = usersOf(a.entity);
     if (!compare(context.model, others.size(), a.slot->place)) return false;
     for (const std::size_t j : others) {
       if (!good) break;
@@ -296,6 +310,29 @@ bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::
     }
   }
   return good;
+}
+
+void checkAccumulation(const SlotContext& context, const SlotWork& work, std::uint32_t firstUse) {
+  const FlatGraph& graph = context.model.graph;
+  for (std::uint32_t i = 0; i < work.elementCount; ++i) {
+    std::uint32_t slower = kNone;  // the first of those it adds to
+    graph.links.forEachWriter(graph.links.seen[firstUse + i], [&](std::uint32_t use) {
+      const std::uint32_t writer = graph.links.passOf[use];
+      if (slower == kNone && graph.passes[writer].cadence != Cadence::always) slower = writer;
+    });
+    if (slower == kNone) continue;
+    auto& report = context.model.diagnostics.error(
+        Code::addsUp, work.slot->ref.place,
+        fmt::format("{} runs in every frame and modifies '{}', which '{}' makes only {}", context.user,
+                    work.slot->ref.text, graph.passNames[slower],
+                    graph.passes[slower].cadence == Cadence::once ? "once" : "on change"));
+    report.pass = context.pass;
+    report.resource = context.model.entities[work.entity].name;
+    report.hint =
+        "it would add up from frame to frame: read it and write another resource, or give both passes "
+        "one \"update\"";
+    return;
+  }
 }
 
 }  // namespace weft::graph::expansion

@@ -21,6 +21,10 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
 // twice; nothing may be both read and written, except by feedback.
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots);
 
+// An `always` pass must not modify what a slower one made: it would add to it again in every frame. `firstUse` is the
+// first of the slot's uses in the graph.
+void checkAccumulation(const SlotContext& context, const SlotWork& work, std::uint32_t firstUse);
+
 const PassType* findPassType(const Registry& registry, std::string_view name);
 
 }  // namespace weft::graph::expansion

@@ -194,6 +194,7 @@ void foldTimed(Model& model, const std::vector<DeferredUniform>& deferred) {
 // when it is evaluated anew.
 void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
   std::vector<Value> values;
+  values.reserve(model.parameters.size());
   for (const Parameter& parameter : model.parameters) values.push_back(parameter.value);
   findLiveLets(model);
   const auto trialAge = [](std::uint32_t) { return kTrialAge; };
@@ -236,6 +237,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
     foldLive(model, deferred);
     model.diagnostics = said;
   }
+  model.graph.parameters.reserve(model.parameters.size());
   for (const Parameter& parameter : model.parameters)
     model.graph.parameters.push_back({*parameter.desc, parameter.path, parameter.value, parameter.origin,
                                       parameter.valuePlace, parameter.structural});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/first_value.h"
@@ -130,12 +131,14 @@ class PassWalk {
     names.indices.pop_back();
   }
 
-  std::string instanceName(const Names& names) const {
-    if (names.indices.empty()) return declared_;
-    std::string name = declared_ + "[";
+  // name_ and user_ of the instance.
+  void nameInstance(const Names& names) {
+    name_ = declared_;
     for (std::size_t i = 0; i < names.indices.size(); ++i)
-      name += fmt::format("{}{}", i ? "," : "", static_cast<std::int64_t>(names.indices[i].value));
-    return name + "]";
+      fmt::format_to(std::back_inserter(name_), "{}{}", i ? "," : "[",
+                     static_cast<std::int64_t>(names.indices[i].value));
+    if (!names.indices.empty()) name_ += "]";
+    user_.assign("pass '").append(name_).append("'");
   }
 
   // ---- one instance ----
@@ -156,19 +159,19 @@ class PassWalk {
   void instance(Names& names) {
     if (!mayExpand(model_, cost_, desc_->place, declared_)) return;
     const std::size_t before = model_.diagnostics.errorCount();
-    const std::string name = instanceName(names);
+    nameInstance(names);
     bool byItself = false;
-    const auto why = whyDisabled(names, name, byItself);
+    const auto why = whyDisabled(names, name_, byItself);
     if (!why) {
       failed_ = true;
       return;
     }
     const bool enabled = why->empty();
-    const std::string user = fmt::format("pass '{}'", name);
-    const SlotContext context{model_, names, type_, user, name, enabled, !byItself, timing_};
+    const SlotContext context{model_, names, type_, user_, name_, enabled, !byItself, timing_, &leaves_};
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
 
-    std::vector<SlotWork> slots;
+    std::vector<SlotWork>& slots = slots_;
+    slots.clear();
     slots.reserve(desc_->slots.size());
     const SlotDesc* gone = nullptr;
     for (const SlotDesc& slot : desc_->slots) {
@@ -182,9 +185,9 @@ class PassWalk {
     checkPassUses(context, *desc_, firsts_.none() ? slots : firsts_.with(slots));
     if (isOver(model_)) return;
     if (!why->empty()) {
-      disabledInstance(context, slots, name, *why);
+      disabledInstance(context, slots, name_, *why);
     } else if (gone) {
-      disabledInstance(context, slots, name, fmt::format("'{}' is not there at this size", gone->ref.text));
+      disabledInstance(context, slots, name_, fmt::format("'{}' is not there at this size", gone->ref.text));
     } else if (enabled) {
       emit(context, slots, names);
     }
@@ -206,8 +209,8 @@ class PassWalk {
                                  })});
     if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
-    std::vector<DeferredValue> deferred;
-    fillSpec(context, *desc_, slots, ignored, deferred);
+    values_.clear();
+    fillSpec(context, *desc_, slots, ignored, values_);
   }
 
   // ---- what goes into the graph ----
@@ -266,36 +269,13 @@ class PassWalk {
                              pass, kNone, work.whole});
   }
 
-  // An always pass would add to what a slower pass made, again in every frame.
-  void checkAccumulation(const SlotContext& context, const SlotWork& work, std::uint32_t firstUse) {
-    for (std::uint32_t i = 0; i < work.elementCount; ++i) {
-      std::uint32_t slower = kNone;  // the first of those it adds to
-      graph_.links.forEachWriter(graph_.links.seen[firstUse + i], [&](std::uint32_t use) {
-        const std::uint32_t writer = graph_.links.passOf[use];
-        if (slower == kNone && graph_.passes[writer].cadence != Cadence::always) slower = writer;
-      });
-      if (slower == kNone) continue;
-      auto& report = model_.diagnostics.error(
-          Code::addsUp, work.slot->ref.place,
-          fmt::format("{} runs in every frame and modifies '{}', which '{}' makes only {}", context.user,
-                      work.slot->ref.text, graph_.passNames[slower],
-                      graph_.passes[slower].cadence == Cadence::once ? "once" : "on change"));
-      report.pass = context.pass;
-      report.resource = model_.entities[work.entity].name;
-      report.hint =
-          "it would add up from frame to frame: read it and write another resource, or give both passes "
-          "one \"update\"";
-      return;
-    }
-  }
-
   void emit(const SlotContext& context, const std::vector<SlotWork>& slots, Names& names) {
     FlatPass flat;
     addCadence(context, names, flat);
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
     PassSpec spec;
-    std::vector<DeferredValue> deferred;
-    if (stanzaGood_) fillSpec(context, *desc_, slots, spec, deferred);
+    values_.clear();
+    if (stanzaGood_) fillSpec(context, *desc_, slots, spec, values_);
     flat.firstUse = static_cast<std::uint32_t>(graph_.uses.size());
     spec.name = context.pass;
     spec.declared = declared_;
@@ -344,7 +324,7 @@ class PassWalk {
         checkAccumulation(context, slots[i], slot.firstUse);
       if (mayMake(context, slots[i])) emitWrites(slots[i], slot, pass);
     }
-    for (const DeferredValue& value : deferred) deferred_.push_back({pass, value, scope_, names.indices});
+    for (const DeferredValue& value : values_) deferred_.push_back({pass, value, scope_, names.indices});
     if (timing_ != 0) addTiming(pass, spec);
     graph_.passes.push_back(flat);
     graph_.passNames.push_back(context.pass);
@@ -375,21 +355,36 @@ class PassWalk {
   const PassDesc* desc_ = nullptr;
   const PassType* type_ = nullptr;
   const std::vector<DisableRule>* rules_ = nullptr;
-  FirstValues firsts_;  // of the instance
   std::string declared_, scopeWhy_;
   StanzaCost cost_;
   std::uint32_t timing_ = 0;
   bool failed_ = false, stanzaGood_ = true;
+  // of the instance; kept from one to the next for their memory
+  std::string name_, user_;  // "glow_down[3]", "pass 'glow_down[3]'"
+  std::vector<SlotWork> slots_;
+  FirstValues firsts_;
+  std::vector<DeferredValue> values_;
+  std::vector<Leaf> leaves_;
 };
 
 }  // namespace
 
 void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
-  std::size_t slots = 0;  // of stanzas that do not repeat: a large graph of them is not copied while it grows
-  for (const Scope& scope : model.scopes)
-    for (const PassDesc& pass : scope.desc->passes) slots += pass.slots.size();
+  // Of stanzas that do not repeat: a large graph of them is not copied while it grows.
+  std::size_t slots = 0, passes = 0, values = 0;
+  for (const Scope& scope : model.scopes) {
+    passes += scope.desc->passes.size();
+    for (const PassDesc& pass : scope.desc->passes) {
+      slots += pass.slots.size();
+      values += pass.parameters.size();
+    }
+  }
   model.graph.slots.reserve(slots);
   model.graph.uses.reserve(slots);
+  model.graph.passes.reserve(passes);
+  model.graph.passNames.reserve(passes);
+  model.graph.specs.reserve(std::min<std::size_t>(passes, 4096));  // there may be a million that are disabled
+  deferred.reserve(values);
   PassWalk(model, deferred).walk(model.scopes[0], {}, 0);
 }
 

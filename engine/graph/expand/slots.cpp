@@ -282,6 +282,7 @@ void mention(Model& model, std::uint32_t index, std::uint32_t position) {
     entity.mentions.back() = {position};
     return;
   }
+  if (entity.mentions.empty()) entity.mentions.reserve(4);
   entity.mentions.push_back({position});
   if (!entity.candidates.empty() && !lookAt(model, entity.candidates.size(), entity.desc->place)) return;
   for (std::size_t i = 0; i < entity.candidates.size(); ++i)
@@ -318,16 +319,16 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
   SlotContext checked = context;
   if (!*holds) checked.ranges = false;
 
-  std::vector<Leaf> leaves;
+  std::vector<Leaf> own;
+  std::vector<Leaf>& leaves = context.room ? *context.room : own;
+  leaves.clear();
   if (!collectLeaves(checked, context.names, ref, Leaf{}, leaves)) return work;
 
-  MissingRead missing;
-  missing.pass = pass;
-  missing.position = model.position;
-  missing.slot = slot.name;
-  missing.ref = &ref;
-  missing.access = slot.access;
-
+  std::vector<MissingRead::Wanted> wanted;
+  const auto addMissing = [&](MissingRead::Cause cause) {
+    model.missing.push_back(
+        {cause, pass, model.position, slot.name, &ref, false, slot.access, std::move(wanted)});
+  };
   const bool looksForVersions = context.versions && *holds && slot.access != Access::write;
   bool onlyImports = !leaves.empty();
   const SlotWork blank = work;
@@ -352,8 +353,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
       candidate.state = slot.access == Access::read && !ref.optional ? State::missing : State::absent;
       work = std::move(candidate);
       if (work.state == State::missing && context.versions) {
-        missing.cause = MissingRead::Cause::condition;
-        model.missing.push_back(std::move(missing));
+        addMissing(MissingRead::Cause::condition);
       }
       return work;
     }
@@ -367,8 +367,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     for (std::uint32_t e = candidate.firstElement; e < candidate.firstElement + candidate.elementCount; ++e) {
       const VersionCheck check = checkVersion(model, candidate.entity, e, candidate.use);
       real = real || check.real;
-      if (complete && !check.complete)
-        missing.wanted.push_back({candidate.entity, e, check.missing, candidate.use});
+      if (complete && !check.complete) wanted.push_back({candidate.entity, e, check.missing, candidate.use});
       complete = complete && check.complete;
     }
     if (complete && real) {
@@ -390,10 +389,9 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     return work;
   }
   work.state = State::missing;
-  missing.cause = leaves.empty() ? MissingRead::Cause::condition
-                  : onlyImports  ? MissingRead::Cause::import
-                                 : MissingRead::Cause::version;
-  model.missing.push_back(std::move(missing));
+  addMissing(leaves.empty() ? MissingRead::Cause::condition
+             : onlyImports  ? MissingRead::Cause::import
+                            : MissingRead::Cause::version);
   return work;
 }
 

@@ -61,6 +61,8 @@ struct SlotContext {
   bool versions = true;      // false: a disabled pass; the first candidate is validated
   bool ranges = true;        // false: sub-resource ranges are not held against sizes
   std::uint32_t timing = 0;  // of a timed pass, as Entity::timing
+  std::vector<Leaf>* room =
+      nullptr;  // for candidates, so that not every slot takes memory of its own for them
 };
 
 // All concrete candidates of a reference whose conditions hold, in order. False after a report.

@@ -40,6 +40,8 @@ class SpecFiller {
 
   bool run(std::vector<DeferredValue>& deferred) {
     const std::size_t before = model_.diagnostics.errorCount();
+    spec_.uniforms.reserve(desc_.parameters.size());
+    spec_.defines.reserve(desc_.defines.size());
     for (const NamedExpr& state : desc_.state) addState(state);
     checkDepthState();
     for (const NamedExpr& define : desc_.defines) addDefine(define, deferred);
@@ -174,9 +176,8 @@ class SpecFiller {
 
   // The only $variable an expression consists of, or none.
   Variable onlyVariable(const Expr& expr) {
-    const std::vector<std::string> variables = expr.variables();
-    if (variables.size() != 1 || expr.text() != "$" + variables[0]) return {};
-    return findVariable(model_, names_.scope(), variables[0]);
+    const std::string* const name = onlyVariableOf(expr);
+    return name ? findVariable(model_, names_.scope(), *name) : Variable{};
   }
 
   void emitDefine(const std::string& name, const Value& value, const std::vector<std::string>& choices,
@@ -234,7 +235,7 @@ class SpecFiller {
     if (model_.diagnostics.errorCount() > before) return;
     std::vector<std::string> choices;
     if (value.type == Value::Type::symbol)
-      for (const std::string& variable : expr.variables()) {
+      for (const std::string& variable : variablesOf(expr)) {
         choices = names_.choicesOf(variable);
         if (std::find(choices.begin(), choices.end(), value.symbol) != choices.end()) break;
       }
@@ -247,8 +248,7 @@ class SpecFiller {
     uniform.place = desc.place;
     Parameter* parameter = nullptr;
     if (desc.declared) {
-      const auto found = names_.scope().passParameters.find(desc_.name + "." + desc.name);
-      if (found != names_.scope().passParameters.end()) parameter = &model_.parameters[found->second];
+      parameter = findPassParameter(model_, names_.scope(), desc_.name, desc.name);
     } else if (const Variable variable = onlyVariable(desc.value);
                variable.kind == Variable::Kind::parameter) {
       parameter = &model_.parameters[variable.index];

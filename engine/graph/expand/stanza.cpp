@@ -235,9 +235,8 @@ void checkExpressions(const Stanza& stanza) {
   for (const PassParameterDesc& parameter : desc.parameters) {
     if (!parameter.declared) checkExpr(model, scope, parameter.value, true);
     if (parameter.declared && parameter.declared->define)
-      if (const auto found = scope.passParameters.find(desc.name + "." + parameter.name);
-          found != scope.passParameters.end())
-        model.parameters[found->second].structural = true;
+      if (Parameter* const own = findPassParameter(model, scope, desc.name, parameter.name))
+        own->structural = true;
   }
 }
 

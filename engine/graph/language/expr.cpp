@@ -113,9 +113,43 @@ ExprPtr makeConstant(Value value, base::Place place) {
   return node;
 }
 
+namespace {
+
+std::size_t countVariables(const ExprNode& node) {
+  std::size_t count = node.op == ExprOp::variable ? 1 : 0;
+  for (const ExprPtr& child : node.children) count += countVariables(*child);
+  return count;
+}
+
+// `isNew` says whether a name is not in `out` yet.
+template <class IsNew>
+void collectVariables(const ExprNode& node, std::vector<std::string>& out, const IsNew& isNew) {
+  if (node.op == ExprOp::variable && isNew(node.name)) out.push_back(node.name);
+  for (const ExprPtr& child : node.children) collectVariables(*child, out, isNew);
+}
+
+std::shared_ptr<const std::vector<std::string>> namedBelow(const ExprNode& root) {
+  constexpr std::size_t kFew = 16;  // a look at each is faster than a set
+  const std::size_t count = root.op == ExprOp::constant ? 0 : countVariables(root);
+  if (count == 0) return nullptr;
+  auto out = std::make_shared<std::vector<std::string>>();
+  if (count <= kFew) {
+    out->reserve(count);
+    collectVariables(root, *out,
+                     [&](const std::string& name) { return std::ranges::find(*out, name) == out->end(); });
+    return out;
+  }
+  std::set<std::string_view> seen;
+  collectVariables(root, *out, [&](const std::string& name) { return seen.insert(name).second; });
+  return out;
+}
+
+}  // namespace
+
 ExprPtr withStart(const ExprPtr& root, const base::Place& start) {
   auto copy = std::make_shared<ExprNode>(*root);
   copy->start = start;
+  copy->variables = namedBelow(*root);
   return copy;
 }
 
@@ -192,19 +226,6 @@ void print(const ExprNode& node, int outer, std::string& out) {
       print(*node.children[1], info.precedence + 1, out);
   }
   if (parens) out += ')';
-}
-
-std::size_t countVariables(const ExprNode& node) {
-  std::size_t count = node.op == ExprOp::variable ? 1 : 0;
-  for (const ExprPtr& child : node.children) count += countVariables(*child);
-  return count;
-}
-
-// `isNew` says whether a name is not in `out` yet.
-template <class IsNew>
-void collectVariables(const ExprNode& node, std::vector<std::string>& out, const IsNew& isNew) {
-  if (node.op == ExprOp::variable && isNew(node.name)) out.push_back(node.name);
-  for (const ExprPtr& child : node.children) collectVariables(*child, out, isNew);
 }
 
 void collectParameters(const ExprNode& node, std::vector<std::uint32_t>& out) {
@@ -300,19 +321,16 @@ const base::Place& Expr::place() const {
 }
 
 std::vector<std::string> Expr::variables() const {
-  constexpr std::size_t kFew = 16;  // a look at each is faster than a set
-  std::vector<std::string> out;
-  const std::size_t count = root_ && root_->op != ExprOp::constant ? countVariables(*root_) : 0;
-  if (count == 0) return out;
-  if (count <= kFew) {
-    out.reserve(count);
-    collectVariables(*root_, out,
-                     [&](const std::string& name) { return std::ranges::find(out, name) == out.end(); });
-    return out;
-  }
-  std::set<std::string_view> seen;
-  collectVariables(*root_, out, [&](const std::string& name) { return seen.insert(name).second; });
-  return out;
+  return variablesOf(*this);
+}
+
+const std::vector<std::string>& variablesOf(const Expr& expr) {
+  static const std::vector<std::string> kNoNames;
+  return expr.root() && expr.root()->variables ? *expr.root()->variables : kNoNames;
+}
+
+const std::string* onlyVariableOf(const Expr& expr) {
+  return expr.root() && expr.root()->op == ExprOp::variable ? &expr.root()->name : nullptr;
 }
 
 bool Expr::says(std::string_view word) const {

@@ -65,6 +65,8 @@ struct ExprNode : std::enable_shared_from_this<ExprNode> {
   Value value{};
   std::string name{};
   std::vector<std::shared_ptr<const ExprNode>> children{};
+  // Every $variable from here down, each once; set on roots only. Null: there is none.
+  std::shared_ptr<const std::vector<std::string>> variables{};
 };
 
 using ExprPtr = std::shared_ptr<const ExprNode>;
@@ -100,7 +102,12 @@ int heightOver(const std::vector<ExprPtr>& children);
 std::uint32_t termsOver(const std::vector<ExprPtr>& children);
 // Sets what a node's children decide: height (which the caller has checked), dynamic, live, terms.
 void setChildren(ExprNode& node, std::vector<ExprPtr> children);
-// A copy of `root` that knows where the whole expression starts.
+// What expr.variables() has, without a copy.
+const std::vector<std::string>& variablesOf(const Expr& expr);
+// The name of the only $variable that the expression consists of; null when it is something else.
+const std::string* onlyVariableOf(const Expr& expr);
+
+// A copy of `root` that knows where the whole expression starts, and which variables it names.
 ExprPtr withStart(const ExprPtr& root, const base::Place& start);
 
 // The trees of Expr::parse; null after an error.

@@ -54,6 +54,7 @@ void warnUnread(Model& model) {
     return;
   }
   const Liveness live = findLive(graph);
+  if (std::ranges::find(live.pass, 0) == live.pass.end()) return;
   for (Entity& entity : model.entities) std::ranges::sort(entity.mentions, {}, &Mention::position);
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> byEntity;
   for (std::uint32_t i = 0; i < model.writes.size(); ++i)

@@ -128,10 +128,10 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
     parameters.push_back(i);
   };
   // Only those of its last part can be meant.
-  if (const auto leaves = model.parametersByLeaf.find(wanted.substr(wanted.rfind('.') + 1));
+  if (const auto leaves = model.parametersByLeaf.find(std::string_view(wanted).substr(wanted.rfind('.') + 1));
       leaves != model.parametersByLeaf.end()) {
-    if (!compare(model, leaves->second.size(), origin.place)) return;
-    for (const std::uint32_t i : leaves->second) add(i);
+    if (!compare(model, leaves->second.count, origin.place)) return;
+    for (std::uint32_t i = leaves->second.first; i != kNone; i = model.parameters[i].nextOfLeaf) add(i);
   }
   const std::vector<std::size_t> found = suffixMatches(names, wanted);
   if (found.empty()) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/graph/expand/names/scope.h"
+#include "engine/graph/language/expr_node.h"
 
 namespace weft::graph::expansion {
 
@@ -14,7 +15,7 @@ void spread(Model& model, std::vector<std::uint32_t> found, bool Let::*flag) {
   if (found.empty()) return;
   std::vector<std::vector<std::uint32_t>> users(model.lets.size());
   for (std::uint32_t i = 0; i < model.lets.size(); ++i)
-    for (const std::string& name : model.lets[i].desc->expr.variables())
+    for (const std::string& name : variablesOf(model.lets[i].desc->expr))
       if (const Variable used = findVariable(model, *model.lets[i].scope, name);
           used.kind == Variable::Kind::let)
         users[used.index].push_back(i);
@@ -28,7 +29,7 @@ void spread(Model& model, std::vector<std::uint32_t> found, bool Let::*flag) {
 
 bool readsLive(Model& model, Scope& scope, const Expr& expr) {
   if (!expr.present() || expr.isConstant()) return false;
-  for (const std::string& name : expr.variables())
+  for (const std::string& name : variablesOf(expr))
     if (const Variable variable = findVariable(model, scope, name);
         variable.kind == Variable::Kind::parameter && !model.parameters[variable.index].structural)
       return true;
@@ -55,7 +56,7 @@ void findLiveLets(Model& model) {
 bool isLive(Model& model, Scope& scope, const Expr& expr) {
   if (readsLive(model, scope, expr)) return true;
   if (!expr.present() || expr.isConstant()) return false;
-  for (const std::string& name : expr.variables()) {
+  for (const std::string& name : variablesOf(expr)) {
     const Variable variable = findVariable(model, scope, name);
     if (variable.kind == Variable::Kind::let && model.lets[variable.index].live) return true;
   }
@@ -66,7 +67,7 @@ void markStructural(Model& model, Scope& scope, const Expr& expr) {
   std::vector<Let*> lets;  // still to be followed
   const auto mark = [&](Scope& from, const Expr& each) {
     if (!each.present() || each.isConstant()) return;
-    for (const std::string& name : each.variables()) {
+    for (const std::string& name : variablesOf(each)) {
       const Variable variable = findVariable(model, from, name);
       if (variable.kind == Variable::Kind::parameter) model.parameters[variable.index].structural = true;
       if (variable.kind == Variable::Kind::let && !std::exchange(model.lets[variable.index].structural, true))
@@ -94,7 +95,7 @@ void markStructural(Model& model, Scope& scope, const RefDesc& ref) {
 bool isDynamic(Model& model, Scope& scope, const Expr& expr) {
   if (!expr.present() || expr.isConstant()) return false;
   if (expr.dynamic()) return true;
-  for (const std::string& name : expr.variables()) {
+  for (const std::string& name : variablesOf(expr)) {
     const Variable variable = findVariable(model, scope, name);
     if (variable.kind == Variable::Kind::let && model.lets[variable.index].dynamic) return true;
   }
@@ -110,7 +111,7 @@ bool countsElements(Model& model, Scope& scope, const Expr& expr) {
     if (!each->present() || each->isConstant()) continue;
     for (const auto& [fact, name] : each->facts())
       if (fact == Fact::count || fact == Fact::has) return true;
-    for (const std::string& name : each->variables())
+    for (const std::string& name : variablesOf(*each))
       if (const Variable variable = findVariable(model, *from, name);
           variable.kind == Variable::Kind::let && seen.insert(variable.index).second)
         open.emplace_back(model.lets[variable.index].scope, &model.lets[variable.index].desc->expr);

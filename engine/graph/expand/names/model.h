@@ -3,7 +3,6 @@
 // engine/graph/expand does one job on them. Does not: outlive expandGraph.
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -32,6 +31,16 @@ struct NameHash {
 };
 template <class T>
 using NameMap = std::unordered_map<std::string, T, NameHash, std::equal_to<>>;
+// The same for names that stand in the GraphDesc, or in another table of the Model, and do not move.
+template <class T>
+using KnownNames = std::unordered_map<std::string_view, T>;
+
+// What $name means.
+struct Variable {
+  enum class Kind : std::uint8_t { none, parameter, let, ambiguous };
+  Kind kind = Kind::none;
+  std::uint32_t index = 0;  // into Model::parameters or Model::lets
+};
 
 // What a message calls a thing: `words`, with `name` in the place of their {}. It becomes text only for a message, because
 // most things are right. Both must outlive it.
@@ -60,6 +69,12 @@ struct Parameter {
   bool structural = false;
   Place valuePlace{};  // where `value` was written: a default, a "set", the command line
   Origin origin = Origin::declaration;
+  std::uint32_t nextOfLeaf = kNone;  // the next parameter of the same name, in any file
+};
+
+// The parameters of one name: the first, linked by Parameter::nextOfLeaf in their order.
+struct Leaves {
+  std::uint32_t first = kNone, last = kNone, count = 0;
 };
 
 struct Let {
@@ -128,14 +143,13 @@ struct Entity {
 struct Scope {
   const GraphDesc* desc = nullptr;
   Scope* parent = nullptr;
-  const PassDesc* stanza = nullptr;  // the include in the parent
-  std::string prefix;                // "" or "post."
-  std::string group;                 // full name of the group that the include puts its passes into, or ""
-  NameMap<std::uint32_t> resources;  // entities
-  NameMap<std::uint32_t> parameters, lets;
-  NameMap<std::uint32_t> passParameters;  // "composite.fog"
-  NameMap<Scope*> includes;
-  NameMap<const PassDesc*> passes;
+  const PassDesc* stanza = nullptr;     // the include in the parent
+  std::string prefix;                   // "" or "post."
+  std::string group;                    // full name of the group that the include puts its passes into, or ""
+  KnownNames<std::uint32_t> resources;  // entities
+  KnownNames<Variable> variables;       // parameters, lets, and parameters of passes: "composite.fog"
+  KnownNames<Scope*> includes;
+  KnownNames<const PassDesc*> passes;
   std::string disabledBy;  // "--disable post"; empty: not disabled
   bool broken = false;     // an include below it could not be read: names it does not know may be from there
 };
@@ -223,14 +237,15 @@ struct Model {
   base::Diagnostics& diagnostics;
   FlatGraph graph{};
   VersionWalk versions{graph};
-  std::deque<Scope> scopes{};  // scopes[0] is the root
+  // None of these moves: buildScopes() counts what there will be, and makes room for it.
+  std::vector<Scope> scopes{};  // scopes[0] is the root
   std::vector<Parameter> parameters{};
-  std::deque<Let> lets{};
-  std::deque<Entity> entities{};
+  std::vector<Let> lets{};
+  std::vector<Entity> entities{};
   NameMap<std::uint32_t> implicitImports{};                        // "environment" of @environment
   std::vector<std::uint32_t> importResource{};                     // per import: its FlatResource or kNone
   std::unordered_map<std::uint64_t, std::uint32_t> importIndex{};  // by keyOf(request)
-  std::unordered_map<std::string, std::vector<std::uint32_t>> parametersByLeaf{};
+  KnownNames<Leaves> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<Timing> timings{};
   std::map<std::pair<const Scope*, std::string>, std::uint32_t> timingByText{};  // from 1

@@ -19,7 +19,7 @@ namespace {
 std::optional<Value> letValue(Model& model, Let& let) {
   if (let.state == Progress::done) return let.value;
   if (let.state == Progress::failed) return Value{};
-  const std::string label = "$" + let.path;
+  std::string label = "$" + let.path;
   if (let.state == Progress::active) {
     reportCycle(model, let.desc->place,
                 fmt::format("'{}' depends on itself: {}", label, cyclePath(model, label)));
@@ -32,7 +32,7 @@ std::optional<Value> letValue(Model& model, Let& let) {
     return Value{};
   }
   let.state = Progress::active;
-  model.evaluating.push_back(label);
+  model.evaluating.push_back(std::move(label));
   Names names(model, *let.scope);
   let.value = let.desc->expr.evaluate(names, model.diagnostics);
   model.evaluating.pop_back();
@@ -210,9 +210,9 @@ std::vector<std::string> Names::choicesOf(std::string_view variable) {
     if (found.kind == Variable::Kind::parameter) return model_.parameters[found.index].desc->choices;
     if (found.kind != Variable::Kind::let) return {};
     const Let& let = model_.lets[found.index];
-    const std::vector<std::string> names = let.desc->expr.variables();
-    if (names.size() != 1 || let.desc->expr.text() != "$" + names[0]) return {};
-    name = names[0];
+    const std::string* const only = onlyVariableOf(let.desc->expr);
+    if (!only) return {};
+    name = *only;
     scope = let.scope;
   }
   return {};
@@ -231,9 +231,7 @@ std::vector<std::string> Names::candidates(NameKind kind) {
       return names;
     case NameKind::variable:
       for (Scope* scope = &scope_; scope; scope = scope->parent) {
-        for (const auto& [name, index] : scope->parameters) names.push_back(name);
-        for (const auto& [name, index] : scope->lets) names.push_back(name);
-        for (const auto& [name, index] : scope->passParameters) names.push_back(name);
+        for (const auto& [name, variable] : scope->variables) names.emplace_back(name);
       }
       for (const Parameter& parameter : model_.parameters)
         if (parameter.path.starts_with(scope_.prefix)) names.push_back(parameter.desc->name);

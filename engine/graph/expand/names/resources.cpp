@@ -248,7 +248,7 @@ bool ensureShape(Model& model, std::uint32_t index) {
   Entity& entity = model.entities[index];
   if (entity.state == Progress::done) return true;
   if (entity.state == Progress::failed) return false;
-  const std::string label = "'" + entity.name + "'";
+  std::string label = "'" + entity.name + "'";
   if (entity.state == Progress::active) {
     auto& d =
         reportCycle(model, entity.desc ? entity.desc->place : Place{},
@@ -263,7 +263,7 @@ bool ensureShape(Model& model, std::uint32_t index) {
     return false;
   }
   entity.state = Progress::active;
-  model.evaluating.push_back(label);
+  model.evaluating.push_back(std::move(label));
   const bool good = entity.kind == ResourceDesc::Kind::import ? evaluateImport(model, entity)
                                                               : evaluateDeclared(model, entity);
   model.evaluating.pop_back();

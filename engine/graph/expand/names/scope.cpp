@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cassert>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/names/limits.h"
@@ -17,88 +17,6 @@ namespace weft::graph::expansion {
 namespace {
 
 const std::vector<std::string> kSelectors{"mip", "layer", "face", "stencil"};
-
-std::uint32_t addParameter(Model& model, const ParameterDesc& desc, std::string path) {
-  const auto index = static_cast<std::uint32_t>(model.parameters.size());
-  model.parametersByLeaf[desc.name].push_back(index);
-  model.parameters.push_back({&desc, std::move(path), desc.initial, false, desc.initialPlace});
-  return index;
-}
-
-void buildScope(Model& model, Scope& scope);
-
-void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
-  const IncludeDesc& include = *stanza.include;
-  if (!include.graph) {  // the reader said why
-    for (Scope* outer = &scope; outer; outer = outer->parent) outer->broken = true;
-    return;
-  }
-  Scope& child = model.scopes.emplace_back();
-  child.desc = include.graph.get();
-  child.parent = &scope;
-  child.stanza = &stanza;
-  child.prefix = scope.prefix + include.as + ".";
-  child.group = include.group.empty() ? scope.group : scope.prefix + include.group;
-  scope.includes.try_emplace(include.as, &child);
-  buildScope(model, child);
-  std::vector<std::string> inputs;
-  for (const ResourceDesc& resource : child.desc->resources)
-    if (resource.kind == ResourceDesc::Kind::input) inputs.push_back(resource.name);
-  for (const auto& [name, ref] : include.binds) {
-    if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) {
-      auto& d = model.diagnostics.error(
-          Code::badBind, ref.place,
-          fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file));
-      d.hint = base::nearestHint(name, inputs);
-    }
-    if (ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history || ref.kind ||
-        ref.condition.present() || ref.optional) {
-      auto& d = model.diagnostics.error(
-          Code::badBind, ref.place,
-          fmt::format("include '{}' binds '{}' to a part of a resource", include.as, name));
-      d.expected = "the name of a whole resource";
-      d.found = ref.text;
-      d.hint =
-          fmt::format("give the part a name with a resource that is a list, \"{}\": [\"{}\"], and bind that",
-                      name, ref.text);
-    }
-  }
-}
-
-void buildScope(Model& model, Scope& scope) {
-  const GraphDesc& desc = *scope.desc;
-  for (const ParameterDesc& parameter : desc.parameters)
-    scope.parameters.try_emplace(parameter.name,
-                                 addParameter(model, parameter, scope.prefix + parameter.name));
-  for (const NamedExpr& let : desc.lets) {
-    scope.lets.try_emplace(let.name, static_cast<std::uint32_t>(model.lets.size()));
-    Let& made = model.lets.emplace_back();
-    made.desc = &let;
-    made.scope = &scope;
-    made.path = scope.prefix + let.name;
-  }
-  for (const ResourceDesc& resource : desc.resources) {
-    if (!scope.resources.try_emplace(resource.name, static_cast<std::uint32_t>(model.entities.size())).second)
-      continue;
-    Entity& entity = model.entities.emplace_back();
-    entity.kind = resource.kind;
-    entity.desc = &resource;
-    entity.scope = &scope;
-    entity.name = scope.prefix + resource.name;
-  }
-  for (const PassDesc& pass : desc.passes) {
-    if (pass.include) {
-      addInclude(model, scope, pass);
-      continue;
-    }
-    if (!scope.passes.try_emplace(pass.name, &pass).second) continue;  // W009 of the reader
-    for (const PassParameterDesc& parameter : pass.parameters)
-      if (parameter.declared)
-        scope.passParameters.try_emplace(
-            pass.name + "." + parameter.name,
-            addParameter(model, *parameter.declared, scope.prefix + pass.name + "." + parameter.name));
-  }
-}
 
 // An optional input that nobody binds, where the including file has nothing of its name.
 bool isLeftOut(Model& model, const Entity& entity) {
@@ -185,29 +103,6 @@ std::uint32_t followInput(Model& model, std::uint32_t index) {
   return target;
 }
 
-// A file with inputs that is opened by itself has nothing behind them.
-void reportToInclude(Model& model) {
-  const GraphDesc& desc = model.desc;
-  const ResourceDesc* first = nullptr;
-  std::string inputs, binds;
-  for (const ResourceDesc& resource : desc.resources) {
-    if (resource.kind != ResourceDesc::Kind::input || resource.optional) continue;
-    if (!first) first = &resource;
-    inputs += (inputs.empty() ? "" : ", ") + resource.name;
-    if (binds.empty()) binds = fmt::format("\"{}\": …", resource.name);
-  }
-  if (!first) return;
-  model.toInclude = model.incomplete = true;
-  const std::string file = std::filesystem::path(desc.path).filename().string();
-  auto& d = model.diagnostics.error(
-      Code::unboundInput, first->place,
-      fmt::format("'{}' is a file to include, not a graph: nothing is behind its inputs ({})", file, inputs));
-  d.resource = first->name;
-  d.hint = fmt::format(
-      "open a graph that includes it, or include it in one: {{ \"include\": \"{}\", \"bind\": {{ {} }} }}",
-      file, binds);
-}
-
 // An import declared under `name` here or in an enclosing file.
 std::uint32_t declaredImport(Model& model, Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent)
@@ -218,20 +113,12 @@ std::uint32_t declaredImport(Model& model, Scope& from, std::string_view name) {
 
 }  // namespace
 
-void buildScopes(Model& model) {
-  Scope& root = model.scopes.emplace_back();
-  root.desc = &model.desc;
-  buildScope(model, root);
-  reportToInclude(model);
-  findDynamicLets(model);
-  linkAlternatives(model);
-}
-
 std::uint32_t implicitImport(Model& model, std::string_view type) {
   if (const auto found = model.implicitImports.find(type); found != model.implicitImports.end())
     return found->second;
   if (!findImportType(model.registry, type)) return kNone;
   const auto index = static_cast<std::uint32_t>(model.entities.size());
+  assert(index < model.entities.capacity());
   Entity& entity = model.entities.emplace_back();
   entity.kind = ResourceDesc::Kind::import;
   entity.scope = &model.scopes[0];
@@ -330,11 +217,7 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
     Scope* at = scope;
     std::string_view rest = name;
     while (true) {
-      if (const auto found = at->parameters.find(rest); found != at->parameters.end())
-        return {Kind::parameter, found->second};
-      if (const auto found = at->lets.find(rest); found != at->lets.end()) return {Kind::let, found->second};
-      if (const auto found = at->passParameters.find(rest); found != at->passParameters.end())
-        return {Kind::parameter, found->second};
+      if (const auto found = at->variables.find(rest); found != at->variables.end()) return found->second;
       const std::size_t dot = rest.find('.');
       if (dot == std::string_view::npos) break;
       const auto child = at->includes.find(rest.substr(0, dot));
@@ -343,19 +226,25 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
       rest = rest.substr(dot + 1);
     }
   }
-  const std::size_t dot = name.rfind('.');
-  const std::string leaf(dot == std::string_view::npos ? name : name.substr(dot + 1));
-  const auto leaves = model.parametersByLeaf.find(leaf);
+  const auto leaves = model.parametersByLeaf.find(name.substr(name.rfind('.') + 1));
   if (leaves == model.parametersByLeaf.end()) return {};
   Variable result;
-  if (!compare(model, leaves->second.size(), from.desc->place)) return {};
-  for (const std::uint32_t index : leaves->second) {
+  if (!compare(model, leaves->second.count, from.desc->place)) return {};
+  for (std::uint32_t index = leaves->second.first; index != kNone;
+       index = model.parameters[index].nextOfLeaf) {
     const std::string& path = model.parameters[index].path;
     if (!path.starts_with(from.prefix) || !hasSuffix(path, name)) continue;
     if (result.kind != Kind::none) return {Kind::ambiguous, result.index};
     result = {Kind::parameter, index};
   }
   return result;
+}
+
+Parameter* findPassParameter(Model& model, const Scope& scope, const std::string& pass,
+                             const std::string& name) {
+  const auto found = scope.variables.find(pass + "." + name);
+  const bool known = found != scope.variables.end() && found->second.kind == Variable::Kind::parameter;
+  return known ? &model.parameters[found->second.index] : nullptr;
 }
 
 const PassDesc* findPass(const Scope& scope, std::string_view name) {

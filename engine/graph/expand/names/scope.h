@@ -38,12 +38,11 @@ bool maySuggest(Model& model, std::size_t names);
 // The import type's entity with default arguments; kNone when there is no such type.
 std::uint32_t implicitImport(Model& model, std::string_view type);
 
-struct Variable {
-  enum class Kind : std::uint8_t { none, parameter, let, ambiguous };
-  Kind kind = Kind::none;
-  std::uint32_t index = 0;
-};
 Variable findVariable(Model& model, Scope& scope, std::string_view name);
+
+// The parameter that a pass of the scope's own file declares; null when it was left out.
+Parameter* findPassParameter(Model& model, const Scope& scope, const std::string& pass,
+                             const std::string& name);
 
 // Marks every parameter that `expr` depends on, directly or through lets, as structural.
 void markStructural(Model& model, Scope& scope, const Expr& expr);

@@ -37,7 +37,7 @@ std::string hintFor(Model& model, const Unincluded& group) {
           "there",
           group.name);
   std::vector<std::string> includes;
-  for (const auto& [name, child] : scope.includes) includes.push_back(name);
+  for (const auto& [name, child] : scope.includes) includes.emplace_back(name);
   if (const std::string near = base::nearestName(group.name, includes); !near.empty())
     return fmt::format("did you mean '{}'?", near);
   return fmt::format(
