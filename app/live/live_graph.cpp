@@ -139,7 +139,7 @@ std::vector<std::string> LiveGraph::files() const {
 void LiveGraph::watch(base::Diagnostics* diagnostics) {
   std::vector<std::string> watched = files();
   std::erase_if(watched, [](const std::string& file) { return !base::mayRead(file); });
-  watcher_.watch(watched);
+  watcher_.watch(std::move(watched));
   if (diagnostics) diagnostics->append(watcher_.takeNotices());
 }
 

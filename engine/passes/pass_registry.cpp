@@ -21,19 +21,20 @@ PassRegistry PassRegistry::builtin() {
 }
 
 void PassRegistry::add(std::unique_ptr<PassType> type) {
-  assert(!find(type->reflect().name) && "a pass type of this name is already registered");
-  types_.push_back(std::move(type));
+  std::string name = type->reflect().name;
+  assert(!find(name) && "a pass type of this name is already registered");
+  types_.push_back({std::move(name), std::move(type)});
 }
 
 const PassType* PassRegistry::find(std::string_view name) const {
-  for (const auto& type : types_)
-    if (type->reflect().name == name) return type.get();
+  for (const Entry& each : types_)
+    if (each.name == name) return each.type.get();
   return nullptr;
 }
 
 std::vector<graph::PassType> PassRegistry::reflect() const {
   std::vector<graph::PassType> all;
-  for (const auto& type : types_) all.push_back(type->reflect());
+  for (const Entry& each : types_) all.push_back(each.type->reflect());
   return all;
 }
 

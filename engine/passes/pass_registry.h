@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,7 +20,11 @@ class PassRegistry {
   std::vector<graph::PassType> reflect() const;
 
  private:
-  std::vector<std::unique_ptr<PassType>> types_;
+  struct Entry {
+    std::string name;
+    std::unique_ptr<PassType> type;
+  };
+  std::vector<Entry> types_;
 };
 
 }  // namespace weft::passes

@@ -74,14 +74,13 @@ FileWatcher::~FileWatcher() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void FileWatcher::watch(const std::vector<std::string>& files) {
-  std::vector<std::string> sorted = files;
-  std::ranges::sort(sorted);
-  const auto twice = std::ranges::unique(sorted);
-  sorted.erase(twice.begin(), twice.end());
-  if (sorted == files_) return;
+void FileWatcher::watch(std::vector<std::string> files) {
+  std::ranges::sort(files);
+  const auto twice = std::ranges::unique(files);
+  files.erase(twice.begin(), twice.end());
+  if (files == files_) return;
   for (std::string& name : poll()) changed_.insert(std::move(name));
-  files_ = std::move(sorted);
+  files_ = std::move(files);
   std::erase_if(changed_, [&](const std::string& name) { return !std::ranges::binary_search(files_, name); });
   arm();
 }

@@ -35,7 +35,7 @@ class FileWatcher {
 
   // Replaces the set. Names that were watched before keep what has happened to them and was not asked for
   // yet.
-  void watch(const std::vector<std::string>& files);
+  void watch(std::vector<std::string> files);
 
   // The names, as given to watch(), of the files that changed; each once, sorted. Never blocks.
   std::vector<std::string> poll();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -22,24 +23,24 @@ using base::Code;
 using base::Diagnostics;
 using base::Place;
 
+struct FileState {
+  std::int64_t time = -1;  // -1: not there
+  std::uint64_t bytes = ~0ull;
+};
+
 namespace {
 
 constexpr std::size_t kMostText = std::size_t{16}
                                   << 20;  // of one stage; a guarded include may repeat its text
 
-// When the file was written. Each unsaved text has a number of its own, which is no time of a file.
-std::int64_t timeOf(const std::string& path) {
-  if (const auto unsaved = base::overlayOf(path)) return -1 - static_cast<std::int64_t>(unsaved->generation);
-  std::error_code ec;
-  const auto time = fs::last_write_time(path, ec);
-  return ec ? -1 : static_cast<std::int64_t>(time.time_since_epoch().count());
-}
-
-std::uint64_t bytesOf(const std::string& path) {
-  if (const auto unsaved = base::overlayOf(path)) return unsaved->text->size();
-  std::error_code ec;
-  const auto size = fs::file_size(path, ec);
-  return ec ? ~0ull : size;
+// When the file was written, and how long it is. Each unsaved text has a number of its own, which is no time of a file.
+FileState stateOf(const std::string& path) {
+  if (const auto unsaved = base::overlayOf(path))
+    return {-1 - static_cast<std::int64_t>(unsaved->generation), unsaved->text->size()};
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  return {std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,
+          static_cast<std::uint64_t>(status.st_size)};
 }
 
 std::string folderOf(const std::string& path) {
@@ -71,11 +72,6 @@ std::optional<std::string> outsideOf(std::span<const fs::path> candidates) {
 }
 
 }  // namespace
-
-struct FileState {
-  std::int64_t time = 0;
-  std::uint64_t bytes = 0;
-};
 
 // One expansion: the text built so far, the files met, and the chain of includes that leads to the current
 // one.
@@ -182,7 +178,7 @@ class IncludeExpander {
       if (unconditional_[number]) return;
     }
     const std::uint64_t room = kMostText - std::min(source_->text.size(), kMostText);
-    const FileState state{timeOf(*path), bytesOf(*path)};
+    const FileState state = stateOf(*path);
     std::uint64_t bytes = 0;
     const std::optional<std::string> text =
         readWithin(*path, room, bytes, diagnostics_, Code::missingShaderInclude, place);
@@ -269,7 +265,10 @@ void SourceLoader::touch(std::span<const std::string> read, std::span<const std:
 std::shared_ptr<const ShaderSource> SourceLoader::answer(const std::string& key) {
   const auto found = cache_.find(key);
   if (found == cache_.end()) return nullptr;
-  const auto same = [](const Stamp& s) { return timeOf(s.path) == s.time && bytesOf(s.path) == s.bytes; };
+  const auto same = [](const Stamp& s) {
+    const FileState now = stateOf(s.path);
+    return now.time == s.time && now.bytes == s.bytes;
+  };
   if (!std::all_of(found->second.stamps.begin(), found->second.stamps.end(), same)) return nullptr;
   for (const Stamp& stamp : found->second.stamps) touched_.insert(stamp.path);
   return found->second.source;
@@ -330,7 +329,8 @@ std::shared_ptr<const ShaderSource> SourceLoader::load(const std::string& path, 
   }
   if (auto source = answer(*where)) return source;
   // The stamps are taken before reading: a file that changes meanwhile is read again next time.
-  const Stamp own{*where, timeOf(*where), bytesOf(*where)};
+  const FileState state = stateOf(*where);
+  const Stamp own{*where, state.time, state.bytes};
   const std::uint64_t most = std::max<std::uint64_t>(kMostText, base::limitOf(base::Limit::shader_bytes));
   std::uint64_t bytes = 0;
   const std::optional<std::string> text =

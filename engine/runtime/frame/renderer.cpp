@@ -40,7 +40,8 @@ Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options o
     : graphPath_(graphPath),
       options_(std::move(options)),
       device_(context, shaderRootsOf(graphPath, options_.presets, options_.dataFolder), options_.cacheFolder,
-              options_.trial, options_.plugIns) {}
+              options_.trial, options_.plugIns),
+      registry_(makeRegistry(device_.plugIns, {})) {}
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
   base::Diagnostics said;
@@ -50,7 +51,7 @@ bool Renderer::load(const graph::Settings& settings, const World& world, base::D
   refused_.clear();
   if (!desc) return false;
   if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;
-  const graph::Registry registry = registryOf(world);
+  const graph::Registry& registry = registryOf(world);
   if (said.hasErrors()) graph::expandGraph(*desc, registry, settings, diagnostics);  // for what else is wrong
   refused_ = graph::findRefused(*desc, registry, settings);
   return false;
@@ -62,13 +63,14 @@ bool Renderer::apply(const graph::Settings& settings, const World& world, base::
   return switchTo(desc_, ShaderFiles::keep, settings, world, diagnostics);
 }
 
-graph::Registry Renderer::registryOf(const World& world) {
-  return makeRegistry(device_.plugIns, world.facts(), &device_.imports.files());
+const graph::Registry& Renderer::registryOf(const World& world) {
+  changeWorld(registry_, device_.plugIns, world.facts(), &device_.imports.files());
+  return registry_;
 }
 
 std::vector<std::string> Renderer::files() const {
   std::vector<std::string> files = runningFiles_;
-  files.insert(files.end(), triedFiles_.begin(), triedFiles_.end());
+  if (triedFiles_ != runningFiles_) files.insert(files.end(), triedFiles_.begin(), triedFiles_.end());
   return files;
 }
 
@@ -97,7 +99,7 @@ bool Renderer::switchTo(std::shared_ptr<const graph::GraphDesc> desc, ShaderFile
 std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc, ShaderFiles files,
                                                    const graph::Settings& settings, const World& world,
                                                    base::Diagnostics& diagnostics) {
-  const graph::Registry registry = registryOf(world);
+  const graph::Registry& registry = registryOf(world);
   const auto flat = graph::expandGraph(desc, registry, settings, diagnostics);
   if (!flat || diagnostics.hasErrors()) return nullptr;
   device_.imports.prepare(*flat);

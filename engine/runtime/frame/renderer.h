@@ -88,12 +88,13 @@ class Renderer {
     std::unique_ptr<Execution> execution;
   };
   const StandIn* prepareStandIn(const std::string& path, const World& world, base::Diagnostics& diagnostics);
-  graph::Registry registryOf(const World& world);
+  const graph::Registry& registryOf(const World& world);
   void blackOut();
 
   std::string graphPath_;
   Options options_;
   Device device_;
+  graph::Registry registry_;  // of the device's plug-ins
   std::unique_ptr<Execution> execution_;
   std::shared_ptr<const graph::GraphDesc> desc_;  // what runs
   std::vector<std::string> runningFiles_, triedFiles_;

@@ -10,12 +10,18 @@ graph::Registry makeRegistry(const PlugIns& plugIns, const imports::WorldFacts& 
   registry.passTypes = plugIns.passTypes->reflect();
   registry.imports = plugIns.imports->reflect();
   registry.geometries = passes::reflectGeometries();
+  changeWorld(registry, plugIns, facts, files);
+  return registry;
+}
+
+void changeWorld(graph::Registry& registry, const PlugIns& plugIns, const imports::WorldFacts& facts,
+                 imports::Files* files) {
+  registry.drawLists.clear();
   for (const imports::WorldFacts::List& list : facts.lists) registry.drawLists.push_back(list.name);
   registry.factsOf = [imports = plugIns.imports, facts, files](const graph::ImportRequest& request) {
     imports::Files once;
     return imports->find(request.type)->facts(request, facts, files ? *files : once);
   };
-  return registry;
 }
 
 }  // namespace weft::runtime

@@ -22,5 +22,9 @@ struct PlugIns {
 // `files` keeps what imports were read from, and must outlive the registry; without, it is read whenever it is asked for.
 graph::Registry makeRegistry(const PlugIns& plugIns, const imports::WorldFacts& facts,
                              imports::Files* files = nullptr);
+// The same of another world, in a registry that was made for these plug-ins. They cannot change, and many words say what
+// they are.
+void changeWorld(graph::Registry& registry, const PlugIns& plugIns, const imports::WorldFacts& facts,
+                 imports::Files* files = nullptr);
 
 }  // namespace weft::runtime
