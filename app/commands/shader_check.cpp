@@ -73,8 +73,8 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
       const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
       if (!known_.insert(keyOf(request)).second) continue;
       const auto variant = device.programs.get(request, said);
-      if (!variant ||
-          !runtime::checkProgram(plan, step.pass, *variant, session_->context->device().limits, said))
+      if (!variant || !runtime::checkProgram(plan, step.pass, *variant, session_->context->device().limits,
+                                             device.roles, said))
         break;
     }
   }

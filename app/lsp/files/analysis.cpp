@@ -134,8 +134,7 @@ std::shared_ptr<const gl::ShaderSource> Analysis::source(Graph& graph, const std
 // Of the variant that runs once everything was published long ago.
 void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
-  constexpr std::size_t kMostScanned = 4096;
-  if (roles_.size() > kMostScanned) roles_.clear();
+  roles_.makeRoom(4096);
   for (const graph::Step& step : plan.steps) {
     const graph::PassSpec& spec = flat.specs[step.pass];
     const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);

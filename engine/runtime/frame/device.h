@@ -11,6 +11,7 @@
 #include "engine/runtime/imports/imports.h"
 #include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/sampler_cache.h"
+#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::runtime {
 
@@ -21,6 +22,7 @@ struct Device {
   gl::Context& context;
   gl::SourceLoader sources;
   gl::ProgramCache programs;
+  RoleCache roles;  // of the sources of programs
   SamplerCache samplers;
   passes::Geometries geometries;
   const PlugIns plugIns;

@@ -100,7 +100,8 @@ std::shared_ptr<const gl::Variant> Preparation::findVariant(std::size_t step, ba
   if (reflected.shader == graph::ShaderShape::none) return nullptr;
   auto variant = device_.programs.get(
       programRequestOf(*plan.graph, plan, pass, reflected, settledConditionsOf(spec)), problems);
-  if (variant) checkProgram(plan, pass, *variant, device_.context.device().limits, problems);
+  if (variant)
+    checkProgram(plan, pass, *variant, device_.context.device().limits, device_.roles, problems);
   return variant;
 }
 

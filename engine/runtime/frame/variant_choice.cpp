@@ -38,7 +38,8 @@ bool VariantChoice::take(std::size_t step, std::uint32_t conditions, base::Diagn
     context.variant =
         device_.programs.get(programRequestOf(*plan_.graph, plan_, pass, type, conditions), diagnostics);
   PreparedPass made;
-  if (!shaded || (context.variant && checkProgram(plan_, pass, *context.variant, limits, diagnostics)))
+  if (!shaded ||
+      (context.variant && checkProgram(plan_, pass, *context.variant, limits, device_.roles, diagnostics)))
     made = preparePass(context, step);
   made.conditions = conditions;
   std::copy_n(limits.computeGroups, 3, made.context.maxGroups);

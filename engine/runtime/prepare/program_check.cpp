@@ -37,7 +37,7 @@ namespace {
 class Checker : PassErrors {
  public:
   Checker(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
-          base::Diagnostics& diagnostics)
+          RoleCache& roles, base::Diagnostics& diagnostics)
       : PassErrors(plan.graph->specs[pass].name, diagnostics),
         plan_(plan),
         graph_(*plan.graph),
@@ -46,7 +46,8 @@ class Checker : PassErrors {
         variant_(variant),
         reflection_(variant.program.reflection()),
         limits_(limits),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        words_(variant.stages, variant.defines, roles) {}
 
   bool run() {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
@@ -357,16 +358,16 @@ class Checker : PassErrors {
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
-  RoleCache roles_;
-  const ShaderWords words_{variant_.stages, variant_.defines, roles_};
+  const ShaderWords words_;
   bool slotMissing_ = false;
 };
 
 }  // namespace
 
 bool checkProgram(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
-                  base::Diagnostics& diagnostics) {
-  return Checker(plan, pass, variant, limits, diagnostics).run();
+                  RoleCache& roles, base::Diagnostics& diagnostics) {
+  roles.makeRoom();
+  return Checker(plan, pass, variant, limits, roles, diagnostics).run();
 }
 
 }  // namespace weft::runtime

@@ -16,13 +16,18 @@
 
 namespace weft::runtime {
 
-// Texts that were scanned. Answers stay valid until clear().
+// Texts that were scanned, by what they say: a file that changes is another text. Answers stay valid until clear() or
+// makeRoom().
 class RoleCache {
  public:
   const gl::ShaderRoles& ofText(const gl::ShaderSource& source);
   const gl::ShaderRoles& ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines);
   std::size_t size() const { return known_.size(); }
   void clear() { known_.clear(); }
+  // Forgets everything when it is more than `most` answers.
+  void makeRoom(std::size_t most = 512) {
+    if (known_.size() > most) clear();
+  }
 
  private:
   std::map<std::string, gl::ShaderRoles> known_;

@@ -21,6 +21,9 @@ class TemporaryGraph {
   }
   std::string path() const { return folder_.at("graph.json"); }
   void write(const std::string& text) const { std::ofstream(path()) << text; }
+  void writeShader(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.at("shaders/" + name)) << text;
+  }
 
  private:
   TemporaryFolder folder_;
@@ -176,6 +179,34 @@ TEST_CASE("reload: a broken file or shader leaves the running execution as it is
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(frame);
   CHECK(stage.value() == 30);
+}
+
+TEST_CASE("reload: what a shader declares is looked at again when it was edited") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  const std::string block = "layout(std140) uniform Parameters { float amount; };\n";
+  const auto shader = [&](const std::string& declared) {
+    file.writeShader("math/own.frag.glsl",
+                     declared + "out vec4 result;\nvoid main() { result = vec4(7.0); }\n");
+  };
+  shader(block);
+  file.write(R"({ "name": "own", "resources": { "sum": { "texture": "r32f", "size": 4 } }, "passes": [
+  { "name": "own", "type": "fullscreen", "shader": "math/own.frag.glsl", "write": { "result": "sum" },
+    "parameters": { "amount": 3 } } ], "present": "sum" })");
+  Stage stage(file.path());
+  // Nothing uses the block, so the program is the same with and without it: only the text says whether it is declared.
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  shader("");
+  CHECK_FALSE(stage.load());
+  CHECK_MESSAGE(stage.diagnostics.contains(base::Code::parameterNotInShader), stage.diagnostics.text());
+  shader(block);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  shader("// amount\n");
+  CHECK_FALSE(stage.load());
+  shader(block);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run(0);
+  CHECK(stage.value() == 7);
 }
 
 TEST_CASE("reload: changed parameters rerun what they reach and keep the rest") {
