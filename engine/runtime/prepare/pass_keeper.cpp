@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string_view>
 
 namespace weft::runtime {
 
@@ -64,16 +65,21 @@ bool sameSpec(const PassSpec& a, const PassSpec& b) {
 }  // namespace
 
 PassKeeper::PassKeeper(const Plan& plan, const Plan& before) : plan_(plan), before_(before) {
-  stepOf_.reserve(before.steps.size());
+  std::unordered_map<std::string_view, std::uint32_t> stepOf;  // of the running plan
+  stepOf.reserve(before.steps.size());
   for (std::uint32_t step = 0; step < before.steps.size(); ++step)
-    stepOf_.emplace(before.graph->specs[before.steps[step].pass].name, step);
+    stepOf.emplace(before.graph->specs[before.steps[step].pass].name, step);
+  stepsBefore_.reserve(plan.steps.size());
+  for (const graph::Step& step : plan.steps) {
+    const auto found = stepOf.find(plan.graph->specs[step.pass].name);
+    stepsBefore_.push_back(found == stepOf.end() ? kNone : found->second);
+  }
   for (const graph::ClearSpec& clear : plan.graph->clears) clears_[clear.resource] = &clear.value;
   for (const graph::ClearSpec& clear : before.graph->clears) clearsBefore_[clear.resource] = &clear.value;
 }
 
 std::uint32_t PassKeeper::stepBefore(std::size_t step) const {
-  const auto found = stepOf_.find(plan_.graph->specs[plan_.steps[step].pass].name);
-  return found == stepOf_.end() ? kNone : found->second;
+  return stepsBefore_[step];
 }
 
 const graph::Value* PassKeeper::clearOf(const std::unordered_map<std::uint32_t, const graph::Value*>& clears,
@@ -82,16 +88,17 @@ const graph::Value* PassKeeper::clearOf(const std::unordered_map<std::uint32_t, 
   return found == clears.end() ? nullptr : found->second;
 }
 
-bool PassKeeper::pairUp(std::size_t step, std::uint32_t old, Pairs& pairs) const {
+bool PassKeeper::pairUp(std::size_t step, std::uint32_t old) const {
+  pairs_.clear();
   const FlatGraph &mine = *plan_.graph, &theirs = *before_.graph;
   const FlatPass &now = mine.passes[plan_.steps[step].pass], &then = theirs.passes[before_.steps[old].pass];
   for (std::uint32_t i = 0; i < now.useCount; ++i) {
     const std::uint32_t from = theirs.uses[then.firstUse + i].resource,
                         to = mine.uses[now.firstUse + i].resource;
     const auto known =
-        std::ranges::find_if(pairs, [&](const auto& p) { return p.first == from || p.second == to; });
-    if (known == pairs.end())
-      pairs.emplace_back(from, to);
+        std::ranges::find_if(pairs_, [&](const auto& p) { return p.first == from || p.second == to; });
+    if (known == pairs_.end())
+      pairs_.emplace_back(from, to);
     else if (known->first != from || known->second != to)
       return false;
   }
@@ -99,6 +106,7 @@ bool PassKeeper::pairUp(std::size_t step, std::uint32_t old, Pairs& pairs) const
 }
 
 bool PassKeeper::isSame(std::size_t step, std::uint32_t old) const {
+  assert(old == stepsBefore_[step]);
   const FlatGraph &mine = *plan_.graph, &theirs = *before_.graph;
   const graph::Step &stepNow = plan_.steps[step], &stepThen = before_.steps[old];
   const FlatPass &now = mine.passes[stepNow.pass], &then = theirs.passes[stepThen.pass];
@@ -118,13 +126,12 @@ bool PassKeeper::isSame(std::size_t step, std::uint32_t old) const {
         !sameImport(mine, resource.import, theirs, resourceThen.import))
       return false;
   }
-  Pairs pairs;
-  if (!pairUp(step, old, pairs)) return false;
+  if (!pairUp(step, old)) return false;
   for (std::uint32_t i = 0; i < stepNow.clearCount; ++i) {
     const FlatUse &use = plan_.clears[stepNow.firstClear + i].use,
                   &useThen = before_.clears[stepThen.firstClear + i].use;
-    const auto pair = std::ranges::find(pairs, useThen.resource, &Pairs::value_type::first);
-    if (pair == pairs.end() || pair->second != use.resource || !sameRange(use, useThen)) return false;
+    const auto pair = std::ranges::find(pairs_, useThen.resource, &Pairs::value_type::first);
+    if (pair == pairs_.end() || pair->second != use.resource || !sameRange(use, useThen)) return false;
     const graph::Value *value = clearOf(clears_, use.resource),
                        *valueThen = clearOf(clearsBefore_, useThen.resource);
     if (!value || !valueThen || !(*value == *valueThen)) return false;
@@ -145,12 +152,11 @@ bool PassKeeper::isInPlace(std::size_t step, std::uint32_t old, ResourcePool& po
 }
 
 PreparedPass PassKeeper::take(std::size_t step, std::uint32_t old, PreparedPass prepared) const {
-  Pairs pairs;
-  [[maybe_unused]] const bool paired = pairUp(step, old, pairs);
+  [[maybe_unused]] const bool paired = pairUp(step, old);
   assert(paired && "isSame() held");
   const auto nowOf = [&](std::uint32_t resource) {
-    const auto pair = std::ranges::find(pairs, resource, &Pairs::value_type::first);
-    return pair == pairs.end() ? resource : pair->second;
+    const auto pair = std::ranges::find(pairs_, resource, &Pairs::value_type::first);
+    return pair == pairs_.end() ? resource : pair->second;
   };
   const FlatGraph& graph = *plan_.graph;
   const std::uint32_t pass = plan_.steps[step].pass;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -23,7 +22,7 @@ class PassKeeper {
 
   // The step of the running plan with the name of `step`, or kNone.
   std::uint32_t stepBefore(std::size_t step) const;
-  // Whether everything that the program is made of, and is checked against, is the same.
+  // Whether everything that the program is made of, and is checked against, is the same. `old`: stepBefore(step).
   bool isSame(std::size_t step, std::uint32_t old) const;
   // Whether the two steps also use the same storage. isSame() must hold.
   bool isInPlace(std::size_t step, std::uint32_t old, ResourcePool& pool, ResourcePool& poolBefore) const;
@@ -34,11 +33,12 @@ class PassKeeper {
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // resources: before, now
   const graph::Value* clearOf(const std::unordered_map<std::uint32_t, const graph::Value*>& clears,
                               std::uint32_t resource) const;
-  // False when one resource before would be two now, or two one.
-  bool pairUp(std::size_t step, std::uint32_t old, Pairs& pairs) const;
+  // Fills pairs_. False when one resource before would be two now, or two one.
+  bool pairUp(std::size_t step, std::uint32_t old) const;
 
   const graph::Plan &plan_, &before_;
-  std::unordered_map<std::string_view, std::uint32_t> stepOf_;  // of the running plan
+  std::vector<std::uint32_t> stepsBefore_;  // by step; kNone: there is none
+  mutable Pairs pairs_;                     // of one step at a time
   std::unordered_map<std::uint32_t, const graph::Value*> clears_, clearsBefore_;
 };
 

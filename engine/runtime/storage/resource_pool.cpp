@@ -240,14 +240,18 @@ void ResourcePool::takeTextures(const Plan& plan, const std::vector<std::string>
 
 bool ResourcePool::createTextures(const Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics) {
   std::vector<std::string> owners(plan.storages.size()), labels(plan.storages.size());
-  for (std::size_t r = 0; r < resources_.size(); ++r) {
-    const std::uint32_t s = plan.storageOf[r];
-    if (s == kNone) continue;
+  const auto forEachShared = [&](const auto& f) {
+    for (std::size_t r = 0; r < resources_.size(); ++r)
+      if (const std::uint32_t s = plan.storageOf[r]; s != kNone) f(r, s);
+  };
+  forEachShared([&](std::size_t r, std::uint32_t s) {
     if (plan.storages[s].persistent) owners[s] = names_[r];
-    labels[s] += (labels[s].empty() ? "" : " | ") + names_[r];
-  }
+  });
   textures_.resize(plan.storages.size());
   if (before) takeTextures(plan, owners, *before);
+  forEachShared([&](std::size_t r, std::uint32_t s) {
+    if (!textures_[s]) labels[s].append(labels[s].empty() ? "" : " | ").append(names_[r]);
+  });
   std::vector<std::uint8_t> reused(plan.storages.size(), 0);
   for (std::size_t s = 0; s < plan.storages.size(); ++s) {
     reused[s] = textures_[s] != nullptr;
