@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 """A slider of the viewer is moved two hundred times, each time until the picture has followed: no plan is built for it, and
-nothing is allocated."""
+nothing is allocated. The same of the bundled picture, with fewer moves."""
 import json
 import os
 import pathlib
 import sys
 
-from program import SANITIZED, Report, temporary_folder
+from program import SANITIZED, TOP, Report, temporary_folder
 from screen import Screen
 from window import Session, inside_display
 
 MOVES = 200
+MOVES_OF_STUDIO = 40
 GRAB = (61, 133, 224)  # Dear ImGui's slider grab, dark style; brighter while it is held
 GRAPH = """{ "name": "slider",
   "parameters": { "level": { "type": "float", "default": 0.5, "min": 0, "max": 1 } },
@@ -24,12 +25,23 @@ void main() { result = vec4(vec3(level), 1.0); }
 """
 
 
-def find_grab(screen):
-    """The middle of the slider's grab, when it is on the screen."""
+def find_grabs(screen):
+    """A place in the grab of each slider on the screen, from the top."""
     width, height, rows = screen.read()
     found = [(x, y) for y in range(0, height, 3) for x in range(0, width // 2)
              if all(abs(rows[y][3 * x + c] - GRAB[c]) <= 3 for c in range(3))]
-    return found[len(found) // 2] if found else None
+    sliders = []
+    for x, y in found:
+        if sliders and y - sliders[-1][-1][1] <= 3:
+            sliders[-1].append((x, y))
+        else:
+            sliders.append([(x, y)])
+    return [each[len(each) // 2] for each in sliders]
+
+
+def find_grab(screen):
+    """That of the first slider; None when there is none."""
+    return next(iter(find_grabs(screen)), None)
 
 
 def session(weft, folder, display, report, moves):
@@ -62,6 +74,38 @@ def session(weft, folder, display, report, moves):
         live.stop()
 
 
+def studio(weft, folder, display, report):
+    """sky_rotation of graphs/studio.json, below the slider of a parameter that changes the plan. The viewer says of each frame in which
+    a panel changed something; when each of these was a value that was set at once, none of them built a plan."""
+    live = Session(weft, folder, "--panels", "passes", "--stats", "--no-vsync", "--render-scale", "0.25", size="640x800", data=False,
+                   graph=TOP / "graphs/studio.json")
+    screen = Screen(display)
+    try:
+        if not report.check(live.open() and live.event("shown"), f"no picture\n{live.said()}"):
+            return
+        if not report.check(live.until(lambda: len(find_grabs(screen)) > 1), "no two sliders on the screen"):
+            return
+        x, y = find_grabs(screen)[1]
+        live.tool("mousemove", x + 20, y)
+        moves = [("mousemove", x - 20 + abs(i % 40 - 20), y) for i in range(1, MOVES_OF_STUDIO)]
+        for i, step in enumerate([("mousedown", 1), *moves]):
+            before = live.mark()
+            live.tool(*step)
+            if not report.check(live.event("change", before), f"studio, move {i}: no parameter changes\n{live.said()}"):
+                return
+        live.tool("mouseup", 1)
+        live.leave(report)
+        changes = sum(line.endswith(" change") for line in live.lines())
+        text = live.said()
+        stats = json.loads(text[text.index("{"):])
+        report.check(stats["live_values_set"] == changes >= MOVES_OF_STUDIO,
+                     f"studio: {changes} changes, of which {stats['live_values_set']} built no plan")
+        report.check(stats.get("live_allocations", 0 if SANITIZED else -1) == 0,
+                     f"studio: {stats.get('live_allocations')} allocations for {MOVES_OF_STUDIO} moves")
+    finally:
+        live.stop()
+
+
 def main():
     weft, report = os.path.abspath(sys.argv[1]), Report()
     display = inside_display(report, weft, "none", __file__)
@@ -79,6 +123,7 @@ def main():
                          f"plans built: {still['plans_built']} without a move, {moved['plans_built']} with {MOVES}")
             # Under a sanitizer nothing counts.
             report.check(moved.get("live_allocations", 0 if SANITIZED else -1) == 0, f"{moved.get('live_allocations')} allocations for {MOVES} moves")
+        studio(weft, folder, display, report)
     report.end()
 
 
