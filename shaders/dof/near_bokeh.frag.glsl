@@ -27,7 +27,7 @@ float reachesRing(Search search, float disc, float across) {
   return clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
 }
 float reaches(Search search, bool each, float disc, float across) {
-  return each ? texelWithin(disc, across) : reachesRing(search, disc, across);
+  return each ? texelWithin(texelsOf(disc), across) : reachesRing(search, disc, across);
 }
 
 struct Gathered {
@@ -47,7 +47,7 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   vec4 c = readPlace(source, search, each, at);
   float disc = readPlace(discs, search, each, at).r / max(c.a, 1e-4), reach = reachOf(search, disc);
   // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
-  float sharing = each ? texelsWithin(reach) : 0.0;
+  float sharing = each ? texelsOf(reach).sum : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
     sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, reach, ringRadius(search, k));
   share *= blurOf(2.0 * disc) * reaches(search, each, reach, across) / sharing;

@@ -7,6 +7,7 @@ layout(std140) uniform Parameters {
                 // fewer, large ones coarser levels
   int blades;   // of the aperture, for POLYGON
   int tile;     // pixels of the half size along a tile's side
+  float largest_far;  // radius of the sky's disc, pixels of the half size
 };
 
 #endif

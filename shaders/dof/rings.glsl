@@ -6,6 +6,9 @@
 
 #include "disc.glsl"
 
+#ifndef RINGS
+#define RINGS 1
+#endif
 #ifndef COARSEST
 #define COARSEST 16.0
 #endif
@@ -46,19 +49,25 @@ float outline(vec2 direction) {
 }
 #endif
 
-// How much of a texel `across` from its middle a disc holds, and about how many texels that makes. A disc of hardly more than a texel gives to those
-// around it as much as its variance asks for, four times as much along the axes as along the diagonals: by areas it would be a cross.
-float isLarge(float radius) {
-  return clamp(5.0 * radius - 4.5, 0.0, 1.0);
+// A disc over texels of which each is a place. One of hardly more than a texel gives to the eight around it as much as its variance asks for, four times
+// as much along the axes as along the diagonals: by areas it would be a cross. Here once for all places, because each division costs in every one.
+struct Texels {
+  float radius;
+  float large;   // 0: as its variance asks for; 1: by areas
+  float beside;  // what each texel beside the middle has, of the middle's 1, where it is not large
+  float sum;     // of all texels
+};
+Texels texelsOf(float radius) {
+  float square = min(radius * radius, 1.21), part = 1.0 / (12.0 - 5.0 * square);
+  Texels texels = Texels(radius, clamp(5.0 * radius - 4.5, 0.0, 1.0), square * part, 0.0);
+  texels.sum = mix(12.0 * part, 3.14159265 * (radius * radius + 1.0 / 12.0), texels.large);
+  return texels;
 }
-float texelWithin(float radius, float across) {
-  float square = min(radius * radius, 1.21);
-  float apart = across * across,
-        small = apart < 0.25 ? 1.0 : apart < 2.5 ? square / (12.0 - 5.0 * square) / (apart * apart) : 0.0;
-  return mix(small, clamp(radius - across + 0.5, 0.0, 1.0), isLarge(radius));
-}
-float texelsWithin(float radius) {
-  return mix(12.0 / (12.0 - 5.0 * min(radius * radius, 1.21)), 3.14159265 * (radius * radius + 1.0 / 12.0), isLarge(radius));
+
+// How much of a texel `across` from its middle a disc holds.
+float texelWithin(Texels texels, float across) {
+  float small = across < 0.5 ? 1.0 : texels.beside * (across < 1.2 ? 1.0 : across < 1.6 ? 0.25 : 0.0);
+  return mix(small, clamp(texels.radius - across + 0.5, 0.0, 1.0), texels.large);
 }
 
 // The radius at which a disc ends in the samples, for what filtering adds; where each texel is one, of a round disc of the same area.
@@ -89,10 +98,10 @@ Search searchOver(float radius, int rings) {
 #else
   search.roundness = 1.0;
 #endif
-  bool each = radius <= EACH_TEXEL;
+  bool each = RINGS == 0 || radius <= EACH_TEXEL;
   // Where a pixel's own places are too far apart, the sets differ. Then no level is finer than two pixels: the pixels of one set are as far
   // apart, and only so a texel counts for all sets alike.
-  float gap = gapOf(radius, rings), variance = fillVariance(radius, gap);
+  float gap = RINGS == 1 ? gapOf(radius, rings) : 0.0, variance = RINGS == 1 ? fillVariance(radius, gap) : 0.0;
   search.differs = gap > FINE_GAP ? 1.0 : 0.0;
   search.level = gap > FINE_GAP ? min(gap > kCoarseGap ? 2.0 : 1.0, COARSEST) : 0.0;
   search.shift = (whichSet().x - 0.5) * 0.5 * search.differs;
@@ -104,7 +113,7 @@ Search searchOver(float radius, int rings) {
   search.span = reach + 0.5;
   if (each) search.texels = texelsFor(search);
   search.outermost = each ? -1 : ringsFor(radius, rings);
-  search.samples = each ? texelsWithin(reach) : samplesTo(search.outermost);
+  search.samples = each ? texelsOf(reach).sum : samplesTo(search.outermost);
   return search;
 }
 
@@ -137,10 +146,17 @@ float ringRadius(Search search, int ring) {
   return search.span * sqrt(area / search.samples);
 }
 
-// Calls takePlace for all places. Returns the number of places over what their shares add up to: by so much a disc is too dark else.
+// Calls takePlace for all places; in the far field, where each texel is one, not for the pixel's own, whose share is nothing. Returns the number of places over what their shares add up to: by so much a disc is too dark else.
 float takePlaces(Search search) {
+  Texels whole = texelsOf(search.span - 0.5);
+#if NEAR
   float area = 0.0;
-  for (int y = -search.texels; y <= search.texels; ++y) {
+  int rows = search.texels;
+#else
+  float area = search.texels < 0 ? 0.0 : texelWithin(whole, 0.0);
+  int rows = search.texels > 0 ? search.texels : -1;
+#endif
+  for (int y = -rows; y <= rows; ++y) {
     float span = search.span / search.roundness;
     int end = int(ceil(sqrt(span * span - float(y * y)))) - 1;
     for (int x = -end; x <= end; ++x) {
@@ -150,8 +166,9 @@ float takePlaces(Search search) {
       // A texel is as wide as a part of the outline, near the middle of all of it.
       across *= mix(1.0, search.roundness / outline(kUpright * offset), smoothstep(1.0, 3.0, across));
 #endif
-      area += texelWithin(search.span - 0.5, across);
-      takePlace(search, true, gl_FragCoord.xy + offset, across, 1.0);
+      float share = NEAR == 1 || across > 0.0 ? 1.0 : 0.0;
+      area += share * texelWithin(whole, across);
+      takePlace(search, true, gl_FragCoord.xy + offset, across, share);
     }
   }
   vec2 odd = whichSet() * search.differs, start = kStart;

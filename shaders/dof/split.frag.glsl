@@ -5,7 +5,7 @@
 //         disc    radius of the disc in pixels of the half size, times the share, of either field
 //         far     radiance of the nearest blurred surface of the rest, premultiplied, and its share of the pixel. What is in focus has next to
 //                 none, so that it is no part of a mean with blurred surfaces; 0 where the near field hides all of it
-//         idle    depth: 0 where bokeh has anything to do for `far`, else 1
+//         idle    depth: 0 where far_bokeh has anything to do for `far`, 1 where far_hidden has, else a half
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
 //         largest   limit of the radius, pixels of the full picture
@@ -54,5 +54,6 @@ void main() {
   near_mean /= max(near_weight, 1e-6);
   near = vec4(near_mean.rgb, 1.0) * share;
   disc = vec2(near_mean.a * share, far_disc);
-  gl_FragDepth = (far.a > 0.0 ? far_disc / far.a : disc.r) > kLeastRadius ? 0.0 : 1.0;
+  float busy = far.a > 0.0 ? 0.0 : 1.0;
+  gl_FragDepth = (far.a > 0.0 ? far_disc / far.a : disc.r) > kLeastRadius ? busy : 0.5;
 }

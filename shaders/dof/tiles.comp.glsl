@@ -15,9 +15,16 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(tiles)))) return;
   ivec2 size = textureSize(discs, 0), first = at * tile, end = min(first + tile, size);
-  // Four texels at a time: sizes and tiles are even.
+  // Four texels at a time: sizes and tiles are even. The share is read only in rows that hold something of the near field.
+  int low = end.y, high = first.y;
+  for (int y = first.y; y < end.y; y += 2) {
+    vec4 radii = vec4(0.0);
+    for (int x = first.x; x < end.x; x += 2) radii += textureGather(discs, vec2(x + 1, y + 1) / vec2(size));
+    low = radii == vec4(0.0) ? low : min(low, y);
+    high = radii == vec4(0.0) ? high : y + 2;
+  }
   vec4 largest = vec4(0.0);
-  for (int y = first.y; y < end.y; y += 2)
+  for (int y = low; y < high; y += 2)
     for (int x = first.x; x < end.x; x += 2) {
       vec2 middle = vec2(x + 1, y + 1) / vec2(size);
       largest = max(largest, textureGather(discs, middle) / max(textureGather(source, middle, 3), 0.25));

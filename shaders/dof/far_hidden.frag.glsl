@@ -1,0 +1,28 @@
+// The far field at half size where the near field hides all of it: the mean of what is seen beside the nearer thing, as far as its disc reaches.
+// Scene-referred; result premultiplied.
+// read    see far_layer.glsl
+//         tiles?   from reach, for the vertex shader
+// modify  result   alpha 1. A depth test leaves out all else: see split
+// params  see parameters.glsl
+// defines POLYGON
+#include "far_layer.glsl"
+#include "parameters.glsl"
+out vec4 result;
+#include "rings.glsl"
+
+vec4 seen = vec4(0.0);
+
+void takePlace(Search search, bool each, vec2 at, float across, float share) {
+  vec4 c = readPlace(source, search, each, at);
+  seen += c / max(c.a, 1e-7);
+}
+
+void main() {
+  float disc = texelFetch(discs, ivec2(gl_FragCoord.xy), 0).r;
+  Search search = searchOver(disc, rings);
+  // The outermost place is beyond the disc: wherever the near field is not whole, something is seen.
+  search.span = 1.2 * disc + 1.0;
+  if (search.texels >= 0) search.texels = texelsFor(search);
+  takePlaces(search);
+  result = vec4(seen.rgb / max(seen.a, 1e-7), 1.0);
+}
