@@ -16,8 +16,13 @@ float cocDepth(float radius, float infinity, float focus) {
   return max(near_plane / focus * (1.0 - radius / max(infinity, 1e-6)), 0.0);
 }
 
-// Radius in pixels of the half size up to which nothing is blurred.
-const float kLeastRadius = 0.25;
+// defines SCALE  pixels of the picture along a texel of the fields: 2, the half size, or 1
+#ifndef SCALE
+#define SCALE 2
+#endif
+
+// Radius in texels of the fields up to which nothing is blurred.
+const float kLeastRadius = 0.5 / float(SCALE);
 
 // How much a radius in pixels of the full picture counts as blur: below half a pixel the picture stays sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }

@@ -9,7 +9,7 @@
 
 #include "coc.glsl"
 
-// Radius in pixels of the half size to search around `pixel`; below 0.25 there is nothing to do.
+// Radius in texels of the fields to search around `pixel`; up to kLeastRadius there is nothing to do.
 #if NEAR
 #ifdef HAS_TILES
 uniform sampler2D tiles;
@@ -48,7 +48,7 @@ float gapOf(float radius, int rings) {
   return radius * inversesqrt(samplesTo(ringsFor(radius, rings)));
 }
 
-// From this gap on the texels read are four pixels of the half size wide instead of two.
+// From this gap on the texels read are four texels of the fields wide instead of two.
 const float kCoarseGap = 4.0;
 
 // Variance per axis that the fill adds, in texels squared: none while the samples lie so close that filtering joins them; where there are four sets at

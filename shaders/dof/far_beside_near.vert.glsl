@@ -13,9 +13,9 @@ noperspective out vec2 at, at_half;
 flat out vec2 lens;
 
 void main() {
-  gl_Position = workCorner(tile, 2);
+  gl_Position = workCorner(tile, SCALE);
   at = gl_Position.xy * 0.5 + 0.5;
-  at_half = at * viewport * 0.5 / vec2(textureSize(blurred, 0));
+  at_half = at * viewport / float(SCALE) / vec2(textureSize(blurred, 0));
   lens = vec2(infinity, infinity * focus / near_plane);
   gl_Position.z = min(cocDepth(-kNearStart, infinity, focus), 1.0);
 }

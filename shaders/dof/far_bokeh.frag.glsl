@@ -1,4 +1,4 @@
-// The far field at half size, each surface spread over its discs but for what fill will add. Scene-referred; result premultiplied.
+// The far field at the size of the fields, each surface spread over its discs but for what fill will add. Scene-referred; result premultiplied.
 // read    source   from split, layer 1, with levels, `as linear`
 //         discs    from split, with levels, `as linear`
 //         flat_source, flat_discs   instead of these, without levels, when no disc needs them: see the graph
@@ -72,6 +72,6 @@ void main() {
   }
   float beside = behind.a > 0.0 ? clamp(rest - shape * own.a, 0.0, seen) : 0.0;
   vec3 light = over.rgb + own.rgb * ((rest - beside) / max(own.a, 1e-7)) + behind.rgb * (beside / max(behind.a, 1e-7));
-  float trust = max(blurOf(2.0 * own_radius), 1e-3);
+  float trust = max(blurOf(float(SCALE) * own_radius), 1e-3);
   result = vec4(light * trust, trust);
 }

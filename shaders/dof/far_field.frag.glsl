@@ -6,7 +6,7 @@
 // modify  result   radiance; alpha stays
 //         tested   the same depth, with "depth_test": "greater", or "less" for NEAR, and "depth_write": false
 // params  infinity, focus   as in split
-//         tile     pixels of the half size along a tile's side, for NEAR
+//         tile     texels of the fields along a tile's side, for NEAR
 // defines NEAR, default 0; 1: beside the near field, in the tiles of far_beside_near.vert.glsl
 #ifndef NEAR
 #define NEAR 0
@@ -16,7 +16,7 @@
 #include "far_field.glsl"
 
 uniform sampler2D source, depth, blurred;
-noperspective in vec2 at, at_half;  // uv of the full picture and of the half size
+noperspective in vec2 at, at_half;  // uv of the full picture and of the fields
 flat in vec2 lens;                  // radius at depth 0, and how much it falls to depth 1
 out vec4 result;
 

@@ -11,7 +11,7 @@ flat out vec2 lens;
 
 void main() {
   at = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
-  at_half = at * viewport * 0.5 / vec2(textureSize(blurred, 0));
+  at_half = at * viewport / float(SCALE) / vec2(textureSize(blurred, 0));
   lens = vec2(infinity, infinity * focus / near_plane);
   gl_Position = vec4(at * 2.0 - 1.0, cocDepth(0.5, infinity, focus), 1.0);
 }

@@ -1,7 +1,7 @@
 // The tiles of a coarser level that the near field reaches; elsewhere the level holds nothing of it.
 // read    tiles?   from reach; without it all of the level
-// params  tile     pixels of the half size along a tile's side
-//         level    each pixel of which is 2^level of the half size wide
+// params  tile     texels of the fields along a tile's side
+//         level    each texel of which is 2^level of these wide
 layout(std140) uniform Parameters {
   int tile;
   int level;

@@ -1,4 +1,4 @@
-// The near field at half size, each surface spread over its discs but for what fill will add. Scene-referred; result premultiplied.
+// The near field at the size of the fields, each surface spread over its discs but for what fill will add. Scene-referred; result premultiplied.
 // read    source   from split, layer 0, with levels, `as linear`
 //         discs    from split, with levels, `as linear`
 //         tiles?   from reach: how far the near field reaches here; without it every pixel is searched as far as a tile
@@ -50,7 +50,7 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   float sharing = each ? texelsOf(reach).sum : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
     sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, reach, ringRadius(search, k));
-  share *= blurOf(2.0 * disc) * reaches(search, each, reach, across) / sharing;
+  share *= blurOf(float(SCALE) * disc) * reaches(search, each, reach, across) / sharing;
   float is_over = liesOver(disc, own_radius);
   if (over) {
     all.spread += is_over * share * c;

@@ -3,5 +3,6 @@
 // modify  result   radiance, with "blend": "premultiplied"
 uniform sampler2D blurred;
 out vec4 result;
+#include "coc.glsl"
 
-void main() { result = textureLod(blurred, gl_FragCoord.xy * 0.5 / vec2(textureSize(blurred, 0)), 0.0); }
+void main() { result = textureLod(blurred, gl_FragCoord.xy / float(SCALE) / vec2(textureSize(blurred, 0)), 0.0); }

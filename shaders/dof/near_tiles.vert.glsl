@@ -1,8 +1,9 @@
 // The tiles that something in the near field reaches, for far_hidden, near_bokeh, fill and near_field.
 // params  see parameters.glsl
-// defines FULL_SIZE   default 0; 1: the target is the full picture, not the half size
+// defines FULL_SIZE   default 0; 1: the target is the full picture, not of the size of the fields
 //         DEPTH       of the tiles, default 0
 #include "parameters.glsl"
+#include "coc.glsl"
 #include "work.glsl"
 
 #ifndef FULL_SIZE
@@ -13,6 +14,6 @@
 #endif
 
 void main() {
-  gl_Position = workCorner(tile, FULL_SIZE == 1 ? 2 : 1);
+  gl_Position = workCorner(tile, FULL_SIZE == 1 ? SCALE : 1);
   gl_Position.z = float(DEPTH);
 }

@@ -6,8 +6,8 @@ layout(std140) uniform Parameters {
   int rings;    // of samples around the middle one, 5, 10, 15 ... in each, so that each stands for the same area; small discs take
                 // fewer, large ones coarser levels
   int blades;   // of the aperture, for POLYGON
-  int tile;     // pixels of the half size along a tile's side
-  float largest_far;  // radius of the sky's disc, pixels of the half size
+  int tile;     // texels of the fields along a tile's side
+  float largest_far;  // radius of the sky's disc, texels of the fields
 };
 
 #endif

@@ -1,4 +1,4 @@
-// The places on a disc at which the bokeh passes sample. In small discs each texel is one, so that the disc is as true as the half size allows.
+// The places on a disc at which the bokeh passes sample. In small discs each texel is one, so that the disc is as true as the size of the fields allows.
 // In others they are rings of 5, 10, 15 ... around the middle, so that each place stands for the same area. Four neighbouring pixels have four sets of places, and the mean of the fill takes as much of each: so its pixels see four times as
 // many places (interleaved sampling; Keller and Heidrich, EGWR 2001). Whoever includes this defines takePlace().
 #ifndef DOF_RINGS_GLSL
@@ -23,12 +23,12 @@ struct Search {
   float differs;          // 1: the four sets differ, else 0
   float shift;            // of this pixel's set: across its ring, as a share of the ring's area
   float half_share;  // what a disc counts that ends where the place is: a half, in small discs more, so that they are flatter
-  float span;  // radius of the area that the places stand for, pixels of the half size
+  float span;  // radius of the area that the places stand for, texels of the fields
   ivec2 last;  // texel of the fields
   float roundness;  // radius of a round disc that has the area of the aperture's outline, of the radius of its corners
 };
 
-// What the pass does with a place `across` pixels of the half size from the pixel; `share` is its area, 1 for a round aperture. `each`: it is a texel,
+// What the pass does with a place `across` texels of the fields from the pixel; `share` is its area, 1 for a round aperture. `each`: it is a texel,
 // with its middle at `at`.
 void takePlace(Search search, bool each, vec2 at, float across, float share);
 
@@ -74,7 +74,7 @@ float texelWithin(Texels texels, float across) {
 float reachOf(Search search, float radius) {
   if (search.texels < 0) return sqrt(max(radius * radius - search.shared_variance, 0.25));
   float equal = radius * search.roundness;
-  return sqrt(max(equal * equal - clamp(0.85 * equal - 0.275, 0.75, 1.0), 1e-4));
+  return sqrt(max(equal * equal - (SCALE == 2 ? clamp(0.85 * equal - 0.275, 0.75, 1.0) : 0.0), 1e-4));
 }
 
 // How far to either side texels may lie in a disc.
@@ -107,7 +107,7 @@ Search searchOver(float radius, int rings) {
   search.shift = (whichSet().x - 0.5) * 0.5 * search.differs;
   search.half_share = 0.65 - 0.15 * clamp(0.5 * radius - 1.4, 0.0, 1.0);
   float texel = exp2(search.level);
-  search.shared_variance = 4.0 * variance + 1.7 + 0.667 * (2.0 * texel * texel - 1.0);
+  search.shared_variance = 4.0 * variance + (SCALE == 2 ? 1.7 : 0.7) + 0.667 * (2.0 * texel * texel - 1.0);
   search.texels = each ? 0 : -1;
   float reach = reachOf(search, radius);
   search.span = reach + 0.5;

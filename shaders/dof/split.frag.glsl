@@ -1,8 +1,8 @@
-// The picture at half size in two layers, near field and far field, so that they never mix. Scene-referred.
+// The picture at the size of the fields, half or full, in two layers, near field and far field, so that they never mix. Scene-referred.
 // read    color   radiance; both nearest
 //         depth   reversed-Z; the sky, 0, is infinitely far
-// write   near    radiance of the near field, premultiplied, and its share of the pixel: 0, a quarter, ... 1
-//         disc    radius of the disc in pixels of the half size, times the share, of either field
+// write   near    radiance of the near field, premultiplied, and its share of the texel: 0, a quarter, ... 1
+//         disc    radius of the disc in texels of the fields, times the share, of either field
 //         far     radiance of the nearest blurred surface of the rest, premultiplied, and its share of the pixel. What is in focus has next to
 //                 none, so that it is no part of a mean with blurred surfaces; 0 where the near field hides all of it
 //         idle    depth: 0 where far_bokeh has anything to do for `far`, 1 where far_hidden has, else a half
@@ -27,30 +27,36 @@ out vec4 far;
 float endOfSurface(float radius) { return 1.3 * radius + 0.5; }
 
 void main() {
-  vec2 texel = 1.0 / vec2(textureSize(color, 0)), middle = gl_FragCoord.xy * 2.0 * texel;
+  const int pixels = SCALE * SCALE;
+  const float part = 1.0 / float(pixels);
+  vec2 texel = 1.0 / vec2(textureSize(color, 0)), middle = gl_FragCoord.xy * float(SCALE) * texel;
+#if SCALE == 2
   vec4 depths = textureGather(depth, middle).wzxy, radii;
+#else
+  vec4 depths = vec4(textureLod(depth, middle, 0.0).r), radii;
+#endif
   float end = 1e9;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < pixels; ++i) {
     radii[i] = cocRadius(depths[i], infinity, focus, float(largest) - 1.0);
     if (radii[i] >= 1.0) end = min(end, endOfSurface(radii[i]));
   }
   vec4 near_mean = vec4(0.0);
   float near_weight = 0.0, near_count = 0.0, far_disc = 0.0;
   far = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
-    vec2 at = middle + (vec2(i & 1, i >> 1) - 0.5) * texel;
+  for (int i = 0; i < pixels; ++i) {
+    vec2 at = middle + (vec2(i & 1, i >> 1) - 0.5) * texel * float(SCALE - 1);
     float radius = radii[i], blur = blurOf(radius);
-    vec4 c = vec4(finite(textureLod(color, at, 0.0).rgb), abs(radius) * 0.5);
+    vec4 c = vec4(finite(textureLod(color, at, 0.0).rgb), abs(radius) / float(SCALE));
     bool nearer = radius < -0.5;
     float w = nearer ? blur : 0.0;
     near_mean += c * w;
     near_weight += w;
     near_count += float(nearer);
-    w = nearer || radius > end ? 0.0 : 0.25 * max(radius > 0.0 ? blur : 0.0, 1e-3);
+    w = nearer || radius > end ? 0.0 : part * max(radius > 0.0 ? blur : 0.0, 1e-3);
     far += vec4(c.rgb, 1.0) * w;
     far_disc += c.a * w;
   }
-  float share = near_weight > 0.0 ? 0.25 * near_count : 0.0;
+  float share = near_weight > 0.0 ? part * near_count : 0.0;
   near_mean /= max(near_weight, 1e-6);
   near = vec4(near_mean.rgb, 1.0) * share;
   disc = vec2(near_mean.a * share, far_disc);

@@ -1,6 +1,6 @@
 // The tiles that the near field reaches; shared by the vertex shaders of that layer, which draw a quad for each.
 // read    tiles?   from reach; without it all of them
-// params  tile     pixels of the half size along a tile's side
+// params  tile     texels of the fields along a tile's side
 #ifndef DOF_WORK_GLSL
 #define DOF_WORK_GLSL
 
@@ -10,10 +10,10 @@
 uniform sampler2D tiles;
 #endif
 
-// `target` texels of a target for one of the half size.
+// `target` texels of a target for one of the fields.
 vec4 workCorner(int tile, int target) {
-  ivec2 half_size = (ivec2(viewport) + target - 1) / target,
-        grid = max((half_size + tile - 1) / tile, ivec2(1)), at = tileOf(grid);
+  ivec2 fields = (ivec2(viewport) + target - 1) / target,
+        grid = max((fields + tile - 1) / tile, ivec2(1)), at = tileOf(grid);
 #ifdef HAS_TILES
   bool wanted = texelFetch(tiles, at, 0).r > 0.0;
 #else

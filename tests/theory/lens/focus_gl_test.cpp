@@ -284,14 +284,18 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("focus: one colour stays that colour") {
+TEST_CASE("focus: one colour stays that colour, at half size and at full size") {
   const Lens lens{.aperture = 0.7};
-  const Panels panels = panelsOf(scene({{.center = {0, 0, 14}, .radius = 1},
-                                        {.center = {-3, 2, 0}, .radius = 1},
-                                        {.center = {6, -3, -30}, .radius = 5},
-                                        {.center = {2.5, -2, 2.4}, .radius = 0.6}},  // discs of 1 to 2 pixels
-                                       lens));
-  CHECK(largestChange(panels) < 4e-3);
+  for (const char* fullSize : {"false", "true"}) {
+    Setup setup = scene({{.center = {0, 0, 14}, .radius = 1},
+                         {.center = {-3, 2, 0}, .radius = 1},
+                         {.center = {6, -3, -30}, .radius = 5},
+                         {.center = {2.5, -2, 2.4}, .radius = 0.6}},  // discs of 1 to 2 pixels
+                        lens);
+    setup.sets.push_back({"full_size_bokeh", fullSize});
+    CAPTURE(fullSize);
+    CHECK(largestChange(panelsOf(setup)) < 4e-3);
+  }
 }
 
 TEST_CASE(

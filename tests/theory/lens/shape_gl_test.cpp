@@ -11,17 +11,25 @@ using namespace weft::theory;
 
 namespace {
 
+// What shines: a square on a plane; a ball before the sky; a ball half sunk into a black one, as a highlight on it is.
+enum class Source { kSquare, kBall, kHighlight };
+
 struct Light {
-  bool near = false,
-       ball = false;     // a ball before the sky, of which only it is bright; else a square on a plane
+  bool near = false;
+  Source source = Source::kSquare;
   double diameter = 20;  // pixels, of the outline's corners
   std::uint32_t width = 160, height = 120;
   int blades = 0;
+  bool fullSize = false;
+  double moved = 0;  // pixels along x, and half as many along y
 };
 
 struct Shape {
   double overlap = 0;  // of the pixels brighter than half of the plateau, intersection over union
-  double light = 0;    // over that of the sharp picture
+  double low = 0;      // of those brighter than a tenth of it
+  double corners =
+      0;  // with blades: how much light is farther out towards the corners than between them, over the same of the ideal
+  double light = 0;  // over that of the sharp picture
   struct Moments {
     double least = 1e9, most = 0;  // variance along x, y and the diagonals
     double cross =
@@ -30,6 +38,7 @@ struct Shape {
 };
 
 constexpr double kBall = 1.6;  // radius in pixels
+constexpr double kBlack = 45;  // the same of the black ball
 constexpr int kSquare = 2;     // pixels along a side
 
 // How far out the outline is in a direction, of the radius of its corners; the first corner lies along x.
@@ -47,15 +56,15 @@ struct Emitter {
 
 Emitter emitterOf(const Light& light) {
   Emitter emitter;
-  if (light.ball) {
-    emitter.x = light.width / 2.0 + 0.8;
-    emitter.y = light.height / 2.0 - 0.7;
+  if (light.source != Source::kSquare) {
+    emitter.x = light.width / 2.0 + 0.8 + light.moved;
+    emitter.y = light.height / 2.0 - 0.7 + light.moved / 2;
     for (int y = -8; y <= 8; ++y)
       for (int x = -8; x <= 8; ++x)
         if (x * x + y * y <= 64) emitter.points.emplace_back(x * kBall / 8, y * kBall / 8);
   } else {
-    emitter.x = double(light.width / 2 + light.width % 2) + kSquare / 2.0;
-    emitter.y = double(light.height / 2 + light.height % 2) + kSquare / 2.0;
+    emitter.x = double(light.width / 2 + light.width % 2) + kSquare / 2.0 + light.moved;
+    emitter.y = double(light.height / 2 + light.height % 2) + kSquare / 2.0 + std::floor(light.moved / 2);
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x)
         emitter.points.emplace_back(((x + 0.5) / 8 - 0.5) * kSquare, ((y + 0.5) / 8 - 0.5) * kSquare);
@@ -69,9 +78,10 @@ Setup setupOf(const Light& light, const Emitter& emitter) {
   const double f = 1.8 * std::sqrt(radius / 120);
   const double aperture =
       f * f / (focus - f) * std::abs(1 - focus / distance) / (2 * radius * 0.024 / light.height);
-  Setup setup{.graph = light.ball ? "tests/theory/lens/lens.json" : "tests/theory/impulse.json",
-              .width = light.width,
-              .height = light.height};
+  Setup setup{
+      .graph = light.source != Source::kSquare ? "tests/theory/lens/lens.json" : "tests/theory/impulse.json",
+      .width = light.width,
+      .height = light.height};
   setup.sets = {{"dof", "true"},
                 {"bloom", "false"},
                 {"focal_length", std::to_string(1000 * f)},
@@ -79,13 +89,18 @@ Setup setupOf(const Light& light, const Emitter& emitter) {
                 {"focus_distance", "20"},
                 {"sensor_height", "24"},
                 {"largest_bokeh", radius < 31 ? "32" : "34"},
-                {"blades", std::to_string(light.blades)}};
-  if (light.ball) {
+                {"blades", std::to_string(light.blades)},
+                {"full_size_bokeh", light.fullSize ? "true" : "false"}};
+  if (light.source != Source::kSquare) {
     const double perPixel = std::tan(M_PI / 6) / (light.height / 2.0) * distance;
     setup.balls = {{.center = {(emitter.x - light.width / 2.0) * perPixel,
                                (emitter.y - light.height / 2.0) * perPixel, 20 - distance},
                     .radius = float(kBall * perPixel),
-                    .albedo = {200, 200, 200}}};
+                    .albedo = glm::vec3(light.source == Source::kBall ? 200.0f : 20000.0f)}};
+    if (light.source == Source::kHighlight)
+      setup.balls.push_back({.center = setup.balls[0].center - glm::vec3(0, 0, kBlack * perPixel),
+                             .radius = float(kBlack * perPixel),
+                             .albedo = {0, 0, 0}});
   } else {
     for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
              {"distance", std::to_string(distance)},
@@ -124,7 +139,7 @@ Shape shapeOf(const Light& light) {
   lab.frame(0);
   const Picture panels = lab.read("panels");
   CHECK(lab.reports() == "");
-  const double background = light.ball ? 1 : 0, radius = light.diameter / 2;
+  const double background = light.source == Source::kBall ? 1 : 0, radius = light.diameter / 2;
   // Seen from one place on the lens, what lies behind the focus is moved towards that place, and what lies before it away from it: so the
   // outline is upright behind the focus and upside down before it.
   const double side = light.near ? -1 : 1;
@@ -149,13 +164,34 @@ Shape shapeOf(const Light& light) {
   const double area = light.blades < 3
                           ? M_PI * radius * radius
                           : 0.5 * light.blades * std::sin(2 * M_PI / light.blades) * radius * radius;
-  double both = 0, either = 0;
-  for (std::size_t i = 0; i < ideal.size(); ++i) {
-    const bool inIdeal = ideal[i] / sumIdeal > 0.5 / area, inFound = found[i] / sumFound > 0.5 / area;
-    both += inIdeal && inFound;
-    either += inIdeal || inFound;
-  }
-  return {both / either, sumFound / sharp, momentsOf(ideal, light.width), momentsOf(found, light.width)};
+  const auto overlapAbove = [&](double share) {
+    double both = 0, either = 0;
+    for (std::size_t i = 0; i < ideal.size(); ++i) {
+      const bool inIdeal = ideal[i] / sumIdeal > share / area, inFound = found[i] / sumFound > share / area;
+      both += inIdeal && inFound;
+      either += inIdeal || inFound;
+    }
+    return both / either;
+  };
+  const auto towardsCorners = [&](const std::vector<double>& picture) {
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const double px = side * (double(i % light.width) + 0.5 - emitter.x),
+                   py = side * (double(i / light.width) + 0.5 - emitter.y), away = std::hypot(px, py);
+      if (away > radius + 3) continue;
+      const double weight = picture[i] * std::pow(away, 4);
+      sum += weight * std::cos(light.blades * std::atan2(py, px));
+      all += weight;
+    }
+    return sum / all;
+  };
+  const double corners = light.blades < 3 ? 1 : towardsCorners(found) / towardsCorners(ideal);
+  return {overlapAbove(0.5),
+          overlapAbove(0.1),
+          corners,
+          sumFound / sharp,
+          momentsOf(ideal, light.width),
+          momentsOf(found, light.width)};
 }
 
 }  // namespace
@@ -166,7 +202,7 @@ TEST_CASE(
   const auto check = [](const Light& light) {
     const Shape shape = shapeOf(light);
     CAPTURE(light.near);
-    CAPTURE(light.ball);
+    CAPTURE(int(light.source));
     CAPTURE(light.blades);
     CAPTURE(light.diameter);
     CAPTURE(light.width);
@@ -176,12 +212,12 @@ TEST_CASE(
     // 26, from 0.93 above; from a ball before the focus 0.81 at 6, from 0.85 at 9. A disc of 9 pixels cannot be truer: spread from texels of
     // the half size by the exact area of each, and then sampled as linear, it has 0.76 to 0.87, because so much hangs on 8 pixels of its 64.
     const double d = light.diameter;
-    const bool far_ball = light.ball && !light.near;
+    const bool far_ball = light.source == Source::kBall && !light.near;
     CHECK(shape.overlap > (far_ball   ? (d < 7      ? 0.7
                                          : d < 10   ? 0.75
                                          : d < 13.5 ? 0.77
                                                     : 0.82)
-                           : d < 7    ? (light.ball ? 0.78 : 0.95)
+                           : d < 7    ? (light.source == Source::kBall ? 0.78 : 0.95)
                            : d < 10   ? 0.84
                            : d < 13.5 ? 0.9
                            : d < 21   ? 0.85
@@ -195,11 +231,46 @@ TEST_CASE(
       check({.near = true, .diameter = diameter, .width = 160 + odd, .height = 120 + odd});
       check({.near = false, .diameter = diameter, .width = 160 + odd, .height = 120 + odd});
       for (const bool near : {true, false})
-        check({.near = near, .ball = true, .diameter = diameter, .width = 160 + odd, .height = 120 + odd});
+        check({.near = near,
+               .source = Source::kBall,
+               .diameter = diameter,
+               .width = 160 + odd,
+               .height = 120 + odd});
       if (odd || diameter < 20) continue;
       for (const int blades : {5, 6, 8})
         for (const bool near : {false, true}) check({.near = near, .diameter = diameter, .blades = blades});
     }
+}
+
+TEST_CASE(
+    "shape: a highlight on a sphere is the aperture's outline from 6 pixels on, at full size with corners "
+    "from "
+    "9 on") {
+  for (const bool near : {false, true})
+    for (const double d : {6.0, 9.0, 13.0, 20.0, 33.0, 48.0})
+      for (const auto& [fullSize, blades] : {std::pair{true, 0}, {true, 6}, {false, 0}}) {
+        const Shape shape = shapeOf({.near = near,
+                                     .source = Source::kHighlight,
+                                     .diameter = d,
+                                     .blades = blades,
+                                     .fullSize = fullSize,
+                                     .moved = 1.6});
+        CAPTURE(near);
+        CAPTURE(d);
+        CAPTURE(fullSize);
+        CAPTURE(blades);
+        // Measured at four places on the pixels: at full size from 0.85 at 6 pixels, 0.87 at 9 and 13, from 0.92 above; at half size 0.69, 0.79, 0.82,
+        // and from 0.84 above.
+        CHECK(shape.overlap > (fullSize ? (d < 7    ? 0.84
+                                           : d < 14 ? 0.86
+                                                    : 0.91)
+                               : d < 7  ? 0.68
+                               : d < 14 ? 0.78
+                                        : 0.83));
+        CHECK(shape.low > (fullSize ? 0.87 : 0.78));
+        // Measured: from 1.04 at 9 pixels, from 0.75 above. At half size from -0.2 to 0.7.
+        if (blades && d > 7) CHECK(shape.corners > (d < 10 ? 0.95 : 0.72));
+      }
 }
 
 TEST_CASE("shape: a disc of a few pixels is as wide in all directions, and no cross") {
