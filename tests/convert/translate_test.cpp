@@ -155,3 +155,21 @@ TEST_CASE("texels in the file become pictures, lowest row first") {
   CHECK(converted->images[0].bytes == std::vector<std::uint8_t>{255, 254, 253, 255, 1, 2, 3, 255});
   CHECK(converted->images[1].floats == std::vector<float>{1, 0, 0, 1, -0.5, 0, 0, 1});
 }
+
+TEST_CASE("comments of // may stand before an ISF header, and keep its places") {
+  base::Diagnostics diagnostics;
+  const std::string body = "void main() { gl_FragColor = vec4(isf_FragNormCoord, 0.0, 1.0); }";
+  const auto converted =
+      convertIsfText("// Week 1\n\n// by nobody\r\n/*{ \"INPUTS\": [] }*/\n" + body, diagnostics);
+  REQUIRE_MESSAGE(converted, diagnostics.text());
+  CHECK(has(partOf(*converted, ".fs.glsl"), "// by nobody"));
+  base::Diagnostics wrong;
+  CHECK_FALSE(convertIsfText("// Week 1\n/*{ \"INPUTS\": [ { \"TYPE\": \"float\" } ] }*/\n" + body, wrong));
+  REQUIRE(wrong.size() == 1);
+  CHECK(wrong.items()[0].place.line == 2);
+  for (const char* none : {"// only this", "//", "// a\nvoid main() {}", "/ /*{}*/"}) {
+    base::Diagnostics said;
+    CHECK_FALSE(convertIsfText(none, said));
+    CHECK(said.contains(base::Code::notIsf));
+  }
+}

@@ -29,10 +29,11 @@ struct Comment {
   std::size_t begin = 0, end = 0;  // of what stands between its marks
 };
 
-// The first comment, where nothing but spaces stands before it.
+// The first comment of /* */, where nothing but spaces and comments of // stands before it.
 std::optional<Comment> firstComment(std::string_view text) {
   std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  while (at < text.size() && base::isSpace(text[at])) ++at;
+  while (at < text.size() && (base::isSpace(text[at]) || text.substr(at, 2) == "//"))
+    at = base::isSpace(text[at]) ? at + 1 : std::min(text.find('\n', at), text.size());
   if (text.substr(at, 2) != "/*") return std::nullopt;
   const std::size_t end = text.find("*/", at + 2);
   if (end == std::string_view::npos) return std::nullopt;
@@ -48,7 +49,7 @@ class HeaderReader {
     const auto comment = firstComment(text);
     if (!comment) {
       auto& d = diagnostics_.error(Code::notIsf, {file_, 1, 1}, "the file has no ISF header");
-      d.expected = "a comment /*{ … }*/ with a JSON object as the first thing in the file";
+      d.expected = "a comment /*{ … }*/ with a JSON object, behind nothing but comments of //";
       d.hint = "an ISF file begins with it; see https://docs.isf.video";
       return std::nullopt;
     }

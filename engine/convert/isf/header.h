@@ -43,7 +43,7 @@ struct IsfHeader {
   std::vector<IsfImported> imported;
 };
 
-// Whether the text begins with a comment that holds an object.
+// Whether the text begins with a comment that holds an object, perhaps behind comments of //.
 bool looksLikeIsf(std::string_view text);
 
 std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_ptr<const std::string>& file,
