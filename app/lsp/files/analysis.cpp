@@ -51,12 +51,19 @@ Analysis::Analysis(const Options& options, const Texts& texts, const Project& pr
       project_(project),
       registry_(runtime::makeRegistry({}, factsOf(options))) {}
 
+// Whether what it was known for is hidden by a mistake, such as a comment or a quote that was begun before the first key.
+bool Analysis::isBrokenGraph(const std::string& path, const FileIndex& file) const {
+  if (!graphs_.contains(path)) return false;
+  base::Diagnostics said;
+  return !base::parseJson(file.text->bytes(), std::make_shared<const std::string>(path), said);
+}
+
 // Graphs that are open and that no other open one includes or extends; of those that include each other in a circle, all.
 std::set<std::string> Analysis::roots() const {
   std::map<std::string, std::set<std::string>> closures;
   for (const auto& [path, opened] : texts_.opened()) {
     const auto file = project_.index(path);
-    if (!file || !file->isGraph) continue;
+    if (!file || (!file->isGraph && !isBrokenGraph(path, *file))) continue;
     std::vector<std::string> closure = project_.closure(path);
     closures[path] = {closure.begin(), closure.end()};
   }
@@ -134,8 +141,8 @@ std::shared_ptr<const gl::ShaderSource> Analysis::source(Graph& graph, const std
 // Of the variant that runs once everything was published long ago.
 void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
-  roles_.makeRoom(4096);
   for (const graph::Step& step : plan.steps) {
+    roles_.makeRoom();
     const graph::PassSpec& spec = flat.specs[step.pass];
     const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;

@@ -44,6 +44,7 @@ class Analysis {
 
  private:
   std::set<std::string> roots() const;
+  bool isBrokenGraph(const std::string& path, const FileIndex& file) const;
   void look(const std::string& path, Graph& graph);
   void checkShaders(Graph& graph, const graph::Plan& plan);
   void checkFiles(Graph& graph, const graph::GraphDesc& desc);

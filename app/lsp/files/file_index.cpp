@@ -32,7 +32,8 @@ class Indexer {
     for (const auto& member : root.children) {
       out_.isGraph |= isOneOf(member->key, {"passes", "resources", "parameters", "let", "extends", "present",
                                             "outputs"}) ||
-                      (member->key == "set" && member->type == Type::object);
+                      (member->key == "set" && member->type == Type::object) ||
+                      (member->key == "$schema" && member->text.ends_with("graph.schema.json"));
       top(*member);
     }
     out_.isPreset = out_.extends.empty() && root.find("set") && !root.find("present");

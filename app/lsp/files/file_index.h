@@ -33,8 +33,8 @@ struct Mention {
 
 struct FileIndex {
   std::shared_ptr<const Text> text;
-  bool isGraph = false;              // has a key that only graphs, overlays and presets have
-  bool isPreset = false;             // sets values, shows no picture and extends nothing
+  bool isGraph = false;   // has a key that only graphs, overlays and presets have, or names their schema
+  bool isPreset = false;  // sets values, shows no picture and extends nothing
   std::vector<std::string> extends;  // absolute paths: the file below, then what is laid over it
   std::map<std::string, std::string, std::less<>> includes;  // absolute paths by prefix
   std::map<std::string, Range, std::less<>> resources, variables, passes;

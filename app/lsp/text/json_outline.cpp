@@ -53,8 +53,12 @@ class JsonOutline::Parser {
         ++at_;
       } else if (text_.substr(at_, 2) == "//" || text_.substr(at_, 2) == "/*") {
         const bool line = text_[at_ + 1] == '/';
-        const std::size_t begin = at_, found = text_.find(line ? "\n" : "*/", at_ + 2);
-        at_ = found == std::string_view::npos ? text_.size() : found + (line ? 0 : 2);
+        const std::size_t begin = at_;
+        std::size_t found = text_.find(line ? "\n" : "*/", at_ + 2);
+        // One that is never closed ends with its line: somebody is typing it, and what stands below is still meant.
+        const bool closed = !line && found != std::string_view::npos;
+        if (!line && !closed) found = text_.find('\n', at_ + 2);
+        at_ = found == std::string_view::npos ? text_.size() : found + (closed ? 2 : 0);
         comments_.push_back({begin, at_});
       } else {
         return;

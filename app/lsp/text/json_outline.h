@@ -1,5 +1,5 @@
 // The values of a JSON text with the bytes where they stand, also of one that is being typed: what is broken is passed
-// over, and nothing is reported (the reader does that). Comments are skipped. Does not: resolve escapes in strings other
+// over, and nothing is reported (the reader does that). Comments are skipped; one that is never closed ends with its line. Does not: resolve escapes in strings other
 // than those of quotes and backslashes, or convert numbers.
 #pragma once
 

@@ -31,16 +31,23 @@ Role roleFor(graph::Kind kind) {
 
 const ShaderRoles& RoleCache::ofText(const gl::ShaderSource& source) {
   const auto [known, fresh] = known_.try_emplace(fmt::format("{:016x} {}", source.hash, source.text.size()));
-  if (fresh) known->second = gl::rolesIn(source.text);
-  return known->second;
+  if (!fresh) return known->second;
+  bytes_ += source.text.size();
+  return known->second = gl::rolesIn(source.text);
 }
 
 const ShaderRoles& RoleCache::ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines) {
   std::string key = fmt::format("{:016x} {}", source.hash, source.text.size());
   for (const gl::Define& define : defines) key += fmt::format("|{}={}", define.name, define.value);
   const auto [known, fresh] = known_.try_emplace(key + "|");
-  if (fresh) known->second = gl::rolesIn(source.text, defines);
-  return known->second;
+  if (!fresh) return known->second;
+  bytes_ += source.text.size() + key.size();
+  return known->second = gl::rolesIn(source.text, defines);
+}
+
+void RoleCache::clear() {
+  known_.clear();
+  bytes_ = 0;
 }
 
 const ShaderRoles& ShaderWords::variantOf(const gl::StageSource& stage) const {

@@ -22,15 +22,17 @@ class RoleCache {
  public:
   const gl::ShaderRoles& ofText(const gl::ShaderSource& source);
   const gl::ShaderRoles& ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines);
-  std::size_t size() const { return known_.size(); }
-  void clear() { known_.clear(); }
-  // Forgets everything when it is more than `most` answers.
-  void makeRoom(std::size_t most = 512) {
-    if (known_.size() > most) clear();
+  // Of all texts that were scanned, each counted once for itself and once for each of its variants.
+  std::size_t textBytes() const { return bytes_; }
+  void clear();
+  // Forgets everything when more than `most` bytes of texts were scanned.
+  void makeRoom(std::size_t most = std::size_t{16} << 20) {
+    if (bytes_ > most) clear();
   }
 
  private:
   std::map<std::string, gl::ShaderRoles> known_;
+  std::size_t bytes_ = 0;
 };
 
 class ShaderWords {

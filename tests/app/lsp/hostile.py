@@ -174,10 +174,62 @@ def check_hints(weft, report, folder):
     editor.end()
 
 
+def check_typing(weft, report, folder):
+    """A graph as it is typed: its beginning up to any byte has an error at a line of it, a mistake before all else hides no message, and passes below an open comment are known."""
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    whole = (pathlib.Path(__file__).resolve().parents[3] / "graphs/glow.json").read_text()
+    assert whole.isascii()
+
+    def errors():
+        editor.settle("typed.json")
+        return [d for d in editor.published["typed.json"]["diagnostics"] if d["severity"] == 1]
+
+    def completion(text):
+        line, column = text.count("\n"), len(text) - text.rfind("\n") - 1
+        answer = editor.ask("textDocument/completion", editor.at("typed.json", f"{line}:{column}"))
+        report.check("result" in answer, f"completion behind {len(text)} bytes: {answer}")
+
+    for fresh in (False, True):  # typed in one go, and opened as it is
+        if not fresh:
+            editor.open("typed.json", whole[:50])
+        for size in range(50, len(whole.rstrip()), 50):
+            text = whole[:size]
+            if fresh:
+                editor.tell("textDocument/didClose", {"textDocument": {"uri": editor.uri("typed.json")}})
+                editor.open("typed.json", text)
+            else:
+                editor.change("typed.json", [(None, text)])
+            found = errors()
+            report.check(found, f"{size} bytes of glow.json have no error")
+            # Where the text ends, or where begins what is never closed.
+            lines = text.count("\n")
+            report.check(all(d["range"]["start"]["line"] <= lines for d in found), f"{size} bytes of glow.json: {found}")
+            completion(text)
+    # A comment that is begun and not closed yet: one error, where it begins, and the passes below are known.
+    editor.change("typed.json", [(None, whole)])
+    for at in ("  \"name\"", "  \"threshold\""):
+        text = whole.replace(at, "  /* " + at, 1)
+        editor.change("typed.json", [(None, text)])
+        found = errors()
+        before = text[:text.index("/*")]
+        begin = {"line": before.count("\n"), "character": len(before) - before.rfind("\n") - 1}
+        report.check(len(found) == 1 and found[0]["code"] == "W002" and found[0]["range"]["start"] == begin, f"an open comment: {found}")
+        answer = editor.ask("textDocument/documentSymbol", {"textDocument": {"uri": editor.uri("typed.json")}})
+        report.check(any("composite" in symbol for symbol in flatten(answer["result"])), f"behind an open comment: {answer}")
+    editor.change("typed.json", [(None, "/*\n" + whole)])
+    found = errors()
+    report.check(len(found) == 1 and found[0]["range"]["start"] == {"line": 0, "character": 0}, f"a comment around all: {found}")
+    # Nothing of the graph is to be seen any more, and the file is still the one that was being typed.
+    editor.change("typed.json", [(None, "{ \"")])
+    report.check(errors(), "an open quote before all else has no error")
+    editor.end()
+
+
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     with temporary_folder() as folder:
-        for name, check in (("bounds", check_bounds), ("hints", check_hints), ("odd", check_hostile)):
+        for name, check in (("bounds", check_bounds), ("hints", check_hints), ("typing", check_typing), ("odd", check_hostile)):
             pathlib.Path(folder, name).mkdir()
             check(weft, report, pathlib.Path(folder, name).resolve())
     report.end()
