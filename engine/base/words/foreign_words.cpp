@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/chars.h"
+#include "engine/base/words/foreign_shader_names.h"
 
 namespace weft::base {
 
@@ -62,6 +63,10 @@ constexpr Word kPassKeys[] = {
     {"blending", "it belongs into \"state\": { \"blend\": \"add\" }"},
     {"blendmode", "it belongs into \"state\": { \"blend\": \"add\" }"},
     {"blend_mode", "it belongs into \"state\": { \"blend\": \"add\" }"},
+    {"fragmentshader", "the shader's path stands in \"shader\""},
+    {"vertexshader", "of a draw: \"shader\": { \"vertex\": …, \"fragment\": … }"},
+    {"rendertoscreen", "what is shown stands in \"present\" of the graph"},
+    {"needsswap", "leave it out: what a pass reads and writes says all"},
     {"culling", "it belongs into \"state\": { \"cull\": \"back\" }"},
     {"cullmode", "it belongs into \"state\": { \"cull\": \"back\" }"},
     {"cull_mode", "it belongs into \"state\": { \"cull\": \"back\" }"},
@@ -152,12 +157,50 @@ constexpr Word kStateWords[] = {
     {"disabled", "write 'none', or 'always' for a depth test"},
     {"back", "write 'back'"},
     {"front", "write 'front'"},
-    {"one", "write 'add' for 'one' and 'one'"},
+    {"one", "write 'add', which is glBlendFunc(GL_ONE, GL_ONE)"},
     {"oneone", "write 'add'"},
+    {"oneoneminussrcalpha", "write 'premultiplied'"},
+    {"dstcolorzero", "write 'multiply'"},
+    {"zerosrccolor", "write 'multiply'"},
+    {"noblending", "write 'none'"},
+    {"normalblending", "write 'alpha'"},
+    {"additiveblending", "write 'add'"},
+    {"multiplyblending", "write 'multiply'"},
+    {"customblending", "blends are words: 'add', 'alpha', 'premultiplied', 'multiply', 'min', 'max'"},
+    {"lessdepth", "depth is reversed, the near plane is 1: write 'greater'"},
+    {"lessequaldepth", "depth is reversed, the near plane is 1: write 'greater_equal'"},
+    {"alwaysdepth", "write 'always'"},
+    {"doubleside", "write 'none'"},
+    {"frontside", "write 'back', which culls backs"},
+    {"backside", "write 'front', which culls fronts"},
     {"srcalphaoneminussrcalpha", "write 'alpha'"},
     {"premult", "write 'premultiplied'"},
     {"premultipliedalpha", "write 'premultiplied'"},
     {"solid", "write 'fill'"},
+};
+constexpr Word kStateKeys[] = {
+    {"transparent", "write \"blend\": \"alpha\""},
+    {"blending", "write \"blend\": \"add\""},
+    {"blendmode", "write \"blend\": \"add\""},
+    {"blendfunc", "write \"blend\": \"add\""},
+    {"side", "write \"cull\": \"none\" for both sides, \"back\" for fronts only"},
+    {"culling", "write \"cull\": \"back\""},
+    {"cullmode", "write \"cull\": \"back\""},
+    {"cull_mode", "write \"cull\": \"back\""},
+    {"cullface", "write \"cull\": \"back\""},
+    {"ztest", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"zfunc", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"depthfunc", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"depth_func", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"depthcompare", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"zwrite", "write \"depth_write\": false"},
+    {"depthmask", "write \"depth_write\": false"},
+    {"wireframe", "write \"polygon\": \"line\""},
+    {"fillmode", "write \"polygon\": \"line\""},
+    {"polygonoffset", "write \"offset\": [factor, units]"},
+    {"colormask", "there is none: write fewer outputs, or combine them in the shader"},
+    {"color_mask", "there is none: write fewer outputs, or combine them in the shader"},
+    {"stencil", "there is no stencil test: a shader can read 'depth.stencil' and discard"},
 };
 constexpr Word kValueTypes[] = {
     {"float1", "write \"float\""},
@@ -182,7 +225,23 @@ constexpr Word kValueTypes[] = {
     {"string", "write \"choice\" for one of some words, \"file\" for a path"},
     {"select", "write \"choice\", with \"choices\""},
     {"path", "write \"file\""},
+    {"range", "write \"float\", and the range with \"min\" and \"max\""},
+    {"slider", "write \"float\", and the range with \"min\" and \"max\""},
     {"texture", "write \"file\" for the path of one that an import reads"},
+};
+constexpr Word kValueKeys[] = {
+    {"value", "write \"default\""},
+    {"initial", "write \"default\""},
+    {"range", "write \"min\" and \"max\""},
+    {"minimum", "write \"min\""},
+    {"maximum", "write \"max\""},
+    {"values", "write \"choices\""},
+    {"options", "write \"choices\""},
+    {"labels", "write \"choices\""},
+    {"name", "write \"label\""},
+    {"title", "write \"label\""},
+    {"description", "write \"doc\""},
+    {"tooltip", "write \"doc\""},
 };
 constexpr Word kSampling[] = {
     {"repeat", "write 'wrap'"},
@@ -196,6 +255,13 @@ constexpr Word kSampling[] = {
     {"mirror_repeat", "write 'mirror'"},
     {"mirrored", "write 'mirror'"},
     {"edge", "write 'clamp'"},
+    {"linearfilter", "write 'linear'"},
+    {"nearestfilter", "write 'nearest'"},
+    {"linearmipmaplinearfilter", "write 'linear': levels are filtered the same way"},
+    {"linearmipmapnearestfilter", "write 'linear': levels are filtered the same way"},
+    {"repeatwrapping", "write 'wrap'"},
+    {"clamptoedgewrapping", "write 'clamp'"},
+    {"mirroredrepeatwrapping", "write 'mirror'"},
     {"shadow", "write 'compare'"},
     {"comparison", "write 'compare'"},
     {"uav", "write 'image'"},
@@ -255,6 +321,14 @@ constexpr Word kForeignValues[] = {
     {"resolution", "write 'screen'"},
     {"viewport", "write 'screen'"},
     {"aspect", "write 'screen.x / screen.y'"},
+    {"width", "write 'screen.x', or 'size(name).x' of a texture"},
+    {"height", "write 'screen.y', or 'size(name).y' of a texture"},
+    {"keyboard", "there is none: make it a parameter"},
+    {"webcam", "there is none: \"import\": \"image\" reads a picture or a numbered sequence"},
+    {"video", "there is none: \"import\": \"image\" reads a picture or a numbered sequence"},
+    {"audio", "there is none: give a picture of the sound to \"import\": \"image\""},
+    {"music", "there is none: give a picture of the sound to \"import\": \"image\""},
+    {"sound", "there is none: give a picture of the sound to \"import\": \"image\""},
     {"pi", "write 3.14159265"},
 };
 constexpr Word kImportTypes[] = {
@@ -268,82 +342,6 @@ constexpr Word kImportTypes[] = {
     {"cubemap", "write \"import\": \"environment\""},
     {"lut", "write \"import\": \"cube_lut\""},
 };
-constexpr Word kShaderNames[] = {
-    {"float2", "GLSL says 'vec2'"},
-    {"float3", "GLSL says 'vec3'"},
-    {"float4", "GLSL says 'vec4'"},
-    {"half", "GLSL says 'float'"},
-    {"half2", "GLSL says 'vec2'"},
-    {"half3", "GLSL says 'vec3'"},
-    {"half4", "GLSL says 'vec4'"},
-    {"fixed", "GLSL says 'float'"},
-    {"fixed2", "GLSL says 'vec2'"},
-    {"fixed3", "GLSL says 'vec3'"},
-    {"fixed4", "GLSL says 'vec4'"},
-    {"bool2", "GLSL says 'bvec2'"},
-    {"bool3", "GLSL says 'bvec3'"},
-    {"bool4", "GLSL says 'bvec4'"},
-    {"cbuffer", "GLSL says 'layout(std140) uniform Parameters { … };'"},
-    {"static", "GLSL says 'const' for a constant, and nothing for a variable"},
-    {"varying", "GLSL says 'in' in the fragment shader and 'out' in the vertex shader"},
-    {"attribute", "GLSL says 'in'"},
-    {"Texture2D", "GLSL says 'uniform sampler2D source;', with the name of the slot"},
-    {"SamplerState", "GLSL says 'uniform sampler2D source;' for texture and sampler together"},
-    {"RWTexture2D", "GLSL says 'layout(rgba16f) uniform image2D result;', with the texture's format"},
-    {"int2", "GLSL says 'ivec2'"},
-    {"int3", "GLSL says 'ivec3'"},
-    {"int4", "GLSL says 'ivec4'"},
-    {"uint2", "GLSL says 'uvec2'"},
-    {"uint3", "GLSL says 'uvec3'"},
-    {"uint4", "GLSL says 'uvec4'"},
-    {"float2x2", "GLSL says 'mat2'"},
-    {"float3x3", "GLSL says 'mat3'"},
-    {"float4x4", "GLSL says 'mat4'"},
-    {"saturate", "GLSL says 'clamp(x, 0.0, 1.0)'"},
-    {"lerp", "GLSL says 'mix'"},
-    {"frac", "GLSL says 'fract'"},
-    {"mul", "GLSL says 'a * b'"},
-    {"rsqrt", "GLSL says 'inversesqrt'"},
-    {"ddx", "GLSL says 'dFdx'"},
-    {"ddy", "GLSL says 'dFdy'"},
-    {"atan2", "GLSL says 'atan(y, x)'"},
-    {"fmod", "GLSL says 'mod'"},
-    {"mad", "GLSL says 'fma'"},
-    {"clip", "GLSL says 'if (x < 0.0) discard;'"},
-    {"asuint", "GLSL says 'floatBitsToUint'"},
-    {"asfloat", "GLSL says 'uintBitsToFloat'"},
-    {"tex2D", "GLSL says 'texture(map, uv)'"},
-    {"tex2Dlod", "GLSL says 'textureLod(map, uv, level)'"},
-    {"texture2D", "this version of GLSL says 'texture(map, uv)'"},
-    {"texture2DLod", "this version of GLSL says 'textureLod(map, uv, level)'"},
-    {"textureCube", "this version of GLSL says 'texture(map, direction)'"},
-    {"shadow2D", "this version of GLSL says 'texture(map, uvz)'"},
-    {"gl_FragColor", "declare an output with the name of the slot: 'out vec4 result;'"},
-    {"gl_FragData", "declare an output for each slot, with its name: 'out vec4 result;'"},
-    {"gl_ModelViewProjectionMatrix", "#include \"common/view.glsl\" has 'view_projection'"},
-    {"gl_Vertex", "declare an attribute of the geometry: 'in vec3 position;'"},
-    {"gl_Normal", "declare an attribute of the geometry: 'in vec3 normal;'"},
-    {"iTime", "#include \"common/view.glsl\" has 'time'"},
-    {"iResolution", "#include \"common/view.glsl\" has 'viewport'"},
-    {"iFrame", "#include \"common/view.glsl\" has 'frame'"},
-    {"iTimeDelta", "#include \"common/view.glsl\" has 'delta_time'"},
-    {"time", "#include \"common/view.glsl\" has 'time'"},
-    {"u_time", "#include \"common/view.glsl\" has 'time'"},
-    {"uTime", "#include \"common/view.glsl\" has 'time'"},
-    {"TIME", "#include \"common/view.glsl\" has 'time'"},
-    {"iGlobalTime", "#include \"common/view.glsl\" has 'time'"},
-    {"TIMEDELTA", "#include \"common/view.glsl\" has 'delta_time'"},
-    {"frame", "#include \"common/view.glsl\" has 'frame'"},
-    {"FRAMEINDEX", "#include \"common/view.glsl\" has 'frame'"},
-    {"resolution", "#include \"common/view.glsl\" has 'viewport'"},
-    {"u_resolution", "#include \"common/view.glsl\" has 'viewport'"},
-    {"uResolution", "#include \"common/view.glsl\" has 'viewport'"},
-    {"RENDERSIZE", "#include \"common/view.glsl\" has 'viewport'"},
-    {"iChannel0", "declare a sampler with the name of the slot: 'uniform sampler2D source;'"},
-    {"fragCoord", "GLSL says 'gl_FragCoord.xy'"},
-    {"fragColor", "declare an output with the name of the slot: 'out vec4 result;'"},
-};
-
 std::span<const Word> wordsOf(Foreign where) {
   switch (where) {
     case Foreign::pass_key:
@@ -356,12 +354,16 @@ std::span<const Word> wordsOf(Foreign where) {
       return kStateWords;
     case Foreign::value_type:
       return kValueTypes;
+    case Foreign::value_key:
+      return kValueKeys;
     case Foreign::sampling:
       return kSampling;
     case Foreign::expression:
       return kExpressions;
+    case Foreign::state_key:
+      return kStateKeys;
     case Foreign::shader_name:
-      return kShaderNames;
+      break;
     case Foreign::value:
       return kForeignValues;
     case Foreign::import_type:
@@ -373,8 +375,10 @@ std::span<const Word> wordsOf(Foreign where) {
 }  // namespace
 
 std::string hintForForeign(Foreign where, std::string_view word) {
-  const bool exact = where == Foreign::shader_name;  // GLSL tells cases apart
-  std::string wanted = exact ? std::string(word) : lowered(word);
+  if (where == Foreign::shader_name) return hintForShaderName(word);
+  std::string wanted = lowered(word);
+  if (where == Foreign::value_type)
+    wanted.resize(std::min(wanted.find('('), wanted.size()));  // "Range(0, 1)"
   if (where == Foreign::state_word) {
     for (const std::string_view prefix :
          {"gl_", "vk_compare_op_", "vk_", "d3d11_comparison_", "d3d12_comparison_func_", "comparison_",

@@ -235,9 +235,19 @@ class RoleScan {
       const bool last = i + 1 == statement_.size();
       if (!last && statement_[i + 1] != "," && statement_[i + 1] != "[" && statement_[i + 1] != "=") continue;
       add(word, role);
-      if (role == Role::parameter) out_.parameters.push_back({std::string(type), std::string(word)});
+      if (role == Role::parameter)
+        out_.parameters.push_back({std::string(type) + dimensionsAt(i + 1), std::string(word)});
       if (role == Role::opaque && type.find("image") != std::string_view::npos) addFormats(word);
     }
+  }
+
+  // "[4]" or "[2][3]", or "" where none stand.
+  std::string dimensionsAt(std::size_t i) const {
+    std::string text;
+    if (i < statement_.size() && statement_[i] == "[")
+      for (; i < statement_.size() && statement_[i] != "," && statement_[i] != "="; ++i)
+        text += statement_[i];
+    return text;
   }
 
   void addFormats(std::string_view name) {

@@ -35,7 +35,7 @@ enum class Role : std::uint16_t {
 
 struct ShaderRoles {
   struct Member {
-    std::string type, name;
+    std::string type, name;  // type of an array: "vec4[4]"
   };
   std::map<std::string, std::uint16_t, std::less<>> roles;  // by name: roles, or'ed
   std::map<std::string, std::vector<std::string>, std::less<>>

@@ -278,6 +278,11 @@ namespace {
 
 // Those that differ in stage and ending only, else those of nearly that name.
 std::string hintForShader(const std::string& path, const std::vector<std::string>& known) {
+  if (path.find_first_of("{;\n") != std::string::npos)
+    return "a shader is a file: write the text into one below shaders/, and its path here";
+  for (const std::string& each : known)
+    if (path.ends_with("/" + each))
+      return fmt::format("write '{}': paths begin in the folder of shaders", each);
   const std::string stem = path.substr(0, path.find('.', path.rfind('/') + 1)) + ".";
   std::string same;
   for (const std::string& each : known)

@@ -245,7 +245,9 @@ void explainNames(base::Diagnostic& d, const ShaderSource& source) {
   } else if (const auto swizzle = between(raw, "invalid swizzle / mask `", "'")) {
     d.message = fmt::format("the value has no '.{}'", *swizzle);
   } else if (raw.ends_with("shader lacks `main'")) {
-    d.hint = "each shader file has one void main()";
+    d.hint = source.text.find("mainImage") != std::string::npos
+                 ? "call it: void main() { mainImage(result, gl_FragCoord.xy); }, with 'out vec4 result;'"
+                 : "each shader file has one void main()";
   }
 }
 

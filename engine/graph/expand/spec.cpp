@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "engine/base/chars.h"
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
 #include "engine/graph/expand/checks.h"
@@ -25,6 +26,15 @@ std::string upper(std::string_view name) {
                ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
                : '_';
   return out;
+}
+
+// `said`, in small letters, is none of the words of this state.
+std::string hintForState(bool test, std::string said, const std::vector<std::string>& words) {
+  const bool off = said == "off" || said == "false" || said == "disabled";
+  if (test && off) return "leave \"depth_test\" out: then nothing is tested";
+  if (test && said == "true") return "write 'greater', by which the nearer surface wins: depth is reversed";
+  const std::string foreign = base::hintForForeign(base::Foreign::state_word, said);
+  return foreign.empty() || off ? base::nearestHint(off ? "none" : said, words) : foreign;
 }
 
 class SpecFiller {
@@ -75,9 +85,7 @@ class SpecFiller {
                     fmt::format("has an unknown value for the state '{}'", state.name));
     d.expected = all;
     d.found = toText(value);
-    if (value.type == Value::Type::symbol)
-      d.hint = base::hintForForeign(base::Foreign::state_word, value.symbol);
-    if (value.type == Value::Type::symbol && d.hint.empty()) d.hint = base::nearestHint(value.symbol, words);
+    d.hint = hintForState(state.name == "depth_test", base::lowered(d.found), words);
     return -1;
   }
 

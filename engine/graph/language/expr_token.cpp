@@ -70,7 +70,11 @@ std::string hintForSize(std::string_view whole) {
   }
   if (text.starts_with("width/")) {
     const std::string_view by = text.substr(6, text.find(',') - std::min<std::size_t>(6, text.size()));
-    if (text == fmt::format("width/{},height/{}", by, by)) return fmt::format("write 'screen/{}'", by);
+    double part = 0;
+    const bool divides =
+        std::from_chars(by.data(), by.data() + by.size(), part).ptr == by.data() + by.size() && part > 0;
+    if (divides && text == fmt::format("width/{},height/{}", by, by))
+      return fmt::format("write 'screen/{}'", by);
   }
   for (const auto& [theirs, ours] : {std::pair{".width", ".x"}, std::pair{".height", ".y"}})
     if (const std::size_t at = text.find(theirs); at != std::string_view::npos)

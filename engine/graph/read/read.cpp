@@ -171,7 +171,9 @@ class GraphReader {
 
   void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {
     const JsonValue* passes = source.root.find("passes");
-    if (!passes || !context.expect(*passes, Type::array, "\"passes\"")) return;
+    if (!passes || !context.expect(*passes, Type::array, "\"passes\"",
+                                   "write a list, each with its name: \"passes\": [ { \"name\": … }, … ]"))
+      return;
     ReadContext::Seen seen;
     graph.passes.reserve(passes->items.size());
     LikePasses alike(context, passes->items);

@@ -47,11 +47,13 @@ void ReadContext::adopt(const base::Diagnostics& said, const JsonPointer& pointe
   }
 }
 
-bool ReadContext::expect(const JsonValue& value, JsonValue::Type type, std::string_view what) {
+bool ReadContext::expect(const JsonValue& value, JsonValue::Type type, std::string_view what,
+                         std::string hint) {
   if (value.is(type)) return true;
   auto& d = error(Code::wrongType, value, fmt::format("{} has the wrong type", what));
   d.expected = nameOf(type);
   d.found = describe(value);
+  d.hint = std::move(hint);
   return false;
 }
 
@@ -110,6 +112,12 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const Jso
     d.hint = fmt::format("choose another, such as 'my_{}'", name);
   } else {
     d.expected = "letters, digits and '_', not beginning with a digit";
+    if (name.empty() || std::ranges::any_of(name, [](char c) { return c < ' ' || c > '~'; })) return false;
+    std::string good(name);
+    for (char& c : good)
+      if (!isIdentChar(c)) c = '_';
+    if (!isIdentStart(good[0])) good.insert(good.begin(), '_');
+    if (isIdent(good) && !isReservedWord(good)) d.hint = fmt::format("write '{}'", good);
   }
   return false;
 }

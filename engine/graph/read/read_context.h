@@ -32,7 +32,7 @@ class ReadContext {
                             std::string message);
 
   // False, with Code::wrongType, when `value` is something else. `what` names it: "\"passes\"".
-  bool expect(const JsonValue& value, JsonValue::Type type, std::string_view what);
+  bool expect(const JsonValue& value, JsonValue::Type type, std::string_view what, std::string hint = {});
 
   // Code::unknownKey for keys that are not in `keys`, Code::missingKey for required ones that are missing. A missing key that
   // an unknown one is a misspelling of is not reported again.

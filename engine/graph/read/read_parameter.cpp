@@ -56,7 +56,7 @@ class ParameterReader {
                                                                 : fmt::format("{}", object_.number));
       return std::nullopt;
     }
-    context_.checkKeys(object_, kParameterKeys, what_);
+    context_.checkKeys(object_, kParameterKeys, what_, base::Foreign::value_key);
     out_.label = context_.text(object_.find("label"), "\"label\"");
     out_.doc = context_.text(object_.find("doc"), "\"doc\"");
     out_.define = context_.flag(object_.find("define"), "\"define\"");
@@ -145,6 +145,8 @@ class ParameterReader {
     d.expected = std::move(expected);
     d.found = initial.is(JsonValue::Type::array) ? fmt::format("an array of {}", initial.items.size())
                                                  : describe(initial);
+    if (out_.type == ParameterType::boolean && initial.is(JsonValue::Type::number))
+      d.hint = initial.number == 0 ? "write false" : "write true";
     return false;
   }
 

@@ -245,7 +245,12 @@ class PassReader {
                             : member.key == "modify" ? Access::modify
                                                      : Access::read;
       if (access == Access::read && member.key != "read") continue;
-      for (const JsonMember& slot : membersOf(member.key.c_str())) {
+      if (!context_.expect(member.value, Type::object, fmt::format("\"{}\"", member.key),
+                           fmt::format("name the slot, as the shader does: \"{}\": {{ \"{}\": {} }}",
+                                       member.key, access == Access::read ? "source" : "result",
+                                       member.value.is(Type::string) ? '"' + member.value.text + '"' : "…")))
+        continue;
+      for (const JsonMember& slot : member.value.members) {
         if (!context_.goesOn()) return;
         const std::string what = fmt::format("the slot '{}'", slot.key);
         bool good = context_.checkShaderName(slot.key, slot.place, slot.value.pointer, "a slot");
@@ -287,7 +292,7 @@ class PassReader {
   void readState() {
     const JsonValue* state = value_.find("state");
     if (!state || !context_.expect(*state, Type::object, "\"state\"")) return;
-    context_.checkKeys(*state, kStateKeys, "\"state\"");
+    context_.checkKeys(*state, kStateKeys, "\"state\"", base::Foreign::state_key);
     for (const JsonMember& member : state->members) {
       bool known = false;
       for (const KeySpec& spec : kStateKeys) known = known || spec.key == member.key;

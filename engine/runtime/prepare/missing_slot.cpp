@@ -88,6 +88,16 @@ void sayUnset(const std::string& member, const std::string& type, const graph::P
               const std::string& shaders, base::Diagnostic& d) {
   d.message = fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders,
                           member, spec.name);
+  if (type.ends_with(']')) {
+    d.message = fmt::format("the shader '{}' reads the parameter '{}', an array, which no graph can set",
+                            shaders, member);
+    d.expected = "a number or a vector";
+    d.found = fmt::format("{} {}", type, member);
+    d.hint =
+        "make it a constant of the shader, one member for each element, or rows of a storage buffer that a "
+        "pass writes";
+    return;
+  }
   d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member, type);
   d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`", presenceDefineOf(member));
 }

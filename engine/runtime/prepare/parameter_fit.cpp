@@ -93,7 +93,8 @@ class ParameterCheck : PassErrors {
     for (const gl::BlockMember& member : block->members) {
       if (std::ranges::find(spec_.uniforms, member.name, &graph::UniformSpec::name) != spec_.uniforms.end())
         continue;
-      sayUnset(member.name, gl::glslTypeName(member.type), spec_, shaders_,
+      const std::string dimension = member.arraySize == 1 ? "" : fmt::format("[{}]", member.arraySize);
+      sayUnset(member.name, gl::glslTypeName(member.type) + dimension, spec_, shaders_,
                fail(Code::undeclaredShaderInput, spec_.shaderPlace, ""));
     }
   }

@@ -80,6 +80,7 @@ bool memberTakes(const gl::BlockMember& member, const graph::Value& value, std::
   const auto shape = gl::shapeOf(member.type);
   if (!shape || shape->columns != 1 || member.arraySize != 1) {
     expected = "a scalar or vector member in the shader, not " + gl::glslTypeName(member.type);
+    if (member.arraySize != 1) expected += fmt::format("[{}]", member.arraySize);
     return false;
   }
   const bool list = value.type == graph::Value::Type::list;

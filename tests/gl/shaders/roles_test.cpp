@@ -84,7 +84,7 @@ TEST_CASE("each name of a shader has the role that its declaration gives it") {
   REQUIRE(roles.parameters.size() == 3);
   CHECK(roles.parameters[0].type == "float");
   CHECK(roles.parameters[2].name == "weights");
-  CHECK(roles.parameters[2].type == "vec3");
+  CHECK(roles.parameters[2].type == "vec3[4]");
   CHECK(nameOfRole(roles.roles.find("uv")->second) == "an input");
 }
 

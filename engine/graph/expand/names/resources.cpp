@@ -23,6 +23,9 @@ Value evaluateTexel(Names& names, const Expr& expr, const Called& what) {
     auto& d = names.model().diagnostics.error(Code::wrongValueType, expr.place(), what.text() + " is a word");
     d.expected = "a number or a list of numbers";
     d.found = value.symbol;
+    d.hint = value.symbol == "white"         ? "write [1, 1, 1, 1]"
+             : value.symbol == "transparent" ? "write 0"
+                                             : "write the channels, such as [0, 0, 0, 1] for black";
     return {};
   }
   return value;
@@ -43,6 +46,18 @@ bool contradiction(Model& model, const Entity& entity, const Place& place, std::
   d.resource = entity.name;
   d.expected = std::move(expected);
   return false;
+}
+
+// `side`, of a size, is less than 1 or more than `limit`.
+std::string hintForSide(const Expr& size, double side, std::uint32_t limit) {
+  if (size.isConstant())
+    return side > 0 && side < 1 ? fmt::format("write 'screen*{}' for a part of the screen", numberText(side))
+                                : std::string();
+  const std::string text = size.text().size() <= 60 ? size.text() : std::string();
+  const std::string given = text.empty() || text.starts_with('[') ? "…" : text;
+  return side < 1
+             ? fmt::format("it is computed: write 'max({}, 1)', or change what it depends on", given)
+             : fmt::format("it is computed: write 'min({}, {})', or change what it depends on", given, limit);
 }
 
 bool evaluateSize(Model& model, Names& names, Entity& entity) {
@@ -73,8 +88,12 @@ bool evaluateSize(Model& model, Names& names, Entity& entity) {
     const bool low = value.v[i] < 0 || (value.v[i] < 1 && desc.size.isConstant()) ||
                      (value.v[i] == 0 && !countsElements(model, names.scope(), desc.size));
     if (!std::isfinite(value.v[i]) || low || value.v[i] > limit) {
-      rangeError(model, desc.size, fmt::format("the size of '{}'", entity.name),
-                 fmt::format("1 to {} texels a side", limit), value.v[i]);
+      auto& d = model.diagnostics.error(Code::numberOutOfRange, desc.size.place(),
+                                        fmt::format("the size of '{}' is out of its range", entity.name));
+      d.resource = entity.name;
+      d.expected = fmt::format("1 to {} texels a side", limit);
+      d.found = numberText(value.v[i]);
+      d.hint = hintForSide(desc.size, value.v[i], limit);
       return false;
     }
   }

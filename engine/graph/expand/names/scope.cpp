@@ -16,7 +16,6 @@ namespace weft::graph::expansion {
 
 namespace {
 
-const std::vector<std::string> kSelectors{"mip", "layer", "face", "stencil"};
 
 // An optional input that nobody binds, where the including file has nothing of its name.
 bool isLeftOut(Model& model, const Entity& entity) {
@@ -169,7 +168,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
   if (found == kNone && (model.effort.tooDeep || isOver(model))) return kNone;
   if (found != kNone || model.diagnostics.errorCount() > before) return found;
   if (isUnread(scope, name)) return kNone;  // the reader reported its declaration
-  if (isUnincluded(model, scope, name, place, user.text(), pass)) return kNone;
+  if (!isPicturePath(name) && isUnincluded(model, scope, name, place, user.text(), pass)) return kNone;
   // An input with nothing behind it was reported where it stands.
   if (!import && scope.resources.contains(name)) return kNone;
   if (import) {
@@ -188,31 +187,11 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
                                     fmt::format("{} unknown resource '{}'", user.text(), name));
   d.resource = std::string(name);
   d.pass = pass;
-  std::vector<std::string> names = resourceNames(model, scope);
-  if (orPass && maySuggest(model, scope.desc->passes.size()))
-    for (const PassDesc& each : scope.desc->passes)
-      if (!each.include) names.push_back(each.name);
-  d.hint = base::nearestHint(name, names);
-  if (const std::size_t dot = name.find('.');
-      dot != std::string_view::npos && scope.resources.contains(name.substr(0, dot)))
-    if (const std::string near = base::nearestName(name.substr(dot + 1), kSelectors); !near.empty())
-      d.hint =
-          fmt::format("did you mean '{}.{}{}'?", name.substr(0, dot), near, near == "stencil" ? "" : "[…]");
-  if (!slot.empty() && scope.resources.contains(slot))
-    d.hint = fmt::format("a slot comes first, then its resource: \"{}\": \"{}\"", name, slot);
-  if (findImportType(model.registry, name)) d.hint = fmt::format("did you mean the import '@{}'?", name);
-  for (Scope* outer = scope.parent; outer; outer = outer->parent)
-    if (outer->resources.contains(name)) {
-      d.hint = fmt::format(
-          "the including file has it: declare it here as an input, \"{}\": {{ \"input\": \"texture\" }}",
-          name);
-      break;
-    }
+  d.hint = hintForResource(model, scope, name, slot, orPass);
   return kNone;
 }
 
-Variable findVariable(Model& model, Scope& from, std::string_view name) {
-  using Kind = Variable::Kind;
+Variable findVariableFrom(Scope& from, std::string_view name) {
   for (Scope* scope = &from; scope; scope = scope->parent) {
     Scope* at = scope;
     std::string_view rest = name;
@@ -226,6 +205,12 @@ Variable findVariable(Model& model, Scope& from, std::string_view name) {
       rest = rest.substr(dot + 1);
     }
   }
+  return {};
+}
+
+Variable findVariable(Model& model, Scope& from, std::string_view name) {
+  using Kind = Variable::Kind;
+  if (const Variable found = findVariableFrom(from, name); found.kind != Kind::none) return found;
   const auto leaves = model.parametersByLeaf.find(name.substr(name.rfind('.') + 1));
   if (leaves == model.parametersByLeaf.end()) return {};
   Variable result;

@@ -39,6 +39,8 @@ bool maySuggest(Model& model, std::size_t names);
 std::uint32_t implicitImport(Model& model, std::string_view type);
 
 Variable findVariable(Model& model, Scope& scope, std::string_view name);
+// The same without the files that are included below: a name of this file or of one that includes it.
+Variable findVariableFrom(Scope& scope, std::string_view name);
 
 // The parameter that a pass of the scope's own file declares; null when it was left out.
 Parameter* findPassParameter(Model& model, const Scope& scope, const std::string& pass,

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
 
 namespace weft::graph::expansion {
@@ -13,6 +14,8 @@ namespace weft::graph::expansion {
 namespace {
 
 constexpr std::size_t kPassesTold = 5;
+constexpr std::string_view kPictures[] = {".png", ".jpg", ".jpeg", ".exr"};  // "lit.hdr" is a resource
+const std::vector<std::string> kSelectors{"mip", "layer", "face", "stencil"};
 
 std::string_view firstPart(std::string_view name) {
   return name.substr(0, name.find('.'));
@@ -69,6 +72,49 @@ bool mayBeUnread(const Scope& from, std::string_view name) {
   for (const Scope* scope = &from; scope; scope = scope->parent)
     if (isUnread(*scope, name)) return true;
   return false;
+}
+
+bool isPicturePath(std::string_view name) {
+  return std::ranges::any_of(kPictures, [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
+std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
+                            bool orPass) {
+  if (isPicturePath(name)) {
+    const std::string_view file = name.substr(name.rfind('/') + 1);
+    return fmt::format(
+        "a picture is a resource: {{ \"{0}\": {{ \"import\": \"image\", \"file\": \"{1}\" }} }}, and \"{0}\" "
+        "here",
+        file.substr(0, file.find('.')), name);
+  }
+  if (const PassDesc* pass = orPass ? nullptr : findPass(scope, name)) {
+    std::string made;
+    for (const SlotDesc& each : pass->slots)
+      if (each.access != Access::read)
+        made += fmt::format("{}'{}'", made.empty() ? "" : " or ", each.ref.name);
+    if (!made.empty()) return fmt::format("'{}' is a pass: name what it writes, {}", name, made);
+  }
+  std::vector<std::string> names = resourceNames(model, scope);
+  if (orPass && maySuggest(model, scope.desc->passes.size()))
+    for (const PassDesc& each : scope.desc->passes)
+      if (!each.include) names.push_back(each.name);
+  std::string hint = base::nearestHint(name, names);
+  if (const std::size_t dot = name.find('.');
+      dot != std::string_view::npos && scope.resources.contains(name.substr(0, dot)))
+    if (const std::string near = base::nearestName(name.substr(dot + 1), kSelectors); !near.empty())
+      hint =
+          fmt::format("did you mean '{}.{}{}'?", name.substr(0, dot), near, near == "stencil" ? "" : "[…]");
+  if (!slot.empty() && scope.resources.contains(slot))
+    hint = fmt::format("a slot comes first, then its resource: \"{}\": \"{}\"", name, slot);
+  if (findImportType(model.registry, name)) hint = fmt::format("did you mean the import '@{}'?", name);
+  for (Scope* outer = scope.parent; outer; outer = outer->parent)
+    if (outer->resources.contains(name)) {
+      hint = fmt::format(
+          "the including file has it: declare it here as an input, \"{}\": {{ \"input\": \"texture\" }}",
+          name);
+      break;
+    }
+  return hint;
 }
 
 bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,

@@ -1,5 +1,5 @@
-// Names that are unknown only because something else went wrong: left out by the reader, or of an include that is not
-// there. One mistake is reported once.
+// Names that are unknown: what their author may have meant, and those that are unknown only because something else went
+// wrong, left out by the reader, or of an include that is not there. One mistake is reported once.
 #pragma once
 
 #include <string>
@@ -15,6 +15,11 @@ bool isUnread(const Scope& from, std::string_view name);
 // True when nothing is known of this variable because an include could not be read, which the reader
 // reported.
 bool mayBeUnread(const Scope& from, std::string_view name);
+// "noise.png": a file in the place of a resource.
+bool isPicturePath(std::string_view name);
+// The fix for a resource that is not there; the arguments are those of findEntityOrReport().
+std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
+                            bool orPass);
 // True when `name` is dotted and this file includes nothing under its first part: kept for reportUnincluded.
 bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
                   std::string_view user, const std::string& pass = {});
