@@ -90,6 +90,7 @@ namespace weft::base {
   X(W086, badOutput,                 "output that cannot be read back")                             \
   X(W087, unusedKind,                "kind that no pass uses yet")                                  \
   X(W088, madeAtTimes,               "read of what is made only at times")                          \
+  X(W089, unusedDeclaration,         "declared and never used")                                     \
   X(W090, culledOverwritten,         "culled: output overwritten")                                  \
   X(W091, culledUnread,              "culled: output never read")                                   \
   X(W092, nothingPresented,          "nothing is presented")                                        \

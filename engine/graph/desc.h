@@ -259,6 +259,7 @@ struct GraphDesc {
   std::vector<std::string> files;   // this file, what it extends, its presets, and all of every file
                                     // included below it, for watching
   FileTexts texts;                  // of the graph that was asked for: all these files; included ones: some
+  std::string top;  // the overlay or preset that lies over all others; "" when nothing lies over this file
 };
 
 }  // namespace weft::graph

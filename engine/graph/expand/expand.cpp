@@ -5,6 +5,7 @@
 #include "engine/graph/expand/finish.h"
 #include "engine/graph/expand/judge/culled.h"
 #include "engine/graph/expand/judge/missing.h"
+#include "engine/graph/expand/judge/unused.h"
 #include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
@@ -41,7 +42,10 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   if (!isOver(model)) judgeMissing(model);
   reportUnincluded(model);
   if (!own.hasErrors()) checkSlices(model);
-  if (!own.hasErrors() && !diagnostics.hasErrors()) warnUnread(model);
+  if (!own.hasErrors() && !diagnostics.hasErrors()) {
+    warnUnread(model);
+    warnUnused(model);
+  }
   own.sortByPlace();
   diagnostics.append(own);
   if (diagnostics.hasErrors()) return nullptr;

@@ -184,6 +184,7 @@ std::shared_ptr<const Source> SourceLoader::completeOverlay(const JsonValue& roo
       applyOverlay(*this, root, false, source, diagnostics_);
     }
     source.values = valuesOf(source.root);
+    source.top = path;
   }
   open_.pop_back();
   return good ? std::make_shared<const Source>(std::move(source)) : nullptr;
@@ -275,6 +276,7 @@ bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValu
   good = good && mayCopy(made, root->place);
   if (good) {
     made.files.push_back(path);
+    made.top = path;
     if (made.root.is(Type::object)) applyOverlay(*this, *root, preset, made, diagnostics_);
   }
   open_.pop_back();

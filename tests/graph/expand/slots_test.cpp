@@ -28,7 +28,8 @@ Expanded tryPass(const std::string& pass, const Settings& settings = {}, const W
       "vol": { "texture": "rgba8", "size": [8, 8, 8], "clear": 0 },
       "arr": { "texture": "rgba8", "size": "screen", "array": 2, "clear": 0 },
       "buf": { "buffer": 64, "clear": 0 },
-      "lut": { "import": "cube_lut", "file": "a.cube" }
+      "lut": { "import": "cube_lut", "file": "a.cube" },
+      "any": ["col if $on", "out"]
     },
     "passes": [ )J" + pass +
                         R"J( ], "present": "out" })J",
@@ -212,7 +213,7 @@ TEST_CASE("cadence: an always pass may not add to what a slower one made") {
 TEST_CASE("slices: what could never end, what another writes too, and types that run whole are reported") {
   const auto tryPasses = [](const std::string& passes) {
     return expandText(R"J({ "resources": {
-        "a": { "texture": "rgba8", "size": 8, "mips": 2 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },
+        "a": { "texture": "rgba8", "size": 8 }, "b": { "texture": "rgba8", "size": 8 }, "c": { "texture": "rgba8", "size": 8 } },
       "passes": [)J" + passes +
                       R"J(,
         { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "src": "b" }, "write": { "r": "c" } } ], "present": "c" })J");

@@ -120,7 +120,10 @@ TEST_CASE("timed: only what runs in every frame otherwise, under one condition, 
         "pass 'many' has an \"enabled\" with age() that depends on the index 'i'");
   // A name that only holds the index does not depend on it.
   CHECK(tryPasses(
-            stanza("many", R"("repeat": { "s": [0, 0] }, "modify": { "r": "out" })", "age(pulse) < $seconds"))
+            stanza(
+                "many",
+                R"("repeat": { "s": [0, 0] }, "modify": { "r": "out" }, "parameters": { "young": "$young" })",
+                "age(pulse) < $seconds"))
             .text() == "");
   const Expanded repeated =
       tryPasses(stanza("many", R"("repeat": { "i": [0, 1] }, "write": { "r": "other.mip[i]" })") + ", " +
@@ -162,8 +165,10 @@ TEST_CASE("timed: an include, and all that is in it") {
 }
 
 TEST_CASE("alternatives: an earlier publication has a name of its own") {
-  const Expanded e =
-      tryPasses(stanza("show", R"("read": { "a": "old", "b": "pulse" }, "modify": { "r": "out" })", "true"));
+  const Expanded e = tryPasses(stanza(
+      "show",
+      R"("read": { "a": "old", "b": "pulse" }, "modify": { "r": "out" }, "parameters": { "young": "$young" })",
+      "true"));
   REQUIRE_MESSAGE(e.text() == "", e.text());
   CHECK(e.useText("show", "a") == "pulse @-1");
   CHECK(e.useText("show", "b") == "pulse");

@@ -17,7 +17,7 @@ class Folder : public TestFolder {
     write("base.json", R"({
   "name": "base",
   "parameters": { "gain": { "default": 1.0, "min": 0, "max": 8, "label": "Gain" }, "soft": { "default": true } },
-  "let": { "half": "screen/2" },
+  "description": "to lay overlays over",
   "resources": { "hdr": { "texture": "rgba16f", "size": "screen", "mips": 2 }, "ldr": { "texture": "rgba8", "size": "screen" },
                  "either": ["hdr if $soft", "ldr"] },
   "passes": [

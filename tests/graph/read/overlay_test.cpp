@@ -28,7 +28,7 @@ TEST_CASE("objects merge key by key, null takes away") {
   const Expanded e = fine(folder.over(R"("name": "mine",
     "parameters": { "gain": { "default": 2, "label": null }, "more": { "default": 3 } },
     "resources": { "hdr": { "texture": "r11f_g11f_b10f" }, "either": "hdr", "spare": { "texture": "r8", "size": 4 } },
-    "passes": [ { "name": "fill", "shader": "other.frag.glsl", "parameters": { "tint": 0.25, "speed": 7 } },
+    "passes": [ { "name": "fill", "shader": "other.frag.glsl", "parameters": { "tint": 0.25, "speed": "$more" } },
                 { "name": "show", "read": { "extra": null, "either": "either.mip[0]" } } ])"));
   CHECK(e.graph->name == "mine");
   CHECK(e.resource("hdr").format == Format::r11f_g11f_b10f);
@@ -135,9 +135,9 @@ TEST_CASE("values: presets in order, then the command line; included files first
   CHECK(valueOf(fine(base, {b, a}), "gain") == "3");
   CHECK(valueOf(fine(base, {a, b}, with({{"gain", "5"}})), "gain") == "5");
   // a path is from the folder of the file that says it, one of the command line is as it is
-  folder.write(
-      "lut.json",
-      R"({ "extends": "base.json", "parameters": { "lut": { "type": "file", "default": "d.cube" } } })");
+  folder.write("lut.json",
+               R"({ "extends": "base.json", "parameters": { "lut": { "type": "file", "default": "d.cube" } },
+           "resources": { "table": { "import": "cube_lut", "file": "$lut" } } })");
   const std::string lut = folder.file("lut.json");
   const std::string p = folder.write("parts/p.json", R"({ "set": { "lut": "../tables/p.cube" } })");
   const std::string absolute =

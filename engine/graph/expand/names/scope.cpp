@@ -16,7 +16,6 @@ namespace weft::graph::expansion {
 
 namespace {
 
-
 // An optional input that nobody binds, where the including file has nothing of its name.
 bool isLeftOut(Model& model, const Entity& entity) {
   if (!entity.desc->optional) return false;

@@ -1,0 +1,220 @@
+#include "engine/graph/expand/judge/unused.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include "engine/graph/expand/names/scope.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+// Which levels, layers or elements all references to a resource select.
+struct Selected {
+  bool several = false;
+  std::string one;  // the only one so far, as written; empty: no reference so far
+
+  void add(const std::string& which) {
+    several = several || which.empty() || (!one.empty() && one != which);
+    one = which;
+  }
+};
+
+struct Parts {
+  Selected level, layer, element;
+};
+
+// The number that a selector names, or empty: all of them, several, or one that depends on something.
+std::string onlyOf(const Expr& expr) {
+  return expr.present() && expr.isConstant() ? expr.text() : std::string();
+}
+std::string onlyOf(const std::optional<SpanDesc>& span) {
+  if (!span) return {};
+  const std::string first = onlyOf(span->first);
+  return !span->range || first == onlyOf(span->last) ? first : std::string();
+}
+
+// What the expressions and references of all files name.
+class Uses {
+ public:
+  explicit Uses(Model& model) : model_(model) {
+    for (Scope& scope : model_.scopes) addFile(scope);
+  }
+
+  bool reads(const ParameterDesc& parameter) const {
+    return variables_.contains(&parameter) || below_.contains(parameter.name);
+  }
+  bool reads(const NamedExpr& let) const { return variables_.contains(&let); }
+  // Null when nothing refers to it.
+  const Parts* partsOf(const ResourceDesc& resource) const {
+    const auto found = parts_.find(&resource);
+    return found == parts_.end() ? nullptr : &found->second;
+  }
+
+ private:
+  void addFile(Scope& scope) {
+    const GraphDesc& desc = *scope.desc;
+    for (const NamedExpr& let : desc.lets) add(scope, let.expr);
+    for (const ResourceDesc& resource : desc.resources) addResource(scope, resource);
+    for (const PassDesc& pass : desc.passes) addPass(scope, pass);
+    if (desc.present) add(scope, *desc.present);
+    for (const OutputDesc& output : desc.outputs) add(scope, output.ref);
+  }
+
+  void addResource(Scope& scope, const ResourceDesc& resource) {
+    for (const Expr* expr :
+         {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
+          &resource.bytes, &resource.clear, &resource.history, &resource.first})
+      add(scope, *expr);
+    for (const Expr& value : resource.resetValues) add(scope, value);
+    for (const NamedExpr& argument : resource.import.arguments) add(scope, argument.expr);
+    if (resource.firstRef) add(scope, *resource.firstRef);
+    for (const RefDesc& ref : resource.resetRefs) add(scope, ref);
+    for (const RefDesc& ref : resource.alternatives) add(scope, ref);
+  }
+
+  void addPass(Scope& scope, const PassDesc& pass) {
+    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) add(scope, *expr);
+    for (const RangeDesc& range : pass.repeat)
+      for (const Expr* expr : {&range.first, &range.last, &range.step}) add(scope, *expr);
+    for (const SlotDesc& slot : pass.slots) add(scope, slot.ref);
+    for (const PassParameterDesc& parameter : pass.parameters) add(scope, parameter.value);
+    for (const NamedExpr& define : pass.defines) add(scope, define.expr);
+    for (const NamedExpr& state : pass.state) add(scope, state.expr);
+    for (const Expr& argument : pass.geometryArguments) add(scope, argument);
+    if (pass.view) add(scope, *pass.view);
+  }
+
+  void add(Scope& scope, const Expr& expr) {
+    if (!expr.present() || expr.isConstant()) return;
+    for (const std::string& name : expr.variables()) {
+      const Variable found = findVariableFrom(scope, name);
+      if (found.kind == Variable::Kind::parameter)
+        variables_.insert(model_.parameters[found.index].desc);
+      else if (found.kind == Variable::Kind::let)
+        variables_.insert(model_.lets[found.index].desc);
+      else
+        below_.insert(name.substr(name.rfind('.') + 1));
+    }
+  }
+
+  void add(Scope& scope, const RefDesc& ref) {
+    add(scope, ref.condition);
+    if (ref.element) add(scope, *ref.element);
+    for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
+      if (*span) {
+        add(scope, (*span)->first);
+        add(scope, (*span)->last);
+      }
+    const std::uint32_t found = ref.import ? kNone : findEntity(model_, scope, ref.name, false);
+    if (found == kNone) return;
+    const Entity& entity = model_.entities[found];
+    if (!entity.desc || (entity.shape.mips < 2 && entity.arrayCount < 2 && entity.shape.layers < 2)) return;
+    Parts& parts = parts_[entity.desc];
+    parts.level.add(onlyOf(ref.mip));
+    parts.layer.add(onlyOf(ref.layer));
+    parts.element.add(ref.element ? onlyOf(*ref.element) : std::string());
+  }
+
+  Model& model_;
+  std::set<const void*> variables_;  // declarations of parameters and lets
+  std::set<std::string> below_;      // last parts of names that are looked for in included files
+  std::unordered_map<const ResourceDesc*, Parts> parts_;
+};
+
+// Whether nothing may have been laid over the file since this was written there.
+bool isOnTop(const Scope& scope, const Place& place) {
+  for (const Scope* outer = scope.parent; outer; outer = outer->parent)
+    if (!outer->desc->top.empty()) return false;
+  return scope.desc->top.empty() || (place.file && *place.file == scope.desc->top);
+}
+
+// What the author of a parameter that nothing reads has probably meant.
+std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc& unread) {
+  const std::string& name = unread.name;
+  for (const PassDesc& pass : scope.desc->passes)
+    for (const PassParameterDesc& parameter : pass.parameters) {
+      if (parameter.name != name) continue;
+      return parameter.declared
+                 ? fmt::format(
+                       "pass '{}' declares a '{}' of its own: write \"{}\": \"${}\" there, or take "
+                       "one of the two out",
+                       pass.name, name, name, name)
+                 : fmt::format("pass '{}' sets its '{}' to {}: write \"{}\": \"${}\" there", pass.name, name,
+                               parameter.value.text(), name, name);
+    }
+  const auto same = model.parametersByLeaf.find(name);
+  for (std::uint32_t index = same->second.first; index != kNone; index = model.parameters[index].nextOfLeaf)
+    if (const std::string& path = model.parameters[index].path;
+        model.parameters[index].desc != &unread && path.starts_with(scope.prefix))
+      return fmt::format(
+          "there is another, '{}': give it this value by \"set\": {{ \"{}\": … }}, and take "
+          "this one out",
+          path.substr(scope.prefix.size()), path.substr(scope.prefix.size()));
+  return fmt::format(
+      "write '${}' where its value is meant, such as \"parameters\": {{ \"{}\": \"${}\" }} of "
+      "a pass, or take it out",
+      name, name, name);
+}
+
+void warnVariables(Model& model, Scope& scope, const Uses& uses) {
+  for (const ParameterDesc& parameter : scope.desc->parameters) {
+    if (uses.reads(parameter) || !isOnTop(scope, parameter.place)) continue;
+    auto& d =
+        model.diagnostics.warning(Code::unusedDeclaration, parameter.place,
+                                  fmt::format("the parameter '{}' changes nothing: no expression reads '${}'",
+                                              parameter.name, parameter.name));
+    d.pointer = parameter.pointer;
+    d.hint = hintFor(model, scope, parameter);
+  }
+  if (scope.parent) return;  // an including file may want it
+  for (const NamedExpr& let : scope.desc->lets) {
+    if (uses.reads(let) || !isOnTop(scope, let.place)) continue;
+    auto& d = model.diagnostics.warning(
+        Code::unusedDeclaration, let.place,
+        fmt::format("the \"let\" '{}' changes nothing: no expression reads '${}'", let.name, let.name));
+    d.pointer = let.pointer;
+    d.hint = fmt::format("write '${}' where its value is meant, or take it out", let.name);
+  }
+}
+
+void warnParts(Model& model, const Entity& entity, const Parts& parts) {
+  const ResourceDesc& desc = *entity.desc;
+  const auto warn = [&](const Selected& selected, std::uint32_t count, const Expr& said, const char* key,
+                        const char* one, const char* many, const char* selector) {
+    if (selected.several || count < 2) return;
+    auto& d =
+        model.diagnostics.warning(Code::unusedDeclaration, said.present() ? said.place() : desc.place,
+                                  fmt::format("'{}' has {} {}, and all that is written and read is {} {}",
+                                              entity.name, count, many, one, selected.one));
+    d.resource = entity.name;
+    d.hint = fmt::format("leave \"{}\" out, or use the others, such as '{}{}' in a pass with \"repeat\"", key,
+                         desc.name, selector);
+  };
+  warn(parts.level, entity.shape.mips, desc.mips, "mips", "level", "levels", ".mip[i]");
+  warn(parts.element, entity.arrayCount, desc.array, "array", "element", "elements", "[i]");
+  if (desc.layers.present())
+    warn(parts.layer, entity.shape.layers, desc.layers, "layers", "layer", "layers", ".layer[i]");
+}
+
+}  // namespace
+
+void warnUnused(Model& model) {
+  const Uses uses(model);
+  std::set<const GraphDesc*> said;  // a file that is included twice says it once
+  for (Scope& scope : model.scopes)
+    if (said.insert(scope.desc).second) warnVariables(model, scope, uses);
+  std::set<const ResourceDesc*> judged;
+  for (const Entity& entity : model.entities) {
+    const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
+    if (!own || !entity.desc || entity.state != Progress::done || !isOnTop(*entity.scope, entity.desc->place))
+      continue;
+    const Parts* parts = uses.partsOf(*entity.desc);
+    if (parts && judged.insert(entity.desc).second) warnParts(model, entity, *parts);
+  }
+}
+
+}  // namespace weft::graph::expansion
