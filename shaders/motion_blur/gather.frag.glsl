@@ -9,7 +9,8 @@
 // For each of some moments, what is at the pixel then? A texel that moves by a streak is at the pixel when it lies that far before it. Which
 // texel that is depends on its own motion, so it is searched for along the motion of the pixel and along up to four motions around it (tiles
 // after McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012). Of the texels that do arrive at the pixel the nearest is
-// seen. Where none does, something comes into view that nobody has drawn, and the nearest texel behind the pixel's own surface stands in for it.
+// seen. Where none does, something comes into view that nobody has drawn: of the surface behind, the texel stands in that is nearest to the
+// place which is hidden.
 #include "blur.glsl"
 
 uniform sampler2D still, streaks, tiles;
@@ -35,8 +36,10 @@ void main() {
   others = texelFetch(more, pixel / tile, 0);
 #endif
   vec2 longest = streakOf(two.xy, size, shutter, tile);
-  float noise = fract(52.9829189 * fract(dot(here, vec2(0.06711056, 0.00583715))));
   int n = min(samples, int(ceil(4.0 * length(longest))) + 1);
+  // The middles of equal steps, which err least; where steps are longer than a pixel they would show as bands, and chance moves them.
+  float random = fract(52.9829189 * fract(dot(here, vec2(0.06711056, 0.00583715))));
+  float noise = 0.5 + (random - 0.5) * clamp(1.0 - 0.5 * float(n) / length(longest), 0.0, 1.0);
   bool alike = two.xy == two.zw && two.xy == others.xy && two.xy == others.zw;
   vec3 sum = vec3(0.0);
 
@@ -56,10 +59,11 @@ void main() {
   }
   int tries = motions > 0 ? motions + 3 : 2;
   for (int i = 0; i < (alike ? 0 : n); ++i) {
-    float t = (float(i) + noise) / float(n) * 2.0 - 1.0, seen = -1.0, fill = -1.0;
-    ivec2 seen_at = pixel, fill_at = pixel;
+    float t = (float(i) + noise) / float(n) * 2.0 - 1.0, seen = -1.0;
+    ivec2 seen_at = pixel;
     // The pixel's own motion and that of the texel found so, the first of the others and that of the texel found so, the rest.
     vec2 motion = own.xy;
+    vec4 first = own;  // what the pixel's own motion leads to
     for (int k = 0; k < tries; ++k) {
       if (k == 2) motion = around[0];
       if (k > 3) motion = around[k - 3];
@@ -69,12 +73,21 @@ void main() {
       bool arrives = max(miss.x, miss.y) < kMiss && found.w > seen;
       seen = arrives ? found.w : seen;
       seen_at = arrives ? at : seen_at;
-      bool fills = found.w < kBehind * own.w && found.w > fill;
-      fill = fills ? found.w : fill;
-      fill_at = fills ? at : fill_at;
       motion = found.xy;
+      first = k == 0 ? found : first;
     }
-    sum += texelFetch(still, seen >= 0.0 ? seen_at : fill_at, 0).rgb;
+    if (seen < 0.0) {
+      // Either the pixel's surface leaves and what is behind comes into view, or the pixel is on what is behind, whose texel something nearer
+      // covers. That texel would be at `hidden`; what covers it ends at `beside` at the latest, since it is not at the pixel then.
+      bool covered = own.w < kBehind * first.w;
+      vec4 front = covered ? first : own, back = covered ? own : first;
+      vec2 hidden = here - back.xy * t, beside = here - front.xy * t;
+      for (int k = 4; k >= 0; --k) {
+        ivec2 at = clamp(ivec2(floor(mix(hidden, beside, 0.25 * float(k)))), ivec2(0), last);
+        seen_at = kBehind * texelFetch(streaks, at, 0).w <= back.w ? at : seen_at;
+      }
+    }
+    sum += texelFetch(still, seen_at, 0).rgb;
   }
   result = vec4(sum / float(n), texelFetch(still, pixel, 0).a);
 }
