@@ -36,6 +36,7 @@ const float kPeriod = 16.0;  // of the camera's jitter
 const float kYoung = 8.0;
 const float kStill = 0.002;  // pixels per frame
 const float kWide = 1.25;    // of the box that the history is clipped to, standard deviations
+const float kSpot = 2.0, kGlint = 3.5;  // so many times brighter than the mean of 9 texels is a spot, of 21 a glint
 const float kEqual = 0.002;  // what differs by less, as x / (1 + x), is rounded otherwise
 
 float lumaOf(vec3 color) { return dot(color, vec3(0.25, 0.5, 0.25)); }
@@ -71,6 +72,7 @@ void main() {
   vec2 size = vec2(last + 1);
   vec4 own = texelFetch(current, pixel, 0);
   vec3 color = finite(own.rgb), sum = vec3(0.0), squares = vec3(0.0), darkest = color;
+  float brightest = 0.0;
   ivec2 nearest = pixel;
   float near = -1.0;
   for (int y = -1; y <= 1; ++y)
@@ -78,6 +80,7 @@ void main() {
       ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), last);
       vec3 there_now = finite(texelFetch(current, at, 0).rgb), c = toYcocg(there_now);
       darkest = min(darkest, there_now);
+      brightest = max(brightest, c.x);
       sum += c;
       squares += c * c;
       float there = texelFetch(depth, at, 0).r;
@@ -109,9 +112,30 @@ void main() {
   if (state == 0.0) weight = 1.0;
 
   vec3 old = still ? history.rgb : sharpHistory(before, size);
+  // Around a glint the sharp filter would add light, since it never goes below zero, and a soft one lose it to the clipping.
+  if (!still && brightest > kSpot * mean.x) old = mix(old, textureLod(previous, before, 0.0).rgb, 0.5);
   vec3 offset = toYcocg(old) - mean, ratio = abs(offset) / wide;
   float beyond = max(ratio.x, max(ratio.y, ratio.z));
-  if (!known && beyond > 1.0) old = fromYcocg(mean + offset / beyond);
+  if (!known && beyond > 1.0) {
+    // A glint in a moving mirror is a texel or four, and the jitter moves it by up to one: its history may be two texels away from it. So there
+    // the box is that of 21 texels, up to the brightest of them.
+    for (int i = 0; i < (still ? 0 : 12); ++i) {
+      ivec2 side = ivec2(i % 3 - 1, i / 3 % 2 * 4 - 2), at = clamp(pixel + (i < 6 ? side : side.yx), ivec2(0), last);
+      vec3 c = toYcocg(finite(texelFetch(current, at, 0).rgb));
+      brightest = max(brightest, c.x);
+      sum += c;
+      squares += c * c;
+    }
+    vec3 wider = sum / 21.0;
+    if (!still && brightest > kGlint * wider.x) {
+      vec3 spread = sqrt(max(squares / 21.0 - wider * wider, 0.0)) + 1e-4;
+      mean = wider;
+      offset = toYcocg(old) - mean;
+      ratio = abs(offset) * spread.x / (spread * (brightest - mean.x));
+      beyond = max(max(ratio.x, max(ratio.y, ratio.z)), 1.0);
+    }
+    old = fromYcocg(mean + offset / beyond);
+  }
   if (!known) old = max(old, darkest);  // no dark ring around a glint
 
   bool finished = known && state >= kPeriod + frames;
