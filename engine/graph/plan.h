@@ -40,7 +40,7 @@ struct Storage {
   std::uint16_t layers = 1, mips = 1;
   std::uint32_t width = 1, height = 1, depth = 1;
   std::uint16_t viewClass = 0;
-  Format format = Format::none;  // of its first resource; others are views
+  Format format = Format::none;  // of one of its resources; others are views
   std::uint8_t copies = 1;
   bool shared = false;      // used by more than one resource
   bool persistent = false;  // history, or written by a pass that is not always

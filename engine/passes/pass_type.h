@@ -19,6 +19,10 @@ struct BoundTexture {
   GLuint framebuffer = 0;  // with level 0 of that range attached; 0 when the type does not blit
   std::uint32_t width = 1, height = 1;
   GLbitfield planes = GL_COLOR_BUFFER_BIT;
+  // Of an exact copy, which has no framebuffer: a texture or view of all levels and layers, and which of them is meant.
+  GLuint texture = 0;
+  GLenum target = GL_TEXTURE_2D;
+  GLint level = 0, layer = 0;
 };
 
 // Vertices of a draw.
@@ -36,6 +40,7 @@ struct PassContext {
   std::uint32_t maxGroups[3] = {65535, 65535, 65535};
   BoundTexture source, destination;  // blit, mipmap
   bool linear = false;               // blit: filter of the source slot
+  bool exact = false;                // blit: as graph::FlatUse::exact
   Geometry geometry;
   std::uint32_t instances = 0;  // draw
   // Slices [slice, slice + sliceCount) of `slices`. Rows of pixels are the executor's scissor; compute takes rows of groups.

@@ -92,6 +92,8 @@ PFNGLPOPDEBUGGROUPPROC realPop = nullptr;
 PFNGLENABLEPROC realEnable = nullptr, realDisable = nullptr;
 PFNGLENABLEIPROC realEnablei = nullptr, realDisablei = nullptr;
 PFNGLBINDFRAMEBUFFERPROC realBindFramebuffer = nullptr;
+PFNGLBLITNAMEDFRAMEBUFFERPROC realBlit = nullptr;
+PFNGLCOPYIMAGESUBDATAPROC realCopyImage = nullptr;
 
 void GLAD_API_PTR recordBarrier(GLbitfield bits) {
   recording->push_back({.kind = GlCall::Kind::barrier, .bits = bits});
@@ -138,6 +140,18 @@ void GLAD_API_PTR recordBindFramebuffer(GLenum target, GLuint framebuffer) {
   realBindFramebuffer(target, framebuffer);
 }
 
+void GLAD_API_PTR recordBlit(GLuint from, GLuint to, GLint x0, GLint y0, GLint x1, GLint y1, GLint u0,
+                             GLint v0, GLint u1, GLint v1, GLbitfield planes, GLenum filter) {
+  recording->push_back({.kind = GlCall::Kind::copy, .name = "glBlitNamedFramebuffer"});
+  realBlit(from, to, x0, y0, x1, y1, u0, v0, u1, v1, planes, filter);
+}
+void GLAD_API_PTR recordCopyImage(GLuint from, GLenum fromTarget, GLint fromLevel, GLint x, GLint y, GLint z,
+                                  GLuint to, GLenum toTarget, GLint toLevel, GLint u, GLint v, GLint w,
+                                  GLsizei width, GLsizei height, GLsizei depth) {
+  recording->push_back({.kind = GlCall::Kind::copy, .name = "glCopyImageSubData"});
+  realCopyImage(from, fromTarget, fromLevel, x, y, z, to, toTarget, toLevel, u, v, w, width, height, depth);
+}
+
 }  // namespace
 
 GlRecorder::GlRecorder() {
@@ -155,6 +169,8 @@ GlRecorder::GlRecorder() {
   realEnablei = std::exchange(glad_glEnablei, &recordEnablei);
   realDisablei = std::exchange(glad_glDisablei, &recordDisablei);
   realBindFramebuffer = std::exchange(glad_glBindFramebuffer, &recordBindFramebuffer);
+  realBlit = std::exchange(glad_glBlitNamedFramebuffer, &recordBlit);
+  realCopyImage = std::exchange(glad_glCopyImageSubData, &recordCopyImage);
 }
 
 GlRecorder::~GlRecorder() {
@@ -170,6 +186,8 @@ GlRecorder::~GlRecorder() {
   glad_glEnablei = realEnablei;
   glad_glDisablei = realDisablei;
   glad_glBindFramebuffer = realBindFramebuffer;
+  glad_glBlitNamedFramebuffer = realBlit;
+  glad_glCopyImageSubData = realCopyImage;
   delete std::exchange(recording, nullptr);
 }
 

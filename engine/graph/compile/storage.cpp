@@ -162,6 +162,7 @@ class Placer {
       for (; now < plan_.firstStep[r]; ++now) bury(now);
       bear(r);
     }
+    preferCopied();
     plan_.arenaBytes = arena_.end();
     plan_.bytesAllocated += plan_.arenaBytes;
     for (const ClassState& state : classes_) plan_.bytesLowerBound += state.bytes * state.peak;
@@ -169,6 +170,20 @@ class Placer {
   }
 
  private:
+  // A shared texture has the format of its first resource, or of one that is copied exactly: Mesa copies between textures of one
+  // format by moving bytes, and between others, whatever their views say, by drawing.
+  void preferCopied() {
+    for (const Step& step : plan_.steps) {
+      const FlatPass& pass = graph_.passes[step.pass];
+      if (pass.useCount == 0 || !graph_.uses[pass.firstUse].exact) continue;
+      for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+        const std::uint32_t r = graph_.uses[u].resource, storage = plan_.storageOf[r];
+        if (storage != kNone && infoOf(graph_.resources[r].format).colorRenderable)
+          plan_.storages[storage].format = graph_.resources[r].format;
+      }
+    }
+  }
+
   void bear(std::uint32_t index) {
     const std::uint8_t flags = scratch_.flags[index];
     if ((flags & Scratch::kImported) != 0) return;

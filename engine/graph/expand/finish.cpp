@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/subresource.h"
@@ -221,6 +224,32 @@ void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
   }
 }
 
+// One level and one layer of a texture that glCopyImageSubData can copy as glBlitFramebuffer does. The texture that an import
+// gives may be a stand-in of another format.
+bool isPlainImage(const FlatUse& use, const FlatResource& r) {
+  return use.kind == Kind::copy && use.mips == 1 && use.layers == 1 && r.kind == ResourceKind::texture &&
+         (r.target == Target::texture_2d || r.target == Target::texture_2d_array) && r.samples == 1 &&
+         !isDepth(r.format) && r.format != Format::srgb8_a8;
+}
+
+// Which copies are exact: all uses of the pass are such images, of one format and one size.
+void settleCopies(FlatGraph& graph) {
+  for (const FlatPass& pass : graph.passes) {
+    if (pass.useCount == 0 || !graph.uses[pass.firstUse].exact) continue;
+    const std::span uses(&graph.uses[pass.firstUse], pass.useCount);
+    const FlatUse& first = uses.front();
+    const FlatResource& r = graph.resources[first.resource];
+    const auto fits = [&](const FlatUse& use) {
+      const FlatResource& other = graph.resources[use.resource];
+      return isPlainImage(use, other) && other.format == r.format &&
+             std::max(1u, other.width >> use.mip) == std::max(1u, r.width >> first.mip) &&
+             std::max(1u, other.height >> use.mip) == std::max(1u, r.height >> first.mip);
+    };
+    const bool exact = uses.size() > 1 && std::ranges::all_of(uses, fits);
+    for (FlatUse& use : uses) use.exact = exact;
+  }
+}
+
 }  // namespace
 
 void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
@@ -229,6 +258,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   resolveOutputs(model);
   foldTimed(model, deferred);
   resolveHistories(model);
+  settleCopies(model.graph);
   model.versions.finish();
   nameStandIns(model);
   nameAliases(model);

@@ -254,6 +254,7 @@ class PassWalk {
       FlatUse use = work.use;
       use.feedback = desc_->feedback && use.access == Access::modify;
       use.keep = desc_->sideEffect && use.access != Access::read;
+      use.exact = type_ && type_->exactCopies;  // finishGraph() looks at the shapes
       addUse(model_, work.entity, e, use, pass);
     }
   }

@@ -90,6 +90,7 @@ class Writer {
     if (!slots_[u].empty()) text += " " + slots_[u];
     text += std::string(" ") + nameOf(use.kind) + " " + textOf(graph_, use);
     if (use.feedback) text += " feedback";
+    if (use.exact) text += " exact";
     if (plan_.attached[u] == 0) text += " (not attached: nobody reads it)";
     line(2, text);
   }

@@ -12,12 +12,19 @@ graph::PassType Blit::reflect() const {
           .defaultWriteTexture = graph::Kind::copy,
           .fixedSlots = {{"source", graph::Access::read, "the level and layer to copy from"},
                          {"destination", graph::Access::write, "the level and layer to copy to"}},
-          .framebuffers = true};
+          .framebuffers = true,
+          .exactCopies = true};
 }
 
 void Blit::execute(const PassContext& context) const {
   const BoundTexture& from = context.source;
   const BoundTexture& to = context.destination;
+  if (context.exact) {
+    glCopyImageSubData(from.texture, from.target, from.level, 0, 0, from.layer, to.texture, to.target,
+                       to.level, 0, 0, to.layer, static_cast<GLsizei>(from.width),
+                       static_cast<GLsizei>(from.height), 1);
+    return;
+  }
   const bool linear = context.linear && from.planes == GL_COLOR_BUFFER_BIT;
   glBlitNamedFramebuffer(from.framebuffer, to.framebuffer, 0, 0, static_cast<GLint>(from.width),
                          static_cast<GLint>(from.height), 0, 0, static_cast<GLint>(to.width),

@@ -191,12 +191,16 @@ bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base
   passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
   bound.name = textureOf(binding, pass, diagnostics);
   if (!pass.framebuffers || !bound.name) return bound.name != 0;
-  const GLenum point = attachmentPointOf(plan_.graph->resources[binding.resource].format);
+  const GLuint whole = viewOf(pool_[binding.resource], binding.textures, binding.history, pass.group);
+  const graph::FlatResource& shape = plan_.graph->resources[binding.resource];
+  bound.texture = whole;
+  bound.target = glTargetOf(shape.target);
+  bound.level = static_cast<GLint>(binding.mip);
+  bound.layer = std::max(0, binding.layer);
+  if (pass.context.exact) return true;
+  const GLenum point = attachmentPointOf(shape.format);
   const gl::Attachment attachment{
-      .point = point,
-      .texture = viewOf(pool_[binding.resource], binding.textures, binding.history, pass.group),
-      .mip = binding.mip,
-      .layer = binding.layer};
+      .point = point, .texture = whole, .mip = binding.mip, .layer = binding.layer};
   bound.framebuffer = framebuffers_.get({&attachment, 1}, pass.context.spec->name, diagnostics);
   return true;
 }

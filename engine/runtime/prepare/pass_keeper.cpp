@@ -20,7 +20,7 @@ namespace {
 bool sameRange(const FlatUse& a, const FlatUse& b) {
   return a.mip == b.mip && a.mips == b.mips && a.layer == b.layer && a.layers == b.layers &&
          a.planes == b.planes && a.history == b.history && a.kind == b.kind && a.access == b.access &&
-         a.feedback == b.feedback;
+         a.feedback == b.feedback && a.exact == b.exact;
 }
 
 bool sameShape(const FlatResource& a, const FlatResource& b) {

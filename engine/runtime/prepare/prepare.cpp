@@ -296,6 +296,7 @@ class Preparer {
       bound.planes = !graph::isDepth(resource.format)     ? GL_COLOR_BUFFER_BIT
                      : graph::hasStencil(resource.format) ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT
                                                           : GL_DEPTH_BUFFER_BIT;
+      out_.context.exact = use.exact;
       if (from) out_.context.linear = slot->sampler.linear;
       const FlatUse& read = graph_.uses[slot->firstUse];
       if (use.resource != read.resource || use.history != read.history)

@@ -53,6 +53,7 @@ enum class Op {
   command,
   attachment,
   blit,
+  image_copy,
   clear,
   buffer_copy
 };
@@ -77,7 +78,7 @@ Op opOf(const FlatUse& use, bool buffer) {
     case Kind::depth:
       return Op::attachment;
     case Kind::copy:
-      return buffer ? Op::buffer_copy : Op::blit;
+      return buffer ? Op::buffer_copy : use.exact ? Op::image_copy : Op::blit;
   }
   return Op::blit;
 }
@@ -103,6 +104,8 @@ std::uint32_t bitToSeeShaderWrites(Op op, bool buffer) {
                     : kTextureUpdate;  // writes via Tex(Sub)Image*, ClearTex*Image
     case Op::buffer_copy:
       return kBufferUpdate;  // Copy*SubData, Get*SubData
+    case Op::image_copy:
+      return kTextureUpdate;  // CopyImageSubData, which the section counts among neither; it updates texels as CopyTex* does
     case Op::attachment:
     case Op::blit:
       return kFramebuffer;  // reads and writes via framebuffer object attachments

@@ -14,7 +14,7 @@ namespace weft::runtime::test {
 namespace {
 
 struct Tally {
-  std::size_t frames = 0, walks = 0, barriers = 0, textureBarriers = 0, stateCalls = 0;
+  std::size_t frames = 0, walks = 0, barriers = 0, textureBarriers = 0, exactCopies = 0, stateCalls = 0;
 };
 
 // Runs a frame and judges it. What ran is what the calls show.
@@ -36,6 +36,7 @@ void recordFrame(GlRecorder& recorder, Stage& stage, const std::string& label, T
   tally.walks += replay.walks();
   tally.barriers += replay.barriers();
   tally.textureBarriers += replay.textureBarriers();
+  tally.exactCopies += replay.exactCopies();
   tally.stateCalls += replay.stateCalls();
 }
 
@@ -90,7 +91,7 @@ TEST_CASE("the judge finds a barrier that is missing, moved or has other bits, a
   const std::vector<GlCall> calls = recorder.calls();
   GlReplay replay(stage.execution().plan());
   CHECK(replay.judge(calls) == "");
-  std::size_t barriers = 0;
+  std::size_t barriers = 0, copies = 0;
   for (std::size_t i = 0; i < calls.size(); ++i) {
     std::vector<GlCall> wrong = calls;
     if (calls[i].kind == GlCall::Kind::barrier) {
@@ -102,6 +103,10 @@ TEST_CASE("the judge finds a barrier that is missing, moved or has other bits, a
     } else if (calls[i].kind == GlCall::Kind::state && !calls[i].bySideEffect) {
       wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(i), calls[i]);
       CHECK(replay.judge(wrong) != "");
+    } else if (calls[i].kind == GlCall::Kind::copy && calls[i].name == "glCopyImageSubData") {
+      ++copies;
+      wrong[i].name = "glBlitNamedFramebuffer";
+      CHECK(replay.judge(wrong) != "");
     } else if (calls[i].kind == GlCall::Kind::group) {
       wrong.insert(wrong.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                    {.kind = GlCall::Kind::texture_barrier});
@@ -109,6 +114,7 @@ TEST_CASE("the judge finds a barrier that is missing, moved or has other bits, a
     }
   }
   CHECK(barriers > 0);
+  CHECK(copies == 1);
 }
 
 TEST_CASE("the same where headless frames finish time-sliced work ahead, a walk for each round of it") {
@@ -247,19 +253,24 @@ TEST_CASE("the same for the deferred graphs with all that a scene may hold, and 
 }
 
 TEST_CASE(
-    "shader stores before clears of attachments and before mip levels: the bits are in the plan and are "
-    "issued") {
+    "shader stores before clears of attachments, before exact copies and before mip levels: the bits are in "
+    "the plan and are issued") {
   const CleanScope clean;
   Tally tally;
   Stage stage("tests/runtime/graphs/stores.json", 64, 64);
   REQUIRE(stage.load());
-  std::uint16_t bits = 0;
-  for (const graph::Step& step : stage.execution().plan().steps)
+  std::uint16_t bits = 0, beforeCopy = 0;
+  const graph::Plan& plan = stage.execution().plan();
+  for (const graph::Step& step : plan.steps) {
     bits = static_cast<std::uint16_t>(bits | step.barriers);
+    if (plan.graph->passNames[step.pass] == "keep") beforeCopy = step.barriers;
+  }
+  CHECK(beforeCopy == graph::kBarrierTextureUpdate);
   CHECK((bits & graph::kBarrierTextureUpdate) != 0);
   CHECK((bits & graph::kBarrierFramebuffer) != 0);
   recordFrames(stage, "stores.json", tally);
   CHECK(tally.barriers > 0);
+  CHECK(tally.exactCopies == tally.frames);
 }
 
 TEST_CASE("the same where histories begin with a texture, an image and a buffer") {
