@@ -12,8 +12,8 @@ layout(std140) uniform Parameters { float subpixel; };
 noperspective in vec2 uv;
 out vec4 result;
 
-const int kSteps = 5;
 const float kStride[5] = float[5](1.0, 1.5, 2.0, 4.0, 12.0);
+const float kReach = 20.5;  // their sum
 
 void main() {
   vec2 texel = 1.0 / vec2(textureSize(source, 0)), low_uv = uv - texel, high_uv = uv + texel;
@@ -47,7 +47,8 @@ void main() {
   vec2 start = uv + across * toward * 0.5;
   float reach_back = 0.0, reach_on = 0.0, end_back = 0.0, end_on = 0.0;
   bool done_back = false, done_on = false;
-  for (int i = 0; i < kSteps && !(done_back && done_on); ++i) {
+  // Ends at a sum, not at a number of rounds, so that no compiler writes the rounds one after the other: then all would run for all pixels.
+  for (int i = 0; max(reach_back, reach_on) < kReach && !(done_back && done_on); ++i) {
     if (!done_back) {
       reach_back += kStride[i];
       end_back = luma(textureLod(source, start - along * reach_back, 0.0).rgb) - edge_luma;

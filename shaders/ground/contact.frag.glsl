@@ -1,22 +1,21 @@
 // What a sphere leaves of the sky's light on the ground, in closed form, and what it throws back of it: light goes to and fro between the
 // two. Both see about as much of the sky, so that ground = seen + hidden albedo sphere, sphere = seen + hidden ground_albedo ground.
 // modify  sky   "multiply"
-// defines CUT   1: the ground's own horizon cuts the sphere, see neighbours/caps.glsl; 0: it is above that whole, which costs a third
 #include "neighbours/caps.glsl"
 
 in vec3 to_center;
 flat in vec2 window;
 flat in vec3 albedo;
 flat in vec3 shared_albedo;
+flat in int cut;
 out vec4 sky;
 
 void main() {
   float distance2 = max(dot(to_center, to_center), 1.0), per_distance = inversesqrt(distance2);
-#if CUT
-  float share = capShare(distance2 * per_distance, to_center.y * per_distance);
-#else
   float share = to_center.y * per_distance / distance2;
-#endif
+  // Of a sphere that the ground's own horizon cuts, which costs thrice as much. A loop, since in software all pixels go through both
+  // sides of a condition.
+  for (int i = 0; i < cut; ++i) share = capShare(distance2 * per_distance, to_center.y * per_distance);
   float ending = clamp(distance2 * per_distance * window.x + window.y, 0.0, 1.0);  // as withinReach has it
   float hidden = min(share * (1.0 - ending * ending * (3.0 - 2.0 * ending)), 1.0), seen = 1.0 - hidden;
   sky = vec4((seen + seen * hidden * albedo) / (1.0 - hidden * hidden * shared_albedo), 1.0);

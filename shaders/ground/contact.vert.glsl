@@ -1,7 +1,6 @@
 // The part of the ground from which a sphere takes light of the sky: an octagon around the point below it.
 // read    ground   see scene/ground.glsl
 // params  extent   in radii: how far away a sphere hides anything
-// defines CUT      1: spheres that reach below the ground, 0: all others
 #include "common/view.glsl"
 #include "scene/ground.glsl"
 #include "scene/instances.glsl"
@@ -12,6 +11,7 @@ out vec3 to_center;           // from the ground, in radii
 flat out vec2 window;         // how it ends with the distance, see contact.frag.glsl
 flat out vec3 albedo;
 flat out vec3 shared_albedo;  // times the ground's own
+flat out int cut;             // 1: the ground's own horizon cuts the sphere; 0: all of it is above that
 
 const float kOctagon = 0.41421356;  // tan(pi / 8)
 
@@ -28,7 +28,8 @@ void main() {
   window = vec2(1.0 / (0.25 * extent), -3.0);  // 0 at three quarters of the extent, 1 at its end
   albedo = self.albedo;
   shared_albedo = self.albedo * groundAlbedo(ground_row[0]);
-  bool visible = abs(above) < far && (CUT == 1 ? abs(above) < self.radius * 0.9999 : above >= self.radius * 0.9999);
+  cut = above < self.radius * 0.9999 ? 1 : 0;
+  bool visible = abs(above) < far && (cut == 0 || abs(above) < self.radius * 0.9999);
   vec3 at = vec3(self.center.x + offset.x, height, self.center.z + offset.y);
   gl_Position = visible ? view_projection * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

@@ -31,17 +31,6 @@ int levelOfWidth(int width) {
 
 vec3 directionOf(ivec2 texel, ivec2 size) { return equirectDirection((vec2(texel) + 0.5) / vec2(size)); }
 
-void sumParts(uint lane) {
-  for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
-    barrier();
-    if (lane < half_width) {
-      part[lane] += part[lane + half_width];
-      part_moment[lane] += part_moment[lane + half_width];
-    }
-  }
-  barrier();
-}
-
 void main() {
   uint lane = gl_LocalInvocationID.x;
 
@@ -54,13 +43,16 @@ void main() {
     if (value > best.x) best = vec2(value, intBitsToFloat(i));
   }
   part[lane] = vec4(best, 0.0, 0.0);
-  for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
-    barrier();
-    if (lane < half_width) {
-      vec2 other = part[lane + half_width].xy;
-      bool earlier = floatBitsToInt(other.y) < floatBitsToInt(part[lane].y);
-      if (other.x > part[lane].x || (other.x == part[lane].x && earlier)) part[lane].xy = other;
+  barrier();
+  // One lane goes through the parts, and not ever fewer lanes in eight rounds: each barrier makes the program larger, and in software its
+  // translation takes longer than all of its work.
+  if (lane == 0u) {
+    for (uint other = 1u; other < 256u; ++other) {
+      vec2 found = part[other].xy;
+      bool earlier = floatBitsToInt(found.y) < floatBitsToInt(best.y);
+      if (found.x > best.x || (found.x == best.x && earlier)) best = found;
     }
+    part[0].xy = best;
   }
   barrier();
   int peak = floatBitsToInt(part[0].y);
@@ -80,18 +72,18 @@ void main() {
   last.y = min(last.y, size.y - 1);
   last.x = min(last.x, first.x + size.x - 1);
   int columns = last.x - first.x + 1, count = columns * (last.y - first.y + 1);
+  // The solid angle of a texel is its width in radians times cos(a) - cos(b), of its upper and its lower edge: the sine of its middle times this.
+  float row = 4.0 * kPi / float(size.x) * sin(0.5 * kPi / float(size.y));
   vec4 sum = vec4(0.0), moment = vec4(0.0);
   for (int i = int(lane); i < count; i += 256) {
     ivec2 texel = first + ivec2(i % columns, i / columns);
     texel.x = (texel.x % size.x + size.x) % size.x;
     vec3 color = texelFetch(environment, texel, level).rgb;
     float above = most(color) - limit;
-    vec3 offset = directionOf(texel, size) - center;
+    vec3 direction = directionOf(texel, size), offset = direction - center;
     float away = length(offset);
     if (above <= 0.0 || away > 2.0 * kWindow) continue;
-    float solid_angle = 2.0 * kPi / float(size.x) *
-                        (cos(float(texel.y) / float(size.y) * kPi) - cos(float(texel.y + 1) / float(size.y) * kPi));
-    vec3 cut = color * (above / most(color) * solid_angle);
+    vec3 cut = color * (above / most(color) * length(direction.xz) * row);
     if (away > kWindow) {
       sum.a += luminanceOf(cut);
     } else {
@@ -101,11 +93,12 @@ void main() {
   }
   part[lane] = sum;
   part_moment[lane] = moment;
-  sumParts(lane);
-
+  barrier();
   if (lane != 0u) return;
-  sum = part[0];
-  moment = part_moment[0];
+  for (uint other = 1u; other < 256u; ++other) {
+    sum += part[other];
+    moment += part_moment[other];
+  }
   float weight = luminanceOf(sum.rgb);
   if (weight <= 0.0 || sum.a > 0.1 * weight) {
     at = vec4(0.0, 1.0, 0.0, kHuge);

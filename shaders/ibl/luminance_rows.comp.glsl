@@ -20,11 +20,9 @@ void main() {
   for (int x = int(lane); x < size.x; x += 64)
     sum += dot(texelFetch(environment, ivec2(x, y), 0).rgb, vec3(0.2126, 0.7152, 0.0722));
   part[lane] = sum;
-  for (uint half_width = 32u; half_width > 0u; half_width /= 2u) {
-    barrier();
-    if (lane < half_width) part[lane] += part[lane + half_width];
-  }
+  barrier();
   if (lane != 0u || y >= size.y) return;
+  for (uint other = 1u; other < 64u; ++other) sum += part[other];
   float zone = 0.5 * (cos(float(y) / float(size.y) * kPi) - cos(float(y + 1) / float(size.y) * kPi));
-  row_mean[y] = part[0] / float(size.x) * zone;
+  row_mean[y] = sum / float(size.x) * zone;
 }

@@ -14,9 +14,8 @@ void main() {
   float sum = 0.0;
   for (int y = int(lane); y < count; y += 256) sum += row_mean[y];
   part[lane] = sum;
-  for (uint half_width = 128u; half_width > 0u; half_width /= 2u) {
-    barrier();
-    if (lane < half_width) part[lane] += part[lane + half_width];
-  }
-  if (lane == 0u) mean = vec4(part[0]);
+  barrier();
+  if (lane != 0u) return;
+  for (uint other = 1u; other < 256u; ++other) sum += part[other];
+  mean = vec4(sum);
 }

@@ -21,17 +21,16 @@ void main() {
   if (at.x >= size.x || at.y >= size.y) return;
   vec2 center = (vec2(at) + 0.5) / vec2(size);
   float base_width = float(textureSize(environment, 0).x);
-  vec3 radiance;
-  if (distance(equirectDirection(center), brightest_at.xyz) > kWindow + 4.0 / float(size.y)) {
-    radiance = environmentAt(center, max(log2(base_width / float(size.x)), 0.0));
-  } else {
-    // Four points of a level in which the spot is not yet spread.
-    radiance = vec3(0.0);
-    float level = max(ceil(log2(base_width / 2048.0)), 0.0);
-    for (int i = 0; i < 4; ++i) {
-      vec3 color = environmentAt(center + (vec2(i & 1, i >> 1) - 0.5) * 0.5 / vec2(size), level);
-      radiance += 0.25 * color * min(brightest_at.w / max(most(color), 1e-9), 1.0);
-    }
+  bool near = distance(equirectDirection(center), brightest_at.xyz) <= kWindow + 4.0 / float(size.y);
+  // Near the spot four points of a level in which it is not yet spread. One lookup stands here for both: in software all texels take
+  // every lookup of a condition, and of a loop only their own.
+  float level = max(near ? ceil(log2(base_width / 2048.0)) : log2(base_width / float(size.x)), 0.0);
+  int points = near ? 4 : 1;
+  vec3 radiance = vec3(0.0);
+  for (int i = 0; i < points; ++i) {
+    vec2 offset = near ? (vec2(i & 1, i >> 1) - 0.5) * 0.5 / vec2(size) : vec2(0.0);
+    vec3 color = environmentAt(center + offset, level);
+    radiance += color * (near ? 0.25 * min(brightest_at.w / max(most(color), 1e-9), 1.0) : 1.0);
   }
   imageStore(result, at, vec4(radiance, 1.0));
 }

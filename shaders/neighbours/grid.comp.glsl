@@ -15,7 +15,7 @@ layout(std140) uniform Parameters {
 
 shared vec3 lows[256];
 shared vec3 highs[256];
-shared vec2 radii[256];  // sum of logarithms, greatest
+shared vec2 radii[256];  // sum of logarithms, greatest; the first at last from which radius on a sphere is large
 shared uint sums[256];
 
 // Cubes of which `cells` at most fill the box, as small as they may be.
@@ -47,27 +47,26 @@ void main() {
   highs[self] = high;
   radii[self] = radius;
   barrier();
-  for (uint hop = 128u; hop > 0u; hop /= 2u) {
-    if (self < hop) {
-      lows[self] = min(lows[self], lows[self + hop]);
-      highs[self] = max(highs[self], highs[self + hop]);
-      radii[self].x += radii[self + hop].x;
+  // One thread goes through all parts: each barrier makes the program larger, and in software its translation takes longer than its work.
+  if (self == 0u) {
+    for (uint other = 1u; other < 256u; ++other) {
+      low = min(low, lows[other]);
+      high = max(high, highs[other]);
+      radius.x += radii[other].x;
     }
-    barrier();
+    radii[0].x = 2.0 * exp(radius.x / float(count));
   }
-  float large = 2.0 * exp(radii[0].x / float(count));
+  barrier();
+  float large = radii[0].x;
   radius.y = 0.0;
   for (uint i = self; i < count; i += 256u)
     if (instance[i].radius <= large) radius.y = max(radius.y, instance[i].radius);
   radii[self].y = radius.y;
   barrier();
-  for (uint hop = 128u; hop > 0u; hop /= 2u) {
-    if (self < hop) radii[self].y = max(radii[self].y, radii[self + hop].y);
-    barrier();
-  }
   if (self == 0u) {
-    grid_radii = vec4(radii[0].y, large, 0.0, 0.0);
-    placeCells(lows[0], highs[0], radii[0].y);
+    for (uint other = 1u; other < 256u; ++other) radius.y = max(radius.y, radii[other].y);
+    grid_radii = vec4(radius.y, large, 0.0, 0.0);
+    placeCells(low, high, radius.y);
   }
   for (uint cell = self; cell <= cells; cell += 256u) grid_word[cell] = 0u;
   memoryBarrierBuffer();

@@ -26,14 +26,6 @@ uvec2 elementOf(uint index) {
   return uvec2(depthKey(depth), index);
 }
 
-void compareAndSwap(uint low, uint high) {
-  uvec2 a = block[low], b = block[high];
-  if (comesAfter(a, b)) {
-    block[low] = b;
-    block[high] = a;
-  }
-}
-
 void main() {
   uint t = gl_LocalInvocationID.x, first = groupIndex() * 2u * kHalf;
   block[t] = elementOf(first + t);
@@ -41,13 +33,14 @@ void main() {
   barrier();
   for (uint k = 1u; k <= uint(HALF + 1); ++k) {
     uint half_size = 1u << (k - 1u);
-    // Mirrored first step: both halves are ascending, so every merge is.
-    uint base = (t >> (k - 1u)) << k, offset = t & (half_size - 1u);
-    compareAndSwap(base + offset, base + (half_size << 1u) - 1u - offset);
-    barrier();
-    for (uint stride = half_size >> 1u; stride > 0u; stride >>= 1u) {
-      uint low = (t & ~(stride - 1u)) * 2u + (t & (stride - 1u));
-      compareAndSwap(low, low + stride);
+    for (uint stride = half_size; stride > 0u; stride >>= 1u) {
+      // The first step is mirrored: both halves are ascending, so every merge is.
+      uint low = (t & ~(stride - 1u)) * 2u + (t & (stride - 1u)), high = low ^ (stride == half_size ? 2u * stride - 1u : stride);
+      uvec2 a = block[low], b = block[high];
+      if (comesAfter(a, b)) {
+        block[low] = b;
+        block[high] = a;
+      }
       barrier();
     }
   }
