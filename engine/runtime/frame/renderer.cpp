@@ -112,7 +112,11 @@ std::unique_ptr<Execution> Renderer::makeExecution(const graph::GraphDesc& desc,
 
 bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world,
                                base::Diagnostics& diagnostics) {
-  for (const graph::ImportSpec& import : graph.imports) {
+  for (std::uint32_t i = 0; i < graph.imports.size(); ++i) {
+    const graph::ImportSpec& import = graph.imports[i];
+    // Nobody reads one for which a list of alternatives has something else.
+    if (std::ranges::find(graph.resources, i, &graph::FlatResource::import) == graph.resources.end())
+      continue;
     const std::string path = device_.imports.standInGraph(import, world);
     if (path.empty()) continue;
     const StandIn* standIn = prepareStandIn(path, world, diagnostics);
