@@ -8,6 +8,8 @@
 #define STBI_MAX_DIMENSIONS 32768  // kMaxImageSide
 #include <stb/stb_image.h>
 
+#include "engine/assets/images/zlib_stream.h"
+#define STBIW_ZLIB_COMPRESS weft::assets::compressFast
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
