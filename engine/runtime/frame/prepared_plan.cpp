@@ -38,8 +38,13 @@ class Preparation {
       : device_(device), made_(made), before_(before), files_(files), diagnostics_(diagnostics) {
     if (before) findSame();
   }
-  // Programs first: a shader that does not compile must cost the running plan nothing.
-  bool run() { return findVariants() && createPool() && preparePasses(); }
+  // What fails must cost the running plan nothing: programs come first, then storage, which goes back.
+  bool run() {
+    if (!findVariants() || !createPool()) return false;
+    if (preparePasses()) return true;
+    if (before_) made_.pool->giveBack(*before_->pool);
+    return false;
+  }
 
  private:
   void findSame();
@@ -100,8 +105,7 @@ std::shared_ptr<const gl::Variant> Preparation::findVariant(std::size_t step, ba
   if (reflected.shader == graph::ShaderShape::none) return nullptr;
   auto variant = device_.programs.get(
       programRequestOf(*plan.graph, plan, pass, reflected, settledConditionsOf(spec)), problems);
-  if (variant)
-    checkProgram(plan, pass, *variant, device_.context.device().limits, device_.roles, problems);
+  if (variant) checkProgram(plan, pass, *variant, device_.context.device().limits, device_.roles, problems);
   return variant;
 }
 
@@ -120,16 +124,18 @@ bool Preparation::preparePasses() {
   PrepareContext context{*made_.plan, device_.passTypes,  nullptr,          0,
                          *made_.pool, device_.geometries, device_.samplers, refused};
   const std::size_t steps = made_.plan->steps.size();
-  made_.passes.reserve(steps);
+  made_.passes.resize(steps);
+  std::vector<std::size_t> kept;
   for (std::size_t step = 0; step < steps; ++step) {
     const std::uint32_t old = sameOf(step);
     if (old != graph::kNone && before_->passes[old].variant == variants_[step] &&
-        keeper_->isInPlace(step, old, *made_.pool, *before_->pool)) {
-      made_.passes.push_back(keeper_->take(step, old, std::move(before_->passes[old])));
-      continue;
-    }
-    if (!preparePassOf(step, context)) return false;
+        keeper_->isInPlace(step, old, *made_.pool, *before_->pool))
+      kept.push_back(step);
+    else if (!preparePassOf(step, context))
+      return false;
   }
+  for (const std::size_t step : kept)
+    made_.passes[step] = keeper_->take(step, sameOf(step), std::move(before_->passes[sameOf(step)]));
   return true;
 }
 
@@ -139,13 +145,13 @@ bool Preparation::preparePassOf(std::size_t step, PrepareContext& context) {
   context.variant = variants_[step];
   context.conditions = settledConditionsOf(spec);
   context.diagnostics.clear();
-  made_.passes.push_back(preparePass(context, step));
+  made_.passes[step] = preparePass(context, step);
   const auto placePass = [&](base::Diagnostic& d) {
     d.place = spec.place;
     d.pass = spec.name;
   };
   appendWithPlaces(context.diagnostics, placePass, diagnostics_);
-  PreparedPass& made = made_.passes.back();
+  PreparedPass& made = made_.passes[step];
   std::copy_n(device_.context.device().limits.computeGroups, 3, made.context.maxGroups);
   return made.usable;
 }

@@ -28,8 +28,8 @@ struct PreparedPlan {
 };
 
 // A pass that differs from those of `before` (which may be null) is prepared whole; of an equal pass only what has other
-// storage now. Empty after errors. While a program has an error, `before` is as it was; after that it gives up its storage,
-// and passes, as far as they fit.
+// storage now. Empty after errors; then `before` is as it was. Otherwise it has given up its storage and passes, as far as
+// they fit.
 std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
                                         PreparedPlan* before, ShaderFiles files,
                                         base::Diagnostics& diagnostics);

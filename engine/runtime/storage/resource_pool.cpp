@@ -154,8 +154,10 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
   auto pool = std::make_unique<ResourcePool>();
   pool->resources_.resize(plan.graph->resources.size());
   pool->names_ = plan.graph->resourceNames;
-  if (!pool->createTextures(plan, before, diagnostics) || !pool->createBuffers(plan, before, diagnostics))
+  if (!pool->createTextures(plan, before, diagnostics) || !pool->createBuffers(plan, before, diagnostics)) {
+    if (before) pool->giveBack(*before);
     return nullptr;
+  }
   // Publication state follows persistent storage.
   if (before) {
     std::unordered_map<std::uint64_t, const GpuResource*> bySerial;
@@ -201,6 +203,12 @@ void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::V
   }
 }
 
+void ResourcePool::giveBack(ResourcePool& before) {
+  for (const Taken& taken : takenTextures_) before.textures_[taken.theirs] = std::move(textures_[taken.mine]);
+  for (const Taken& taken : takenBuffers_) before.buffers_[taken.theirs] = std::move(buffers_[taken.mine]);
+  if (arenaTaken_) before.arena_ = std::move(arena_);
+}
+
 // First what a resource of the same name lies in, so that passes find their textures where they were; then whatever fits.
 void ResourcePool::takeTextures(const Plan& plan, const std::vector<std::string>& owners,
                                 ResourcePool& before) {
@@ -214,6 +222,7 @@ void ResourcePool::takeTextures(const Plan& plan, const std::vector<std::string>
     std::unique_ptr<PhysicalTexture>& old = before.textures_[i];
     if (!old || old->owner != owners[s] || !old->fits(plan.storages[s])) return false;
     textures_[s] = std::move(old);
+    takenTextures_.push_back({s, i});
     return true;
   };
   for (std::size_t r = 0; r < resources_.size(); ++r) {
@@ -277,6 +286,7 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
   if (plan.arenaBytes > 0) {
     if (before && before->arena_ && before->arena_.bytes() == plan.arenaBytes) {
       arena_ = std::move(before->arena_);
+      arenaTaken_ = true;
       arenaSerial_ = before->arenaSerial_;
       arenaFresh = false;
     } else {
@@ -296,9 +306,9 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
       arenaSerial_ = nextSerial();
     }
   }
-  std::unordered_map<std::string, PersistentBuffer*> buffersBefore;
+  std::unordered_map<std::string_view, std::size_t> buffersBefore;
   if (before)
-    for (PersistentBuffer& old : before->buffers_) buffersBefore[old.owner] = &old;
+    for (std::size_t i = 0; i < before->buffers_.size(); ++i) buffersBefore[before->buffers_[i].owner] = i;
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const FlatResource& desc = plan.graph->resources[r];
     GpuResource& mine = resources_[r];
@@ -314,10 +324,11 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
     const std::uint32_t copies = plan.copiesOf(static_cast<std::uint32_t>(r));
     PersistentBuffer buffer;
     if (const auto found = buffersBefore.find(names_[r]); found != buffersBefore.end()) {
-      PersistentBuffer& old = *found->second;
+      PersistentBuffer& old = before->buffers_[found->second];
       if (old.copies.size() == copies && old.copies[0].bytes() == desc.bytes) {
-        buffer = std::move(old);
-        old.copies.clear();
+        buffer.copies = std::exchange(old.copies, {});
+        buffer.serial = old.serial;
+        takenBuffers_.push_back({buffers_.size(), found->second});
         mine.fresh = false;
       }
     }

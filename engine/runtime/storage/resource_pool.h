@@ -91,9 +91,11 @@ struct GpuResource {
 
 class ResourcePool {
  public:
-  // Takes storage that fits out of `before` (which may be null).
+  // Takes storage that fits out of `before` (which may be null). Null after errors; then `before` has it back.
   static std::unique_ptr<ResourcePool> create(const graph::Plan& plan, ResourcePool* before,
                                               base::Diagnostics& diagnostics);
+  // Puts what create() took where it was: this pool is not to be used after all.
+  void giveBack(ResourcePool& before);
 
   std::vector<GpuResource>& resources() { return resources_; }
   GpuResource& operator[](std::size_t resource) { return resources_[resource]; }
@@ -114,6 +116,11 @@ class ResourcePool {
   bool createBuffers(const graph::Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics);
   std::vector<std::unique_ptr<PhysicalTexture>> textures_;
   std::vector<PersistentBuffer> buffers_;
+  struct Taken {
+    std::size_t mine, theirs;  // places in the two pools
+  };
+  std::vector<Taken> takenTextures_, takenBuffers_;
+  bool arenaTaken_ = false;
   gl::Buffer arena_;
   std::uint64_t arenaSerial_ = 0;
   std::vector<GpuResource> resources_;
