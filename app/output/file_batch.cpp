@@ -137,9 +137,10 @@ bool FileBatch::publish(base::Diagnostics& diagnostics) {
     if (rename(files_[i], i + 1 == files_.size(), ec)) continue;
     std::string left;
     for (std::size_t k = i; k-- > 0;) undo(files_[k], left);
-    auto& d = diagnostics.error(base::Code::outputNotWritten,
-                                {std::make_shared<const std::string>(files_[i].path), 0, 0},
-                                fmt::format("cannot write '{}': {}", files_[i].path, ec.message()));
+    auto& d = diagnostics.error(
+        base::Code::outputNotWritten, {std::make_shared<const std::string>(files_[i].path), 0, 0},
+        fmt::format("cannot {} '{}': {}", files_[i].temporary.empty() ? "remove" : "write", files_[i].path,
+                    ec.message()));
     d.found = left;
     d.hint = left.empty() ? "name a folder that can be written to"
                           : "put these files back by hand, and name a folder that can be written to";

@@ -26,8 +26,8 @@ float per_ring = 1.0;
 float reachesRing(Search search, float disc, float across) {
   return clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
 }
-float reaches(Search search, bool each, float disc, float across) {
-  return each ? texelWithin(texelsOf(disc), across) : reachesRing(search, disc, across);
+float reaches(Search search, bool each, Texels disc, float across) {
+  return each ? texelWithin(disc, across) : reachesRing(search, disc.radius, across);
 }
 
 struct Gathered {
@@ -40,22 +40,24 @@ struct Gathered {
 // What is gathered, and for what: a pixel whose own disc has the radius `own_radius` (0: not in the near field). `over`: what lies over the own
 // surface, else this surface.
 Gathered all;
-float own_radius = 0.0, own_reach = 0.0;
+float own_radius = 0.0;
+Texels own_disc = Texels(0.0, 0.0, 0.0, 0.0);
 bool over = true;
 
 void takePlace(Search search, bool each, vec2 at, float across, float share) {
   vec4 c = readPlace(source, search, each, at);
-  float disc = readPlace(discs, search, each, at).r / max(c.a, 1e-4), reach = reachOf(search, disc);
+  float disc = readPlace(discs, search, each, at).r / max(c.a, 1e-4);
+  Texels spread = texelsOf(reachOf(search, disc));
   // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
-  float sharing = each ? texelsOf(reach).sum : 0.0;
+  float sharing = each ? spread.sum : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
-    sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, reach, ringRadius(search, k));
-  share *= blurOf(float(SCALE) * disc) * reaches(search, each, reach, across) / sharing;
+    sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, spread.radius, ringRadius(search, k));
+  share *= blurOf(float(SCALE) * disc) * reaches(search, each, spread, across) / sharing;
   float is_over = liesOver(disc, own_radius);
   if (over) {
     all.spread += is_over * share * c;
   } else {
-    float is_behind = liesBehind(disc, own_radius), seen = reaches(search, each, own_reach, across);
+    float is_behind = liesBehind(disc, own_radius), seen = reaches(search, each, own_disc, across);
     all.spread += (1.0 - is_over - is_behind) * share * c;
     all.behind += seen * is_behind * c;
     all.farther += seen * (1.0 - c.a);
@@ -73,7 +75,7 @@ void main() {
     if (over ? radius <= 1.3 * own_radius : own_radius <= 0.0) continue;
     Search search = searchOver(over ? radius : min(radius, 1.4 * own_radius), rings);
     per_ring = min(sqrt(search.samples / (0.5 * float(FIRST_RING))) / search.span, 1.0);
-    own_reach = reachOf(search, own_radius);
+    own_disc = texelsOf(reachOf(search, own_radius));
     all = Gathered(vec4(0.0), vec4(0.0), 0.0, 0.0);
     all.spread *= takePlaces(search);
     if (over) {

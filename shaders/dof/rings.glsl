@@ -13,6 +13,27 @@
 #define COARSEST 16.0
 #endif
 
+// A disc over texels of which each is a place. One of hardly more than a texel gives to the eight around it as much as its variance asks for, four times
+// as much along the axes as along the diagonals: by areas it would be a cross. Here once for all places, because each division costs in every one.
+struct Texels {
+  float radius;
+  float large;   // 0: as its variance asks for; 1: by areas
+  float beside;  // what each texel beside the middle has, of the middle's 1, where it is not large
+  float sum;     // of all texels
+};
+Texels texelsOf(float radius) {
+  float square = min(radius * radius, 1.21), part = 1.0 / (12.0 - 5.0 * square);
+  Texels texels = Texels(radius, clamp(5.0 * radius - 4.5, 0.0, 1.0), square * part, 0.0);
+  texels.sum = mix(12.0 * part, 3.14159265 * (radius * radius + 1.0 / 12.0), texels.large);
+  return texels;
+}
+
+// How much of a texel `across` from its middle a disc holds.
+float texelWithin(Texels texels, float across) {
+  float small = across < 0.5 ? 1.0 : texels.beside * (across < 1.2 ? 1.0 : across < 1.6 ? 0.25 : 0.0);
+  return mix(small, clamp(texels.radius - across + 0.5, 0.0, 1.0), texels.large);
+}
+
 // How a disc is searched.
 struct Search {
   int texels;             // each texel so far to either side; -1: rings
@@ -26,6 +47,7 @@ struct Search {
   float span;  // radius of the area that the places stand for, texels of the fields
   ivec2 last;  // texel of the fields
   float roundness;  // radius of a round disc that has the area of the aperture's outline, of the radius of its corners
+  Texels whole;     // the disc itself, where each texel is a place
 };
 
 // What the pass does with a place `across` texels of the fields from the pixel; `share` is its area, 1 for a round aperture. `each`: it is a texel,
@@ -48,27 +70,6 @@ float outline(vec2 direction) {
   return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
 }
 #endif
-
-// A disc over texels of which each is a place. One of hardly more than a texel gives to the eight around it as much as its variance asks for, four times
-// as much along the axes as along the diagonals: by areas it would be a cross. Here once for all places, because each division costs in every one.
-struct Texels {
-  float radius;
-  float large;   // 0: as its variance asks for; 1: by areas
-  float beside;  // what each texel beside the middle has, of the middle's 1, where it is not large
-  float sum;     // of all texels
-};
-Texels texelsOf(float radius) {
-  float square = min(radius * radius, 1.21), part = 1.0 / (12.0 - 5.0 * square);
-  Texels texels = Texels(radius, clamp(5.0 * radius - 4.5, 0.0, 1.0), square * part, 0.0);
-  texels.sum = mix(12.0 * part, 3.14159265 * (radius * radius + 1.0 / 12.0), texels.large);
-  return texels;
-}
-
-// How much of a texel `across` from its middle a disc holds.
-float texelWithin(Texels texels, float across) {
-  float small = across < 0.5 ? 1.0 : texels.beside * (across < 1.2 ? 1.0 : across < 1.6 ? 0.25 : 0.0);
-  return mix(small, clamp(texels.radius - across + 0.5, 0.0, 1.0), texels.large);
-}
 
 // The radius at which a disc ends in the samples, for what filtering adds; where each texel is one, of a round disc of the same area.
 float reachOf(Search search, float radius) {
@@ -113,7 +114,8 @@ Search searchOver(float radius, int rings) {
   search.span = reach + 0.5;
   if (each) search.texels = texelsFor(search);
   search.outermost = each ? -1 : ringsFor(radius, rings);
-  search.samples = each ? texelsOf(reach).sum : samplesTo(search.outermost);
+  search.whole = texelsOf(reach);
+  search.samples = each ? search.whole.sum : samplesTo(search.outermost);
   return search;
 }
 
@@ -148,12 +150,11 @@ float ringRadius(Search search, int ring) {
 
 // Calls takePlace for all places; in the far field, where each texel is one, not for the pixel's own, whose share is nothing. Returns the number of places over what their shares add up to: by so much a disc is too dark else.
 float takePlaces(Search search) {
-  Texels whole = texelsOf(search.span - 0.5);
 #if NEAR
   float area = 0.0;
   int rows = search.texels;
 #else
-  float area = search.texels < 0 ? 0.0 : texelWithin(whole, 0.0);
+  float area = search.texels < 0 ? 0.0 : texelWithin(search.whole, 0.0);
   int rows = search.texels > 0 ? search.texels : -1;
 #endif
   for (int y = -rows; y <= rows; ++y) {
@@ -167,7 +168,7 @@ float takePlaces(Search search) {
       across *= mix(1.0, search.roundness / outline(kUpright * offset), smoothstep(1.0, 3.0, across));
 #endif
       float share = NEAR == 1 || across > 0.0 ? 1.0 : 0.0;
-      area += share * texelWithin(whole, across);
+      area += share * texelWithin(search.whole, across);
       takePlace(search, true, gl_FragCoord.xy + offset, across, share);
     }
   }

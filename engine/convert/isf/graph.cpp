@@ -139,7 +139,7 @@ class IsfGraphWriter {
     }
     const double wanted = input.initial.empty() ? input.values[0] : input.initial[0];
     const auto found = std::ranges::find(input.values, wanted);
-    if (found == input.values.end()) return false;
+    if (found == input.values.end() || words.size() < 2) return false;
     std::string list, value;
     for (std::size_t i = 0; i < words.size(); ++i) {
       list += (i ? ", " : "") + base::quoteJson(words[i]);

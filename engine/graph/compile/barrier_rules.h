@@ -33,7 +33,7 @@ inline std::uint16_t storeBit(const FlatUse& use) {
 }
 
 // The bits a use of a pass needs after an earlier store, rule (a). `copy` on a texture means framebuffer blits, an exact one
-// glCopyImageSubData: the specification names no bit for that, and it reads and writes texels as CopyTex* and TexSubImage* do.
+// glCopyImageSubData: the specification names no bit for that, and drivers move bytes, fetch or render, so it needs all three.
 inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
   switch (use.kind) {
     case Kind::sampled:
@@ -54,7 +54,8 @@ inline std::uint16_t useBits(const FlatUse& use, bool buffer) {
     case Kind::depth:
       return use.feedback ? kBarrierFramebuffer | kBarrierTexture : kBarrierFramebuffer;
     case Kind::copy:
-      return buffer ? kBarrierBufferUpdate : use.exact ? kBarrierTextureUpdate : kBarrierFramebuffer;
+      if (buffer) return kBarrierBufferUpdate;
+      return use.exact ? kBarrierFramebuffer | kBarrierTexture | kBarrierTextureUpdate : kBarrierFramebuffer;
   }
   return 0;
 }

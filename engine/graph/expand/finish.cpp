@@ -235,7 +235,7 @@ bool isPlainImage(const FlatUse& use, const FlatResource& r) {
 // Which copies are exact: all uses of the pass are such images, of one format and one size.
 void settleCopies(FlatGraph& graph) {
   for (const FlatPass& pass : graph.passes) {
-    if (pass.useCount == 0 || !graph.uses[pass.firstUse].exact) continue;
+    if (pass.useCount == 0 || !graph.uses[pass.firstUse].exact || graph.resources.empty()) continue;
     const std::span uses(&graph.uses[pass.firstUse], pass.useCount);
     const FlatUse& first = uses.front();
     const FlatResource& r = graph.resources[first.resource];

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -380,6 +381,9 @@ void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
       values += pass.parameters.size();
     }
   }
+  // Powers of two, as far as repeats go on from there by doubling: just below the limits of instances and slots they are full.
+  slots = std::bit_ceil(slots);
+  passes = std::bit_ceil(passes);
   model.graph.slots.reserve(slots);
   model.graph.uses.reserve(slots);
   model.graph.passes.reserve(passes);

@@ -50,9 +50,15 @@ const scene::ViewData& Imports::view(const graph::FlatGraph& graph, const graph:
 }
 
 bool Imports::isPending(const graph::FlatGraph& graph, const World& world) {
-  return std::ranges::any_of(graph.imports, [&](const graph::ImportSpec& import) {
-    return heldOf(import).provider->isPending(world);
-  });
+  for (std::uint32_t i = 0; i < graph.imports.size(); ++i) {
+    const graph::ImportSpec& import = graph.imports[i];
+    // Nobody reads a texture for which a list of alternatives has something else.
+    if (import.kind == graph::ImportKind::texture &&
+        std::ranges::find(graph.resources, i, &graph::FlatResource::import) == graph.resources.end())
+      continue;
+    if (heldOf(import).provider->isPending(world)) return true;
+  }
+  return false;
 }
 
 std::string Imports::standInGraph(const graph::ImportSpec& import, const World& world) {

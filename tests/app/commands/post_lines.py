@@ -35,9 +35,12 @@ def main():
         def checked(lines, *arguments):
             post.write_text(with_lines(text, lines))
             made = run(weft, "check", folder / "graphs/studio.json", "--no-shaders", *arguments)
-            report.check(made.code == 0 and not made.err, f"{[LINE.match(line)[1] for line in lines]}: {made.err}")
+            # Parameters that only a deleted effect read change nothing any more, and W089 says so.
+            names = [LINE.match(line)[1] for line in lines]
+            said = set(re.findall(r"(?:error|warning)\[(W\d+)\]", made.err))
+            report.check(made.code == 0 and bool(made.err) == bool(said) and said <= ({"W089"} if len(names) < len(SWITCHES) + 1 else set()), f"{names}: {made.err}")
 
-        checked(lines.values())
+        checked(list(lines.values()))
         report.check(post.read_text() == text, "the same lines give the same file")
         checked([lines["composite"]])
         for gone in SWITCHES:

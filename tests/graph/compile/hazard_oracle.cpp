@@ -105,7 +105,7 @@ std::uint32_t bitToSeeShaderWrites(Op op, bool buffer) {
     case Op::buffer_copy:
       return kBufferUpdate;  // Copy*SubData, Get*SubData
     case Op::image_copy:
-      return kTextureUpdate;  // CopyImageSubData, which the section counts among neither; it updates texels as CopyTex* does
+      return kTextureUpdate;  // CopyImageSubData, which the section does not name; below it counts in three ways
     case Op::attachment:
     case Op::blit:
       return kFramebuffer;  // reads and writes via framebuffer object attachments
@@ -156,6 +156,9 @@ class Replay {
           const FlatUse& use = graph_.uses[u];
           const Op op = opOf(use, isBuffer(graph_.resources[use.resource]));
           touch(use, op, use.access != Access::read && (op == Op::image || op == Op::storage), step.pass);
+          // No bit is named for it, so that it may go any way on which texels are copied: by a fetch or by rendering, too.
+          if (op == Op::image_copy)
+            for (const Op way : {Op::texture_fetch, Op::attachment}) touch(use, way, false, step.pass);
           // What the pass type does to the range besides.
           for (const Op more : {Op::texture_fetch, Op::image, Op::attachment, Op::clear})
             if (!isBuffer(graph_.resources[use.resource]) &&

@@ -66,3 +66,36 @@ TEST_CASE("a shader that does not compile leaves the running plan as it was") {
     CHECK((*running.pool)[pass.written.at(0)].texture);
   }
 }
+
+TEST_CASE("storage that cannot be made leaves the running plan as it was") {
+  const CleanScope clean;
+  PlanOnDevice running("tests/runtime/graphs/live.json");
+  const auto serials = [&] {
+    std::vector<std::uint64_t> found;
+    for (const runtime::GpuResource& resource : running.pool->resources()) {
+      found.push_back(resource.serial);
+      if (resource.texture) CHECK(resource.texture->serial() == resource.serial);
+    }
+    return found;
+  };
+  const auto names = running.pool->textureNames();
+  const std::vector<std::uint64_t> before = serials();
+  // Each storage in turn is one that no device has: the others are there by then, or not yet.
+  for (std::size_t s = 0; s < running.plan->storages.size(); ++s) {
+    CAPTURE(s);
+    auto large = std::make_shared<graph::Plan>(*running.plan);
+    large->storages[s].width = 1u << 24;
+    base::Diagnostics diagnostics;
+    CHECK_FALSE(preparePlan(running.device, large, &running.prepared, ShaderFiles::keep, diagnostics));
+    CHECK(diagnostics.contains(base::Code::textureNotCreated));
+    CHECK(running.pool->textureNames() == names);
+    CHECK(serials() == before);
+    for (const runtime::PreparedPass& pass : running.passes) CHECK(pass.usable);
+  }
+  base::Diagnostics diagnostics;
+  const auto next =
+      preparePlan(running.device, running.plan, &running.prepared, ShaderFiles::keep, diagnostics);
+  REQUIRE_MESSAGE(next, diagnostics.text());
+  CHECK(next->passesPrepared == 0);
+  CHECK(next->pool->textureNames() == names);
+}

@@ -265,7 +265,7 @@ TEST_CASE(
     bits = static_cast<std::uint16_t>(bits | step.barriers);
     if (plan.graph->passNames[step.pass] == "keep") beforeCopy = step.barriers;
   }
-  CHECK(beforeCopy == graph::kBarrierTextureUpdate);
+  CHECK(beforeCopy == (graph::kBarrierTextureUpdate | graph::kBarrierTexture | graph::kBarrierFramebuffer));
   CHECK((bits & graph::kBarrierTextureUpdate) != 0);
   CHECK((bits & graph::kBarrierFramebuffer) != 0);
   recordFrames(stage, "stores.json", tally);

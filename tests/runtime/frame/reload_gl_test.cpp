@@ -181,35 +181,6 @@ TEST_CASE("reload: a broken file or shader leaves the running execution as it is
   CHECK(stage.value() == 30);
 }
 
-TEST_CASE("reload: storage that cannot be made leaves the running execution as it is") {
-  const CleanScope clean;
-  const TemporaryGraph file;
-  file.write(kHead + kAdd + kTail);
-  Stage stage(file.path());
-  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  stage.run(0);
-  const auto before = stage.pixels();
-  const runtime::Execution* running = &stage.execution();
-  // It needs what runs, and a texture that no device has.
-  std::string wide = kHead + kAdd + R"(,
-  { "name": "spread", "type": "fullscreen", "shader": "math/add.frag.glsl", "read": { "source": "sum" }, "write": { "result": "wide" },
-    "parameters": { "amount": 2 } } ], "present": "wide" })";
-  wide.insert(wide.find("\"sum\""), R"("wide": { "texture": "r8", "size": [40000, 1] }, )");
-  file.write(wide);
-  for (std::uint32_t frame = 1; frame < 4; ++frame) {
-    CHECK_FALSE(stage.load());
-    CHECK_MESSAGE(stage.diagnostics.contains(base::Code::textureNotCreated), stage.diagnostics.text());
-    CHECK(&stage.execution() == running);
-    stage.run(frame);
-    CHECK(stage.value() == 5);
-    CHECK(stage.pixels() == before);
-  }
-  file.write(kHead + kScale + kTail);
-  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-  stage.run(4);
-  CHECK(stage.value() == 30);
-}
-
 TEST_CASE("reload: what a shader declares is looked at again when it was edited") {
   const CleanScope clean;
   const TemporaryGraph file;
