@@ -13,7 +13,7 @@
 docs/gallery/gallery.py --check looks after this page, too. An entry: `name`; `title`; `was` and `now`, what to see; `shots`, each with the `arguments` of
 `weft render`, its `size` and the `crops` of it to show (each x, y, width, height), and `before`, the arguments where they were others; `scale`, how many times as large
 a crop is shown; `channels`, whether red, green and blue are shown each by itself, too; `values`, parts of the first crop whose light
---values prints; `figures`, rows of what is measured, before, now, and the bar; `test`,
+--values prints; `judge`, a script that prints what these should be; `figures`, rows of what is measured, before, now, and the bar; `test`,
 [test file, beginning of the name of a test case, program below build/release]: what prints the figures.
 """
 import json
@@ -144,14 +144,15 @@ def page():
         out += [f"## {entry['title']}", "", f"**Before:** {entry['was']}", "", f"![before](images/defects/{entry['name']}_before.png)", "",
                 f"**Now:** {entry['now']}", "", f"![now](images/defects/{entry['name']}_now.png)", ""]
         crops = dict.fromkeys("{2} x {3} pixels from ({0}, {1})".format(*crop) for shot in entry["shots"] for crop in shot["crops"])
-        out += [f"Shown: {'; '.join(crops)}, {entry['scale']} times as large" + (", and its red, green and blue." if entry.get("channels") else "."), ""]
+        out += [f"Shown: {'; '.join(crops)}, {entry['scale']} times as large" + (": in colour, then red, green and blue, each as greys." if entry.get("channels") else "."), ""]
         out += ["```text", *lines, "```", ""]
         if before != lines:
             out += ["Before, the same was written so:", "", "```text", *before, "```", ""]
         out += ["| measured | before | now | must be |", "|---|---|---|---|", *(f"| {' | '.join(row)} |" for row in entry["figures"]), "",
                 f"This prints the figures (`{file}`):", "",
                 "```text", f"cmake --build build/release --target {program.rsplit('/')[-1]}",
-                f"build/release/{program} -s -tc='{beginning.split(',')[0]}*'", *(["docs/gallery/defects.py --values"] if "values" in entry else []), "```", ""]
+                f"build/release/{program} -s -tc='{beginning.split(',')[0]}*'", *(["docs/gallery/defects.py --values"] if "values" in entry else []),
+                *([entry["judge"]] if "judge" in entry else []), "```", ""]
         if entry.get("left"):
             out += [f"What is left: {entry['left']}", ""]
     return "\n".join(out).rstrip() + "\n"
