@@ -25,7 +25,7 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-base::Place placeOfFrames(const Options& options) {
+base::Where placeOfFrames(const Options& options) {
   return base::placeOfOption(options.firstFrame == options.lastFrame
                                  ? fmt::format("--frames {}", options.firstFrame)
                                  : fmt::format("--frames {}:{}", options.firstFrame, options.lastFrame));

@@ -6,7 +6,7 @@
 
 namespace weft::app {
 
-bool checkFrameCount(std::uint64_t count, const base::Place& place, const std::string& why,
+bool checkFrameCount(std::uint64_t count, const base::Where& place, const std::string& why,
                      base::Diagnostics& diagnostics, const std::string& instead) {
   const std::uint64_t limit = base::limitOf(base::Limit::frames);
   if (count <= limit) return true;

@@ -279,8 +279,7 @@ void readCases(const std::string& path, const Options& base, std::vector<TestCas
 void appendWithPlaces(const TestCase& test, const base::Diagnostics& said, base::Diagnostics& diagnostics) {
   for (base::Diagnostic each : said.items()) {
     if (!each.place.file) {
-      const std::string* option = base::optionOf(each.place);
-      const auto known = test.settingPlaces.find(option ? *option : "");
+      const auto known = test.settingPlaces.find(each.place.option.value_or(""));
       each.place = known == test.settingPlaces.end() ? test.place : known->second;
     }
     if (each.severity != base::Severity::note)

@@ -44,7 +44,7 @@ constexpr std::size_t kOutOfRangeTold = 12;
 
 void appendCapped(const Diagnostics& said, Diagnostics& diagnostics) {
   std::size_t outOfRange = 0;
-  base::Place last;
+  base::Where last;
   for (const base::Diagnostic& d : said.items())
     if (d.code != Code::badMaterialValue || ++outOfRange <= kOutOfRangeTold) {
       diagnostics.add(d);

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "engine/base/printable.h"
 
@@ -15,25 +12,14 @@ namespace weft::base {
 
 namespace {
 
-// Texts of options, each once, by number.
-struct OptionTexts {
-  std::mutex mutex;
-  std::map<std::string, std::uint32_t> numbers;
-  std::vector<const std::string*> texts;
-};
-
-OptionTexts& optionTexts() {
-  static OptionTexts all;
-  return all;
-}
-
 const std::string& textOf(const std::string* text) {
   static const std::string none;
   return text ? *text : none;
 }
 
 auto keyOf(const Diagnostic& d) {
-  return std::tie(textOf(d.place.file.get()), textOf(optionOf(d.place)), d.place.line, d.place.column);
+  const Where& at = d.place;
+  return std::tie(textOf(at.file.get()), at.option, at.line, at.column);
 }
 
 // A text of any length fits on a screen, and is one line.
@@ -47,26 +33,14 @@ bool sameText(const Diagnostic& a, const Diagnostic& b) {
 
 }  // namespace
 
-Place placeOfOption(const std::string& option) {
-  OptionTexts& all = optionTexts();
-  const std::lock_guard lock(all.mutex);
-  const auto [found, isNew] =
-      all.numbers.try_emplace(option, static_cast<std::uint32_t>(all.texts.size() + 1));
-  if (isNew) all.texts.push_back(&found->first);
-  Place place;
-  place.column = found->second;
-  return place;
+Where placeOfOption(std::string option) {
+  Where where;
+  where.option = std::move(option);
+  return where;
 }
 
-const std::string* optionOf(const Place& place) {
-  if (place.file || place.line > 0 || place.column == 0) return nullptr;
-  OptionTexts& all = optionTexts();
-  const std::lock_guard lock(all.mutex);
-  return place.column <= all.texts.size() ? all.texts[place.column - 1] : nullptr;
-}
-
-bool isKnown(const Place& place) {
-  return place.file || optionOf(place);
+bool isKnown(const Where& where) {
+  return where.file || where.option;
 }
 
 bool isSamePlace(const Place& a, const Place& b) {
@@ -80,7 +54,7 @@ std::string nameOf(Code code) {
 
 std::string format(const Diagnostic& d) {
   std::string out;
-  if (const std::string* option = optionOf(d.place)) {
+  if (const auto& option = d.place.option) {
     out += "command line: ";
     if (!option->empty()) out += printedText(*option) + ": ";
   } else if (d.place.file && !d.place.file->empty()) {
@@ -111,12 +85,12 @@ Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
   return items_.back();
 }
 
-Diagnostic& Diagnostics::error(Code code, Place place, std::string message) {
+Diagnostic& Diagnostics::error(Code code, Where place, std::string message) {
   return add(
       {.severity = Severity::error, .code = code, .message = std::move(message), .place = std::move(place)});
 }
 
-Diagnostic& Diagnostics::warning(Code code, Place place, std::string message) {
+Diagnostic& Diagnostics::warning(Code code, Where place, std::string message) {
   return add({.severity = Severity::warning,
               .code = code,
               .message = std::move(message),

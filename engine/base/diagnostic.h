@@ -6,30 +6,46 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/codes.h"
 
 namespace weft::base {
 
-// A place in a text file, or an option of the command line. Lines and columns count from 1, columns in bytes; 0 means
-// unknown. Copying is cheap, and there may be millions: an option has no file and no line, and `column` is its number.
+// A place in a text file. Lines and columns count from 1, columns in bytes; 0 means unknown. There may be millions.
 struct Place {
   std::shared_ptr<const std::string> file;  // path as the person would write it; null for no file
   std::uint32_t line = 0;
   std::uint32_t column = 0;
 };
 
-// The place of an option, which messages print as "command line: --set bloom=yes"; of "", as "command line". Its text is kept
-// until the program ends, once.
-Place placeOfOption(const std::string& option);
-// The option as it was written, "--set bloom=yes"; null for a place in a file, or nowhere.
-const std::string* optionOf(const Place& place);
-// Whether it says anything: a file or an option.
-bool isKnown(const Place& place);
 // Two places in files of the same path are the same, however often the file was read.
 bool isSamePlace(const Place& a, const Place& b);
+
+// Where a diagnostic or the value of a parameter stands: in a file, in an option of the command line, or nowhere. A Place
+// becomes one by itself, but not the other way round, which would lose the option.
+struct Where : private Place {
+  using Place::column;
+  using Place::file;
+  using Place::line;
+  std::optional<std::string> option;  // as it was written, "--set bloom=yes"; then there is no file
+
+  Where() = default;
+  Where(Place place) : Place(std::move(place)) {}  // NOLINT: a place in a file says where
+  Where(std::shared_ptr<const std::string> path, std::uint32_t atLine = 0, std::uint32_t atColumn = 0)
+      : Place{std::move(path), atLine, atColumn} {}
+
+  const Place& inFile() const { return *this; }
+};
+
+// Whether it says anything: a file or an option.
+bool isKnown(const Where& where);
+
+// Messages print it as "command line: --set bloom=yes", and that of "" as "command line".
+Where placeOfOption(std::string option);
 
 enum class Severity : std::uint8_t { note, warning, error };
 
@@ -38,7 +54,7 @@ struct Diagnostic {
   Code code{};
   std::string
       message;  // one sentence, no full stop, names the thing: "pass 'fxaa' reads unknown resource 'ldrr'"
-  Place place;
+  Where place;
   std::string pointer{};   // JSON pointer of the value, e.g. "/passes/3/read/source"; may be empty
   std::string pass{};      // full instance name of the pass concerned, or empty
   std::string resource{};  // the resource concerned, or empty
@@ -59,8 +75,8 @@ class Diagnostics {
  public:
   // Adds and returns the stored diagnostic so that optional fields can be filled in.
   Diagnostic& add(Diagnostic diagnostic);
-  Diagnostic& error(Code code, Place place, std::string message);
-  Diagnostic& warning(Code code, Place place, std::string message);
+  Diagnostic& error(Code code, Where place, std::string message);
+  Diagnostic& warning(Code code, Where place, std::string message);
   void append(const Diagnostics& others);
 
   bool hasErrors() const { return errors_ > 0; }

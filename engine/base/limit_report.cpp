@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace weft::base {
 
-Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, const Place& place, std::string message,
+Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, Where place, std::string message,
                         std::uint64_t needed) {
   const LimitInfo& info = allLimits()[static_cast<std::size_t>(limit)];
-  Diagnostic& d = diagnostics.error(Code::limitExceeded, place, std::move(message));
+  Diagnostic& d = diagnostics.error(Code::limitExceeded, std::move(place), std::move(message));
   d.expected = fmt::format("at most {} {} (limit {})", limitOf(limit), info.counts, info.name);
   d.hint = hintToRaise(limit, needed);
   return d;

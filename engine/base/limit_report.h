@@ -10,7 +10,7 @@
 namespace weft::base {
 
 // `message` says what is too large; "expected" and the fix come from the limit.
-Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, const Place& place, std::string message,
+Diagnostic& reportLimit(Diagnostics& diagnostics, Limit limit, Where place, std::string message,
                         std::uint64_t needed = 0);
 
 }  // namespace weft::base

@@ -71,7 +71,7 @@ std::string diagnosticsJson(const Diagnostics& diagnostics, int indent) {
               {"title", titleOf(d.code)},
               {"message", d.message}};
     if (d.place.file) each["file"] = *d.place.file;
-    if (const std::string* option = optionOf(d.place)) each["option"] = *option;
+    if (d.place.option) each["option"] = *d.place.option;
     if (d.place.line > 0) each["line"] = d.place.line;
     if (d.place.line > 0 && d.place.column > 0) each["column"] = d.place.column;
     for (const auto& [key, value] : {std::pair<const char*, const std::string&>{"pointer", d.pointer},
@@ -101,7 +101,8 @@ std::string diagnosticsSarif(const Diagnostics& diagnostics, std::string_view ve
                 {"level", wordFor(d.severity)},
                 {"message", {{"text", wholeMessage(d)}}}};
     // An option of the command line is no artifact.
-    if (d.place.file && !d.place.file->empty()) result["locations"] = Json::array({locationOf(d.place)});
+    if (d.place.file && !d.place.file->empty())
+      result["locations"] = Json::array({locationOf(d.place.inFile())});
     results.push_back(std::move(result));
   }
   Json driver{{"name", "weft"}, {"version", version}, {"rules", std::move(rules)}};

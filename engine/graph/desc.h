@@ -20,6 +20,7 @@ namespace weft::graph {
 
 using base::JsonPointer;
 using base::Place;
+using base::Where;
 
 // How a pass touches a resource.
 enum class Access : std::uint8_t { read, write, modify };

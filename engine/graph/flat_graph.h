@@ -220,7 +220,7 @@ struct ParameterSpec {
   std::string path;                     // full name: "post.exposure", "post.dof.aperture"
   Value value;                          // after --set
   Origin origin = Origin::declaration;  // of the value
-  Place valuePlace;                     // where it was written; without a file when a panel set it
+  Where valuePlace;                     // where it was written; nowhere when a panel set it
   bool structural =
       false;  // a size, condition, define, repeat, state or import depends on it: a change makes
               // another plan. Otherwise it is live: a change writes bytes of uniforms

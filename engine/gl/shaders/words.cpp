@@ -148,7 +148,7 @@ std::uint32_t codeBefore(const ShaderSource& source, std::uint32_t textLine) {
 }
 
 std::string fixFor(const SyntaxError& error, const LogMessage& message, const ShaderSource& source) {
-  const base::Place& place = message.diagnostic.place;
+  const base::Where& place = message.diagnostic.place;
   if (error.token == "end of file" || error.token == "$end") return "a '{' is never closed";
   if (error.expects("end of file") || error.expects("$end"))
     return fmt::format("one {} too many", error.token);

@@ -288,7 +288,7 @@ std::optional<std::string> describe(const Plan& plan, std::string_view name, bas
   if (matches.size() == 1) return describer.describe(names[matches[0]]);
   if (const auto declared = matches.empty() ? describer.declaredImport(name) : std::nullopt)
     return describer.describe(*declared);
-  const base::Place place = base::placeOfOption("");
+  const base::Where place = base::placeOfOption("");
   if (matches.empty()) {
     base::Diagnostic& d = diagnostics.error(
         base::Code::unknownPass, place, fmt::format("no pass, resource or parameter is called '{}'", name));

@@ -207,7 +207,7 @@ class GraphReader {
     const std::vector<base::Diagnostic>& before = diagnostics_.items();
     for (const base::Diagnostic& each : said.items())
       if (std::ranges::none_of(before, [&](const base::Diagnostic& d) {
-            return d.code == each.code && base::isSamePlace(d.place, each.place);
+            return d.code == each.code && base::isSamePlace(d.place.inFile(), each.place.inFile());
           }))
         diagnostics_.add(each);
     return pass;

@@ -19,9 +19,9 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 
 // Where somebody wrote the name of `file`, or of the sequence that it is of: the value of a parameter that the import has as an
 // argument, such as that of --set; else the import itself.
-base::Place placeOfFile(const graph::FlatGraph& graph, const graph::ImportSpec& import,
+base::Where placeOfFile(const graph::FlatGraph& graph, const graph::ImportSpec& import,
                         const std::string& file) {
-  base::Place place = import.place;
+  base::Where place = import.place;
   for (const auto& [name, value] : import.request.arguments)
     for (const graph::ParameterSpec& parameter : graph.parameters) {
       if (value.symbol.empty() || parameter.value != value || !base::isKnown(parameter.valuePlace)) continue;

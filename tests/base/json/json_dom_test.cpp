@@ -18,7 +18,7 @@ JsonValue parse(std::string_view text) {
   return *std::move(value);
 }
 
-std::string at(const weft::base::Place& place) {
+std::string at(const weft::base::Where& place) {
   return std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 

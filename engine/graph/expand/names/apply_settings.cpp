@@ -84,8 +84,8 @@ std::string meantBy(const ParameterDesc& desc, const Value& value) {
 
 // What a diagnostic about a setting begins with: of the command line a place, of a panel words in the
 // message.
-Place placeOf(Origin origin, const std::string& source) {
-  return origin == Origin::command_line ? base::placeOfOption(source) : Place{};
+Where placeOf(Origin origin, const std::string& source) {
+  return origin == Origin::command_line ? base::placeOfOption(source) : Where{};
 }
 
 std::string prefixOf(Origin origin, const std::string& source) {
@@ -94,7 +94,7 @@ std::string prefixOf(Origin origin, const std::string& source) {
 
 bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
                      const std::vector<std::size_t>& found, std::string_view wanted, std::string_view noun,
-                     const Place& place, const std::string& before) {
+                     const Where& place, const std::string& before) {
   if (found.size() == 1) return false;
   std::string all;
   for (const std::size_t i : found) all += (all.empty() ? "" : ", ") + names[i];
@@ -110,9 +110,9 @@ bool reportUnlessOne(Model& model, const std::vector<std::string>& names,
 struct SetPlace {
   const Scope& scope;
   std::string_view prefix = "";
-  Place place = {};
+  Where place = {};
   JsonPointer pointer = {};
-  Place valuePlace = {};  // `place` when it has no file
+  Where valuePlace = {};  // `place` when it has no file
   Origin kind = Origin::file;
   std::string before = {};
 };
@@ -190,7 +190,7 @@ void applySets(Model& model) {
 void applyDisable(Model& model, const Disable& disable) {
   const std::string& wanted = disable.name;
   const std::string source = sourceOf(disable);
-  const Place place = placeOf(disable.origin, source);
+  const Where place = placeOf(disable.origin, source);
   const std::string before = prefixOf(disable.origin, source);
   const std::string declared = wanted.substr(0, wanted.find('['));
   struct Candidate {
@@ -248,7 +248,7 @@ void applyDisable(Model& model, const Disable& disable) {
   d.hint = suffixHint(declared, names);
 }
 
-bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
+bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Where& place,
                          const std::string& before) {
   const ParameterDesc& desc = *parameter.desc;
   const auto refuse = [&](Code code, const char* why) {
@@ -284,7 +284,7 @@ base::Diagnostic placedAtArgument(Model& model, Scope& scope, const std::vector<
                                   base::Diagnostic problem) {
   if (!problem.place.file || problem.place.line != 0) return problem;
   const std::string file = *problem.place.file;
-  Place ofSequence;  // of which `file` may be a picture
+  Where ofSequence;  // of which `file` may be a picture
   for (const NamedExpr& argument : arguments) {
     Names names(model, scope);
     base::Diagnostics said;  // by whoever evaluated it for the import

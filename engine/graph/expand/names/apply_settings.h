@@ -14,7 +14,7 @@ void applyDisable(Model& model, const Disable& disable);
 
 // Whether `value` fits a parameter: its type, its choices, its range. Reports at `place`, in words that come after
 // `before`.
-bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Place& place,
+bool checkParameterValue(Model& model, const Parameter& parameter, const Value& value, const Where& place,
                          const std::string& before);
 
 // A problem with a whole file that one of the `arguments` of an import names, reported where somebody wrote the

@@ -13,30 +13,20 @@ namespace {
 constexpr std::uint32_t kMostHeight = 3000;
 // The part of the greatest height that a definition adds by itself.
 constexpr int kOwnHeight = 4;
-// Comparisons for each slot that all passes may have.
-constexpr std::uint64_t kComparedPerUse = 100;
 constexpr std::uint64_t kVersionsPerUse = 10;
 
 }  // namespace
 
-bool exceeds(Model& model, Limit limit, std::uint64_t count, const Place& place, const Called& message) {
-  if (count <= base::limitOf(limit)) return false;
+void stopAt(Model& model, Limit limit, Where place, const Called& message) {
   if (!std::exchange(model.effort.stopped, true))
-    base::reportLimit(model.diagnostics, limit, place, message.text());
+    base::reportLimit(model.diagnostics, limit, std::move(place), message.text());
   model.incomplete = true;
-  return true;
 }
 
 bool lookAt(Model& model, std::uint64_t count, const Place& place) {
   model.effort.looked += count;
   return !exceeds(model, Limit::alternatives, model.effort.looked, place,
                   "the lists of alternatives of the graph lead to each other in too many ways");
-}
-
-bool compare(Model& model, std::uint64_t count, const Place& place) {
-  model.effort.compared += count;
-  return !exceeds(model, Limit::uses, model.effort.compared / kComparedPerUse, place,
-                  "the passes of the graph use the same resources too often to compare their uses");
 }
 
 StanzaCost costOf(const PassDesc& desc, const std::string& declared) {

@@ -13,16 +13,30 @@ namespace weft::graph::expansion {
 
 using base::Limit;
 
-// True when `count` is beyond the limit; reported the first time only.
-bool exceeds(Model& model, Limit limit, std::uint64_t count, const Place& place, const Called& message);
+// Reports that a limit is exceeded, the first time only, and ends the expansion.
+void stopAt(Model& model, Limit limit, Where place, const Called& message);
+// True when `count` is beyond the limit; then the expansion ends. `place` is a Place or a Where.
+template <class At>
+bool exceeds(Model& model, Limit limit, std::uint64_t count, const At& place, const Called& message) {
+  if (count <= base::limitOf(limit)) return false;
+  stopAt(model, limit, place, message);
+  return true;
+}
 // Counts `count` more alternatives as looked at. False when that is too many.
 bool lookAt(Model& model, std::uint64_t count, const Place& place);
 // What one alternative counts: more than 1 when its condition is long.
 inline std::uint64_t costOf(const RefDesc& alternative) {
   return 1 + alternative.condition.terms() / 8;
 }
-// Counts a comparison of `count` things with each other. False when that is too many.
-bool compare(Model& model, std::uint64_t count, const Place& place);
+// Comparisons for each slot that all passes may have.
+inline constexpr std::uint64_t kComparedPerUse = 100;
+// Counts a comparison of `count` things with each other. False when that is too many. `place` is a Place or a Where.
+template <class At>
+bool compare(Model& model, std::uint64_t count, const At& place) {
+  model.effort.compared += count;
+  return !exceeds(model, Limit::uses, model.effort.compared / kComparedPerUse, place,
+                  "the passes of the graph use the same resources too often to compare their uses");
+}
 
 // What each instance of a stanza costs.
 struct StanzaCost {

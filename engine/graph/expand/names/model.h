@@ -67,7 +67,7 @@ struct Parameter {
   std::string path;  // "post.exposure", "post.dof.aperture"
   Value value;
   bool structural = false;
-  Place valuePlace{};  // where `value` was written: a default, a "set", the command line
+  Where valuePlace{};  // where `value` was written: a default, a "set", the command line
   Origin origin = Origin::declaration;
   std::uint32_t nextOfLeaf = kNone;  // the next parameter of the same name, in any file
 };
