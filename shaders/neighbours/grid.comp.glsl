@@ -15,27 +15,29 @@ layout(std140) uniform Parameters {
 
 shared vec3 lows[256];
 shared vec3 highs[256];
-shared vec2 radii[256];  // sum of logarithms, greatest; the first at last from which radius on a sphere is large
+shared vec2 radii[256];  // sum of logarithms, greatest
 shared uint sums[256];
 
-// Cubes of which `cells` at most fill the box, as small as they may be.
-void placeCells(vec3 low, vec3 high, float least) {
+// Cubes of which `most` at most fill the box, as small as they may be.
+void placeCells(vec3 low, vec3 high, float least, uint most, out float side, out uvec4 many) {
   vec3 size = high - low;
-  float longest = max(max(size.x, size.y), size.z), side = max(longest / float(cells), max(least, 1e-6 * longest));
+  float longest = max(max(size.x, size.y), size.z);
+  side = max(longest / float(most), max(least, 1e-6 * longest));
   vec3 along = vec3(1.0);
   for (int i = 0; i < 256; ++i) {
     along = floor(size / side) + 1.0;
-    if (along.x * along.y * along.z <= float(cells)) break;
+    if (along.x * along.y * along.z <= float(most)) break;
     side *= 1.08;
   }
-  grid_low = vec4(low, side);
-  grid_cells = uvec4(uvec3(along), uint(along.x * along.y * along.z));
+  many = uvec4(uvec3(along), uint(along.x * along.y * along.z));
 }
-
-uint cellOfSphere(uint i) { return instance[i].radius > grid_radii.y ? cells : cellIndex(cellOf(instance[i].center)); }
 
 void main() {
   uint self = gl_LocalInvocationIndex;
+  // The last is that of the large spheres. In loops software reads what is uniform for each lane by itself, so a sum stands for `cells` there.
+  uint words = cells + 1u, part = (words + 255u) / 256u, first = min(self * part, words), last = min(first + part, words);
+  for (uint cell = first; cell < last; ++cell) grid_word[cell] = 0u;
+
   vec3 low = vec3(3.4e38), high = vec3(-3.4e38);
   vec2 radius = vec2(0.0);
   for (uint i = self; i < count; i += 256u) {
@@ -47,50 +49,52 @@ void main() {
   highs[self] = high;
   radii[self] = radius;
   barrier();
-  // One thread goes through all parts: each barrier makes the program larger, and in software its translation takes longer than its work.
-  if (self == 0u) {
-    for (uint other = 1u; other < 256u; ++other) {
-      low = min(low, lows[other]);
-      high = max(high, highs[other]);
-      radius.x += radii[other].x;
-    }
-    radii[0].x = 2.0 * exp(radius.x / float(count));
+  // Every thread goes through all parts: each barrier makes the program larger, and in software its translation takes longer than its work.
+  radius = vec2(0.0);
+  for (uint other = 0u; other < 256u; ++other) {
+    low = min(low, lows[other]);
+    high = max(high, highs[other]);
+    radius.x += radii[other].x;
   }
-  barrier();
-  float large = radii[0].x;
-  radius.y = 0.0;
+  float large = 2.0 * exp(radius.x / float(count));  // from this radius on a sphere is large
   for (uint i = self; i < count; i += 256u)
     if (instance[i].radius <= large) radius.y = max(radius.y, instance[i].radius);
   radii[self].y = radius.y;
   barrier();
+  for (uint other = 0u; other < 256u; ++other) radius.y = max(radius.y, radii[other].y);
+  float side;
+  uvec4 many;
+  placeCells(low, high, radius.y, words - 1u, side, many);
+  vec4 corner = vec4(low, side);
   if (self == 0u) {
-    for (uint other = 1u; other < 256u; ++other) radius.y = max(radius.y, radii[other].y);
+    grid_low = corner;
+    grid_cells = many;
     grid_radii = vec4(radius.y, large, 0.0, 0.0);
-    placeCells(low, high, radius.y);
   }
-  for (uint cell = self; cell <= cells; cell += 256u) grid_word[cell] = 0u;
-  memoryBarrierBuffer();
-  barrier();
 
-  for (uint i = self; i < count; i += 256u) atomicAdd(grid_word[cellOfSphere(i)], 1u);
-  memoryBarrierBuffer();
-  barrier();
-
-  // Where each cell begins: each thread adds up a part of the cells, then takes what the threads before it have.
-  uint part = (cells + 256u) / 256u, first = min(self * part, cells + 1u), last = min(first + part, cells + 1u), sum = 0u;
-  for (uint cell = first; cell < last; ++cell) sum += grid_word[cell];
-  sums[self] = sum;
-  barrier();
-  uint before = 0u;
-  for (uint i = 0u; i < self; ++i) before += sums[i];
-  for (uint cell = first; cell < last; ++cell) {
-    uint many = grid_word[cell];
-    grid_word[cell] = before;
-    before += many;
+  // Two turns of the same, so that the program has it once. The first counts the spheres of each cell, from words that are 0. The second
+  // finds where each cell begins, and beginnings move on to the ends as spheres take their places.
+  for (uint turn = 0u; turn < 2u; ++turn) {
+    // Each thread adds up a part of the cells, then takes what the threads before it have.
+    uint sum = 0u;
+    for (uint cell = first; cell < last; ++cell) sum += grid_word[cell];
+    sums[self] = sum;
+    barrier();
+    uint before = 0u;
+    for (uint i = 0u; i < self; ++i) before += sums[i];
+    for (uint cell = first; cell < last; ++cell) {
+      uint here = grid_word[cell];
+      grid_word[cell] = before;
+      before += here;
+    }
+    memoryBarrierBuffer();
+    barrier();
+    for (uint i = self; i < count; i += 256u) {
+      uint own = cellIndex(cellOf(instance[i].center, corner, many), many);
+      uint at = atomicAdd(grid_word[instance[i].radius > large ? words - 1u : own], 1u);
+      if (turn == 1u) grid_word[words + at] = i;
+    }
+    memoryBarrierBuffer();
+    barrier();
   }
-  memoryBarrierBuffer();
-  barrier();
-
-  // Beginnings move on to the ends.
-  for (uint i = self; i < count; i += 256u) grid_word[cells + 1u + atomicAdd(grid_word[cellOfSphere(i)], 1u)] = i;
 }

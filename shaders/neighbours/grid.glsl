@@ -16,7 +16,9 @@ layout(std430) GRID_ACCESS buffer grid {
   uint grid_word[];  // for each cell, and for the last: where its rows end; then, from `cells` + 1 on, rows of spheres by cell
 };
 
-ivec3 cellOf(vec3 place) { return ivec3(clamp((place - grid_low.xyz) / grid_low.w, vec3(0.0), vec3(grid_cells.xyz) - 1.0)); }
-uint cellIndex(ivec3 cell) { return uint(cell.x) + grid_cells.x * (uint(cell.y) + grid_cells.y * uint(cell.z)); }
+// `low` and `many` are grid_low and grid_cells, which a shader reads once, outside of loops and before any return: elsewhere software reads
+// them for each lane by itself.
+ivec3 cellOf(vec3 place, vec4 low, uvec4 many) { return ivec3(clamp((place - low.xyz) / low.w, vec3(0.0), vec3(many.xyz) - 1.0)); }
+uint cellIndex(ivec3 cell, uvec4 many) { return uint(cell.x) + many.x * (uint(cell.y) + many.y * uint(cell.z)); }
 
 #endif
