@@ -2,19 +2,19 @@
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
 // small map can hold it. Ground: Lambertian, lit by both.
-// write   radiance   scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near 1 at exposure 0
+// write   radiance   rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near 1 at exposure 0
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
 //         turbidity  2 (clear) to 8 (hazy)
 #include "common/equirect_direction.glsl"
 
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba16f) uniform writeonly image2D radiance;
 layout(std140) uniform Parameters {
   float elevation;
   float azimuth;
   float turbidity;
 };
-in vec2 uv;
-out vec4 radiance;
 
 const float kUnit = 0.06;           // per kcd/m2
 const float kSunLuminance = 128.0;  // klx above the atmosphere
@@ -49,8 +49,9 @@ vec3 colorOf(vec2 luminance_x) {
 }
 
 void main() {
-  // Row 0 of the map is the top.
-  vec3 direction = equirectDirection(uv);
+  // Row 0 of the map is the top. What lies outside is not stored.
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  vec3 direction = equirectDirection((vec2(at) + 0.5) / vec2(imageSize(radiance)));
   float high = radians(elevation), theta_sun = 0.5 * kPi - high;
   vec3 sun = vec3(cos(high) * cos(radians(azimuth)), sin(high), cos(high) * sin(radians(azimuth)));
 
@@ -67,5 +68,5 @@ void main() {
 
   vec3 sky_light = kUnit * colorOf(top) * kPi;
   vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * sun.y + sky_light) / kPi;
-  radiance = vec4(min(mix(ground, sky, smoothstep(-0.012, 0.006, direction.y)), vec3(60000.0)), 1.0);
+  imageStore(radiance, at, vec4(min(mix(ground, sky, smoothstep(-0.012, 0.006, direction.y)), vec3(60000.0)), 1.0));
 }
