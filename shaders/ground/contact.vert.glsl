@@ -31,5 +31,6 @@ void main() {
   cut = above < self.radius * 0.9999 ? 1 : 0;
   bool visible = abs(above) < far && (cut == 0 || abs(above) < self.radius * 0.9999);
   vec3 at = vec3(self.center.x + offset.x, height, self.center.z + offset.y);
-  gl_Position = visible ? view_projection * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+  vec4 clip = view_projection * vec4(at, 1.0);
+  gl_Position = visible ? clip : vec4(2.0, 2.0, 2.0, 1.0);
 }

@@ -23,5 +23,6 @@ void main() {
   vec2 foot = self.center.xz - horizontal * (above / rise) + along * (side.x * across / rise) + vec2(-along.y, along.x) * (side.y * across);
   at = vec3(foot.x, height, foot.y);
   bool visible = light.y > 0.0 && above > -self.radius;
-  gl_Position = visible ? view_projection * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+  vec4 clip = view_projection * vec4(at, 1.0);
+  gl_Position = visible ? clip : vec4(2.0, 2.0, 2.0, 1.0);
 }

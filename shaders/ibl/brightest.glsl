@@ -23,6 +23,9 @@ vec3 towardsBrightest(float turn) {
   return vec3(c * brightest_at.x - s * brightest_at.z, brightest_at.y, s * brightest_at.x + c * brightest_at.z);
 }
 
+// For what hides it: its irradiance over pi on a surface that faces it; w: half of its disc, radians. The same for all pixels.
+vec4 spotAround() { return vec4(brightest_light.rgb / kPi, max(2.0 * sqrt(brightest_light.w), 0.002)); }
+
 // Half vectors of a GGX surface that sees a spot with the variance `spread` along each axis of a half vector. The tail is GGX's own; what
 // the spot's size takes from the peak is a rounder bump (1 + t / core)^-8, nearly a Gaussian. Both widths and the bump's share are such that a small spot
 // changes nothing up to second order, and a mirror shows the spot.

@@ -12,6 +12,9 @@
 #endif
 
 uniform sampler2D neighbours;
+#ifdef HAS_BRIGHTEST
+flat in vec4 spot_around;  // spotAround() of ibl/brightest.glsl
+#endif
 
 struct Surround {
   float seen;            // share of a uniform sky's light, weighted by the cosine
@@ -33,7 +36,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
   float alpha = alphaOfRoughness(roughness), cone = kWidth * alpha + 0.005, hidden = 0.0;
   vec3 colors = vec3(0.0), towards = colors;
 #ifdef HAS_BRIGHTEST
-  float spot_angle = max(2.0 * sqrt(brightest_light.w), 0.002);
+  float spot_angle = spot_around.w;
 #endif
 #ifdef HAS_SUN
   vec3 sun_direction = sun_light[0].direction;
@@ -100,7 +103,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
 vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below) {
   vec3 seen = vec3(surround.seen);
 #ifdef HAS_BRIGHTEST
-  vec3 spot = brightest_light.rgb / kPi;
+  vec3 spot = spot_around.rgb;
   sky = max(sky - spot * max(dot(surround.bent, lobe.spot), 0.0), vec3(0.0));
 #endif
 #ifndef HAS_PROBES

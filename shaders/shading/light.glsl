@@ -9,7 +9,7 @@
 // read    brdf, irradiance?, specular?, environment?, brightest?   see shading/ibl.glsl; without one its light is missing
 //         probes?, sh?  light that other things throw back, see gi/bounce.glsl
 //         neighbours?   what spheres hide of each other, see neighbours/surround.glsl; the vertex shader says of which row the
-//                       point is: `flat out uint sphere_row`
+//                       point is: `flat out uint sphere_row`, and with `brightest` `flat out vec4 spot_around`
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
 //         clusters?, slices?   which lamps reach where, see deferred/clusters.glsl (forward, `clusters` is its `columns`); without

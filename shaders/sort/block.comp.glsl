@@ -19,17 +19,17 @@ layout(std140) uniform Parameters { uint count; };
 
 shared uvec2 block[2u * kHalf];
 
-uvec2 elementOf(uint index) {
-  if (index >= count) return uvec2(kPadding.x, index);
-  vec3 c = instance[index].center;
-  precise float depth = -(((view[0].z * c.x + view[1].z * c.y) + view[2].z * c.z) + view[3].z);
-  return uvec2(depthKey(depth), index);
-}
-
 void main() {
   uint t = gl_LocalInvocationID.x, first = groupIndex() * 2u * kHalf;
-  block[t] = elementOf(first + t);
-  block[t + kHalf] = elementOf(first + t + kHalf);
+  // In a loop software reads what is uniform for each lane by itself; an expression before it, it does not move into it.
+  vec4 away = -vec4(view[0].z, view[1].z, view[2].z, view[3].z);
+  uint many = max(count, 1u);
+  for (uint i = t; i < 2u * kHalf; i += kHalf) {
+    uint index = first + i;
+    vec3 c = index < many ? instance[index].center : vec3(0.0);
+    precise float depth = ((away.x * c.x + away.y * c.y) + away.z * c.z) + away.w;
+    block[i] = uvec2(index < many ? depthKey(depth) : kPadding.x, index);
+  }
   barrier();
   for (uint k = 1u; k <= uint(HALF + 1); ++k) {
     uint half_size = 1u << (k - 1u);
@@ -45,6 +45,5 @@ void main() {
     }
   }
   uint size = uint(element.length());
-  if (first + t < size) element[first + t] = block[t];
-  if (first + t + kHalf < size) element[first + t + kHalf] = block[t + kHalf];
+  for (uint i = t; i < 2u * kHalf && first + i < size; i += kHalf) element[first + i] = block[i];
 }

@@ -24,7 +24,7 @@ flat in vec3 anchor;
 flat in vec2 anchor_pixel;
 flat in vec2 edge;
 flat in vec4 albedo_roughness;
-flat in vec4 motion_metallic;
+flat in float metallic;
 flat in vec4 per_pixel;
 flat in float near_distance;
 flat in mat3 to_world;
@@ -97,7 +97,7 @@ void findPoint(out Point point) {
   point.mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
   point.nv = nv;
   point.roughness = albedo_roughness.w;
-  point.surface = Surface(albedo_roughness.rgb, motion_metallic.w, albedo_roughness.w);
+  point.surface = Surface(albedo_roughness.rgb, metallic, albedo_roughness.w);
 #if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
   point.at = from_eye + world_eye;
 #else

@@ -21,7 +21,7 @@ flat out vec3 anchor;       // slope that pixel offsets count from; z is 1 when 
 flat out vec2 anchor_pixel;
 flat out vec2 edge;         // shift of the silhouette in pixels; side of the square for a small sphere, else 0: see below
 flat out vec4 albedo_roughness;
-flat out vec4 motion_metallic;
+flat out float metallic;
 flat out Lobe lobe;             // see shading/lobe.glsl
 // What the fragments need of the view: in software an input costs less than a member of a block.
 flat out vec4 per_pixel;        // slope, screen UV
@@ -32,6 +32,9 @@ flat out vec3 world_eye;
 #endif
 #ifdef HAS_NEIGHBOURS
 flat out uint sphere_row;
+#ifdef HAS_BRIGHTEST
+flat out vec4 spot_around;
+#endif
 #endif
 #ifdef HAS_VELOCITY
 flat out mat3 before_turn;      // x, y and w in last frame's clip space of a direction in view space,
@@ -66,12 +69,15 @@ void main() {
   Instance self = instance[row];
 #ifdef HAS_NEIGHBOURS
   sphere_row = row;
+#ifdef HAS_BRIGHTEST
+  spot_around = spotAround();
+#endif
 #endif
   vec3 c = (view * vec4(self.center, 1.0)).xyz;
   float r = self.radius, z = -c.z;
   sphere = vec4(c, r);
   albedo_roughness = vec4(self.albedo, self.roughness);
-  motion_metallic = vec4(self.center - self.previous_center, self.metallic);
+  metallic = self.metallic;
 
   float bend = max(z, 0.0) / r;
   lobe = lobeOf(self.roughness, lookupAngle() * bend);
@@ -87,7 +93,7 @@ void main() {
 #ifdef HAS_VELOCITY
   mat4 before = previous_view_projection;
   before_turn = mat3(before[0].xyw, before[1].xyw, before[2].xyw) * to_world;
-  before_eye = (before * vec4(eye - motion_metallic.xyz, 1.0)).xyw;
+  before_eye = (before * vec4(eye - (self.center - self.previous_center), 1.0)).xyw;
 #endif
   bool in_front = z > r * 1.0001;
   anchor = in_front ? vec3(c.xy / z, 1.0) : vec3(0.0);

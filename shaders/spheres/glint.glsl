@@ -18,12 +18,12 @@ void addGlint(inout Lobe lobe, vec3 center, float radius, float bend) {
 #if defined HAS_BRIGHTEST && SPECULAR_AA
   vec3 away = eye - center;
   float far2 = dot(away, away);
-  if (far2 < 4.0 * radius * radius || projection[3].w != 0.0) return;  // from outside, in perspective
   // Where the normal is halfway between the eye and the spot.
   vec3 n = normalize(normalize(away) + lobe.spot);
   for (int i = 0; i < 3; ++i) n = normalize(normalize(away - radius * n) + lobe.spot);
   vec4 clip = view_projection * vec4(center + radius * n, 1.0);
-  if (clip.w <= 0.0) return;
+  // From outside, in perspective. Not earlier: behind a condition software reads the view's members for each lane by itself.
+  if (far2 < 4.0 * radius * radius || projection[3].w != 0.0 || clip.w <= 0.0) return;
   // Normals of a pixel span more there, in the plane of incidence.
   float facing = max(dot(normalize(away - radius * n), n), 0.05), alpha = sqrt(lobe.widths.x), spread = 0.25 * brightest_light.w;
   float blur = max(facing, 2.0 / 3.0) * sqrt(7.0 / 12.0 * alpha * alpha + spread) / max(bend, 1e-6), share = clamp(2.0 - blur, 0.0, 1.0);

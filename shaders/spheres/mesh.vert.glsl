@@ -16,6 +16,9 @@ flat out vec4 motion_metallic;
 flat out Lobe lobe;             // see shading/lobe.glsl
 #ifdef HAS_NEIGHBOURS
 flat out uint sphere_row;
+#ifdef HAS_BRIGHTEST
+flat out vec4 spot_around;
+#endif
 #endif
 out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
@@ -23,6 +26,9 @@ void main() {
   Instance self = instance[gl_InstanceID];
 #ifdef HAS_NEIGHBOURS
   sphere_row = uint(gl_InstanceID);
+#ifdef HAS_BRIGHTEST
+  spot_around = spotAround();
+#endif
 #endif
   from_eye = self.center - eye + self.radius * position;
   outwards = normal;
