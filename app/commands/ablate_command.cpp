@@ -15,7 +15,7 @@ int runAblate(const Options& options) {
                                      : ablationText(*table));
     return 0;
   };
-  return runOnDevice(options, 1, run);
+  return runOnDevice({&options, 1}, 1, run);
 }
 
 }  // namespace weft::app

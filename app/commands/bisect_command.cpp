@@ -110,7 +110,7 @@ class Bisection {
 }  // namespace
 
 int runBisect(const Options& options) {
-  return runOnDevice(options, 2,
+  return runOnDevice({&options, 1}, 2,
                      [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
                        return Bisection(context, options, world).run(diagnostics);
                      });

@@ -119,9 +119,10 @@ int renderBoth(gl::Context& context, const Options& options, const Options& othe
 int runDiff(const Options& options) {
   Options other = options;
   other.graph = options.otherGraph;
+  const Options both[] = {options, other};
   if (options.trial.render)
     return runOnDevice(
-        options, 2, [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
+        both, 2, [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
           return renderBoth(context, options, other, world, diagnostics);
         });
   base::Diagnostics diagnostics;

@@ -170,7 +170,7 @@ class Fuzzer {
 }  // namespace
 
 int runFuzz(const Options& options) {
-  return runOnDevice(options, 2,
+  return runOnDevice({&options, 1}, 2,
                      [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
                        return Fuzzer(context, options, world).run(diagnostics);
                      });

@@ -61,9 +61,13 @@ std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagn
     report(diagnostics);
     return std::nullopt;
   }
+  if (isWrong(options, world->facts(), diagnostics)) {
+    report(diagnostics);
+    return std::nullopt;
+  }
   auto session = openDevice(options, diagnostics);
-  if (!session) {  // the graph is checked all the same
-    makePlan(options, world->facts(), true, diagnostics);
+  if (!session) {
+    makePlan(options, world->facts(), true, diagnostics);  // one that came by a pipe
     report(diagnostics);
     exitCode = 3;
     return std::nullopt;

@@ -110,6 +110,19 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
   return graph::checkMemory(*plan, diagnostics) ? plan : nullptr;
 }
 
+bool isWrong(const Options& options, const runtime::WorldFacts& facts, base::Diagnostics& diagnostics) {
+  std::vector<std::string> named{options.graph};
+  named.insert(named.end(), options.presets.begin(), options.presets.end());
+  for (const graph::Setting& set : options.sets) named.push_back(set.text);  // where the parameter is a file
+  std::error_code ignored;
+  for (const std::string& path : named)
+    if (std::filesystem::is_fifo(path, ignored)) return false;
+  base::Diagnostics said, onHardware;
+  if (makePlan(options, facts, true, said) || makePlan(options, facts, false, onHardware)) return false;
+  diagnostics.append(said);
+  return true;
+}
+
 namespace {
 
 // A name that is no bundled preset, and near to none, stands for a file that nobody looks for.

@@ -46,6 +46,10 @@ runtime::WorldFacts factsWithoutWorld();
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
                                             bool software, base::Diagnostics& diagnostics);
 
+// Whether the graph is wrong on every device; what is wrong is in `diagnostics` then. Commands that draw ask before they open OpenGL,
+// which takes longer than all of this. Of what a pipe holds nobody knows before it is read, which it can be once: false.
+bool isWrong(const Options& options, const runtime::WorldFacts& facts, base::Diagnostics& diagnostics);
+
 // Prints the diagnostics to standard error, with or without notes. Of very many it prints only some
 // (engine/base/message_choice.h). Returns 1 when there is an error among them, else 0.
 int report(base::Diagnostics& diagnostics, bool notes = true);

@@ -119,13 +119,15 @@ CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnost
 }
 
 std::optional<Shot> CaseRunner::shoot(const TestCase& test, base::Diagnostics& diagnostics) {
+  const auto world = loadWorld(test.options, diagnostics);
+  if (!world) makePlan(test.options, factsWithoutWorld(), true, diagnostics);
+  if (!world || (!context_ && isWrong(test.options, world->facts(), diagnostics))) return std::nullopt;
   if (!context_ && !lacksContext_) {
     context_ = openContext(options_, diagnostics);
     lacksContext_ = !context_;
   }
-  const auto world = loadWorld(test.options, diagnostics);
-  if (!world || !context_) {
-    makePlan(test.options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+  if (!context_) {
+    makePlan(test.options, world->facts(), true, diagnostics);
     return std::nullopt;
   }
   return takeShot(*context_, test.options, *world, {.frames = test.frames, .records = true}, diagnostics);

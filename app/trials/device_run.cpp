@@ -4,15 +4,26 @@
 
 namespace weft::app {
 
-int runOnDevice(const Options& options, int wrong,
+int runOnDevice(std::span<const Options> all, int wrong,
                 const std::function<int(gl::Context&, const runtime::World&, base::Diagnostics&)>& run) {
+  const Options& options = all.front();
   base::Diagnostics diagnostics;
   const auto world = loadWorld(options, diagnostics);
-  const auto context = world ? openContext(options, diagnostics) : nullptr;
-  if (!context) {
-    makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+  if (!world) {
+    makePlan(options, factsWithoutWorld(), true, diagnostics);
     report(diagnostics);
-    return world ? 3 : wrong;
+    return wrong;
+  }
+  for (const Options& each : all)
+    if (isWrong(each, world->facts(), diagnostics)) {
+      report(diagnostics);
+      return wrong;
+    }
+  const auto context = openContext(options, diagnostics);
+  if (!context) {
+    makePlan(options, world->facts(), true, diagnostics);  // one that came by a pipe
+    report(diagnostics);
+    return 3;
   }
   const int code = run(*context, *world, diagnostics);
   return report(diagnostics) ? wrong : code;

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "app/session/device_session.h"
 #include "app/session/options.h"
 
 namespace weft::app {
 
-// Calls `run`, which returns the exit code, and reports. `wrong`: the exit code after errors. 3 without OpenGL; mistakes in the
-// graph are reported then, too.
-int runOnDevice(const Options& options, int wrong,
+// Calls `run`, which returns the exit code, and reports. `wrong`: the exit code after errors; a graph of `all` that is wrong is
+// refused before OpenGL is opened. 3 without OpenGL. The first of `all` says which world and which device.
+int runOnDevice(std::span<const Options> all, int wrong,
                 const std::function<int(gl::Context&, const runtime::World&, base::Diagnostics&)>& run);
 
 }  // namespace weft::app

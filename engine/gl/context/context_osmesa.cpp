@@ -1,5 +1,6 @@
-// OSMesa: llvmpipe into memory. glad's header comes first: it stands in for the GL/gl.h that osmesa.h
-// includes.
+// OSMesa: llvmpipe into memory. It is loaded when the first context is made, never linked: libOSMesa brings LLVM, and relocating
+// these takes most of the time of a command that draws nothing. glad's header comes first: it stands in for the GL/gl.h that
+// osmesa.h includes.
 // clang-format off
 #include "engine/gl/context/context_backends.h"
 
@@ -8,6 +9,9 @@
 #endif
 #include <GL/osmesa.h>
 // clang-format on
+
+#include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <vector>
 
@@ -18,14 +22,49 @@ namespace {
 // Framebuffer 0 is a stand-in of this size: the engine renders to textures only.
 constexpr int kStandIn = 16;
 
+struct Library {
+  decltype(&OSMesaCreateContextAttribs) create = nullptr;
+  decltype(&OSMesaMakeCurrent) makeCurrent = nullptr;
+  decltype(&OSMesaDestroyContext) destroy = nullptr;
+  decltype(&OSMesaGetProcAddress) find = nullptr;
+  std::string failure;  // empty: all of them are there
+};
+
+template <class Function>
+void findIn(void* library, const char* name, Function& function, std::string& failure) {
+  function = reinterpret_cast<Function>(::dlsym(library, name));
+  if (!function && failure.empty()) failure = fmt::format("has no {}", name);
+}
+
+Library loadLibrary() {
+  Library made;
+  void* library = ::dlopen(WEFT_OSMESA_NAME, RTLD_NOW | RTLD_LOCAL);
+  if (!library) {
+    const char* why = ::dlerror();
+    made.failure = fmt::format("cannot be loaded: {}", why ? why : WEFT_OSMESA_NAME);
+    return made;
+  }
+  findIn(library, "OSMesaCreateContextAttribs", made.create, made.failure);
+  findIn(library, "OSMesaMakeCurrent", made.makeCurrent, made.failure);
+  findIn(library, "OSMesaDestroyContext", made.destroy, made.failure);
+  findIn(library, "OSMesaGetProcAddress", made.find, made.failure);
+  return made;
+}
+
+// Loaded once, and kept until the process ends: Mesa's threads may outlive a context.
+const Library& osmesa() {
+  static const Library loaded = loadLibrary();
+  return loaded;
+}
+
 class OsmesaContext final : public Context {
  public:
   OsmesaContext(OSMesaContext context, Size size)
       : context_(context), size_(size), memory_(kStandIn * kStandIn * 4) {}
-  ~OsmesaContext() override { OSMesaDestroyContext(context_); }
+  ~OsmesaContext() override { osmesa().destroy(context_); }
 
   bool makeCurrent() override {
-    return OSMesaMakeCurrent(context_, memory_.data(), GL_UNSIGNED_BYTE, kStandIn, kStandIn) == GL_TRUE;
+    return osmesa().makeCurrent(context_, memory_.data(), GL_UNSIGNED_BYTE, kStandIn, kStandIn) == GL_TRUE;
   }
   Size framebufferSize() const override { return size_; }
 
@@ -38,6 +77,10 @@ class OsmesaContext final : public Context {
 }  // namespace
 
 OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>& failures) {
+  if (!osmesa().failure.empty()) {
+    failures.push_back(fmt::format("OSMesa: {}", osmesa().failure));
+    return {};
+  }
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -53,7 +96,7 @@ OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>
                             OSMESA_CONTEXT_MINOR_VERSION,
                             5,
                             0};
-  const OSMesaContext raw = OSMesaCreateContextAttribs(attributes, nullptr);
+  const OSMesaContext raw = osmesa().create(attributes, nullptr);
   if (!raw) {
     failures.emplace_back("OSMesa: gives no OpenGL 4.5 core context");
     return {};
@@ -63,7 +106,7 @@ OpenedContext openOsmesa(const ContextOptions& options, std::vector<std::string>
     failures.emplace_back("OSMesa: OSMesaMakeCurrent failed");
     return {};
   }
-  return {std::move(context), [](const char* name) { return OSMesaGetProcAddress(name); }, "OSMesa"};
+  return {std::move(context), [](const char* name) { return osmesa().find(name); }, "OSMesa"};
 }
 
 }  // namespace weft::gl

@@ -21,6 +21,7 @@ import signal
 import subprocess
 import sys
 
+from drivers import drivers_of, watched
 from program import TOP, Report, count_run, run, temporary_folder
 from window import display
 
@@ -44,9 +45,10 @@ class Sheet:
 
     def __init__(self, weft, report, path, more=()):
         self.weft, self.report, self.path, self.more, self.cells = weft, report, path, list(more), {}
+        self.watching = None  # a folder, while what is loaded is looked at
 
     def run(self, column, *arguments):
-        done = run(self.weft, *arguments)
+        done = run(self.weft, *arguments, **({"env": watched(self.watching)} if self.watching else {}))
         name = f"{column} of {self.path}"
         self.report.check(0 <= done.code <= 3 and not CRASH.search(done.err), f"{name}: crash, {done.code}\n{done.err[-3000:]}")
         codes = done.codes("error") + done.codes("warning")
@@ -199,13 +201,17 @@ def run_on_device(sheet, folder, other, shown, runs, texture):
 
 
 def refuse_on_device(sheet, folder):
-    """What draws refuses a wrong graph, too, and leaves nothing."""
+    """What draws refuses a wrong graph, too, before it opens OpenGL, and leaves nothing. The viewer alone has its window by then."""
     left = pathlib.Path(folder, "left")
+    sheet.watching = temporary = pathlib.Path(folder, "watched")
+    temporary.mkdir()
     for column, command, more in (("check all", "check --all", []), ("render", "render --quiet", ["-o", f"{left}.png"]), ("dump", "dump", ["*", "-o", left]),
                                   ("fuzz", "fuzz", ["--runs", "1"]), ("ablate", "ablate", []), ("bisect", "bisect", [])):
         sheet.graph(column, command, *more, *([] if column == "check all" else SMALL), sound=False)
     sheet.graph("diff render", "diff --render", sheet.path, *SMALL, "-o", left, sound=False)
     check_case(sheet, folder, "test picture", {"size": SMALL[1]}, False)
+    sheet.watching = None
+    sheet.report.check(not drivers_of(temporary), f"{sheet.path} is wrong, and something draws: {drivers_of(temporary)}")
     check_view(sheet, False)
     found = list(pathlib.Path(folder).glob("left*"))
     sheet.report.check(not found, f"{sheet.path} is wrong, and leaves {found}")
