@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -16,6 +15,7 @@
 #include "engine/base/files/file_access.h"
 #include "engine/base/files/file_overlay.h"
 #include "engine/base/files/folder_names.h"
+#include "engine/base/files/temporary_name.h"
 #include "engine/base/nearest.h"
 
 namespace weft::base {
@@ -48,15 +48,6 @@ std::string hintForMissing(const std::filesystem::path& path) {
   const std::string near = nearestName(path.filename().string(), *names);
   return near.empty() ? "check the path"
                       : fmt::format("did you mean '{}'?", (path.parent_path() / near).string());
-}
-
-// Where the bytes of a file stand until they are whole: beside it, also where its name is as long as a name may be.
-std::string temporaryOf(const std::string& path) {
-  constexpr std::size_t kLongest = 255;  // bytes, of most file systems
-  static std::atomic<unsigned> made = 0;
-  const std::filesystem::path beside = fmt::format("{}.{}.tmp", path, ::getpid());
-  if (beside.filename().string().size() <= kLongest) return beside.string();
-  return (beside.parent_path() / fmt::format(".weft.{}.{}.tmp", ::getpid(), ++made)).string();
 }
 
 // Whether a pipe has bytes or its end; false after a moment without, so that whoever waits can be asked.
@@ -161,7 +152,7 @@ bool writeFile(const std::string& path, std::span<const char> bytes, Diagnostics
   const auto before = std::filesystem::status(target, ec);
   // A device or a pipe is written to, not replaced.
   const bool special = std::filesystem::exists(before) && !std::filesystem::is_regular_file(before);
-  const std::string temporary = special ? target : temporaryOf(target);
+  const std::string temporary = special ? target : temporaryBeside(target);
   FilePtr file(std::fopen(temporary.c_str(), "wb"));
   if (!file) return fail(std::strerror(errno));
   const bool written =

@@ -1,7 +1,6 @@
 #include "engine/runtime/inspection/trace_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -9,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "engine/base/files/temporary_name.h"
 #include "engine/base/json/edit.h"
 
 namespace weft::runtime {
@@ -55,7 +55,7 @@ std::unique_ptr<TraceFile> TraceFile::create(const std::string& path, base::Diag
   const std::string target = ec ? path : canonical.string();
   const fs::file_status before = fs::status(target, ec);
   const bool special = fs::exists(before) && !fs::is_regular_file(before);
-  const std::string temporary = special ? target : fmt::format("{}.{}.tmp", target, ::getpid());
+  const std::string temporary = special ? target : base::temporaryBeside(target);
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (!file) {
     reportTo(diagnostics, path, errno);

@@ -54,6 +54,12 @@ def main():
         traced = run(weft, *common, "-o", folder / "a_%d.png", "--trace", path)
         if report.check(traced.code == 0 and path.exists(), f"exit code {traced.code}\n{traced.err}"):
             check_trace(report, path, steps)
+        longest = folder / ("t" * 250 + ".json")
+        long = run(weft, *common, "-o", folder / "d_%d.png", "--trace", longest)
+        if report.check(long.code == 0 and longest.exists(), f"a name of 255 bytes: {long.code}\n{long.err}"):
+            check_trace(report, longest, steps)
+        left = [file.name for file in folder.iterdir() if file.suffix not in (".json", ".png")]
+        report.check(not left, f"temporary files are left: {left}")
         plain = run(weft, *common, "-o", folder / "b_%d.png")
         same = plain.code == 0 and all((folder / f"a_{i}.png").read_bytes() == (folder / f"b_{i}.png").read_bytes() for i in range(FRAMES))
         report.check(same, "the trace changes the picture")
