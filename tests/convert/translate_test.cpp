@@ -68,6 +68,59 @@ TEST_CASE("version 1 and uniforms that the header declares anyway") {
         "\nvoid main() { isf_FragColor = vec4(isf_FragNormCoord, TIME, 1.0); }\n");
 }
 
+TEST_CASE("what players declare beside an image is there, for inputs and targets and no other name") {
+  const std::string header =
+      R"({"INPUTS": [{"NAME": "face", "TYPE": "image"}], "PASSES": [{"TARGET": "t"}, {}]})";
+  CHECK(
+      fragmentOf("uniform vec2 _face_imgSize;\nvoid main() { vec2 _u_imgSize = _face_imgSize / _t_imgSize;\n"
+                 "  gl_FragColor = _face_flip ? _face_imgRect : vec4(_face_normTexCoord + a._face_flip, "
+                 "_u_imgSize); }\n",
+                 header) ==
+      "\nvoid main() { vec2 _u_imgSize = IMG_SIZE(face_) / IMG_SIZE(t);\n"
+      "  isf_FragColor = false ? vec4(0.0, 0.0, 1.0, 1.0) : vec4(isf_FragNormCoord + a._face_flip, "
+      "_u_imgSize); }\n");
+  // An image of which only the size is read is a slot all the same, and known where there is no picture.
+  CHECK(has(graphOf(R"({"INPUTS": [{"NAME": "a", "TYPE": "image"}]})",
+                    "void main() { gl_FragColor = vec4(_a_imgSize, 0.0, 1.0); }\n"),
+            R"("read": { "a": "a as linear ?" })"));
+  const std::string_view fragment =
+      R"(/*{"INPUTS": [{"NAME": "a", "TYPE": "image"}]}*/ void main() { gl_FragColor = IMG_THIS_PIXEL(a); })";
+  base::Diagnostics diagnostics;
+  CHECK(convertIsfText(fragment, diagnostics,
+                       "void main() { isf_vertShaderInit(); gl_Position.xy /= _a_imgSize; }"));
+  CHECK(diagnostics.size() == 0);
+  CHECK_FALSE(convertIsfText(fragment, diagnostics,
+                             "void main() { isf_vertShaderInit();\n gl_Position.xy += _a_texCoord; }"));
+  REQUIRE(codesOf(diagnostics) == "W224 ");
+  CHECK(diagnostics.items()[0].place.line == 2);
+}
+
+TEST_CASE(
+    "keys in small letters are refused where nothing works without them, and else said to be left out") {
+  const auto said = [](const std::string& header) {
+    base::Diagnostics diagnostics;
+    const bool made =
+        convertIsfText("/*" + header + "*/\nvoid main() { gl_FragColor = vec4(1.0); }\n", diagnostics)
+            .has_value();
+    std::string text = made ? "made " : "";
+    for (const base::Diagnostic& d : diagnostics.items()) {
+      CHECK(d.hint.find("capitals") != std::string::npos);
+      text += base::nameOf(d.code) + " ";
+    }
+    return text;
+  };
+  CHECK(said(R"({"inputs": []})") == "W004 ");
+  CHECK(said(R"({"INPUTS": [{"name": "a", "TYPE": "float"}]})") == "W004 ");
+  CHECK(said(R"({"INPUTS": [{"NAME": "a", "Type": "float"}]})") == "W004 ");
+  CHECK(said(R"({"IMPORTED": {"a": {"path": "a.png"}}})") == "W004 ");
+  CHECK(said(R"({"INPUTS": [{"NAME": "a", "TYPE": "float", "min": 0, "default": 1}]})") == "made W221 W221 ");
+  CHECK(said(R"({"passes": [{}]})") == "made W221 ");
+  CHECK(said(R"({"PASSES": [{"TARGET": "t", "persistent": true}, {}]})") == "made W221 ");
+  // Keys that are nobody's, and those that stand there in capitals, too.
+  CHECK(said(R"({"keywords": "a", "isfvsn": "2", "inputs": 1, "INPUTS": [], "vendor": {"passes": 1}})") ==
+        "made ");
+}
+
 TEST_CASE("sizes become expressions") {
   const auto sized = [](const std::string& width) {
     return graphOf(

@@ -97,7 +97,32 @@ class HeaderReader {
     return base::expectType(*value, key, JsonType::array, diagnostics_) ? value : nullptr;
   }
 
+  // The keys of ISF are in capitals; a key that is known but for that says nothing to players. False where nothing works without it.
+  bool checkKeys(const JsonValue& object, std::initializer_list<std::string_view> needed,
+                 std::initializer_list<std::string_view> known) {
+    bool good = true;
+    for (const base::JsonMember& member : object.members) {
+      std::string capitals = member.key;
+      for (char& c : capitals) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+      if (capitals == member.key || object.find(capitals)) continue;
+      const std::string hint = fmt::format("write \"{}\": the keys of ISF are in capitals", capitals);
+      if (std::ranges::find(needed, std::string_view(capitals)) != needed.end()) {
+        diagnostics_.error(Code::unknownKey, member.place, fmt::format("unknown key \"{}\"", member.key))
+            .hint = hint;
+        good = false;
+      } else if (std::ranges::find(known, std::string_view(capitals)) != known.end()) {
+        diagnostics_
+            .warning(Code::isfNotMapped, member.place,
+                     fmt::format("the key \"{}\" is none of ISF, and is left out", member.key))
+            .hint = hint;
+      }
+    }
+    return good;
+  }
+
   void readTop(const JsonValue& root) {
+    if (!checkKeys(root, {"INPUTS"}, {"DESCRIPTION", "CREDIT", "PASSES", "PERSISTENT_BUFFERS", "IMPORTED"}))
+      return;
     out_.description = textOf(root, "DESCRIPTION");
     out_.credit = textOf(root, "CREDIT");
     if (const JsonValue* inputs = listOf(root, "INPUTS"))
@@ -161,6 +186,7 @@ class HeaderReader {
 
   void readInput(const JsonValue& value) {
     if (!base::expectType(value, "an input", JsonType::object, diagnostics_)) return;
+    if (!checkKeys(value, {"NAME", "TYPE"}, {"LABEL", "DEFAULT", "MIN", "MAX", "VALUES", "LABELS"})) return;
     JsonFields fields(value, "an input", Code::outOfRange, diagnostics_);
     fields.require({"NAME", "TYPE"});
     const JsonValue* name = value.find("NAME");
@@ -258,6 +284,7 @@ class HeaderReader {
 
   void readPass(const JsonValue& value) {
     if (!base::expectType(value, "a pass", JsonType::object, diagnostics_)) return;
+    checkKeys(value, {}, {"TARGET", "PERSISTENT", "FLOAT", "WIDTH", "HEIGHT"});
     IsfPass pass{.place = value.place};
     if (const JsonValue* target = value.find("TARGET");
         target && !target->is(JsonType::null) &&
@@ -283,6 +310,7 @@ class HeaderReader {
         if (pass.target == name) {
           pass.persistent = found = true;
           if (!sizes) continue;
+          checkKeys(*sizes, {}, {"FLOAT", "WIDTH", "HEIGHT"});
           pass.floats |= flagOf(*sizes, "FLOAT");
           readSize(*sizes, "WIDTH", pass.width, pass.widthPlace);
           readSize(*sizes, "HEIGHT", pass.height, pass.heightPlace);
@@ -306,6 +334,7 @@ class HeaderReader {
   void readImported(const JsonValue& imported) {
     const auto add = [&](const std::string& name, const JsonValue& value, const JsonValue& at) {
       if (!base::expectType(value, "an imported picture", JsonType::object, diagnostics_)) return;
+      if (!checkKeys(value, {"NAME", "PATH"}, {})) return;
       const JsonValue* path = value.find("PATH");
       if (!path || !path->is(JsonType::string)) {
         auto& d =

@@ -16,6 +16,20 @@ namespace {
 constexpr std::array<std::string_view, 5> kImageFunctions{"IMG_PIXEL", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL",
                                                           "IMG_THIS_NORM_PIXEL", "IMG_SIZE"};
 
+// What players declare beside an image: its name between '_' and the suffix, and what that is here. A whole picture is one texture
+// that stands upright. The last two are of the fragment stage.
+struct ImageFact {
+  std::string_view suffix, text;  // {0} is the image
+  bool varying = false;
+};
+constexpr std::array<ImageFact, 5> kImageFacts{{
+    {"_imgSize", "IMG_SIZE({0})"},
+    {"_imgRect", "vec4(0.0, 0.0, 1.0, 1.0)"},
+    {"_flip", "false"},
+    {"_normTexCoord", "isf_FragNormCoord", true},
+    {"_texCoord", "(isf_FragNormCoord * RENDERSIZE / IMG_SIZE({0}))", true},
+}};
+
 const char* glslTypeOf(IsfInput::Type type) {
   using T = IsfInput::Type;
   switch (type) {
@@ -103,6 +117,7 @@ class ShaderTranslator {
       d.hint = "an ISF file is a whole shader";
     }
     note(text);
+    nameFacts(text, stage, file);
     modernize(text, stage, kIsfOutput, {file, 0, 0}, diagnostics_);
     static const std::array<std::string, 7> kTaken{"uv",    "viewport",   "time",       "delta_time",
                                                    "frame", "Parameters", "isf_Nothing"};
@@ -114,6 +129,35 @@ class ShaderTranslator {
     text.rename("vv_vertShaderInit", "isf_vertShaderInit");
     dropDeclarations(text, file);
     return text.changed();
+  }
+
+  // The image and the fact that a name such as _inputImage_imgSize stands for.
+  std::pair<const std::string*, const ImageFact*> factOf(std::string_view name) const {
+    if (!name.starts_with('_')) return {};
+    for (const ImageFact& fact : kImageFacts)
+      if (name.ends_with(fact.suffix)) {
+        const auto image = std::ranges::find(images_, name.substr(1, name.size() - 1 - fact.suffix.size()));
+        if (image != images_.end()) return {&*image, &fact};
+      }
+    return {};
+  }
+
+  void nameFacts(GlslText& text, Stage stage, const std::shared_ptr<const std::string>& file) {
+    for (std::size_t i = 0; i < text.tokens().size(); ++i) {
+      const gl::Token& token = text.tokens()[i];
+      usesSamplers_ |= token.text.starts_with("VVSAMPLER_2DBY");
+      const auto [image, fact] = factOf(token.text);
+      if (!image || !text.isName(i)) continue;
+      if (fact->varying && stage == Stage::vertex) {
+        auto& d = diagnostics_.error(base::Code::glslNotMapped, {file, token.line, token.column},
+                                     fmt::format("the vertex shader uses '{}'", token.text));
+        d.expected = "it only in the fragment shader";
+        d.hint = "work it out from isf_FragNormCoord";
+        continue;
+      }
+      out_.read.insert(*image);
+      text.replace(i, fmt::format(fmt::runtime(fact->text), names_.of(*image)));
+    }
   }
 
   // Some files declare again what ISF declares for them.
@@ -142,8 +186,8 @@ class ShaderTranslator {
 
   // Whether the prelude declares it: an input, or a variable of ISF.
   bool isDeclared(const std::string& name) const {
-    return names_.all().contains(name) || name == "TIME" || name == "RENDERSIZE" || name == "PASSINDEX" ||
-           name == "DATE" || name == "TIMEDELTA" || name == "FRAMEINDEX";
+    return names_.all().contains(name) || factOf(name).first || name == "TIME" || name == "RENDERSIZE" ||
+           name == "PASSINDEX" || name == "DATE" || name == "TIMEDELTA" || name == "FRAMEINDEX";
   }
 
   void note(const GlslText& text) {
@@ -191,6 +235,15 @@ class ShaderTranslator {
           "// Year, month, day, and seconds of the day: `date` at the first frame.\n"
           "vec4 DATE = date + vec4(0.0, 0.0, 0.0, time);\n";
     text += "\n// Pictures have their first row at the bottom.\n" + imageFunctions("sampler2D");
+    if (usesSamplers_)
+      text +=
+          "vec4 VVSAMPLER_2DBYPIXEL(sampler2D image, vec4 rect, vec2 size, bool flip, vec2 pixel) {\n"
+          "  vec2 place = pixel / size * rect.zw;\n"
+          "  return texture(image, rect.xy + (flip ? vec2(place.x, rect.w - place.y) : place));\n"
+          "}\n"
+          "vec4 VVSAMPLER_2DBYNORM(sampler2D image, vec4 rect, vec2 size, bool flip, vec2 place) {\n"
+          "  return VVSAMPLER_2DBYPIXEL(image, rect, size, flip, place * size);\n"
+          "}\n";
     std::string absent;
     for (const std::string& image : images_) {
       if (!out_.read.contains(image)) continue;
@@ -231,6 +284,7 @@ class ShaderTranslator {
   const IsfNames& names_;
   base::Diagnostics& diagnostics_;
   std::vector<std::string> images_;
+  bool usesSamplers_ = false;
   IsfShader out_;
 };
 
