@@ -13,7 +13,7 @@ PROVIDED = {
     "OSMesa": "libosmesa6-dev", "EGL": "libegl-dev", "xvfb-run": "xvfb", "Xvfb": "xvfb", "xdotool": "xdotool", "dot": "graphviz",
     "glslangValidator": "glslang-tools", "clang-format": "clang-format", "jsonschema": "python3-jsonschema", "nvim": "neovim", "zsh": "zsh", "fish": "fish", "groff": "groff-base", "mandoc": "mandoc",
     "bash": None, "ccache": None, "git": None, "weft": None,
-    "chromium": None, "mpv": None, "node": None,  # judges of imports, which CI does without
+    "chromium": None, "mpv": None, "node": None, "emacs": None,  # judges of imports and of the language server, which CI does without
 }
 # Needed without being looked for: by cmake, by xvfb-run, by snippets of the docs, at run time, or as a header only.
 IMPLIED = {"g++", "cmake", "ninja-build", "python3", "xauth", "libegl-mesa0", "libgl1-mesa-dri", "libstb-dev", "graphviz", "pkg-config"}
