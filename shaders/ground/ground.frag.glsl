@@ -2,8 +2,8 @@
 // missing. Spheres drawn before have left what light arrives.
 // read    ground       see scene/ground.glsl
 //         irradiance?, brightest?, sun?   light, see shading/ibl.glsl, ibl/brightest.glsl, scene/sun.glsl
-//         sky?         rgb: share of the sky's light that arrives
-//         lights?      x, y: shares of the sun's and of the brightest spot's
+//         sky?         rgb: share of the sky's light that arrives; the target's size, not `as linear`
+//         lights?      x, y: shares of the sun's and of the brightest spot's; as sky
 //         air?         see fog/fog.glsl
 // modify  radiance     scene-referred; blend "premultiplied"
 //         velocity     screen UV per frame
@@ -51,10 +51,10 @@ void main() {
   vec3 sky_seen = vec3(1.0);
   vec2 lights_seen = vec2(1.0);
 #ifdef HAS_SKY
-  sky_seen = texelFetch(sky, ivec2(gl_FragCoord.xy), 0).rgb;
+  sky_seen = textureLod(sky, uv, 0.0).rgb;
 #endif
 #ifdef HAS_LIGHTS
-  lights_seen = texelFetch(lights, ivec2(gl_FragCoord.xy), 0).xy;
+  lights_seen = textureLod(lights, uv, 0.0).xy;
 #endif
   const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
   vec3 arrives = from_sky * sky_seen + from_sun * lights_seen.x + from_spot * lights_seen.y;

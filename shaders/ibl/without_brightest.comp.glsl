@@ -18,7 +18,6 @@ vec3 environmentAt(vec2 map_uv, float level) {
 
 void main() {
   ivec2 size = imageSize(result), at = ivec2(sliceInvocation().x, sliceGroup().y);
-  if (at.x >= size.x || at.y >= size.y) return;
   vec2 center = (vec2(at) + 0.5) / vec2(size);
   float base_width = float(textureSize(environment, 0).x);
   bool near = distance(equirectDirection(center), brightest_at.xyz) <= kWindow + 4.0 / float(size.y);
@@ -26,11 +25,12 @@ void main() {
   // every lookup of a condition, and of a loop only their own.
   float level = max(near ? ceil(log2(base_width / 2048.0)) : log2(base_width / float(size.x)), 0.0);
   int points = near ? 4 : 1;
+  float most_kept = max(brightest_at.w, 0.0);  // read before the loop: in it software reads it for each lane by itself
   vec3 radiance = vec3(0.0);
   for (int i = 0; i < points; ++i) {
     vec2 offset = near ? (vec2(i & 1, i >> 1) - 0.5) * 0.5 / vec2(size) : vec2(0.0);
     vec3 color = environmentAt(center + offset, level);
-    radiance += color * (near ? 0.25 * min(brightest_at.w / max(most(color), 1e-9), 1.0) : 1.0);
+    radiance += color * (near ? 0.25 * min(most_kept / max(most(color), 1e-9), 1.0) : 1.0);
   }
-  imageStore(result, at, vec4(radiance, 1.0));
+  imageStore(result, at, vec4(radiance, 1.0));  // outside of the map nothing is stored
 }

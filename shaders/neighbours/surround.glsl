@@ -42,9 +42,9 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
   vec3 sun_direction = sun_light[0].direction;
   float sun_angle = max(sqrt(max(1.0 - sun_light[0].cos_angle * sun_light[0].cos_angle, 0.0)), 0.002);
 #endif
-  float reach = texelFetch(neighbours, ivec2(0), 0).x;
   // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
   vec2 texel = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * texel;
+  float reach = textureLod(neighbours, 0.5 * texel, 0.0).x;
   int i = -1;
   while (i < MOST_NEIGHBOURS - 1) {
     // On to the next sphere that takes anything: above the horizon, where lights are, or in the lobe. This loop is short, so that the rest
