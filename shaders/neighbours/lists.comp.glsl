@@ -83,7 +83,7 @@ void main() {
   float radii = max(reach, 0.0), widest = grid_radii.x;
   uint words = cells + 1u;
 #ifdef HAS_GROUND
-  float height = ground_row[0].height;
+  float height = ground_row[0].height, ground_radius = ground_row[0].radius;
   vec3 ground_albedo = groundAlbedo(ground_row[0]);
 #endif
   uint self = gl_GlobalInvocationID.x;
@@ -106,7 +106,11 @@ void main() {
   for (int i = self == 0u ? -2 : -1; i <= found && listed < MOST_NEIGHBOURS; ++i) {
     vec4 ball = vec4(0.0), light = vec4(0.0);
     if (i == -2) {
-      ball = vec4(radii);
+      ball = vec4(radii, 0.0, 0.0, 0.0);
+#ifdef HAS_GROUND
+      ball.yzw = vec3(height, ground_radius, 1.0);
+      light.rgb = ground_albedo;
+#endif
     } else if (i == -1) {
       // The ground around its foot is dark. A sphere sees about as much of that as of its own image in the ground, and a little beyond.
 #ifdef HAS_GROUND
@@ -121,7 +125,7 @@ void main() {
       ball = vec4(instance[candidate.y].center, instance[candidate.y].radius);
       float left = leftOf(angleOf(candidate.x), ball.xyz - own.xyz, own.xyz);
       if (left < kHidden) continue;
-      light = vec4(instance[candidate.y].albedo, left);
+      light = vec4(instance[candidate.y].albedo, packMatter(left, instance[candidate.y].roughness, instance[candidate.y].metallic));
     }
     ivec2 texel = i == -2 ? ivec2(0) : neighbourTexel(self, listed++);
     imageStore(neighbours, texel, ball);

@@ -16,24 +16,68 @@ uniform sampler2D neighbours;
 flat in vec4 spot_around;  // spotAround() of ibl/brightest.glsl
 #endif
 
+// The ground, as the lists have it.
+struct Soil {
+  float is;  // 1: there is one
+  float height, radius;
+  vec3 albedo;
+};
+
 struct Surround {
   float seen;            // share of a uniform sky's light, weighted by the cosine
   vec3 albedo;           // mean, of what hides the rest
   vec3 bent;             // mean direction of what is seen, unit
   float foot;            // share of the ground that is dark by the sphere itself
   float mirror_seen;     // share of the reflected lobe that nothing hides
+  vec3 mirror;           // the lobe's axis, unit
+  float mirror_width;    // of its cone: tangent of half the angle
   vec3 mirror_albedo;    // of what hides the rest, times its share
-  vec3 mirror_facing;    // where that faces, not normalised
+  vec3 mirror_facing;    // where that faces, times its share
+  vec4 mirror_matter;    // of it alpha squared, metallic, distance over radius, and distance, times its share
+  Soil soil;
+  float ground_share;    // of the lobe, below the ground's horizon
+  vec3 ground_at;        // where the lobe meets the ground
+  vec4 ground_hidden;    // from there: share of the sky that spheres hide, in w; times their albedo
+  vec2 ground_lit;       // from there: shares of the brightest spot and of the sun that are seen
   float spot_seen;       // shares of the brightest spot and of the sun
   float sun_seen;
 };
 
-// Of a point of the sphere of that row. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
-Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe lobe) {
-  Surround all = Surround(1.0, vec3(0.0), n, 0.0, 1.0, vec3(0.0), vec3(0.0), 1.0, 1.0);
+const float kConeWidth = 1.6;  // of a lobe's cone, in half angles of half vectors
+
+// Share of a cone around a direction that lies below the horizon.
+float shareBelow(float height, float wide) {
+  float x = clamp(0.5 - 0.5 * height / wide, 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+// Share of a uniform sky that a sphere hides from the ground; `to` its centre.
+float capOnGround(vec3 to, float radius) {
+  float per = inversesqrt(max(dot(to, to), radius * radius));
+  return abs(to.y) * radius * radius * per * per * per;
+}
+
+// Share of a light's disc that a sphere covers; `to` its centre. `angle` of the disc, which is `blur` wider.
+float ballShare(float radius, float angle, float blur, vec3 light, vec3 to, float distance2) {
+  float along = dot(light, to), away = sqrt(distance2);
+  return discShare(radius, angle * away + blur, along, sqrt(max(distance2 - along * along, 0.0)), away);
+}
+
+// Of a point of the sphere of that row, which has that colour. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
+Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, vec3 own_color, Lobe lobe) {
   axis = normalize(axis);
-  const float kWidth = 1.6;  // of the cone, in half angles of half vectors
-  float alpha = alphaOfRoughness(roughness), cone = kWidth * alpha + 0.005, hidden = 0.0;
+  float alpha = alphaOfRoughness(roughness), cone = kConeWidth * alpha + 0.005, hidden = 0.0;
+  // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
+  vec2 texel = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * texel;
+  vec4 common_row = textureLod(neighbours, 0.5 * texel, 0.0);
+  float reach = common_row.x;
+  Soil soil = Soil(common_row.w, common_row.y, common_row.z, textureLod(neighbours, vec2(1.5, 0.5) * texel, 0.0).rgb);
+  // The ground below is met where the lower part of the lobe meets it.
+  float below = common_row.w * mix(shareBelow(axis.y, cone), 0.5 - 0.5 * n.y, alpha);
+  vec3 ground_at = at + axis * ((at.y - soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
+  ground_at.y = soil.height;
+  float ground_blur = cone * length(ground_at - at);
+  Surround all = Surround(1.0, vec3(0.0), n, 0.0, 1.0, axis, cone, vec3(0.0), vec3(0.0), vec4(0.0), soil, below, ground_at, vec4(0.0), vec2(1.0), 1.0, 1.0);
   vec3 colors = vec3(0.0), towards = colors;
 #ifdef HAS_BRIGHTEST
   float spot_angle = spot_around.w;
@@ -42,9 +86,6 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
   vec3 sun_direction = sun_light[0].direction;
   float sun_angle = max(sqrt(max(1.0 - sun_light[0].cos_angle * sun_light[0].cos_angle, 0.0)), 0.002);
 #endif
-  // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
-  vec2 texel = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * texel;
-  float reach = textureLod(neighbours, 0.5 * texel, 0.0).x;
   int i = -1;
   while (i < MOST_NEIGHBOURS - 1) {
     // On to the next sphere that takes anything: above the horizon, where lights are, or in the lobe. This loop is short, so that the rest
@@ -68,26 +109,41 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
     if (!counts) break;
     vec4 light = textureLod(neighbours, first + vec2(2 * i + 1, 0) * texel, 0.0);
     float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);
-    float share = capShare(ratio, dot(n, to) / distance_to) * near * abs(light.a);
+    vec3 matter = unpackMatter(light.a);
+    float share = capShare(ratio, dot(n, to) / distance_to) * near;
+    // What the ground sees there of this sphere itself, and of others as long as they are above the horizon.
+    vec3 over = vec3(ball.x, abs(ball.y - soil.height), ball.z) - vec3(ground_at.x, 0.0, ground_at.z);
+    float over2 = dot(over, over), over_by = light.a < 0.0 ? 1.0 : clamp(dot(n, to) / ball.w + 1.0, 0.0, 1.0) * near;
+    all.ground_hidden += vec4(light.a < 0.0 ? own_color : light.rgb, 1.0) * (capOnGround(over, ball.w) * over_by);
+#ifdef HAS_BRIGHTEST
+    all.ground_lit.x *= 1.0 - ballShare(ball.w, spot_angle, ground_blur, lobe.spot, over, over2) * over_by;
+#endif
+#ifdef HAS_SUN
+    all.ground_lit.y *= 1.0 - ballShare(ball.w, sun_angle, ground_blur, sun_direction, over, over2) * over_by;
+#endif
     if (light.a < 0.0) {
-      all.foot = share;
+      all.foot = share * -light.a;
       share = near = 0.0;
     }
+    share *= matter.x;
     hidden += share;
     colors += share * light.rgb;
     towards += share / distance_to * to;
-    float in_lobe = mix(discShare(ball.w, cone * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to) * near, share, alpha) * all.mirror_seen;
+    float beside = sqrt(max(distance2 - along * along, 0.0)), wide = cone * distance_to;
+    float in_lobe = mix(discShare(ball.w, wide, along, beside, distance_to) * near, share, alpha) * all.mirror_seen;
     all.mirror_seen -= in_lobe;
     all.mirror_albedo += in_lobe * light.rgb;
-    // Where the axis meets that sphere, or is nearest to it.
-    all.mirror_facing += (axis * (along - sqrt(max(ball.w * ball.w - distance2 + along * along, 0.0))) - to) * (in_lobe / ball.w);
+    // Where the middle of what the lobe and the sphere share meets it.
+    float middle = 0.5 * (max(beside - wide, -ball.w) + min(beside + wide, ball.w)), deep = sqrt(max(ball.w * ball.w - middle * middle, 0.0));
+    vec3 facing = (axis * along - to) * (middle / max(beside, 1e-6)) - axis * deep;
+    float far = max(along - deep, 0.0), alpha_of_it = alphaOfRoughness(matter.y);
+    all.mirror_facing += facing * (in_lobe / ball.w);
+    all.mirror_matter += vec4(alpha_of_it * alpha_of_it, matter.z, far / ball.w, far) * in_lobe;
 #ifdef HAS_BRIGHTEST
-    along = dot(lobe.spot, to);
-    all.spot_seen *= 1.0 - discShare(ball.w, spot_angle * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to) * near;
+    all.spot_seen *= 1.0 - ballShare(ball.w, spot_angle, 0.0, lobe.spot, to, distance2) * near;
 #endif
 #ifdef HAS_SUN
-    along = dot(sun_direction, to);
-    all.sun_seen *= 1.0 - discShare(ball.w, sun_angle * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to) * near;
+    all.sun_seen *= 1.0 - ballShare(ball.w, sun_angle, 0.0, sun_direction, to, distance2) * near;
 #endif
   }
   all.seen = max(1.0 - hidden, 0.0);
@@ -100,8 +156,10 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, Lobe 
 
 // Light from everywhere of a point with normal n: `sky` is the irradiance map's value in the bent direction, `below` that straight down. What hides a share of it is lit as this point is, so that the light goes to
 // and fro: a geometric series (Stewart and Langer, "Towards accurate recovery of shape from shading under diffuse lighting", PAMI 1997).
-vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below) {
+vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below, vec3 ground) {
   vec3 seen = vec3(surround.seen);
+  // A surface in place of the lower half.
+  sky = max(sky + (ground - below) * (0.5 - 0.5 * surround.bent.y), vec3(0.0));
 #ifdef HAS_BRIGHTEST
   vec3 spot = spot_around.rgb;
   sky = max(sky - spot * max(dot(surround.bent, lobe.spot), 0.0), vec3(0.0));
@@ -113,7 +171,107 @@ vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below) {
 #ifdef HAS_BRIGHTEST
   around += spot * (max(dot(n, lobe.spot), 0.0) * surround.spot_seen);
 #endif
-  return max(around - below * surround.foot, vec3(0.0));
+  return max(around - ground * surround.foot, vec3(0.0));
 }
+
+const float kOverGround = 0.7;  // in widths of the cone: fitted to traced paths
+
+// 1 where the ground has a surface.
+float surfaceOf(Soil soil, vec3 at) { return soil.radius > 0.0 ? 1.0 - smoothstep(0.5 * soil.radius, soil.radius, length(at.xz)) : 0.0; }
+
+// Of the sky's light that falls on the ground the share that spheres leave, and throw back: see ground/contact.frag.glsl.
+vec3 skyOnGround(Soil soil, vec4 taken) {
+  float left = max(1.0 - taken.w, 0.0);
+  return (left + left * taken.rgb) / (1.0 - min(taken.w, 1.0) * taken.rgb * soil.albedo);
+}
+
+// Irradiance over pi of the ground where nothing stands, by the sky, the brightest spot and the sun.
+struct GroundLight {
+  vec3 sky, spot, sun;
+};
+
+// `up` is the irradiance map's value straight up.
+GroundLight groundLight(Lobe lobe, vec3 up) {
+  GroundLight light = GroundLight(up, vec3(0.0), vec3(0.0));
+#ifdef HAS_BRIGHTEST
+  light.spot = min(spot_around.rgb * max(lobe.spot.y, 0.0), up);
+  light.sky -= light.spot;
+#endif
+#ifdef HAS_SUN
+  light.sun = sun_light[0].irradiance * (max(sun_light[0].direction.y, 0.0) / kPi);
+#endif
+  return light;
+}
+
+// Radiance of the ground: of its surface, by the share of that, else `shown`, which is darkened.
+vec3 groundRadiance(Soil soil, GroundLight light, vec3 shown, float surface, vec4 taken, vec2 lit) {
+  const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
+  vec3 arrives = light.sky * skyOnGround(soil, taken) + light.spot * lit.x + light.sun * lit.y, all = light.sky + light.spot + light.sun;
+  return mix(shown * min(dot(arrives, kLuminance) / max(dot(all, kLuminance), 1e-6), 1.0), soil.albedo * arrives, surface);
+}
+
+#ifdef HAS_SPECULAR
+// Towards what the lobe sees above the ground.
+vec3 overGround(Surround surround, vec3 axis) {
+  axis.y = mix(axis.y, max(axis.y, kOverGround * surround.mirror_width), surfaceOf(surround.soil, surround.ground_at));
+  return axis;
+}
+
+// The lobe's light without neighbours: `sky` is what it reads above the ground.
+vec3 skyAndGround(Surround surround, GroundLight light, vec3 sky) {
+  float surface = surfaceOf(surround.soil, surround.ground_at);
+  return mix(sky, groundRadiance(surround.soil, light, sky, surface, surround.ground_hidden, surround.ground_lit), surround.ground_share);
+}
+
+// Light of what hides the rest of the lobe. A metal shows what is behind the eye: the sky, the ground, and this sphere, whose light is about
+// `back` there. Anything else is a lobe of roughness 1. One place on one sphere stands for all.
+vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_color, float own_metallic, float own_alpha, Lobe lobe, GroundLight ground) {
+  vec3 sum = vec3(0.0);
+  for (int once = surround.mirror_seen < 0.999 ? 1 : 0; once > 0; --once) {  // in software a condition would skip nothing
+    float hidden = 1.0 - surround.mirror_seen;
+    vec3 color = surround.mirror_albedo / hidden, facing = normalize(surround.mirror_facing);
+    vec4 matter = surround.mirror_matter / hidden;
+    float slant = clamp(-dot(surround.mirror, facing), 0.0, 1.0), away = 1.0 - slant, away2 = away * away;
+    color += max(vec3(1.0 - sqrt(sqrt(matter.x))) - color, vec3(0.0)) * (away2 * away2 * away * matter.y);
+    vec3 axis = normalize(mix(facing, surround.mirror + 2.0 * slant * facing, matter.y));
+    // The pixel's width and the surface's roughness, wider by the curvature of what reflects them.
+    float before = exp2((lobe.maps.y / lobe.poles.w - 1.0) * 4.0 * kOctaves), spread = 1.0 + 2.0 * matter.z;
+    float alpha = sqrt(clamp(mix(1.0, before * spread * spread + matter.x, matter.y), 1e-6, 1.0)), cone = kConeWidth * alpha + 0.005;
+    vec3 place = at + surround.mirror * matter.w;
+    float below = surround.soil.is * shareBelow(axis.y, cone), surface = surfaceOf(surround.soil, place);
+    vec3 lifted = axis;
+    lifted.y = mix(axis.y, max(axis.y, kOverGround * cone), surface);
+    float level = clamp(placeOfAlpha(alpha), 0.0, 1.0) * lobe.poles.w;
+    vec3 light = sampleEquirect(specular, equirectUv(lifted) - vec2(sky_turn, 0.0), equirectLookup(level, lobe.poles.y)).rgb;
+    // The ground that it sees, with what it and this sphere hide of that.
+    vec3 foot = place + axis * ((place.y - surround.soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
+    foot.y = surround.soil.height;
+    vec3 own = at - n * radius;
+    float other_radius = matter.w / max(matter.z, 1e-4);
+    vec4 taken = vec4(color, 1.0) * capOnGround(place - facing * other_radius - foot, other_radius) + vec4(own_color, 1.0) * capOnGround(own - foot, radius);
+    light = mix(light, groundRadiance(surround.soil, ground, light, surface, taken, vec2(max(1.0 - taken.w, 0.0))), below);
+    // This sphere.
+    vec3 to = own - place;
+    float distance2 = dot(to, to), distance_to = sqrt(distance2), along = dot(axis, to);
+    float share = mix(discShare(radius, cone * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to),
+                      radius * radius * max(dot(facing, to), 0.0) / (distance2 * distance_to), alpha);
+    float deep = sqrt(max(radius * radius - distance2 + along * along, 0.0)), far = max(along - deep, 0.0);
+    vec3 own_facing = normalize(axis * far - to), again = reflect(axis, own_facing);
+    again = mix(own_facing, again, own_metallic);
+    float wider = mix(1.0, min(alpha * (1.0 + 2.0 * far / radius) + own_alpha, 1.0), own_metallic), under = surround.soil.is * surface * shareBelow(again.y, kConeWidth * wider + 0.005);
+    again.y = mix(again.y, max(again.y, kOverGround * kConeWidth * wider), surface);
+    level = clamp(placeOfAlpha(wider), 0.0, 1.0) * lobe.poles.w;
+    vec3 back = sampleEquirect(specular, equirectUv(again) - vec2(sky_turn, 0.0), equirectLookup(level, lobe.poles.y)).rgb;
+    light = mix(light, mix(back, surround.soil.albedo * (ground.sky + ground.spot + ground.sun), under) * own_color, share);
+#ifdef HAS_BRIGHTEST
+    float half2 = 0.5 + 0.5 * dot(axis, lobe.spot), a2 = min(alpha * alpha + spot_around.w * spot_around.w, 1.0), d = half2 * (a2 - 1.0) + 1.0;
+    float lit = max(dot(facing, lobe.spot), 0.0), metal = a2 / (4.0 * d * d * max(slant, 0.1));
+    light += spot_around.rgb * mix(lit, lit > 0.0 ? metal : 0.0, matter.y);
+#endif
+    sum = light * color * hidden;
+  }
+  return sum;
+}
+#endif
 
 #endif

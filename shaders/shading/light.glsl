@@ -9,7 +9,8 @@
 // read    brdf, irradiance?, specular?, environment?, brightest?   see shading/ibl.glsl; without one its light is missing
 //         probes?, sh?  light that other things throw back, see gi/bounce.glsl
 //         neighbours?   what spheres hide of each other, see neighbours/surround.glsl; the vertex shader says of which row the
-//                       point is: `flat out uint sphere_row`, and with `brightest` `flat out vec4 spot_around`
+//                       point is, and its radius: `flat out uint sphere_row`, `flat out float sphere_radius`, and with `brightest`
+//                       `flat out vec4 spot_around`
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
 //         clusters?, slices?   which lamps reach where, see deferred/clusters.glsl (forward, `clusters` is its `columns`); without
@@ -37,6 +38,7 @@
 #define SEES_NEIGHBOURS 1
 #include "neighbours/surround.glsl"
 flat in uint sphere_row;
+flat in float sphere_radius;
 #else
 #define SEES_NEIGHBOURS 0
 #endif
@@ -90,13 +92,25 @@ void main() {
   Lobe lobe = lobeOf(point.roughness, 0.0);
 #endif
 #if SEES_NEIGHBOURS
-  Surround surround = surroundOf(sphere_row, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, lobe);
+  Surround surround = surroundOf(sphere_row, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, point.surface.albedo, lobe);
+  // Light of the ground where nothing stands, and what is in its place in the environment.
+  vec3 from_above = vec3(0.0), from_below = vec3(0.0);
+#ifdef HAS_IRRADIANCE
+  from_above = sampleEquirect(irradiance, vec2(0.0), vec2(0.0, lobe.poles.z)).rgb;
+  from_below = sampleEquirect(irradiance, vec2(0.0, 1.0), vec2(0.0, lobe.poles.z)).rgb;
+#endif
+  GroundLight on_ground = groundLight(lobe, from_above);
+  vec3 open_ground = mix(from_below, surround.soil.albedo * (on_ground.sky + on_ground.spot + on_ground.sun), surfaceOf(surround.soil, point.at));
 #endif
   // What single scattering reflects of the environment.
   vec3 reflected = vec3(0.0);
 #ifdef HAS_SPECULAR
   float near_spot = dot(point.mirror, lobe.spot), level = min(lobe.maps.y + response.lobe.y * lobe.maps.w, lobe.poles.w);
-  vec2 axis = equirectUv(mix(point.mirror, point.n, response.lobe.x)) - vec2(sky_turn, 0.0);
+  vec3 mirrored = mix(point.mirror, point.n, response.lobe.x);
+#if SEES_NEIGHBOURS
+  mirrored = overGround(surround, mirrored);
+#endif
+  vec2 axis = equirectUv(mirrored) - vec2(sky_turn, 0.0);
   reflected = sampleEquirect(specular, axis, equirectLookup(level, lobe.poles.y)).rgb;
 #ifdef HAS_ENVIRONMENT
   vec3 sharp = sampleEquirect(environment, axis, vec2(lobe.maps.x, lobe.poles.x)).rgb;
@@ -107,12 +121,9 @@ void main() {
   reflected = mix(sharp, reflected, lobe.maps.z);
 #endif
 #if SEES_NEIGHBOURS
-  reflected *= surround.mirror_seen;
-#ifdef HAS_IRRADIANCE
-  vec2 met = equirectUv(surround.mirror_facing) - vec2(sky_turn, 0.0);
-  if (surround.mirror_seen < 0.999)
-    reflected += surround.mirror_albedo * sampleEquirect(irradiance, met, vec2(0.0, lobe.poles.z)).rgb;
-#endif
+  reflected = skyAndGround(surround, on_ground, reflected) * surround.mirror_seen +
+              hiddenLight(surround, point.at, point.n, sphere_radius, point.surface.albedo, point.surface.metallic,
+                          alphaOfRoughness(point.surface.roughness), lobe, on_ground);
 #endif
   reflected *= response.single;
 #ifdef HAS_BRIGHTEST
@@ -142,7 +153,7 @@ void main() {
 #endif
   around = sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), lookup).rgb;
 #if SEES_NEIGHBOURS
-  around = aroundSeen(surround, point.n, lobe, around, sampleEquirect(irradiance, vec2(0.0, 1.0), lookup).rgb);
+  around = aroundSeen(surround, point.n, lobe, around, from_below, open_ground);
 #endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];

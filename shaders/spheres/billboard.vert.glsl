@@ -35,6 +35,7 @@ flat out uint sphere_row;
 #ifdef HAS_BRIGHTEST
 flat out vec4 spot_around;
 #endif
+flat out float sphere_radius;
 #endif
 #ifdef HAS_VELOCITY
 flat out mat3 before_turn;      // x, y and w in last frame's clip space of a direction in view space,
@@ -72,6 +73,7 @@ void main() {
 #ifdef HAS_BRIGHTEST
   spot_around = spotAround();
 #endif
+  sphere_radius = self.radius;
 #endif
   vec3 c = (view * vec4(self.center, 1.0)).xyz;
   float r = self.radius, z = -c.z;

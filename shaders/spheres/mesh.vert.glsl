@@ -19,6 +19,7 @@ flat out uint sphere_row;
 #ifdef HAS_BRIGHTEST
 flat out vec4 spot_around;
 #endif
+flat out float sphere_radius;
 #endif
 out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
@@ -29,6 +30,7 @@ void main() {
 #ifdef HAS_BRIGHTEST
   spot_around = spotAround();
 #endif
+  sphere_radius = self.radius;
 #endif
   from_eye = self.center - eye + self.radius * position;
   outwards = normal;

@@ -19,8 +19,16 @@ struct Entry {
   glm::vec3 center{0};
   float radius = 0;
   float albedo = 0;
-  double left = 0;
+  double left = 0, roughness = 0, metallic = 0;
 };
+
+// Half the share, then whole steps: 128 of roughness for each of metallic.
+void unpack(float matter, Entry& entry) {
+  const double whole = std::floor(double(matter));
+  entry.left = 2 * (double(matter) - whole);
+  entry.metallic = std::floor(whole / 128) / 15;
+  entry.roughness = std::fmod(whole, 128) / 127;
+}
 
 std::vector<Entry> readList(const Picture& lists, std::size_t row) {
   std::vector<Entry> list;
@@ -29,7 +37,8 @@ std::vector<Entry> readList(const Picture& lists, std::size_t row) {
     const auto y = static_cast<std::uint32_t>(row / kAcross + 1);
     const float *ball = lists.at(x, y), *light = lists.at(x + 1, y);
     if (ball[3] <= 0) break;
-    list.push_back({{ball[0], ball[1], ball[2]}, ball[3], light[0], double(light[3])});
+    list.push_back({.center = {ball[0], ball[1], ball[2]}, .radius = ball[3], .albedo = light[0]});
+    unpack(light[3], list.back());
   }
   return list;
 }
@@ -88,7 +97,9 @@ std::vector<Ball> randomBalls(int count, float side, float least, float most, un
   for (int i = 0; i < count; ++i)
     balls.push_back({.center = {place(random), place(random), place(random)},
                      .radius = least * std::pow(most / least, share(random)),
-                     .albedo = glm::vec3(share(random))});
+                     .albedo = glm::vec3(share(random)),
+                     .metallic = share(random),
+                     .roughness = share(random)});
   return balls;
 }
 
@@ -110,7 +121,10 @@ void checkLists(const std::vector<Ball>& balls, std::size_t step, double reach =
         return c.ball->center == entry.center && c.ball->radius == entry.radius;
       });
       const bool fits = same != brute.end() && same->ball->albedo.x == entry.albedo &&
-                        std::abs(same->left - entry.left) < kClose && same->sine < before * (1 + kRounding);
+                        std::abs(same->left - entry.left) < kClose &&
+                        std::abs(double(same->ball->roughness) - entry.roughness) < 0.0041 &&
+                        std::abs(double(same->ball->metallic) - entry.metallic) < 0.0341 &&
+                        same->sine < before * (1 + kRounding);
       fits ? ++matched : ++wrong;
       if (same != brute.end()) before = same->sine;
     }

@@ -1,0 +1,37 @@
+// Metal spheres that reflect one another and a diffuse ground, by paths through the definitions in double precision: GGX,
+// Smith's height-correlated masking, Schlick's Fresnel, what several bounces within a surface add by Kulla and Conty
+// ("Revisiting physically based shading at Imageworks", SIGGRAPH 2017 courses). Paths end in an environment map. Shares
+// nothing with the shaders. Does not: know GL, lamps, or dielectrics.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <random>
+#include <vector>
+
+#include "tests/theory/lab.h"
+#include "tests/theory/neighbours/oracle.h"
+#include "tests/theory/reflection/oracle.h"
+
+namespace weft::theory {
+
+class MetalTracer {
+ public:
+  // Of the setup: balls (all taken for metals), environment and ground. A ground's surface has no end.
+  explicit MetalTracer(const Setup& setup);
+
+  // The sphere that the ray meets first, -1: none. Goes past the ground.
+  int sphereAt(glm::dvec3 from, glm::dvec3 direction) const;
+  // Mean radiance of `paths` paths that begin with this ray.
+  glm::dvec3 radiance(glm::dvec3 from, glm::dvec3 direction, int paths, std::mt19937& random) const;
+
+ private:
+  glm::dvec3 path(glm::dvec3 from, glm::dvec3 direction, std::mt19937& random) const;
+
+  std::vector<Solid> solids_;
+  std::vector<glm::dvec3> colors_;
+  std::vector<ReflectionOracle::Metal> metals_;
+  ReflectionOracle sky_;
+  std::optional<scene::Ground> ground_;
+};
+
+}  // namespace weft::theory
