@@ -1,0 +1,125 @@
+// Highlights out of focus: the few texels far brighter than all around them, of which nothing but the aperture's outline is seen. They are listed for
+// each tile, taken from the fields by dim.comp.glsl, and drawn at full size by draw.frag.glsl (scattering beside gathering; Abadie, "A life of a
+// bokeh", SIGGRAPH 2018). Where a nearer surface may cover part of a disc they stay in the fields, which know what covers what.
+// read    near, far    from split
+//         discs        from split
+//         tiles        from tiles
+//         color        radiance, any sampler
+// write   highlights   see list.glsl, one list a tile; none where a tile has more than fit
+// params  tile         texels of the fields along a tile's side
+//         blades       of the aperture
+//         largest      radius of the largest disc of the far field, pixels of the full picture
+layout(local_size_x = 8, local_size_y = 8) in;
+#include "list.glsl"
+
+uniform sampler2D near, far, discs, tiles, color;
+layout(std430) buffer highlights { TileHighlights lists[]; };
+layout(std140) uniform Parameters {
+  int tile;
+  int blades;
+  float largest;
+};
+
+const float kLeastDisc = 2.9;      // radius in pixels
+const float kContrast = 4.0;       // over the tile's mean
+const float kLeastVisible = 0.05;  // radiance of the disc over the tile's mean
+// Radiance around over that of the highlight: up to the first it is taken whole, from the second on not at all.
+const float kAlone = 0.1, kNotAlone = 0.25;
+const ivec2 kAround[8] = ivec2[8](ivec2(4, 0), ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3));
+
+float greenAt(ivec2 at) {
+  at = clamp(at, ivec2(0), textureSize(far, 0) - 1);
+  return texelFetch(near, at, 0).g + texelFetch(far, at, 0).g;
+}
+
+// The same of a texel and the three above and to the right of it.
+vec4 greenAround(ivec2 at, float reached) {
+  vec2 middle = vec2(at + 1) / vec2(textureSize(far, 0));
+  vec4 green = textureGather(far, middle, 1);
+  return reached > 0.0 ? green + textureGather(near, middle, 1) : green;
+}
+
+// May the disc of something nearer lie over a disc of this radius? In the near field nearer things have larger discs, in the far field smaller ones.
+bool isOverlaid(ivec2 at, float disc) {
+  bool overlaid = false;
+  for (int i = 0; i < 25; ++i) {
+    ivec2 there = clamp(at / tile + ivec2(i % 5, i / 5) - 2, ivec2(0), textureSize(tiles, 0) - 1);
+    float other = texelFetch(tiles, there, 0).r;
+    vec2 away = vec2(max(max(there * tile - at, at - (there + 1) * tile), ivec2(0)));
+    overlaid = overlaid || (other > 1.3 * disc && length(away) < disc + other);
+  }
+  return overlaid;
+}
+bool isCovered(ivec2 at, float disc) {
+  bool covered = false;
+  for (int i = 0; i < 8; ++i) {
+    ivec2 there = clamp(at + ivec2(round(vec2(kAround[i]) * 0.25 * disc)), ivec2(0), textureSize(far, 0) - 1);
+    float share = texelFetch(far, there, 0).a;
+    covered = covered || (share > 0.0 && texelFetch(discs, there, 0).g < 0.75 * disc * share);
+  }
+  return covered;
+}
+
+// The highlight in a texel; `share` 0: there is none.
+Highlight highlightAt(ivec2 at, float mean) {
+  Highlight found = Highlight(vec2(0.0), 0.0, 0.0, vec4(0.0));
+  vec4 before = texelFetch(near, at, 0), behind = texelFetch(far, at, 0);
+  bool is_near = before.g > behind.g;
+  vec2 disc = texelFetch(discs, at, 0).rg;
+  float radius = is_near ? disc.r / max(before.a, 0.25) : disc.g / max(behind.a, 1e-4), around = 0.0, green = before.g + behind.g;
+  if (float(SCALE) * radius < kLeastDisc) return found;
+  for (int i = 0; i < 8; ++i) around = max(around, greenAt(at + kAround[i]));
+  float share = (1.0 - around / green) * (1.0 - smoothstep(kAlone, kNotAlone, around / green));
+  if (share <= 0.0 || (is_near ? isOverlaid(at, radius) : isCovered(at, radius))) return found;
+  radius *= float(SCALE);
+  // Where in the texel the light is, and how far it is spread there: pixels are squares, the one that gives as well as the one that gets. An even slope
+  // must be wider by a seventh to be as steep in its middle as the edge that squares make.
+  vec3 sum = vec3(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < SCALE * SCALE; ++i) {
+    ivec2 pixel = min(at * SCALE + ivec2(i % SCALE, i / SCALE), textureSize(color, 0) - 1);
+    float weight = clamp(texelFetch(color, pixel, 0).g, around, 65504.0) - around + 1e-4;
+    vec2 place = vec2(pixel - at * SCALE) + 0.5;
+    sum += weight * vec3(place, 0.5 * dot(place, place));
+    weights += weight;
+  }
+  sum /= weights;
+  float soft = sqrt(2.67 + 16.0 * max(sum.z - 0.5 * dot(sum.xy, sum.xy), 0.0));
+  vec3 light = (is_near ? before.rgb : behind.rgb) * share * (float(SCALE * SCALE) / areaOf(radius, soft, blades));
+  if (light.g < kLeastVisible * mean) return found;
+  return Highlight(vec2(at * SCALE) + sum.xy, is_near ? -radius : radius, share, vec4(light, soft));
+}
+
+void main() {
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy), grid = textureSize(tiles, 0), size = textureSize(far, 0);
+  if (any(greaterThanEqual(at, grid))) return;
+  ivec2 first = at * tile, end = min(first + tile, size);
+  vec4 sum = vec4(0.0), most = vec4(0.0);
+  float reached = texelFetch(tiles, at, 0).r;  // by discs of the near field
+  // Where no disc can be large enough there is nothing to look for.
+  if (max(float(SCALE) * reached, largest) < kLeastDisc) end.y = first.y;
+  // Four texels at a time: sizes and tiles are even.
+  for (int y = first.y; y < end.y; y += 2)
+    for (int x = first.x; x < end.x; x += 2) {
+      vec4 green = greenAround(ivec2(x, y), reached);
+      sum += green;
+      most = max(most, green);
+    }
+  ivec2 wide = max(end - first, ivec2(1));
+  float mean = (sum.x + sum.y + sum.z + sum.w) / float(wide.x * wide.y);
+  float brightest = max(max(most.x, most.y), max(most.z, most.w));
+  int list = at.y * grid.x + at.x, count = 0;
+  if (brightest <= kContrast * mean) end.y = first.y;
+  for (int y = first.y; y < end.y; y += 2)
+    for (int x = first.x; x < end.x; x += 2) {
+      if (all(lessThanEqual(greenAround(ivec2(x, y), reached), vec4(kContrast * mean)))) continue;
+      for (int i = 0; i < 4; ++i) {
+        ivec2 texel = ivec2(x + (i & 1), y + (i >> 1));
+        if (greenAt(texel) <= kContrast * mean) continue;
+        Highlight found = highlightAt(texel, mean);
+        if (found.share > 0.0 && count < HIGHLIGHTS) lists[list].of[count] = found;
+        count += found.share > 0.0 ? 1 : 0;
+      }
+    }
+  lists[list].count = vec4(count <= HIGHLIGHTS ? float(count) : 0.0);
+}
