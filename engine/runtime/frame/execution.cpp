@@ -18,8 +18,9 @@ std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<con
       preparePlan(device, std::move(plan), before ? &before->prepared_ : nullptr, files, diagnostics);
   if (!prepared) return nullptr;
   std::unique_ptr<Execution> made(new Execution(device, *std::move(prepared)));
-  if (!made->start(before, diagnostics)) return nullptr;
-  return made;
+  if (made->start(before, diagnostics)) return made;
+  if (before) giveBack(made->prepared_, before->prepared_);
+  return nullptr;
 }
 
 Execution::Execution(Device& device, PreparedPlan prepared)
@@ -34,21 +35,25 @@ Execution::Execution(Device& device, PreparedPlan prepared)
       runner_(plan(), device, *prepared_.pool, uniforms_.arena()),
       followsPointer_(readsPointer(plan(), device.imports)) {}
 
-// Goes on where the execution before stopped. Storage moved with the plan; the rest follows by name or storage.
+// Goes on where the execution before stopped. Storage moved with the plan; the rest follows by name or storage. What can
+// fail comes first, and takes nothing that it does not give back.
 bool Execution::start(Execution* before, base::Diagnostics& diagnostics) {
   publications_.listWritten();
-  if (before) {
-    runner_.framebuffers().takeOver(before->runner_.framebuffers(), prepared_.pool->textureNames());
-    uniforms_.takeOver(before->uniforms_);
-  }
-  uniforms_.layOut(variants_.all(), diagnostics);
-  if (!readBack_.prepare(plan(), prepared_.passes, before ? &before->readBack_ : nullptr, diagnostics))
+  if (diagnostics.hasErrors() ||
+      !readBack_.prepare(plan(), prepared_.passes, before ? &before->readBack_ : nullptr, diagnostics))
     return false;
-  if (before) {
-    steps_.takeOver(before->steps_);
-    publications_.takeOver(before->publications_);
+  if (before) uniforms_.takeOver(before->uniforms_);
+  if (!uniforms_.layOut(variants_.all(), diagnostics)) {
+    if (before) uniforms_.giveBack(before->uniforms_);
+    return false;
   }
-  return !diagnostics.hasErrors();
+  // From here on nothing can fail.
+  if (!before) return true;
+  readBack_.takeOver(before->readBack_);
+  runner_.framebuffers().takeOver(before->runner_.framebuffers(), prepared_.pool->textureNames());
+  steps_.takeOver(before->steps_);
+  publications_.takeOver(before->publications_);
+  return true;
 }
 
 FrameReport Execution::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {

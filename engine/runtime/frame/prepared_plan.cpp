@@ -125,17 +125,16 @@ bool Preparation::preparePasses() {
                          *made_.pool, device_.geometries, device_.samplers, refused};
   const std::size_t steps = made_.plan->steps.size();
   made_.passes.resize(steps);
-  std::vector<std::size_t> kept;
   for (std::size_t step = 0; step < steps; ++step) {
     const std::uint32_t old = sameOf(step);
     if (old != graph::kNone && before_->passes[old].variant == variants_[step] &&
         keeper_->isInPlace(step, old, *made_.pool, *before_->pool))
-      kept.push_back(step);
+      made_.taken.push_back({static_cast<std::uint32_t>(step), old});
     else if (!preparePassOf(step, context))
       return false;
   }
-  for (const std::size_t step : kept)
-    made_.passes[step] = keeper_->take(step, sameOf(step), std::move(before_->passes[sameOf(step)]));
+  for (const PreparedPlan::TakenPass& each : made_.taken)
+    made_.passes[each.step] = keeper_->take(each.step, each.before, std::move(before_->passes[each.before]));
   return true;
 }
 
@@ -164,6 +163,13 @@ std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const gr
   PreparedPlan made{.plan = std::move(plan), .pool = nullptr, .passes = {}};
   if (!Preparation(device, made, before, files, diagnostics).run()) return std::nullopt;
   return made;
+}
+
+void giveBack(PreparedPlan& made, PreparedPlan& before) {
+  PassKeeper keeper(*before.plan, *made.plan);
+  for (const PreparedPlan::TakenPass& each : made.taken)
+    before.passes[each.before] = keeper.take(each.before, each.step, std::move(made.passes[each.step]));
+  made.pool->giveBack(*before.pool);
 }
 
 }  // namespace weft::runtime

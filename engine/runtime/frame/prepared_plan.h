@@ -25,6 +25,10 @@ struct PreparedPlan {
   std::vector<PreparedPass>
       passes;  // per step, of the variant that is in use; at first of that which time settles on
   std::uint32_t passesPrepared = 0;  // how many were prepared for this plan; the others were taken over
+  struct TakenPass {
+    std::uint32_t step, before;  // steps of the two plans
+  };
+  std::vector<TakenPass> taken;
 };
 
 // A pass that differs from those of `before` (which may be null) is prepared whole; of an equal pass only what has other
@@ -33,5 +37,8 @@ struct PreparedPlan {
 std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
                                         PreparedPlan* before, ShaderFiles files,
                                         base::Diagnostics& diagnostics);
+
+// Puts what `made` took out of `before` where it was: `made` is not to be used after all. No frame of `made` may have run.
+void giveBack(PreparedPlan& made, PreparedPlan& before);
 
 }  // namespace weft::runtime

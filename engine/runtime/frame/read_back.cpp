@@ -85,7 +85,7 @@ double Output::number(std::size_t index) const {
   return std::bit_cast<float>(bits);
 }
 
-bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
+bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, const ReadBack* before,
                        base::Diagnostics& diagnostics) {
   std::uint64_t total = 0;
   const graph::FlatGraph& graph = *plan.graph;
@@ -107,24 +107,30 @@ bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> pa
     total += (output.bytes.size() + 15) / 16 * 16;
     outputs_.push_back(std::move(output));
   }
-  if (before) before->collect();
-  if (before && std::ranges::equal(outputs_, before->outputs_, sameShape)) {
-    for (std::size_t i = 0; i < outputs_.size(); ++i) before->outputs_[i].kind = outputs_[i].kind;
-    outputs_ = std::move(before->outputs_);
-    ring_ = std::move(before->ring_);
-    next_ = before->next_;
-    before->outputs_.clear();
-    return true;
+  return total == 0 || (before && fits(*before)) || createRing(total, diagnostics);
+}
+
+bool ReadBack::fits(const ReadBack& before) const {
+  return std::ranges::equal(outputs_, before.outputs_, sameShape);
+}
+
+void ReadBack::takeOver(ReadBack& before) {
+  before.collect();
+  if (fits(before)) {
+    for (std::size_t i = 0; i < outputs_.size(); ++i) before.outputs_[i].kind = outputs_[i].kind;
+    outputs_ = std::move(before.outputs_);
+    ring_ = std::move(before.ring_);
+    next_ = before.next_;
+    before.outputs_.clear();
+    return;
   }
-  if (before)
-    for (Output& mine : outputs_)
-      for (const Output& old : before->outputs_)
-        if (sameShape(mine, old)) {
-          const NumberKind kind = mine.kind;
-          mine = old;
-          mine.kind = kind;
-        }
-  return total == 0 || createRing(total, diagnostics);
+  for (Output& mine : outputs_)
+    for (const Output& old : before.outputs_)
+      if (sameShape(mine, old)) {
+        const NumberKind kind = mine.kind;
+        mine = old;
+        mine.kind = kind;
+      }
 }
 
 bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {

@@ -43,10 +43,13 @@ class ReadBack {
   // How many frames can be on their way. Outputs arrive sooner than that many frames later, unless the GPU is further behind.
   static constexpr std::size_t kRing = 4;
 
-  // Takes over the copies that are on their way when the outputs of `before` (which may be null) are the same, else the
-  // values that had arrived of outputs of the same name and shape. False after W117.
-  bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
+  // Finds the outputs of a plan, and makes buffers for them unless those of `before` (which may be null) fit. Takes nothing.
+  // False after W117.
+  bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, const ReadBack* before,
                base::Diagnostics& diagnostics);
+  // Once after prepare() with the same `before`. Takes over its buffers, with the copies that are on their way, when the outputs
+  // are the same; else the values that had arrived of outputs of the same name and shape.
+  void takeOver(ReadBack& before);
   // At the end of a frame, after the plan's last barriers.
   void copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers, std::uint32_t frame,
             base::Diagnostics& diagnostics);
@@ -71,6 +74,7 @@ class ReadBack {
     gl::Fence fence;  // behind the copies of `frame`; none: the slot is free
     std::uint32_t frame = 0;
   };
+  bool fits(const ReadBack& before) const;
   bool createRing(std::uint64_t bytes, base::Diagnostics& diagnostics);
   void copyTexture(const graph::Plan& plan, const graph::FlatUse& use, ResourcePool& pool,
                    FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,

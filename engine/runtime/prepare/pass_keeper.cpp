@@ -88,7 +88,7 @@ const graph::Value* PassKeeper::clearOf(const std::unordered_map<std::uint32_t, 
   return found == clears.end() ? nullptr : found->second;
 }
 
-bool PassKeeper::pairUp(std::size_t step, std::uint32_t old) const {
+bool PassKeeper::pairUp(std::size_t step, std::uint32_t old) {
   pairs_.clear();
   const FlatGraph &mine = *plan_.graph, &theirs = *before_.graph;
   const FlatPass &now = mine.passes[plan_.steps[step].pass], &then = theirs.passes[before_.steps[old].pass];
@@ -105,7 +105,7 @@ bool PassKeeper::pairUp(std::size_t step, std::uint32_t old) const {
   return true;
 }
 
-bool PassKeeper::isSame(std::size_t step, std::uint32_t old) const {
+bool PassKeeper::isSame(std::size_t step, std::uint32_t old) {
   assert(old == stepsBefore_[step]);
   const FlatGraph &mine = *plan_.graph, &theirs = *before_.graph;
   const graph::Step &stepNow = plan_.steps[step], &stepThen = before_.steps[old];
@@ -151,7 +151,7 @@ bool PassKeeper::isInPlace(std::size_t step, std::uint32_t old, ResourcePool& po
   return true;
 }
 
-PreparedPass PassKeeper::take(std::size_t step, std::uint32_t old, PreparedPass prepared) const {
+PreparedPass PassKeeper::take(std::size_t step, std::uint32_t old, PreparedPass prepared) {
   [[maybe_unused]] const bool paired = pairUp(step, old);
   assert(paired && "isSame() held");
   const auto nowOf = [&](std::uint32_t resource) {

@@ -23,22 +23,22 @@ class PassKeeper {
   // The step of the running plan with the name of `step`, or kNone.
   std::uint32_t stepBefore(std::size_t step) const;
   // Whether everything that the program is made of, and is checked against, is the same. `old`: stepBefore(step).
-  bool isSame(std::size_t step, std::uint32_t old) const;
+  bool isSame(std::size_t step, std::uint32_t old);
   // Whether the two steps also use the same storage. isSame() must hold.
   bool isInPlace(std::size_t step, std::uint32_t old, ResourcePool& pool, ResourcePool& poolBefore) const;
   // `prepared` of `old` as that of `step`. isSame() and isInPlace() must hold.
-  PreparedPass take(std::size_t step, std::uint32_t old, PreparedPass prepared) const;
+  PreparedPass take(std::size_t step, std::uint32_t old, PreparedPass prepared);
 
  private:
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // resources: before, now
   const graph::Value* clearOf(const std::unordered_map<std::uint32_t, const graph::Value*>& clears,
                               std::uint32_t resource) const;
   // Fills pairs_. False when one resource before would be two now, or two one.
-  bool pairUp(std::size_t step, std::uint32_t old) const;
+  bool pairUp(std::size_t step, std::uint32_t old);
 
   const graph::Plan &plan_, &before_;
   std::vector<std::uint32_t> stepsBefore_;  // by step; kNone: there is none
-  mutable Pairs pairs_;                     // of one step at a time
+  Pairs pairs_;                             // of the step that pairUp() was last called for
   std::unordered_map<std::uint32_t, const graph::Value*> clears_, clearsBefore_;
 };
 

@@ -11,9 +11,10 @@ void FrameUniforms::takeOver(FrameUniforms& before) {
   arena_.takeOver(before.arena_);
 }
 
-void FrameUniforms::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
-  arena_.layOut(passes, diagnostics);
+bool FrameUniforms::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
+  if (!arena_.layOut(passes, diagnostics)) return false;
   values_.fill(passes, arena_);
+  return true;
 }
 
 void FrameUniforms::refresh(std::span<const PreparedPass> passes,

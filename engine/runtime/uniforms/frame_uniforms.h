@@ -26,8 +26,11 @@ class FrameUniforms {
 
   // Takes over buffer and bytes of the execution before, some of whose passes are laid out next.
   void takeOver(FrameUniforms& before);
-  // Gives the blocks of all prepared passes their places, and writes the values that do not change with time.
-  void layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
+  // Gives the buffer back to `before`, from which it was taken: this is not to be used after all.
+  void giveBack(FrameUniforms& before) { arena_.giveBack(before.arena_); }
+  // Gives the blocks of all prepared passes their places, and writes the values that do not change with time. False when the
+  // buffer cannot be made; see UniformArena::layOut().
+  bool layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
 
   // Writes what changes from frame to frame, the values of age() and the View block, of all passes or of `always` ones only.
   // `passes` per step; `ageOf(resource)` in seconds.

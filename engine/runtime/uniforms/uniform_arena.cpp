@@ -26,6 +26,11 @@ void UniformArena::takeOver(UniformArena& before) {
   changed_ = before.changed_;
 }
 
+void UniformArena::giveBack(UniformArena& before) {
+  before.buffer_ = std::move(buffer_);
+  before.changed_ = true;
+}
+
 std::vector<UniformArena::Place> UniformArena::placesOf(std::span<PreparedPass* const> passes) const {
   std::vector<Place> places;
   const auto add = [&](const gl::Block* block, std::uint32_t& offset) {
@@ -39,7 +44,7 @@ std::vector<UniformArena::Place> UniformArena::placesOf(std::span<PreparedPass* 
   return places;
 }
 
-void UniformArena::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
+bool UniformArena::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
   std::vector<Place> places = placesOf(passes);
   const auto middle = std::ranges::stable_partition(places, [](const Place& place) {
                         return *place.offset != PreparedPass::kNoPlace;
@@ -61,15 +66,20 @@ void UniformArena::layOut(std::span<PreparedPass* const> passes, base::Diagnosti
     if (gap != gaps.end()) gap->bytes -= place.bytes;
     used += place.bytes;
   }
-  const bool grows = end > bytes_.size();
+  const bool grows = end > bytes_.size(), together = grows && end / 2 > used;
+  const std::size_t needed = together ? used : std::max<std::size_t>(end, bytes_.size());
+  bool made = true;
+  if (needed > buffer_.bytes()) {
+    auto buffer = gl::Buffer::create(needed, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
+    made = buffer.has_value();
+    if (made) buffer_ = std::move(*buffer);
+    changed_ = true;
+  }
   if (grows) bytes_.resize(end);
   for (const Place& place : fresh) std::fill_n(bytes_.begin() + *place.offset, place.bytes, std::byte{0});
-  if (grows && end / 2 > used) moveTogether(places);
+  if (together && made) moveTogether(places);
   changed_ |= !fresh.empty();
-  if (bytes_.empty() || (buffer_ && buffer_.bytes() >= bytes_.size())) return;
-  changed_ = true;
-  auto buffer = gl::Buffer::create(bytes_.size(), GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
-  if (buffer) buffer_ = std::move(*buffer);
+  return made;
 }
 
 void UniformArena::moveTogether(std::span<const Place> places) {

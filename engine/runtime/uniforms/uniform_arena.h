@@ -22,10 +22,13 @@ class UniformArena {
 
   // Gives each block of `passes` that has no offset yet the first room that is free, its bytes 0, and makes the buffer
   // large enough. All others keep offset and bytes, except when the buffer must grow though more than half of it would
-  // be free: then blocks move together, with their bytes. Room of passes that are not named is free.
-  void layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
+  // be free: then blocks move together, with their bytes. Room of passes that are not named is free. False when the buffer
+  // cannot be made: blocks that had an offset keep it, and the buffer is the one before, which is too small for the others.
+  bool layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
   // Takes over buffer and bytes of the execution before, some of whose passes are laid out next.
   void takeOver(UniformArena& before);
+  // Gives the buffer back to `before`, from which it was taken; all its bytes will be sent again.
+  void giveBack(UniformArena& before);
 
   // Writes the bytes of one member. `value` must fit it (memberTakes). `block` is the offset of the block.
   void write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value);

@@ -1,8 +1,12 @@
 // A running graph and its file: reordering, changed parameters, resizing, broken files.
+#include <glad/gl.h>
+
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include "tests/runtime/stage.h"
 #include "tests/temporary_folder.h"
@@ -42,6 +46,50 @@ const std::string kScale =
   { "name": "scale", "type": "fullscreen", "shader": "math/scale.frag.glsl", "read": { "source": "sum" }, "write": { "result": "sum" },
     "parameters": { "amount": 10 } })";
 const std::string kTail = R"( ], "present": "sum" })";
+
+// In place of GL's functions, which this process calls through pointers: makes one of the next calls that make or map a
+// buffer fail, as if the device had no memory left.
+class BufferFailure {
+ public:
+  explicit BufferFailure(int callsBefore) {
+    callsBefore_ = callsBefore;
+    hit_ = pending_ = false;
+    storage_ = std::exchange(glad_glNamedBufferStorage, &makeStorage);
+    map_ = std::exchange(glad_glMapNamedBufferRange, &map);
+    error_ = std::exchange(glad_glGetError, &takeError);
+  }
+  ~BufferFailure() {
+    glad_glNamedBufferStorage = storage_;
+    glad_glMapNamedBufferRange = map_;
+    glad_glGetError = error_;
+  }
+  BufferFailure(const BufferFailure&) = delete;
+  BufferFailure& operator=(const BufferFailure&) = delete;
+  bool hit() const { return hit_; }
+
+ private:
+  static bool isNext() {
+    const bool next = callsBefore_-- == 0;
+    hit_ |= next;
+    return next;
+  }
+  static void makeStorage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags) {
+    if (isNext())
+      pending_ = true;
+    else
+      storage_(buffer, size, data, flags);
+  }
+  static void* map(GLuint buffer, GLintptr offset, GLsizeiptr length, GLbitfield access) {
+    return isNext() ? nullptr : map_(buffer, offset, length, access);
+  }
+  static GLenum takeError() { return std::exchange(pending_, false) ? GLenum{GL_OUT_OF_MEMORY} : error_(); }
+
+  static inline int callsBefore_ = 0;
+  static inline bool hit_ = false, pending_ = false;
+  static inline PFNGLNAMEDBUFFERSTORAGEPROC storage_ = nullptr;
+  static inline PFNGLMAPNAMEDBUFFERRANGEPROC map_ = nullptr;
+  static inline PFNGLGETERRORPROC error_ = nullptr;
+};
 
 }  // namespace
 
@@ -179,6 +227,61 @@ TEST_CASE("reload: a broken file or shader leaves the running execution as it is
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run(frame);
   CHECK(stage.value() == 30);
+}
+
+TEST_CASE("reload: buffers that cannot be made leave the running execution as it is") {
+  const CleanScope clean;
+  const TemporaryGraph file;
+  const std::string own = kHead + kAdd + R"( ], "outputs": { "sum": "sum" }, "present": "sum" })";
+  std::string next;
+  int buffers = 0;  // made or mapped
+  SUBCASE("of uniforms") {
+    next = kHead + kAdd + kScale + R"( ], "outputs": { "sum": "sum" }, "present": "sum" })";
+    buffers = 1;
+  }
+  SUBCASE("of uniforms and of read-backs") {
+    next = kHead + kAdd + kScale + R"( ], "outputs": { "sum": "sum", "again": "sum" }, "present": "sum" })";
+    buffers = 1 + 2 * static_cast<int>(runtime::ReadBack::kRing);
+  }
+  file.write(own);
+  Stage stage(file.path());
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  std::uint32_t frame = 0;
+  stage.run(frame++);
+  const auto before = stage.pixels();
+  const runtime::Execution* running = &stage.execution();
+  int refused = 0;
+  for (; refused <= buffers; ++refused) {
+    CAPTURE(refused);
+    file.write(next);
+    bool loaded = false;
+    {
+      const BufferFailure failure(refused);
+      loaded = stage.load();
+      REQUIRE(loaded == !failure.hit());
+    }
+    if (loaded) break;
+    CHECK_MESSAGE(stage.diagnostics.contains(base::Code::bufferNotCreated), stage.diagnostics.text());
+    REQUIRE(&stage.execution() == running);
+    // It runs, its read-backs arrive, and it can be gone on from: all its passes are where they were.
+    stage.run(frame);
+    CHECK(stage.value() == 5);
+    CHECK(stage.pixels() == before);
+    runtime::ReadBack& readBack = stage.execution().readBack();
+    readBack.finish();
+    REQUIRE(readBack.find("sum"));
+    CHECK(readBack.find("sum")->frame == frame++);
+    CHECK(readBack.find("sum")->number(0) == 5);
+    file.write(own);
+    REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+    running = &stage.execution();
+    CHECK(running->passesPrepared() == 0);
+    stage.run(frame++);
+    CHECK(stage.pixels() == before);
+  }
+  CHECK(refused == buffers);
+  stage.run(frame);
+  CHECK(stage.value() == 50);
 }
 
 TEST_CASE("reload: what a shader declares is looked at again when it was edited") {
