@@ -35,6 +35,11 @@ inline bool timerQueriesLie(const DeviceInfo& device) {
 // GL_BUFFER_IMMUTABLE_STORAGE (for textures the flag is true to fact), so Buffer asks glGetError.
 // Mesa 22.3.6, 2026-11-21.
 
+// copies-between-formats-draw: Mesa does glCopyImageSubData by moving bytes where both textures have one format, and
+// else by drawing, whatever formats their views have: 1.0 ms against 0.10 ms for rgba8 of 640x360 on llvmpipe. Nothing is
+// done for it here: every plan gives both textures of an exact copy the format that is copied, if it can
+// (graph/compile/storage.cpp). Mesa 22.3.6, 2026-11-23.
+
 // compiler-messages-twice: Mesa sends every error of a shader's log also as a KHR_debug message of the shader
 // compiler (type error, above notification), besides the log that Program reads and maps. Its messages of
 // type error and other are therefore switched off; those about performance stay. Mesa 22.3.6, 2026-11-21.
