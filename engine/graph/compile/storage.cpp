@@ -172,7 +172,7 @@ class Placer {
  private:
   // A shared texture may have the format of any of its resources; the others are views of it. It has the format of its first
   // resource, or of one that is copied exactly: then the textures of a copy have one format, and the copy is one of equal texels.
-  // Between other formats that are compatible, glCopyImageSubData has to reinterpret them (OpenGL 4.5, 18.3.3).
+  // Between other formats that are compatible, glCopyImageSubData has to reinterpret them (OpenGL 4.5, Copying Between Images).
   void preferCopied() {
     for (const Step& step : plan_.steps) {
       const FlatPass& pass = graph_.passes[step.pass];
