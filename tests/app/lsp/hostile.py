@@ -174,6 +174,31 @@ def check_hints(weft, report, folder):
     editor.end()
 
 
+def check_shader_memory(weft, report, folder):
+    """What is remembered of a shader's texts has a bound: typing in a large one does not take memory without end."""
+    (folder / "shaders").mkdir()
+    words = "".join(f"  x += float(name_{i:0150});\n" for i in range(4000))
+
+    def text(i):
+        return f"// {i}\nout vec4 result;\nvoid main() {{\n  float x = 0.0;\n{words}  result = vec4(x);\n}}\n"
+
+    (folder / "shaders/typed.frag.glsl").write_text(text(0))
+    (folder / "typed.json").write_text('{"resources": {"a": {"texture": "rgba8", "size": 4}}, "passes": [{"name": "p", "type": "fullscreen", '
+                                       '"shader": "typed.frag.glsl", "write": {"result": "a"}}], "present": "a"}')
+    editor = Editor(weft, folder)
+    editor.ask("initialize", {"capabilities": {}, "rootUri": None})
+    editor.open("typed.json")
+    editor.open("shaders/typed.frag.glsl")
+    kilobytes = []
+    for i in range(1, 71):
+        editor.change("shaders/typed.frag.glsl", [(None, text(i))])
+        editor.settle("typed.json")
+        kilobytes.append(int(re.search(r"VmRSS:\s+(\d+) kB", pathlib.Path(f"/proc/{editor.process.pid}/status").read_text())[1]))
+    # Full after about 12 texts of 0.7 MB. From 30 on memory is used again.
+    report.check(kilobytes[-1] - kilobytes[29] < 20_000 * SLOWER, f"40 texts of a shader took {kilobytes[-1] - kilobytes[29]} kB")
+    editor.end()
+
+
 def check_typing(weft, report, folder):
     """A graph as it is typed: its beginning up to any byte has an error at a line of it, a mistake before all else hides no message, and passes below an open comment are known."""
     editor = Editor(weft, folder)
@@ -229,7 +254,7 @@ def check_typing(weft, report, folder):
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     with temporary_folder() as folder:
-        for name, check in (("bounds", check_bounds), ("hints", check_hints), ("typing", check_typing), ("odd", check_hostile)):
+        for name, check in (("bounds", check_bounds), ("hints", check_hints), ("memory", check_shader_memory), ("typing", check_typing), ("odd", check_hostile)):
             pathlib.Path(folder, name).mkdir()
             check(weft, report, pathlib.Path(folder, name).resolve())
     report.end()
