@@ -38,6 +38,11 @@ TEST_CASE("texture formats of other APIs become the one that is meant") {
       {"D32", "depth32f"},
       {"depth", "depth32f"},
       {"D24S8", "depth24_stencil8"},
+      {"RGBAFormat", "rgba8"},
+      {"THREE.RedFormat", "r8"},
+      {"HalfFloatType", "rgba16f"},
+      {"FloatType", "rgba32f"},
+      {"DepthStencilFormat", "depth24_stencil8"},
   };
   for (const auto& [theirs, ours] : kFormats) CHECK_MESSAGE(formatMeantBy(theirs) == ours, theirs);
   for (const char* none : {"", "colour", "rgba12", "texture", "bc7"})

@@ -68,7 +68,7 @@ std::string colorFormat(std::string letters, const std::string& bits, const std:
 std::string formatMeantBy(std::string_view word) {
   std::string text = lowered(word);
   for (const std::string_view prefix :
-       {"dxgi_format_", "vk_format_", "gl_", "mtlpixelformat", "pixelformat.", "format_", "pf_"})
+       {"dxgi_format_", "vk_format_", "gl_", "mtlpixelformat", "pixelformat.", "format_", "pf_", "three."})
     if (text.starts_with(prefix)) text.erase(0, prefix.size());
   constexpr std::pair<std::string_view, std::string_view> kWhole[] = {
       {"d16", "depth16"},
@@ -102,6 +102,20 @@ std::string formatMeantBy(std::string_view word) {
       {"vec4", "rgba32f"},
       {"rgba", "rgba8"},
       {"rgb", "rgba8"},
+      {"rgbaformat", "rgba8"},
+      {"rgbformat", "rgba8"},
+      {"rgformat", "rg8"},
+      {"redformat", "r8"},
+      {"luminanceformat", "r8"},
+      {"alphaformat", "r8"},
+      {"depthformat", "depth32f"},
+      {"depthstencilformat", "depth24_stencil8"},
+      {"unsignedbytetype", "rgba8"},
+      {"halffloattype", "rgba16f"},
+      {"floattype", "rgba32f"},
+      {"srgbcolorspace", "srgb8_a8"},
+      {"f16", "r16f"},
+      {"f32", "r32f"},
       {"argb32", "rgba8"},
       {"srgb", "srgb8_a8"},
       {"srgb8", "srgb8_a8"},

@@ -214,7 +214,8 @@ class RoleScan {
   void addDeclarators(Role role) {
     int nested = 0;
     std::string_view type;
-    bool value = false;  // behind a "="
+    std::string behindType;  // "[4]" in "vec4[4] weights"
+    bool value = false;      // behind a "="
     for (std::size_t i = 0; i < statement_.size(); ++i) {
       const std::string_view word = statement_[i];
       if (role == Role::function) {
@@ -230,13 +231,14 @@ class RoleScan {
       if (value || !isNameText(word) || isQualifier(word) || word == "layout") continue;
       if (type.empty() && i + 1 < statement_.size() && statement_[i + 1] != "," && statement_[i + 1] != "=") {
         type = word;
+        behindType = dimensionsAt(i + 1);
         continue;
       }
       const bool last = i + 1 == statement_.size();
       if (!last && statement_[i + 1] != "," && statement_[i + 1] != "[" && statement_[i + 1] != "=") continue;
       add(word, role);
       if (role == Role::parameter)
-        out_.parameters.push_back({std::string(type) + dimensionsAt(i + 1), std::string(word)});
+        out_.parameters.push_back({std::string(type) + dimensionsAt(i + 1) + behindType, std::string(word)});
       if (role == Role::opaque && type.find("image") != std::string_view::npos) addFormats(word);
     }
   }
@@ -244,9 +246,10 @@ class RoleScan {
   // "[4]" or "[2][3]", or "" where none stand.
   std::string dimensionsAt(std::size_t i) const {
     std::string text;
-    if (i < statement_.size() && statement_[i] == "[")
-      for (; i < statement_.size() && statement_[i] != "," && statement_[i] != "="; ++i)
-        text += statement_[i];
+    for (int nested = 0; i < statement_.size() && (nested > 0 || statement_[i] == "["); ++i) {
+      nested += statement_[i] == "[" ? 1 : statement_[i] == "]" ? -1 : 0;
+      text += statement_[i];
+    }
     return text;
   }
 

@@ -170,32 +170,51 @@ void checkLists(const Stanza& stanza) {
   }
 }
 
+bool names(const Stanza& stanza, const std::string& slot) {
+  return std::ranges::any_of(stanza.desc.slots, [&](const SlotDesc& s) { return s.name == slot; });
+}
+bool isRead(Access access) {
+  return access == Access::read;
+}
+
+// The slot of the type that `slot`, which is none of them, stands for: one of a like name, else the only one of its
+// side that the pass lacks.
+std::string fixedSlotMeantBy(const Stanza& stanza, const SlotDesc& slot) {
+  std::vector<std::string> open, all;
+  for (const FixedSlot& fixed : stanza.type->fixedSlots) {
+    if (names(stanza, fixed.name)) continue;
+    all.push_back(fixed.name);
+    if (isRead(fixed.access) == isRead(slot.access)) open.push_back(fixed.name);
+  }
+  const std::string near = base::nearestName(slot.name, all);
+  return near.empty() && open.size() == 1 ? open[0] : near;
+}
+
 void checkFixedSlots(const Stanza& stanza) {
   const auto& fixed = stanza.type->fixedSlots;
   if (fixed.empty()) return;
-  std::vector<std::string> names;
-  for (const FixedSlot& slot : fixed) names.push_back(slot.name);
-  std::vector<std::string> meant;  // by misspelt ones
+  std::vector<std::string> known;
+  for (const FixedSlot& slot : fixed) known.push_back(slot.name);
+  std::vector<std::string> meant;  // by slots of other names
   for (const SlotDesc& slot : stanza.desc.slots) {
-    const auto found =
-        std::find_if(fixed.begin(), fixed.end(), [&](const FixedSlot& f) { return f.name == slot.name; });
+    const auto found = std::ranges::find(fixed, slot.name, &FixedSlot::name);
     if (found == fixed.end()) {
-      stanza
-          .error(
-              Code::badSlots, slot.place,
-              fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name))
-          .hint = base::nearestHint(slot.name, names);
-      meant.push_back(base::nearestName(slot.name, names));
-    } else if ((slot.access == Access::read) != (found->access == Access::read)) {
+      auto& d = stanza.error(
+          Code::badSlots, slot.place,
+          fmt::format("has the slot '{}', which a {} pass does not have", slot.name, stanza.type->name));
+      const std::string own = fixedSlotMeantBy(stanza, slot);
+      const bool taken = own.empty() || std::ranges::find(meant, own) != meant.end();
+      d.hint = base::nearestHint(slot.name, known);
+      if (!taken && !d.hint.starts_with("did you")) d.hint = fmt::format("call it '{}'", own);
+      if (!taken) meant.push_back(own);
+    } else if (isRead(slot.access) != isRead(found->access)) {
       auto& d = stanza.error(Code::badSlots, slot.place,
                              fmt::format("has the slot '{}' on the wrong side", slot.name));
       d.expected = fmt::format("'{}' in \"{}\"", slot.name, nameOf(found->access));
     }
   }
   for (const FixedSlot& slot : fixed)
-    if (std::find(meant.begin(), meant.end(), slot.name) == meant.end() &&
-        std::none_of(stanza.desc.slots.begin(), stanza.desc.slots.end(),
-                     [&](const SlotDesc& s) { return s.name == slot.name; }))
+    if (!names(stanza, slot.name) && std::ranges::find(meant, slot.name) == meant.end())
       stanza.error(Code::badSlots, stanza.desc.namePlace, fmt::format("lacks the slot '{}'", slot.name))
           .expected = fmt::format("\"{}\": {{ \"{}\": … }}", nameOf(slot.access), slot.name);
 }

@@ -159,11 +159,12 @@ class Evaluator {
 
   std::string hintFor(const Value& operand) { return scope_ ? hintForWord(*scope_, operand) : std::string(); }
 
-  Value misfit(const ExprNode& blamed, std::string message, std::string expected, const Value& operand) {
+  Value misfit(const ExprNode& blamed, std::string message, std::string expected, const Value& operand,
+               std::string hint = {}) {
     if (base::Diagnostic* d = error(Code::operandsDoNotFit, blamed, std::move(message))) {
       d->expected = std::move(expected);
       d->found = describe(operand);
-      d->hint = hintFor(operand);
+      d->hint = hint.empty() ? hintFor(operand) : std::move(hint);
     }
     return {};
   }
@@ -182,7 +183,14 @@ class Evaluator {
     for (const ExprPtr& child : node.children) {
       const Value item = run(*child);
       if (item.type == Value::Type::none) return {};
-      if (!item.isNumeric()) return misfit(*child, "a list holds numbers", "a number", item);
+      const bool nested = item.type == Value::Type::list;
+      if (!item.isNumeric())
+        return misfit(*child, "a list holds numbers", "a number", item,
+                      nested
+                          ? fmt::format("take a part of it, such as 'screen.{0}' or 'size(a).{0}'; or write "
+                                        "the whole without brackets around it",
+                                        "xyzw"[std::min<std::size_t>(out.count, 3)])
+                          : "");
       out.v[out.count++] = item.v[0];
     }
     return out;

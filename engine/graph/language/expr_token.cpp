@@ -56,7 +56,28 @@ Token scanToken(std::string_view text, std::size_t from) {
   return token;
 }
 
+namespace {
+
+// "#ff8000" and "#f80" to "[1, 0.502, 0]": the numbers of the picture file, not linear light. "" for anything else.
+std::string hintForColor(std::string_view text) {
+  const std::size_t digits = text.empty() || text[0] != '#' ? 0 : text.size() - 1;
+  if (digits != 3 && digits != 6 && digits != 8) return {};
+  std::string list;
+  const std::size_t each = digits == 3 ? 1 : 2;
+  for (std::size_t at = 1; at < text.size(); at += each) {
+    unsigned value = 0;
+    const char* const end = text.data() + at + each;
+    const auto [stop, error] = std::from_chars(text.data() + at, end, value, 16);
+    if (error != std::errc() || stop != end) return {};
+    list += fmt::format("{}{:.3g}", list.empty() ? "" : ", ", value / (each == 1 ? 15.0 : 255.0));
+  }
+  return fmt::format("a color is a list of numbers, which Weft takes as they are: [{}]", list);
+}
+
+}  // namespace
+
 std::string hintForSize(std::string_view whole) {
+  if (std::string color = hintForColor(whole); !color.empty()) return color;
   std::string packed(whole);
   std::erase_if(packed, isSpace);
   const std::string_view text = packed;
@@ -89,6 +110,11 @@ std::string hintForSize(std::string_view whole) {
     return fmt::format("write '{}' of what it is a part of: 'screen*{}'", first / 100, first / 100);
   if (rest == "px") return fmt::format("texels have no unit: write {}", first);
   if (rest == "x") return fmt::format("write 'screen*{}'", first);
+  for (const std::string_view unit : {"f", "F", "deg", "rad", "s", "ms", "B", "bytes", "texels", "pixels"})
+    if (rest == unit) return fmt::format("numbers have no unit and no ending: write {}", first);
+  for (const auto& [unit, bytes] :
+       {std::pair{"KB", 1024}, std::pair{"KiB", 1024}, std::pair{"MB", 1 << 20}, std::pair{"MiB", 1 << 20}})
+    if (rest == unit) return fmt::format("sizes of buffers are bytes: write {}*{}", first, bytes);
   if (rest[0] != 'x' && rest[0] != 'X') return {};
   const auto other = std::from_chars(number.ptr + 1, end, second);
   return other.ec == std::errc() && other.ptr == end ? fmt::format("write [{}, {}]", first, second) : "";

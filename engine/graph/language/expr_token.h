@@ -22,7 +22,8 @@ struct Token {
 // hold is `bad`. Never cuts a UTF-8 sequence in half.
 Token scanToken(std::string_view text, std::size_t from);
 
-// What to write for a size in another format's spelling: "50%", "1920x1080", "512px"; "" for anything else.
+// What to write for a size in another format's spelling: "50%", "1920x1080", "512px", and for a number
+// with a unit or a color of the web; "" for anything else.
 std::string hintForSize(std::string_view text);
 
 }  // namespace weft::graph

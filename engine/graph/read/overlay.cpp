@@ -10,6 +10,7 @@
 #include "engine/base/files/text_file.h"
 #include "engine/base/limit_report.h"
 #include "engine/graph/language/enough.h"
+#include "engine/graph/read/misspelt_keys.h"
 #include "engine/graph/read/overlay_apply.h"
 
 namespace weft::graph {
@@ -121,7 +122,9 @@ std::shared_ptr<const std::string> SourceLoader::bytesOf(const std::string& path
 std::shared_ptr<const Source> SourceLoader::text(std::string_view text, const std::string& path) {
   std::optional<JsonValue> root =
       base::parseJson(text, std::make_shared<const std::string>(path), diagnostics_);
-  return root ? complete(*std::move(root), path) : nullptr;
+  if (!root) return nullptr;
+  mendKeys(*root, false, diagnostics_);
+  return complete(*std::move(root), path);
 }
 
 bool SourceLoader::mayCopy(const Source& source, const base::Place& place) {
@@ -238,9 +241,10 @@ bool SourceLoader::extendBy(Source& made, const std::string& path, const JsonVal
 bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValue* written, bool preset) {
   const std::shared_ptr<const std::string> bytes = bytesOf(path, written ? written->place : base::Place{});
   if (!bytes) return false;
-  const std::optional<JsonValue> root =
+  std::optional<JsonValue> root =
       base::parseJson(*bytes, std::make_shared<const std::string>(path), diagnostics_);
   if (!root) return false;
+  mendKeys(*root, true, diagnostics_);
   const auto refuse = [&](Code code, const JsonValue& value, std::string message) -> base::Diagnostic& {
     auto& d = diagnostics_.error(code, value.place, std::move(message));
     d.pointer = value.pointer;

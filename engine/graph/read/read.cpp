@@ -111,24 +111,17 @@ class GraphReader {
 
   // A file of another kind that was given as a graph: one report says what it is and who takes it.
   static bool isOtherFile(const JsonValue& root, ReadContext& context) {
-    struct Other {
-      const char *key, *what, *option;
-    };
-    static constexpr Other kOthers[] = {{"cameras", "a scene", "--scene"},
-                                        {"models", "a scene", "--scene"},
-                                        {"lamp_grids", "a scene", "--scene"}};
     for (const char* own :
          {"passes", "resources", "parameters", "let", "set", "extends", "present", "outputs"})
       if (root.find(own)) return false;
-    for (const Other& other : kOthers)
-      if (root.find(other.key)) {
+    for (const std::string_view key : kSceneKeys)
+      if (root.find(key)) {
         const std::string file = root.place.file ? *root.place.file : "FILE";
-        auto& d = context.error(Code::missingKey, root,
-                                fmt::format("this file has \"{}\" and no \"passes\": it is {}, not a graph",
-                                            other.key, other.what));
+        auto& d = context.error(
+            Code::missingKey, root,
+            fmt::format("this file has \"{}\" and no \"passes\": it is a scene, not a graph", key));
         d.expected = "a graph, with \"passes\"";
-        d.hint =
-            fmt::format("the option {} takes it: weft check GRAPH {} {}", other.option, other.option, file);
+        d.hint = fmt::format("the option --scene takes it: weft check GRAPH --scene {}", file);
         return true;
       }
     return false;

@@ -85,6 +85,8 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
     const std::string nearest = base::nearestName(member.key, known);
     d.hint = hintForUnknown(member.key, known, nearest, foreign);
     meant.push_back(nearest);
+    for (const KeySpec& spec : keys)  // "width" stands for "size"
+      if (d.hint.starts_with(fmt::format("write \"{}\"", spec.key))) meant.emplace_back(spec.key);
   }
   for (const KeySpec& spec : keys) {
     if (!spec.required || object.find(spec.key) ||
@@ -230,7 +232,12 @@ Expr ReadContext::expr(const JsonValue* value, std::string_view what) {
 }
 
 std::optional<RefDesc> ReadContext::ref(const JsonValue* value, std::string_view what) {
-  if (!value || !expect(*value, JsonValue::Type::string, what)) return std::nullopt;
+  if (!value) return std::nullopt;
+  const bool one = value->is(JsonValue::Type::array) && value->items.size() == 1 &&
+                   value->items[0].is(JsonValue::Type::string);
+  if (!expect(*value, JsonValue::Type::string, what,
+              one ? fmt::format("write \"{}\", without brackets", value->items[0].text) : ""))
+    return std::nullopt;
   base::Diagnostics said;
   std::optional<RefDesc> parsed = parseRef(value->text, value->textPlace(), value->pointer, said);
   adopt(said, value->pointer);

@@ -3,6 +3,7 @@
 // silently. Private to engine/graph/read.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ namespace weft::graph {
 
 using base::JsonMember;
 using base::JsonValue;
+
+// Keys by which a file that was given as a graph is known as a scene.
+constexpr std::array<std::string_view, 3> kSceneKeys = {"cameras", "models", "lamp_grids"};
 
 class ReadContext {
  public:

@@ -124,7 +124,8 @@ class PassReader {
     readParameters();
     readDefines();
     readState();
-    return out_.name.empty() ? std::nullopt : std::optional(std::move(out_));
+    // What the pass says with indices that nobody knows is not looked at.
+    return out_.name.empty() || indexless_ ? std::nullopt : std::optional(std::move(out_));
   }
 
   void readWords() {
@@ -183,7 +184,12 @@ class PassReader {
     const JsonValue* repeat = value_.find("repeat");
     if (!repeat) return;
     ReadContext::Seen seen;
-    if (repeat->is(Type::array) && !repeat->items.empty()) {
+    const bool bare = repeat->is(Type::array) && !repeat->items.empty() && !repeat->items[0].is(Type::object);
+    if (bare || !(repeat->is(Type::array) || repeat->is(Type::object))) {
+      indexless_ = true;
+      context_.expect(*repeat, Type::object, "\"repeat\"",
+                      "name the index: \"repeat\": { \"i\": [first, last] }");
+    } else if (repeat->is(Type::array) && !repeat->items.empty()) {
       for (const JsonValue& item : repeat->items) readRanges(item, seen);
     } else {
       readRanges(*repeat, seen);
@@ -211,6 +217,12 @@ class PassReader {
                                  fmt::format("the range of '{}' has the wrong type", member.key));
         d.expected = "[first, last] or [first, last, step]";
         d.found = value.is(Type::array) ? fmt::format("an array of {}", value.items.size()) : describe(value);
+        if (value.is(Type::number) && value.number >= 1)
+          d.hint =
+              fmt::format("for {} times, write \"{}\": [0, {}]", value.number, member.key, value.number - 1);
+        // The index is known all the same.
+        const Expr zero = Expr::constant(Value::number(0), value.place);
+        if (good) out_.repeat.push_back({member.key, member.place, zero, zero, {}});
         continue;
       }
       RangeDesc range;
@@ -326,6 +338,7 @@ class PassReader {
   PassDesc out_;
   ReadContext::Seen names_;  // slots, parameters and defines share one namespace
   bool tooManyIndices_ = false;
+  bool indexless_ = false;  // its "repeat" names no index
 };
 
 }  // namespace

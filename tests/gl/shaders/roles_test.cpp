@@ -88,6 +88,18 @@ TEST_CASE("each name of a shader has the role that its declaration gives it") {
   CHECK(nameOfRole(roles.roles.find("uv")->second) == "an input");
 }
 
+TEST_CASE("sizes of an array stand behind the type, behind the name, or behind both") {
+  const ShaderRoles roles = rolesIn(R"(
+layout(std140) uniform Parameters { vec4[4] weights; float[2] a, b[3]; vec3[N + 1][2] table; vec2 plain; };
+void main() {}
+)",
+                                    {});
+  std::vector<std::string> found;
+  for (const ShaderRoles::Member& member : roles.parameters) found.push_back(member.type + " " + member.name);
+  CHECK(found == std::vector<std::string>{"vec4[4] weights", "float[2] a", "float[3][2] b",
+                                          "vec3[N+1][2] table", "vec2 plain"});
+}
+
 TEST_CASE("a variant knows what its macros make, which branches are taken, and what main() reaches") {
   const ShaderRoles roles = rolesIn(kText, {});
   CHECK(isOnly(roles, "made", Role::opaque));

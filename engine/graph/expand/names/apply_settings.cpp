@@ -117,6 +117,23 @@ struct SetPlace {
   std::string before = {};
 };
 
+// For a name that no parameter has: the pass that gives it a value, and no default. "" when none does.
+std::string hintAtFixedValue(const Model& model, const std::string& wanted) {
+  const std::size_t dot = wanted.rfind('.');
+  const std::string leaf = wanted.substr(dot + 1),
+                    owner = dot == std::string::npos ? "" : wanted.substr(0, dot);
+  for (const Scope& scope : model.scopes)
+    for (const PassDesc& pass : scope.desc->passes) {
+      const auto value = std::ranges::find(pass.parameters, leaf, &PassParameterDesc::name);
+      if (value == pass.parameters.end() || value->declared) continue;
+      if (const std::string name = scope.prefix + pass.name; owner.empty() || hasSuffix(name, owner))
+        return fmt::format(
+            "pass '{}' sets its '{}' and declares no parameter: write {{ \"default\": … }} there", name,
+            leaf);
+    }
+  return {};
+}
+
 // `valueFor(type)` makes the value.
 template <class ValueFor>
 void applySet(Model& model, const std::string& wanted, const SetPlace& origin, const ValueFor& valueFor) {
@@ -137,12 +154,14 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
   if (found.empty()) {
     if (mayBeUnread(origin.scope, wanted)) return;
     names.clear();
-    if (maySuggest(model, model.parameters.size()))
+    const bool few = maySuggest(model, model.parameters.size());
+    if (few)
       for (std::size_t i = 0; i < model.parameters.size(); ++i) add(i);
     auto& d = model.diagnostics.error(Code::unknownParameter, origin.place,
                                       fmt::format("{}no parameter is called '{}'", origin.before, wanted));
     d.pointer = origin.pointer;
-    d.hint = suffixHint(wanted, names);
+    if (few) d.hint = hintAtFixedValue(model, wanted);
+    if (d.hint.empty()) d.hint = suffixHint(wanted, names);
     if (d.hint.empty() && !model.parameters.empty())
       d.hint = fmt::format("'weft params {}' lists what there is", model.scopes.front().desc->path);
     return;

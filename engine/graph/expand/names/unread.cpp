@@ -78,6 +78,22 @@ bool isPicturePath(std::string_view name) {
   return std::ranges::any_of(kPictures, [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
+namespace {
+
+// The resource of this name in a file that is included below, as the scope calls it: "post.ldr". "" when there is none.
+std::string resourceBelow(Model& model, const Scope& scope, std::string_view name) {
+  if (!maySuggest(model, model.scopes.size())) return {};
+  std::string shortest;
+  for (const Scope& each : model.scopes) {
+    if (&each == &scope || !each.prefix.starts_with(scope.prefix) || !each.resources.contains(name)) continue;
+    const std::string found = each.prefix.substr(scope.prefix.size()) + std::string(name);
+    if (shortest.empty() || found.size() < shortest.size()) shortest = found;
+  }
+  return shortest;
+}
+
+}  // namespace
+
 std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
                             bool orPass) {
   if (isPicturePath(name)) {
@@ -104,7 +120,9 @@ std::string hintForResource(Model& model, const Scope& scope, std::string_view n
     if (const std::string near = base::nearestName(name.substr(dot + 1), kSelectors); !near.empty())
       hint =
           fmt::format("did you mean '{}.{}{}'?", name.substr(0, dot), near, near == "stencil" ? "" : "[…]");
-  if (!slot.empty() && scope.resources.contains(slot))
+  if (const std::string below = resourceBelow(model, scope, name); !below.empty())
+    hint = fmt::format("did you mean '{}'?", below);
+  if (!slot.empty() && scope.resources.contains(slot) && !hint.starts_with("did you mean"))
     hint = fmt::format("a slot comes first, then its resource: \"{}\": \"{}\"", name, slot);
   if (findImportType(model.registry, name)) hint = fmt::format("did you mean the import '@{}'?", name);
   for (Scope* outer = scope.parent; outer; outer = outer->parent)
