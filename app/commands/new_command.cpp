@@ -1,5 +1,6 @@
 // weft new pass: a graph with one pass more, and the shader of that pass, both commented.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -18,8 +19,10 @@ namespace weft::app {
 
 namespace {
 
+constexpr std::size_t kLongestName = 64;
+
 bool isPassName(const std::string& name) {
-  return !name.empty() && name.size() <= 64 && std::isalpha(static_cast<unsigned char>(name[0])) &&
+  return !name.empty() && name.size() <= kLongestName && std::isalpha(static_cast<unsigned char>(name[0])) &&
          std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; }) &&
          !graph::isReservedWord(name);
 }
@@ -38,7 +41,7 @@ std::optional<Anchor> findAnchor(const Options& options, const std::string& name
     if (pass.name == name) {
       diagnostics
           .error(base::Code::duplicateName, pass.namePlace, fmt::format("the graph has a pass '{}'", name))
-          .hint = "give the new pass another name";
+          .hint = fmt::format("give the new pass another name, such as 'my_{}'", name);
       return std::nullopt;
     }
   const auto& present = desc->present;
@@ -117,8 +120,15 @@ int runNew(const Options& wanted) {
   const std::string& name = options.name;
   if (!isPassName(name)) {
     base::Diagnostic& d = diagnostics.error(base::Code::notAName, base::placeOfOption("new pass " + name),
-                                            "this is no name for a pass");
-    d.expected = "a letter, then letters, digits and _; no word of the language, such as mip or if";
+                                            fmt::format("\"{}\" cannot name a pass", name));
+    if (graph::isReservedWord(name)) {
+      d.expected =
+          fmt::format("a word that is not reserved; reserved are {}", fmt::join(graph::kReservedWords, ", "));
+      d.hint = fmt::format("choose another, such as 'my_{}'", name);
+    } else {
+      d.expected = fmt::format("a letter, then letters, digits and '_', {} at most", kLongestName);
+      d.found = name.size() > kLongestName ? fmt::format("{} bytes", name.size()) : std::string();
+    }
     return report(diagnostics);
   }
   const auto anchor = findAnchor(options, name, diagnostics);

@@ -146,7 +146,14 @@ void ShaderCheck::checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sou
       continue;  // a shader of one stage, for a draw (W067)
     else if (type->reflect().shader == graph::ShaderShape::draw)
       files = {pass.shader + ".vert.glsl", pass.shader + ".frag.glsl"};
-    for (const std::string& file : files) sources.load(file, diagnostics, pass.shaderPlace);
+    base::Diagnostics said;
+    for (const std::string& file : files) sources.load(file, said, pass.shaderPlace);
+    for (const base::Diagnostic& each :
+         said.items())  // a pass that is like another has its shader from there
+      if (std::ranges::none_of(diagnostics.items(), [&](const base::Diagnostic& d) {
+            return d.code == each.code && base::isSamePlace(d.place.inFile(), each.place.inFile()) && d.message == each.message;
+          }))
+        diagnostics.add(each);
   }
 }
 

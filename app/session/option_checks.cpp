@@ -113,6 +113,17 @@ std::string checkFolder(const std::string& path) {
       std::filesystem::exists(path, ec) ? "expected a folder, found the file" : "there is no folder", path);
 }
 
+std::string checkCacheFolder(const std::string& path) {
+  std::error_code ec;
+  if (path == "none") return "";
+  // The folder itself, or the nearest above it that is there.
+  std::filesystem::path there = path;
+  while (!std::filesystem::exists(there, ec) && there.has_parent_path() && there.parent_path() != there)
+    there = there.parent_path();
+  if (!std::filesystem::exists(there, ec) || std::filesystem::is_directory(there, ec)) return "";
+  return fmt::format("expected a folder, or a name for a new one, found the file '{}'", there.string());
+}
+
 std::string checkSet(const std::string& text) {
   const std::size_t at = text.find('=');
   return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";

@@ -21,9 +21,10 @@ std::string checkSize(const std::string& text);    // "640x360"
 std::string checkFrames(const std::string& text);  // "7" or "0:59"
 std::string checkFrame(const std::string& text);
 std::string checkCount(const std::string& text);
-std::string checkSet(const std::string& text);      // "NAME=VALUE"
-std::string checkPointer(const std::string& text);  // "80,45" or "80,45,down"
-std::string checkFolder(const std::string& path);   // that is there
+std::string checkSet(const std::string& text);          // "NAME=VALUE"
+std::string checkPointer(const std::string& text);      // "80,45" or "80,45,down"
+std::string checkFolder(const std::string& path);       // that is there
+std::string checkCacheFolder(const std::string& path);  // that is there or can be made, or "none"
 // A number within `low` and `high`; what is no number (nan), has no end (inf) or is no double (1e999) is neither.
 CLI::Validator numberFrom(double low, double high);
 

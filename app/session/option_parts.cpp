@@ -54,7 +54,7 @@ void addBackendOptions(CLI::App& command, Options& options) {
   command.add_option("--backend", options.backend, "where OpenGL comes from")
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "glfw"}));
   command.add_option("--program-cache", options.cacheFolder, "folder for program binaries, or 'none'")
-      ->type_name("FOLDER");
+      ->check(CLI::Validator(checkCacheFolder, "FOLDER"));
 }
 
 void addDeviceOptions(CLI::App& command, Options& options) {

@@ -65,7 +65,7 @@ class CaseReader {
   void read(std::vector<TestCase>& cases) {
     const auto text = base::readTextFile(*file_, diagnostics_);
     const auto document = text ? base::parseJson(*text, file_, diagnostics_) : std::nullopt;
-    if (!document) return;
+    if (!document || isGraph(*document)) return;
     JsonFields fields(*document, "the file of cases", Code::outOfRange, diagnostics_);
     fields.require({"cases"});
     fields.find("about");
@@ -83,6 +83,17 @@ class CaseReader {
   }
 
  private:
+  // A graph in the place of cases: one report says what it is.
+  bool isGraph(const JsonValue& document) {
+    if (document.find("cases") || !(document.find("passes") || document.find("extends"))) return false;
+    auto& d =
+        diagnostics_.error(Code::wrongType, document.place, "this file is a graph, not a file of cases");
+    d.expected = "\"cases\": [ { \"name\": …, \"graph\": … }, … ]";
+    d.hint = fmt::format("'weft check {}' checks a graph; cases name graphs, and pictures to compare with",
+                         *file_);
+    return true;
+  }
+
   void readCase(const JsonValue& value, const TestCase& defaults, std::vector<TestCase>& cases) {
     TestCase test = defaults;
     test.place = value.place;

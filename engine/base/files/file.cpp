@@ -93,6 +93,7 @@ std::optional<std::string> readFile(const std::string& path, Diagnostics& diagno
       reportOutside(path, diagnostics, place);
       return std::nullopt;
     case OpenedFile::State::missing:
+      if (path.empty()) return fail("the name is empty", "name a file");
       return fail("no such file", hintForMissing(path));
     case OpenedFile::State::directory:
       return fail("it is a directory", "name a file inside it");

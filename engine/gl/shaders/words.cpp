@@ -151,7 +151,8 @@ std::string fixFor(const SyntaxError& error, const LogMessage& message, const Sh
   const base::Where& place = message.diagnostic.place;
   if (error.token == "end of file" || error.token == "$end") return "a '{' is never closed";
   if (error.expects("end of file") || error.expects("$end"))
-    return fmt::format("one {} too many", error.token);
+    return error.token.starts_with('\'') ? fmt::format("one {} too many", error.token)
+                                         : "it stands outside of all functions: one '}' above it is too many";
   if (place.column == 0 || message.textLine == 0) return {};
   const std::string_view line = lineOf(source.text, message.textLine);
   const std::string_view before = wordBefore(line, place.column);
@@ -248,6 +249,16 @@ void explainNames(base::Diagnostic& d, const ShaderSource& source) {
     d.hint = source.text.find("mainImage") != std::string::npos
                  ? "call it: void main() { mainImage(result, gl_FragCoord.xy); }, with 'out vec4 result;'"
                  : "each shader file has one void main()";
+  } else if (const auto input =
+                 between(raw, "fragment shader input `", "' has no matching output in the previous stage")) {
+    d.message = fmt::format("no shader before the fragment shader writes its input '{}'", *input);
+    d.hint = fmt::format(
+        "a fullscreen pass has one input, 'in vec2 uv;', from 0 to 1; in other passes the vertex "
+        "shader declares and writes 'out … {};'",
+        *input);
+  } else if (raw.starts_with("compute shader must contain a fixed or a variable local group size")) {
+    d.message = "the compute shader does not say how large a group is";
+    d.expected = "layout(local_size_x = 8, local_size_y = 8) in;";
   }
 }
 

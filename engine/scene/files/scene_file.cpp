@@ -45,6 +45,7 @@ class Reader {
     const std::size_t errorsBefore = diagnostics_.errorCount();
     const auto root = base::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
     if (!root) return {};
+    if (isGraph(*root)) return {};
     scene_.files.push_back(name_);
     JsonFields fields(*root, "the scene", Code::badSceneValue, diagnostics_);
     scene_.name = fields.text("name").value_or(std::filesystem::path(name_).stem().string());
@@ -84,6 +85,19 @@ class Reader {
   }
 
  private:
+  // A graph in the place of a scene: one report says what it is.
+  bool isGraph(const JsonValue& root) {
+    for (const char* key : {"passes", "extends"}) {
+      if (!root.find(key)) continue;
+      auto& d =
+          fail(Code::wrongType, root, fmt::format("this file has \"{}\": it is a graph, not a scene", key));
+      d.expected = "a scene, with \"cameras\", \"grid\", \"spheres\", \"models\", \"sun\" or \"lamps\"";
+      d.hint = fmt::format("a graph stands without --scene: weft render {} --scene SCENE", name_);
+      return true;
+    }
+    return false;
+  }
+
   base::Diagnostic& fail(Code code, const JsonValue& value, std::string message) {
     return failAt(diagnostics_, code, value, std::move(message));
   }
@@ -107,9 +121,9 @@ class Reader {
     if (const auto known = libraries_.find(path); known != libraries_.end()) return known->second;
     std::vector<MaterialId>& ids = libraries_[path];
     const auto text = base::readTextFile(path, diagnostics_, Code::unreadableFile, value.place);
-    if (!text) return {};
-    scene_.files.push_back(path);
-    const auto library = assets::readMaterialLibrary(*text, path, diagnostics_);
+    if (text) scene_.files.push_back(path);
+    const auto library = text ? assets::readMaterialLibrary(*text, path, diagnostics_) : std::nullopt;
+    unread_ = unread_ || !library;
     if (!library) return {};
     if (library->materials.empty())
       fail(Code::unknownMaterial, value, fmt::format("the material library '{}' is empty", path));
@@ -152,6 +166,7 @@ class Reader {
     const auto name = base::readText(value, what, diagnostics_);
     if (!name) return {};
     if (const auto found = byName_.find(*name); found != byName_.end()) return found->second;
+    if (unread_) return {};  // it may be one of a library that could not be read
     std::vector<std::string> names;
     for (const auto& [known, id] : byName_) names.push_back(known);
     fail(Code::unknownMaterial, value, fmt::format("unknown material '{}'", *name)).hint =
@@ -296,6 +311,7 @@ class Reader {
   Scene scene_;
   std::map<std::string, MaterialId> byName_;
   std::map<std::string, std::vector<MaterialId>> libraries_;  // by path
+  bool unread_ = false;                                       // one of them could not be read
   SceneModels models_;
 };
 

@@ -212,6 +212,13 @@ CASES = [
     (["dump", GLOW, "*", "-o", ""], 2, None, "--output: expected the name of a folder, found ''"),
     (["new", "pass", "some", "--graph", GLOW, "-o", ""], 2, None, "--output: expected the name of a folder, found ''"),
     (["check", GLOW, "--scene", ""], 2, None, "--scene: expected the name of a file, found ''"),
+    (["check", ""], 1, "W001", ".*", "the name is empty"),
+    (["render", GLOW, "-o", "out.png", "--program-cache", GLOW], 2, None, "--program-cache", "found the file '" + GLOW),
+    (["render", GLOW, "-o", "out.png", "--program-cache", GLOW + "/cache"], 2, None, "--program-cache", "found the file '" + GLOW),
+    # a graph and a scene in each other's place
+    (rendered(GLOW, "--scene", GLOW), 1, "W003", r".*/glow\.json:\d+:\d+", "it is a graph, not a scene"),
+    (["new", "pass", "x", "-o", "made"], 1, "W012", "command line: new pass x", "choose another, such as 'my_x'"),
+    (["new", "pass", "a.b", "-o", "made"], 1, "W012", r"command line: new pass a\.b", "a letter, then letters, digits and '_'"),
     (rendered(GLOW, "--frames", "3:2"), 2, None, "--frames"),
     (rendered(GLOW, "--frames", "-1"), 2, None, "--frames"),
     (rendered(GLOW, "--set", "bloom"), 2, None, "--set"),

@@ -92,6 +92,8 @@ def check_test(weft, report, folder):
 
 def check_mistakes(weft, report, folder):
     """Each mistake in a case file has its place; all are told at once."""
+    graph = run(weft, "test", GLOW)
+    report.check(graph.code == 2 and graph.codes() == ["W003"] and "a graph, not a file of cases" in graph.err, f"a graph: {graph.code} {graph.err}")
     text = """{
   "defaults": { "size": "64x36" },
   "cases": [

@@ -78,6 +78,8 @@ TEST_CASE("tokens of the grammar become what stands there") {
   CHECK(d.hint == "a '{' is never closed");
   d = at("void main() { } }", 17, "'}', expecting end of file");
   CHECK(d.hint == "one '}' too many");
+  d = at("result = x; }", 1, "IDENTIFIER, expecting end of file");
+  CHECK(d.hint == "it stands outside of all functions: one '}' above it is too many");
 }
 
 TEST_CASE("where a macro moves columns no token is made up, and what nobody knows stays as it is") {
@@ -124,6 +126,20 @@ TEST_CASE("undeclared names are reported alike for every driver, with the neares
   const Diagnostic d = only(said(text, mesa(2, 15, "no function with name 'textur'")));
   CHECK(d.message == "there is no function 'textur'");
   CHECK(d.hint == "did you mean 'texture'?");
+}
+
+TEST_CASE("what a program lacks as a whole says what to write") {
+  const std::string text = "in vec2 vUv;\nout vec4 result;\nvoid main() { result = vec4(vUv, uv); }\n";
+  CHECK(only(said(text, mesa(3, 36, "`uv' undeclared"))).hint ==
+        "a fullscreen pass has it from 0 to 1: declare 'in vec2 uv;'");
+  const Diagnostic input =
+      only(said(text, "error: fragment shader input `vUv' has no matching output in the previous stage\n"));
+  CHECK(input.message == "no shader before the fragment shader writes its input 'vUv'");
+  CHECK(input.hint.starts_with("a fullscreen pass has one input, 'in vec2 uv;'"));
+  const Diagnostic group =
+      only(said(text, "error: compute shader must contain a fixed or a variable local group size\n"));
+  CHECK(group.message == "the compute shader does not say how large a group is");
+  CHECK(group.expected == "layout(local_size_x = 8, local_size_y = 8) in;");
 }
 
 TEST_CASE("what only follows from another error is left out, but never the only error") {
