@@ -92,7 +92,7 @@ TEST_CASE("ground: a black sphere leaves of the sky what the integral over the h
     MESSAGE(count, " points, at least ", least, " seen, worst ", worst);
     CHECK(count > 150);
     CHECK(least < 0.88);
-    CHECK(worst < 2.5e-3);
+    CHECK(worst < 1.4e-3);
     CHECK(lab.reports() == "");
   }
 }
@@ -124,8 +124,8 @@ TEST_CASE("ground: spheres leave of the sun's disc what rays to it leave") {
     });
     MESSAGE(degrees, " degrees: ", count, " points, worst ", worst, ", mean ", sum / count);
     CHECK(least == 0);
-    CHECK(worst < 0.06);  // 2000 rays are off by 0.03 now and then
-    CHECK(sum / count < 2e-3);
+    CHECK(worst < (degrees < 5 ? 0.009 : 0.04));  // 2000 rays are off by 0.03 now and then
+    CHECK(sum / count < (degrees < 5 ? 2.7e-5 : 1.6e-4));
   }
 }
 

@@ -105,11 +105,12 @@ TEST_CASE(
     }
     MESSAGE("radius ", other.radius, ": at least ", least, " seen, worst ", worst);
     CHECK(least < 0.93);
-    CHECK(worst < 2e-3);
+    CHECK(worst < 1.1e-3);
   }
 }
 
-TEST_CASE("occlusion: in a grid its mean, with light that goes to and fro, is within 2 % of traced paths") {
+TEST_CASE(
+    "occlusion: in a grid its mean, with light that goes to and fro, is within 0.65 % of traced paths") {
   std::mt19937 random(8);
   const auto sky = [](glm::dvec3 d) { return d.y > 0 ? 1.0 : 0.0; };
   for (const double albedo : {0.2, 0.5, 0.8})
@@ -130,8 +131,8 @@ TEST_CASE("occlusion: in a grid its mean, with light that goes to and fro, is wi
       }
       MESSAGE(std::string(white ? "white" : "half a sky"), ", albedo ", albedo, ": light ", light.error(),
               " off, mean difference ", light.off / light.count, "; seen ", seen.count ? seen.error() : 0);
-      CHECK(std::abs(light.error()) < 0.02);
-      if (seen.count) CHECK(std::abs(seen.error()) < 0.02);
+      CHECK(std::abs(light.error()) < 0.0065);
+      if (seen.count) CHECK(std::abs(seen.error()) < 0.006);
     }
 }
 
@@ -155,8 +156,10 @@ TEST_CASE("occlusion: of a reflected lobe it is that of rays through the lobe") 
             lobes.ours / lobes.count - lobes.truth / lobes.count, " in the mean, a point by ",
             lobes.off / lobes.count);
     CHECK(lobes.truth / lobes.count < 0.9);
-    CHECK(std::abs(lobes.ours - lobes.truth) / lobes.count < 0.045);
-    CHECK(lobes.off / lobes.count < 0.065);
+    CHECK(std::abs(lobes.ours - lobes.truth) / lobes.count < (roughness == 0  ? 3e-4
+                                                              : roughness < 1 ? 0.013
+                                                                              : 0.045));
+    CHECK(lobes.off / lobes.count < (roughness == 0 ? 0.01 : roughness < 0.2 ? 0.017 : 0.065));
   }
 }
 
@@ -180,7 +183,7 @@ TEST_CASE("occlusion: spheres that stand on a ground get its light, and less of 
     MESSAGE("ground of albedo ", albedo, ": light ", all.error(), " off; below ", below.error(),
             ", a point by ", below.off / below.count, " of ", below.truth / below.count);
     CHECK(std::abs(all.error()) < 0.02);
-    CHECK(std::abs(below.error()) < 0.1);
+    CHECK(std::abs(below.error()) < 0.07);
   }
 }
 
@@ -203,6 +206,6 @@ TEST_CASE("occlusion: of the sun it is that of rays to its disc") {
     MESSAGE(degrees, " degrees: seen ", shares.truth / shares.count, ", a point off by ",
             shares.off / shares.count);
     CHECK(shares.truth / shares.count < 0.9);
-    CHECK(shares.off / shares.count < 0.01);
+    CHECK(shares.off / shares.count < (degrees < 1 ? 7e-4 : 0.01));
   }
 }
