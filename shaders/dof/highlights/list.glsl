@@ -5,6 +5,10 @@
 #ifndef DOF_HIGHLIGHTS_GLSL
 #define DOF_HIGHLIGHTS_GLSL
 
+#ifndef HIGHLIGHTS
+#define HIGHLIGHTS 1
+#endif
+
 struct Highlight {
   vec2 middle;   // pixels of the full picture
   float radius;  // of its disc, likewise; negative in the near field
