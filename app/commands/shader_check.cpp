@@ -151,7 +151,8 @@ void ShaderCheck::checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sou
     for (const base::Diagnostic& each :
          said.items())  // a pass that is like another has its shader from there
       if (std::ranges::none_of(diagnostics.items(), [&](const base::Diagnostic& d) {
-            return d.code == each.code && base::isSamePlace(d.place.inFile(), each.place.inFile()) && d.message == each.message;
+            return d.code == each.code && base::isSamePlace(d.place.inFile(), each.place.inFile()) &&
+                   d.message == each.message;
           }))
         diagnostics.add(each);
   }

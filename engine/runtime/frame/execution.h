@@ -32,7 +32,8 @@ struct FrameReport {
 
 class Execution {
  public:
-  // Prepares `plan`, see preparePlan(). Null after errors; then `before` is as it was. Otherwise `before` (which may be null) has given up its storage and must not run again.
+  // Prepares `plan`, see preparePlan(). Null after errors; then `before` is as it was. Otherwise `before` (which may be
+  // null) has given up its storage and must not run again.
   static std::unique_ptr<Execution> create(Device& device, std::shared_ptr<const graph::Plan> plan,
                                            Execution* before, ShaderFiles files,
                                            base::Diagnostics& diagnostics);
