@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`weft explain`, `weft diff` and `weft expand` on every bundled graph: an expanded graph gives the same plan, differs in nothing from
-itself, and every pass and resource of a plan can be explained.
+itself, and every pass and resource of a plan can be explained. Buffers fit a storage block of every device, also in large pictures.
 
     plans.py WEFT
 """
@@ -88,6 +88,19 @@ def check_diff(weft, report):
     report.check(broken.code == 2 and broken.codes() == ["W040"], f"{broken.code}\n{broken.err}")
 
 
+LEAST_BLOCK = 1 << 27  # bytes: what GL_MAX_SHADER_STORAGE_BLOCK_SIZE is at least (OpenGL 4.5, Implementation Dependent Values)
+
+
+def check_buffers(weft, report):
+    """The lists of highlights grow with the picture, and the most where discs, and so tiles, are small."""
+    for size in ("3840x2160", "7680x4320", "8192x8192"):
+        for radius in (8, 9, 13, 32):
+            settings = ["--size", size, "--set", "dof=true", "--set", f"largest_bokeh={radius}"]
+            plan = plan_of(weft, "graphs/studio.json", *settings)
+            buffers = {r["name"]: r["bytes"] for r in plan["resources"] if "offset" in r}
+            report.check("post.dof.highlights" in buffers and max(buffers.values()) <= LEAST_BLOCK, f"{settings}: {buffers}")
+
+
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
     with temporary_folder() as folder:
@@ -95,6 +108,7 @@ def main():
             check_expand(weft, report, graph, arguments, folder)
             check_explain(weft, report, graph, arguments)
     check_diff(weft, report)
+    check_buffers(weft, report)
     report.end()
 
 
