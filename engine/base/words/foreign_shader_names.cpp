@@ -1,17 +1,10 @@
 #include "engine/base/words/foreign_shader_names.h"
 
-#include <algorithm>
-#include <iterator>
-
 namespace weft::base {
 
 namespace {
 
-struct Name {
-  std::string_view theirs, hint;
-};
-
-constexpr Name kNames[] = {
+constexpr ForeignWord kNames[] = {
     {"float2", "GLSL says 'vec2'"},
     {"float3", "GLSL says 'vec3'"},
     {"float4", "GLSL says 'vec4'"},
@@ -216,9 +209,8 @@ constexpr Name kNames[] = {
 
 }  // namespace
 
-std::string hintForShaderName(std::string_view name) {
-  const auto found = std::ranges::find(kNames, name, &Name::theirs);
-  return found == std::end(kNames) ? std::string() : std::string(found->hint);
+std::span<const ForeignWord> foreignShaderNames() {
+  return kNames;
 }
 
 }  // namespace weft::base

@@ -14,11 +14,7 @@ namespace weft::base {
 
 namespace {
 
-struct Word {
-  std::string_view theirs, hint;
-};
-
-constexpr Word kPassKeys[] = {
+constexpr ForeignWord kPassKeys[] = {
     {"inputs", "slots that are read stand in \"read\""},
     {"input", "slots that are read stand in \"read\""},
     {"reads", "slots that are read stand in \"read\""},
@@ -77,7 +73,7 @@ constexpr Word kPassKeys[] = {
     {"depends", "order follows from what passes read and write, and from their place in the list"},
     {"dependencies", "order follows from what passes read and write, and from their place in the list"},
 };
-constexpr Word kTextureKeys[] = {
+constexpr ForeignWord kTextureKeys[] = {
     {"format", "the format is the value of \"texture\""},
     {"width", "write \"size\": [width, height]"},
     {"height", "write \"size\": [width, height]"},
@@ -98,7 +94,7 @@ constexpr Word kTextureKeys[] = {
     {"usage", "leave it out: how passes use a texture says all"},
     {"clear_value", "write \"clear\""},
 };
-constexpr Word kGraphKeys[] = {
+constexpr ForeignWord kGraphKeys[] = {
     {"textures", "textures and buffers stand in \"resources\""},
     {"buffers", "textures and buffers stand in \"resources\""},
     {"images", "textures and buffers stand in \"resources\""},
@@ -115,7 +111,7 @@ constexpr Word kGraphKeys[] = {
     {"screen", "what is shown stands in \"present\""},
     {"backbuffer", "what is shown stands in \"present\""},
 };
-constexpr Word kStateWords[] = {
+constexpr ForeignWord kStateWords[] = {
     {"lequal", "write 'less_equal'"},
     {"gequal", "write 'greater_equal'"},
     {"notequal", "write 'not_equal'"},
@@ -178,7 +174,7 @@ constexpr Word kStateWords[] = {
     {"premultipliedalpha", "write 'premultiplied'"},
     {"solid", "write 'fill'"},
 };
-constexpr Word kStateKeys[] = {
+constexpr ForeignWord kStateKeys[] = {
     {"transparent", "write \"blend\": \"alpha\""},
     {"blending", "write \"blend\": \"add\""},
     {"blendmode", "write \"blend\": \"add\""},
@@ -202,7 +198,7 @@ constexpr Word kStateKeys[] = {
     {"color_mask", "there is none: write fewer outputs, or combine them in the shader"},
     {"stencil", "there is no stencil test: a shader can read 'depth.stencil' and discard"},
 };
-constexpr Word kValueTypes[] = {
+constexpr ForeignWord kValueTypes[] = {
     {"float1", "write \"float\""},
     {"number", "write \"float\""},
     {"double", "write \"float\""},
@@ -229,7 +225,7 @@ constexpr Word kValueTypes[] = {
     {"slider", "write \"float\", and the range with \"min\" and \"max\""},
     {"texture", "write \"file\" for the path of one that an import reads"},
 };
-constexpr Word kValueKeys[] = {
+constexpr ForeignWord kValueKeys[] = {
     {"value", "write \"default\""},
     {"initial", "write \"default\""},
     {"range", "write \"min\" and \"max\""},
@@ -243,7 +239,7 @@ constexpr Word kValueKeys[] = {
     {"description", "write \"doc\""},
     {"tooltip", "write \"doc\""},
 };
-constexpr Word kSampling[] = {
+constexpr ForeignWord kSampling[] = {
     {"repeat", "write 'wrap'"},
     {"tile", "write 'wrap'"},
     {"point", "write 'nearest'"},
@@ -271,7 +267,7 @@ constexpr Word kSampling[] = {
     {"ssbo", "write 'storage'"},
     {"ubo", "write 'uniform'"},
 };
-constexpr Word kExpressions[] = {
+constexpr ForeignWord kExpressions[] = {
     {"round", "write 'floor(a + 0.5)'"},
     {"clamp", "write 'min(max(a, low), high)'"},
     {"saturate", "write 'min(max(a, 0), 1)'"},
@@ -312,7 +308,7 @@ constexpr Word kExpressions[] = {
     {"vec4", "write a list: '[a, b, c, d]'"},
 };
 // Named as a value, a variable or an import.
-constexpr Word kForeignValues[] = {
+constexpr ForeignWord kForeignValues[] = {
     {"time", "a graph knows no time; a shader does: #include \"common/view.glsl\" has 'time'"},
     {"now", "a graph knows no time; a shader does: #include \"common/view.glsl\" has 'time'"},
     {"seconds", "a graph knows no time; a shader does: #include \"common/view.glsl\" has 'time'"},
@@ -331,7 +327,7 @@ constexpr Word kForeignValues[] = {
     {"sound", "there is none: give a picture of the sound to \"import\": \"image\""},
     {"pi", "write 3.14159265"},
 };
-constexpr Word kImportTypes[] = {
+constexpr ForeignWord kImportTypes[] = {
     {"texture", "write \"import\": \"image\""},
     {"picture", "write \"import\": \"image\""},
     {"bitmap", "write \"import\": \"image\""},
@@ -342,7 +338,7 @@ constexpr Word kImportTypes[] = {
     {"cubemap", "write \"import\": \"environment\""},
     {"lut", "write \"import\": \"cube_lut\""},
 };
-std::span<const Word> wordsOf(Foreign where) {
+std::span<const ForeignWord> wordsOf(Foreign where) {
   switch (where) {
     case Foreign::pass_key:
       return kPassKeys;
@@ -363,7 +359,7 @@ std::span<const Word> wordsOf(Foreign where) {
     case Foreign::state_key:
       return kStateKeys;
     case Foreign::shader_name:
-      break;
+      return foreignShaderNames();
     case Foreign::value:
       return kForeignValues;
     case Foreign::import_type:
@@ -375,8 +371,8 @@ std::span<const Word> wordsOf(Foreign where) {
 }  // namespace
 
 std::string hintForForeign(Foreign where, std::string_view word) {
-  if (where == Foreign::shader_name) return hintForShaderName(word);
-  std::string wanted = lowered(word);
+  std::string wanted =
+      where == Foreign::shader_name ? std::string(word) : lowered(word);  // GLSL tells cases apart
   if (where == Foreign::value_type)
     wanted.resize(std::min(wanted.find('('), wanted.size()));  // "Range(0, 1)"
   if (where == Foreign::state_word) {
@@ -386,7 +382,7 @@ std::string hintForForeign(Foreign where, std::string_view word) {
       if (wanted.starts_with(prefix)) wanted.erase(0, prefix.size());
     std::erase_if(wanted, [](char c) { return c == '_' || c == '-' || c == ' '; });
   }
-  for (const Word& known : wordsOf(where))
+  for (const ForeignWord& known : wordsOf(where))
     if (known.theirs == wanted) return std::string(known.hint);
   return {};
 }
