@@ -1,4 +1,5 @@
-// GL things that outlive a plan: programs, samplers, geometries, pass types, what graphs import, timers.
+// What outlives a plan on one GL context: programs, samplers, geometries, pass types, what graphs import, timers.
+// Does not: own the context.
 #pragma once
 
 #include <string>
@@ -22,7 +23,7 @@ struct Device {
   gl::Context& context;
   gl::SourceLoader sources;
   gl::ProgramCache programs;
-  RoleCache roles;  // of the sources of programs
+  RoleCache roles;  // what the names in shader sources are
   SamplerCache samplers;
   passes::Geometries geometries;
   const PlugIns plugIns;

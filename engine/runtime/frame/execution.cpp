@@ -35,8 +35,8 @@ Execution::Execution(Device& device, PreparedPlan prepared)
       runner_(plan(), device, *prepared_.pool, uniforms_.arena()),
       followsPointer_(readsPointer(plan(), device.imports)) {}
 
-// Goes on where the execution before stopped. Storage moved with the plan; the rest follows by name or storage. What can
-// fail comes first, and takes nothing that it does not give back.
+// Goes on where the execution before stopped. Its storage is in prepared_ already; the rest is found by name or storage.
+// The steps that can fail come first; after a failure they give back what they took.
 bool Execution::start(Execution* before, base::Diagnostics& diagnostics) {
   publications_.listWritten();
   if (diagnostics.hasErrors() ||
@@ -89,8 +89,8 @@ void Execution::publishFinished(base::Diagnostics& diagnostics) {
   if (aged) chooseVariants(false, diagnostics);
 }
 
-// Every time-sliced group that has something to do does all of it before the frame. A group may wait for what another
-// publishes, so at most as many rounds as there are groups.
+// Before a headless frame, every time-sliced group that has work does all of it. A group may wait for what another
+// publishes, so there are at most as many rounds as groups.
 void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
   bool any = false;
   for (std::size_t round = 0; round < plan().groups.sliced.size(); ++round) {
@@ -106,7 +106,7 @@ void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
   refreshUniforms(false);
 }
 
-// What the steps of the frame publish is new to all that runs in it.
+// All steps of the frame see what its steps will publish as new, of age 0.
 void Execution::chooseSteps(base::Diagnostics& diagnostics) {
   steps_.choose(publications_.generations());
   if (!publications_.announce()) return;
@@ -115,7 +115,7 @@ void Execution::chooseSteps(base::Diagnostics& diagnostics) {
   refreshUniforms(true);
 }
 
-// Barriers are issued of skipped steps too, see plan.h.
+// Skipped steps issue their barriers too, see plan.h.
 void Execution::runSteps(const StepWatch& watch, FrameReport& report, base::Diagnostics& diagnostics) {
   std::vector<PreparedPass>& passes = prepared_.passes;
   publications_.beginRound();
@@ -123,7 +123,7 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, base::Diag
     if (steps_.runs(step)) uniforms_.setSlices(passes[step], steps_.slices(step));
   lookAtMeshes();
   uniforms_.upload();
-  // Before any step: a pass that reads x@-1 may stand before the one that writes x.
+  // Publishes before any step runs, because a pass that reads x@-1 may stand before the pass that writes x.
   for (std::size_t step = 0; step < passes.size(); ++step)
     if (steps_.runs(step)) publications_.publishWritten(passes[step]);
   for (std::size_t step = 0; step < passes.size(); ++step) {
@@ -173,7 +173,7 @@ void Execution::refreshUniforms(bool alwaysOnly) {
   uniforms_.refresh(prepared_.passes, publications_.ages(), alwaysOnly);
 }
 
-// What the views of all passes that will draw meshes see of them.
+// Finds what the views of all passes that draw meshes in this round see of the meshes.
 void Execution::lookAtMeshes() {
   meshViews_.clear();
   for (std::size_t step = 0; step < prepared_.passes.size(); ++step) {

@@ -32,8 +32,8 @@ struct FrameReport {
 
 class Execution {
  public:
-  // Prepares `plan`, see preparePlan(). Null after errors; then `before` is as it was. Otherwise `before` (which may be
-  // null) has given up its storage and must not run again.
+  // Prepares `plan`, see preparePlan(). Null after errors; then `before` is as it was. Otherwise `before` (which may be null)
+  // has given up its storage and must not run again.
   static std::unique_ptr<Execution> create(Device& device, std::shared_ptr<const graph::Plan> plan,
                                            Execution* before, ShaderFiles files,
                                            base::Diagnostics& diagnostics);
@@ -43,10 +43,11 @@ class Execution {
   const graph::Plan& plan() const { return *prepared_.plan; }
   // How many passes were prepared for this plan; the others were taken over.
   std::uint32_t passesPrepared() const { return prepared_.passesPrepared; }
-  // The parameters, live ones of which can be set between two frames.
+  // The parameters. Live ones can be set between two frames.
   FrameUniforms& uniforms() { return uniforms_; }
   const FrameUniforms& uniforms() const { return uniforms_; }
-  // The graph's live "outputs", with the latest values that have arrived, of a frame or a few ago. frame() renews them.
+  // The graph's live "outputs" with the latest values that have arrived, which are one or a few frames old. frame() renews
+  // them.
   ReadBack& readBack() { return readBack_; }
   const ReadBack& readBack() const { return readBack_; }
   // What ran in the last frame, per step and by the name of a pass.
@@ -56,7 +57,8 @@ class Execution {
   // Whether a frame may depend on the frames before it: by a live history, or by results that are kept and were made of
   // something that moves. If not, headless frame n may be the first to run.
   bool remembers(const World& world) const;
-  // Whether a draw list that it draws can stand elsewhere in another frame of the world of the last one, in view or not.
+  // Whether anything in the draw lists that are drawn can have another place in another frame of the last frame's world, in
+  // view or not.
   bool drawsMotion() const;
   // Whether a pass reads an import that follows the mouse.
   bool followsPointer() const { return followsPointer_; }

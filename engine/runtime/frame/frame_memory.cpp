@@ -10,7 +10,7 @@ namespace weft::runtime {
 
 namespace {
 
-// Every resource whose age the folded expression asks, also in branches that are not taken.
+// Visits every resource whose age the folded expression asks for, also in branches that are not taken.
 void forEachAge(const graph::ExprNode& node, const std::function<void(std::uint32_t)>& visit) {
   if (node.op == graph::ExprOp::age_key) visit(node.key);
   for (const auto& child : node.children) forEachAge(*child, visit);
@@ -21,7 +21,7 @@ void forEachAge(const graph::ExprNode& node, const std::function<void(std::uint3
 bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> passes, Imports& imports,
                      const World& world) {
   const graph::FlatGraph& graph = *plan.graph;
-  // What only passes that are not `always` write, and imports that are still.
+  // Still are resources that only passes that are not `always` write, and imports that do not change.
   std::vector<std::uint8_t> still(graph.resources.size(), 1);
   for (std::size_t r = 0; r < still.size(); ++r)
     if (const std::uint32_t import = graph.resources[r].import; import != graph::kNone)
@@ -36,7 +36,7 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
     for (const graph::FlatUse& use : usesOf(step))
       if (use.access != graph::Access::read && passOf(step).cadence == graph::Cadence::always)
         still[use.resource] = 0;
-  // What stays was published before the first frame and never again, so its history is the same in every frame.
+  // What is still was published before the first frame and never again, so its history is the same in every frame.
   for (std::size_t step = 0; step < passes.size(); ++step)
     for (const graph::FlatUse& use : usesOf(step))
       if (use.history > 0 && !still[use.resource]) return true;
@@ -65,7 +65,7 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
     for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) look(uniform.dynamic);
     if (unsteady) return true;
     if (passOf(step).cadence == graph::Cadence::always) continue;
-    // A result that is kept must be made of what stays; otherwise it matters in which frame it was made.
+    // A result that is kept must be made of what is still; otherwise it matters in which frame it was made.
     if (std::ranges::any_of(usesOf(step), [&](const graph::FlatUse& use) { return !still[use.resource]; }))
       return true;
     if (pass.meshes

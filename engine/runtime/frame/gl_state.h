@@ -9,13 +9,13 @@ namespace weft::runtime {
 void applyState(const PreparedPass& pass, gl::StateCache& states);
 // Confines rendering to the rows of the pass's slices; off for a pass that runs whole.
 void scissorTo(const PreparedPass& pass, gl::StateCache& states);
-// What clears and blits rely on: every mask open, scissor off.
+// Opens every mask and turns the scissor off, as clears and blits need it.
 void openMasks(gl::StateCache& states);
-// The same outside the frame loop, where nothing is known of the state.
+// The same outside the frame loop, where the GL state is not known.
 void openMasks();
 
-// Framebuffer 0 bound for drawing and reading, and no program, vertex array, texture or sampler in unit 0: where a library
-// that draws over the picture starts, so that what it puts back afterwards is nothing that a reload may have deleted.
+// Binds framebuffer 0 for drawing and reading, and no program, vertex array, or texture and sampler in unit 0. A library that
+// draws over the picture starts from there, so that it puts back nothing afterwards that a reload may have deleted.
 void releaseBindings();
 
 }  // namespace weft::runtime

@@ -22,15 +22,15 @@ void appendWithPlaces(const base::Diagnostics& said, const Place& place, base::D
   }
 }
 
-// Where the first resource of a storage is declared. `label` has the names of all resources that share it, "a | b". Nowhere
-// for a graph without places.
+// Where the first resource of a storage is declared. `label` has the names of all resources that share it, "a | b". The place
+// is unknown for a graph without places.
 base::Place placeOfResource(const graph::FlatGraph& graph, const std::string& label) {
   const auto named = std::ranges::find(graph.resourceNames, label.substr(0, label.find(" | ")));
   const auto at = static_cast<std::size_t>(named - graph.resourceNames.begin());
   return at < graph.resourcePlaces.size() ? graph.resourcePlaces[at] : base::Place{};
 }
 
-// One preparation: beside a plan that runs, if there is one.
+// Prepares one plan, beside a running one if there is one.
 class Preparation {
  public:
   Preparation(Device& device, PreparedPlan& made, PreparedPlan* before, ShaderFiles files,
@@ -38,7 +38,8 @@ class Preparation {
       : device_(device), made_(made), before_(before), files_(files), diagnostics_(diagnostics) {
     if (before) findSame();
   }
-  // What fails must cost the running plan nothing: programs come first, then storage, which goes back.
+  // A failure must leave the running plan as it was. So programs come first, which take nothing; after a later failure the
+  // storage goes back.
   bool run() {
     if (!findVariants() || !createPool()) return false;
     if (preparePasses()) return true;

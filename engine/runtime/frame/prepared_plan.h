@@ -22,8 +22,7 @@ enum class ShaderFiles : std::uint8_t { read, keep };
 struct PreparedPlan {
   std::shared_ptr<const graph::Plan> plan;
   std::unique_ptr<ResourcePool> pool;
-  std::vector<PreparedPass>
-      passes;  // per step, of the variant that is in use; at first of that which time settles on
+  std::vector<PreparedPass> passes;  // per step, of the variant in use; at first the one for large ages
   std::uint32_t passesPrepared = 0;  // how many were prepared for this plan; the others were taken over
   struct TakenPass {
     std::uint32_t step, before;  // steps of the two plans

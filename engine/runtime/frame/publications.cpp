@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-// Where somebody wrote the name of `file`, or of the sequence that it is of: the value of a parameter that the import has as an
-// argument, such as that of --set; else the import itself.
+// Where the author wrote the name of `file`, or of the sequence that has it: the value of a parameter that is an argument of the
+// import, such as that of --set; else the import itself.
 base::Where placeOfFile(const graph::FlatGraph& graph, const graph::ImportSpec& import,
                         const std::string& file) {
   base::Where place = import.place;
@@ -98,7 +98,8 @@ void Publications::holdFading() {
   }
 }
 
-// If a resource were published again while a pass fades from its contents before, the picture would jump.
+// Holds the passes that publish a resource. If they published it again while a pass fades from its contents before, the
+// picture would jump.
 void Publications::hold(std::uint32_t r) {
   const bool import = plan_.graph->resources[r].import != kNone;
   const bool shown = import ? imports_.publications(importOf(r)) > 0 : pool_[r].publications > 0;
@@ -219,7 +220,7 @@ void Publications::beginRound() {
   std::fill(turned_.begin(), turned_.end(), std::uint8_t{0});
 }
 
-// What a time-sliced group writes does not turn here; it turns when the group publishes.
+// The history of what a time-sliced group writes does not rotate here; it rotates when the group publishes.
 void Publications::publishWritten(const PreparedPass& pass) {
   for (const std::uint32_t r : pass.written) {
     if (pool_[r].group != kNone) continue;
@@ -242,8 +243,8 @@ void Publications::releaseImports() {
   }
 }
 
-// What is not published yet has the age 0, because it is about to be; in a headless run, which publishes everything before
-// its frame 0, its age is infinite. So is the age of what no live pass writes, which is never published.
+// A resource that is not published yet has the age 0, because it will be soon. In a headless run, which publishes everything
+// before its frame 0, its age is infinite. A resource that no live pass writes is never published, so its age is infinite too.
 double Publications::ageOf(std::uint32_t r) const {
   if (!made_[r]) return kForever;
   const GpuResource& resource = pool_[r];

@@ -55,7 +55,7 @@ bool sameShape(const Output& a, const Output& b) {
          a.bytes.size() == b.bytes.size();
 }
 
-// For glReadPixels: as many channels as the format has, as numbers of 32 bits.
+// What glReadPixels gets: as many channels as the format has, as numbers of 32 bits.
 struct Client {
   GLenum format = GL_RGBA, type = GL_FLOAT, point = GL_COLOR_ATTACHMENT0;
 };

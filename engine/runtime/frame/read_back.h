@@ -40,17 +40,18 @@ struct Output {
 
 class ReadBack {
  public:
-  // How many frames can be on their way. Outputs arrive sooner than that many frames later, unless the GPU is further behind.
+  // The copies of so many frames can be on their way. Outputs arrive fewer frames later than that, unless the GPU is further
+  // behind.
   static constexpr std::size_t kRing = 4;
 
   // Finds the outputs of a plan, and makes buffers for them unless those of `before` (which may be null) fit. Takes nothing.
   // False after W117.
   bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, const ReadBack* before,
                base::Diagnostics& diagnostics);
-  // Once after prepare() with the same `before`. Takes over its buffers, with the copies that are on their way, when the outputs
-  // are the same; else the values that had arrived of outputs of the same name and shape.
+  // To be called once after prepare(), with the same `before`. When the outputs are the same, takes over its buffers with the
+  // copies that are on their way; else the values that have arrived of outputs of the same name and shape.
   void takeOver(ReadBack& before);
-  // At the end of a frame, after the plan's last barriers.
+  // Starts the copies of a frame. To be called at its end, after the plan's last barriers.
   void copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers, std::uint32_t frame,
             base::Diagnostics& diagnostics);
   // Takes what has arrived; never waits.

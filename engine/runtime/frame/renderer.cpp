@@ -114,7 +114,7 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
                                base::Diagnostics& diagnostics) {
   for (std::uint32_t i = 0; i < graph.imports.size(); ++i) {
     const graph::ImportSpec& import = graph.imports[i];
-    // Nobody reads one for which a list of alternatives has something else.
+    // No resource has this import when a list of alternatives has something else in its place.
     if (std::ranges::find(graph.resources, i, &graph::FlatResource::import) == graph.resources.end())
       continue;
     const std::string path = device_.imports.standInGraph(import, world);

@@ -20,7 +20,7 @@ namespace weft::runtime {
 std::vector<std::string> shaderRootsOf(const std::string& graphPath, std::span<const std::string> presets,
                                        const std::string& dataFolder);
 
-// 8 bits of a picture, as readPresented8() gives them: clamped to 0 and 1, NaN becomes 0, alpha that is not there 1.
+// The picture in 8 bits, as readPresented8() gives it: values are clamped to 0 and 1, NaN becomes 0, missing alpha 1.
 assets::Image8 toBytes(const assets::ImageF& picture);
 
 class Renderer {
@@ -53,7 +53,8 @@ class Renderer {
   // Runs nothing and presents black while an import of the graph is still being loaded (World::expectEnvironment).
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
-  // After frame(): frees what the world holds when the GPU has it, too. Not to be called when others render that world.
+  // To be called after frame(): frees what the world holds and the GPU has too. Not to be called when others render that
+  // world.
   void dropUploaded(World& world) const;
 
   Execution* execution() { return execution_.get(); }

@@ -46,7 +46,7 @@ std::uint64_t StepChoice::hashOf(const PreparedPass& pass, const UniformArena& a
   hash = arena.hash(pass.viewOffset, pass.viewBlock, hash);
   for (const std::uint32_t resource : pass.written)
     hash = base::hashCombine(hash, pool_[resource].serial + (pool_[resource].resets << 40));
-  // An import that is shown later than it changes.
+  // Adds the imports that this pass sees later than they change.
   for (const std::uint32_t resource : pass.read)
     if (const std::uint32_t publisher = pool_[resource].publisher;
         publisher != kNone && publisher != pass.group)

@@ -26,7 +26,7 @@ class StepChoice {
   // Takes over what passes of the same name remember of their last run.
   void takeOver(const StepChoice& before);
 
-  // Nothing has run yet.
+  // To be called first in a frame: no step has run in it.
   void beginFrame();
   // Hashes anew what each pass that is not `always` is made of, besides the generations of what it reads.
   void refreshHashes(const UniformArena& arena);
@@ -34,7 +34,7 @@ class StepChoice {
   void choose(const std::vector<std::uint64_t>& generations);
   bool chooseAhead(const std::vector<std::uint64_t>& generations);
 
-  // Of the last choice.
+  // Whether the last choice runs the step, and which of its slices.
   bool runs(std::size_t step) const { return cadence_.runs(step) && !passes_[step].idle; }
   SliceRange slices(std::size_t step) const { return cadence_.slices(step); }
 
@@ -45,10 +45,10 @@ class StepChoice {
   // Whether it ran in this frame, in whatever round.
   bool ran(std::size_t step) const { return ran_[step] != 0; }
 
-  // After the steps of a round: the generations before and after it.
+  // To be called after the steps of a round, with the generations before and after it.
   void endRound(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after);
 
-  // For what is published, and held.
+  // For Publications, which tells it what is published and which passes are held.
   FrameCadence& cadence() { return cadence_; }
 
  private:

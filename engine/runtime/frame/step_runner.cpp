@@ -186,7 +186,7 @@ void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
   if (block) states_.bindBuffer(GL_UNIFORM_BUFFER, block->binding, arena_.buffer(), offset, block->bytes);
 }
 
-// What a pass type without a shader works on: names of textures, and framebuffers around them if it wants some.
+// Binds what a pass type without a shader works on: GL names of textures, and framebuffers around them if it wants some.
 bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
   passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
   bound.name = textureOf(binding, pass, diagnostics);

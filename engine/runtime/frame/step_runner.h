@@ -37,7 +37,7 @@ class StepRunner {
   void bindBuffer(const BufferBinding& binding, std::uint32_t group, base::Diagnostics& diagnostics);
   void bindBlock(const gl::Block* block, std::uint32_t offset);
   bool bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics);
-  // What a binding of `pass` names now; of an import, the part that it is about.
+  // The GL name of the texture that a binding of `pass` means now; of an import, of the part that the binding has.
   template <class Binding>
   GLuint textureOf(const Binding& binding, const PreparedPass& pass, base::Diagnostics& diagnostics);
   GLuint framebufferOf(const PreparedPass& pass, base::Diagnostics& diagnostics);

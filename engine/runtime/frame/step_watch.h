@@ -1,5 +1,5 @@
-// Somebody who looks at a frame while it runs: functions that are called around its steps. It costs nothing while nobody
-// looks. Does not: know what they look at (engine/runtime/inspection does).
+// Functions that are called around the steps of a frame while it runs, to look at results. An empty watch costs nothing.
+// Does not: know what they look at (engine/runtime/inspection does).
 #pragma once
 
 #include <cstddef>

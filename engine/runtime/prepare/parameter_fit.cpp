@@ -58,7 +58,7 @@ class ParameterCheck : PassErrors {
   }
 
  private:
-  // Numbers that are written, and sliders, keep their fractions; what an expression computes is cut.
+  // Reports numbers in the graph, and sliders, that would lose their fraction in an integer member. What an expression computes is cut.
   void checkWhole(const graph::UniformSpec& uniform, const gl::BlockMember& member) {
     const auto shape = gl::shapeOf(member.type);
     if (!shape || (shape->base != GL_INT && shape->base != GL_UNSIGNED_INT)) return;
@@ -86,8 +86,8 @@ class ParameterCheck : PassErrors {
                                memberTypeFor(uniform.value), uniform.name);
   }
 
-  // A member that nobody sets is 0, which is mostly a black picture. Silent when a name was not found: one misspelling is
-  // one mistake.
+  // Reports members that the pass does not set: they would be 0, which mostly gives a black picture. Says nothing when a
+  // parameter's name was not found, because one misspelling is one mistake.
   void checkUnset(const gl::Block* block) {
     if (!block || parameterMissing_) return;
     for (const gl::BlockMember& member : block->members) {

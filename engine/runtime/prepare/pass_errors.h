@@ -1,4 +1,4 @@
-// The errors of one pass: each names it, and whether there was any is kept. What a check of a pass derives from.
+// Reports the errors of one pass: each names the pass, and any() tells whether there was one. Checks of a pass derive from it.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ class PassErrors {
   PassErrors(const std::string& pass, base::Diagnostics& diagnostics)
       : pass_(pass), diagnostics_(diagnostics) {}
 
-  // To be filled in further by the caller.
+  // The caller fills in the other fields.
   base::Diagnostic& fail(base::Code code, const base::Place& place, std::string message) {
     any_ = true;
     base::Diagnostic& d = diagnostics_.error(code, place, std::move(message));

@@ -26,14 +26,14 @@ class PassKeeper {
   bool isSame(std::size_t step, std::uint32_t old);
   // Whether the two steps also use the same storage. isSame() must hold.
   bool isInPlace(std::size_t step, std::uint32_t old, ResourcePool& pool, ResourcePool& poolBefore) const;
-  // `prepared` of `old` as that of `step`. isSame() and isInPlace() must hold.
+  // Makes what was prepared for `old` that of `step`. isSame() and isInPlace() must hold.
   PreparedPass take(std::size_t step, std::uint32_t old, PreparedPass prepared);
 
  private:
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // resources: before, now
   const graph::Value* clearOf(const std::unordered_map<std::uint32_t, const graph::Value*>& clears,
                               std::uint32_t resource) const;
-  // Fills pairs_. False when one resource before would be two now, or two one.
+  // Fills pairs_. False when a resource of the running plan would be two in the new plan, or two would be one.
   bool pairUp(std::size_t step, std::uint32_t old);
 
   const graph::Plan &plan_, &before_;

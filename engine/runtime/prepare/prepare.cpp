@@ -90,7 +90,7 @@ class Preparer {
     return views;
   }
 
-  // Null: the use is of the graph's own texture, or of all of an import.
+  // Null when the use is of a texture of the graph itself, or of a whole import.
   std::unique_ptr<ImportPart> importPartOf(const FlatUse& use, GLenum target) {
     const FlatResource& resource = graph_.resources[use.resource];
     if (resource.kind != graph::ResourceKind::imported_texture) return nullptr;
@@ -134,7 +134,7 @@ class Preparer {
     return good;
   }
 
-  // For a read of @-n: binds what `first` of the resource names, in the same place.
+  // For a read of @-n: also binds, in the same place, what "first" of the resource names.
   bool bindFirst(const SlotSpec& slot, std::uint32_t index, std::uint32_t element) {
     if (slot.firstValue == kNone) return true;
     const std::size_t textures = out_.textures.size(), images = out_.images.size(),
@@ -153,7 +153,7 @@ class Preparer {
     return false;
   }
 
-  // checkProgram has seen that the block is a table.
+  // checkProgram() has found that the block is a table.
   static void takeLayout(const gl::Block& block, std::span<const graph::TableColumn> columns,
                          BufferBinding& binding) {
     std::string problem;

@@ -22,7 +22,8 @@
 
 namespace weft::runtime {
 
-// A binding that holds only while the publication `history` before of a resource is not there: of what its `first` names.
+// When a binding holds. That of what "first" of a resource names holds only until publication @-history of that resource is
+// there.
 struct FirstOf {
   std::uint32_t resource = graph::kNone;  // kNone: the binding holds always
   std::uint8_t history = 0;
@@ -32,9 +33,10 @@ struct TextureBinding {
   std::uint32_t unit = 0, resource = 0;
   std::uint8_t history = 0;
   GLuint sampler = 0;
-  std::vector<GLuint> views;           // per copy; empty: an import, bound by its resource's current texture
+  std::vector<GLuint>
+      views;  // per copy; empty for an import, which is bound by the current texture of its resource
   std::unique_ptr<ImportPart> part{};  // of an import; null: the whole
-  FirstOf firstOf{};                   // such a binding stands behind the one in whose place it is
+  FirstOf firstOf{};                   // a binding with one stands behind the binding that it replaces
 };
 
 struct ImageBinding {
@@ -110,13 +112,13 @@ struct PreparedPass {
   std::vector<std::uint32_t> written, read;  // resources (attached writes; reads)
   std::uint32_t width = 0, height = 0;       // of the attachments
   bool feedback = false;
-  bool encodesSrgb = false;                       // an attachment is sRGB: shaders write linear light
-  std::uint32_t group = graph::kNone;             // as Plan::groups
+  bool encodesSrgb = false;            // an attachment is sRGB: GL encodes the linear light of shaders
+  std::uint32_t group = graph::kNone;  // as Plan::groups
   bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
   std::unique_ptr<imports::MeshPass> meshes;  // of a draw of the list's meshes
-  // Uniform bytes live in one shared buffer. Null: the program has no such block. Offsets are aligned; UniformArena
-  // gives them.
+  // The uniform blocks of the program, null for one that it does not have. The bytes of all passes lie in one buffer;
+  // UniformArena gives the offsets in it, which are aligned.
   const gl::Block* parametersBlock = nullptr;
   const gl::Block* viewBlock = nullptr;
   const gl::Block* sliceBlock = nullptr;
@@ -124,10 +126,10 @@ struct PreparedPass {
   std::uint32_t parametersOffset = kNoPlace, viewOffset = kNoPlace, sliceOffset = kNoPlace;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
-  bool conditional = false;      // has dynamic defines, or is timed
-  std::uint32_t conditions = 0;  // of its variant, see conditionsOf
-  bool passing = false;          // another variant will run in the end, when all ages are large
-  bool idle = false;             // that variant does not run, and binds nothing
+  bool conditional = false;                             // has dynamic defines, or is timed
+  std::uint32_t conditions = 0;                         // of its variant, see conditionsOf
+  bool passing = false;                                 // another variant will run once all ages are large
+  bool idle = false;                                    // that variant does not run, and binds nothing
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
 

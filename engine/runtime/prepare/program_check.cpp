@@ -81,7 +81,7 @@ class Checker : PassErrors {
 
   const FlatResource& resourceOf(const FlatUse& use) const { return graph_.resources[use.resource]; }
 
-  // The shader has the name, for something else: a buffer where it has a texture, an image where it has a sampler.
+  // Says what to write when the shader has the name for something else, such as an image in place of a sampler.
   void adviseKind(const SlotSpec& slot, const FlatUse& use, base::Diagnostic& d) {
     const FlatResource& resource = resourceOf(use);
     const std::string& name = graph_.resourceNames[use.resource];
@@ -101,7 +101,7 @@ class Checker : PassErrors {
       d.hint = fmt::format("declare `{}`", declaration);
   }
 
-  // What else carries the name, for the message.
+  // Names what else has the name in the shader, for the message.
   std::string otherUse(const std::string& name) const {
     if (reflection_.findSampler(name)) return fmt::format("a sampler '{}'", name);
     if (reflection_.findImage(name)) return fmt::format("an image '{}'", name);
@@ -242,7 +242,7 @@ class Checker : PassErrors {
     }
   }
 
-  // The instance name of a block, or "".
+  // The instance name of a block, or "" when it has none.
   std::string instanceOf(const std::string& block) const {
     for (const gl::StageSource& stage : variant_.stages)
       if (const auto found = stage.source->parts.instanceOf.find(block);
@@ -257,7 +257,7 @@ class Checker : PassErrors {
     return false;
   }
 
-  // Silent when a slot was not found: one misspelling is one mistake.
+  // Says nothing when a slot was not found, because one misspelling is one mistake.
   void unfed(const char* what, const std::string& name) {
     if (slotMissing_) return;
     std::vector<std::string> names;
@@ -314,7 +314,7 @@ class Checker : PassErrors {
           .hint = "move it into `layout(std140) uniform Parameters { … };`";
   }
 
-  // Every slice would be the whole of it.
+  // Reports a sliced compute pass whose shader does not read Slice: every slice would do the whole work.
   void checkSlices(const graph::FlatPass& pass) {
     const bool compute = !variant_.stages.empty() && variant_.stages[0].stage == GL_COMPUTE_SHADER;
     if (!compute || pass.slices < 2 || reflection_.findUniformBlock("Slice")) return;
@@ -325,7 +325,7 @@ class Checker : PassErrors {
         "include common/slice.glsl and use sliceInvocation() for gl_GlobalInvocationID, or remove \"slices\"";
   }
 
-  // A dispatch beyond them is an error of the driver, in every frame and without a place.
+  // Reports work groups beyond the limits of the device. The driver would report them in every frame, and without a place.
   void checkGroups() {
     passes::PassContext context;
     context.spec = &spec_;

@@ -1,5 +1,5 @@
-// Whether a shader agrees with the pass that names it: slots and parameters held against introspection of its program.
-// Declared names must stand in the source; those that the linker dropped are fine.
+// Checks whether a shader agrees with the pass that names it: compares slots and parameters with introspection of the
+// program. A name may be missing there when the source declares it: then the linker dropped it. Does not: compile.
 #pragma once
 
 #include "engine/base/diagnostic.h"
@@ -9,8 +9,8 @@
 
 namespace weft::runtime {
 
-// Holds the slots and parameters of a pass against its program (W181 to W187), and its work groups against the device
-// (W206). `roles` keeps what it scans of the sources, for the next check of a program that has them too.
+// Reports W181 to W187 for slots and parameters, and W206 for work groups that the device does not allow. False after a
+// report. `roles` keeps what is scanned of the sources, for the next check of a program that has them too.
 bool checkProgram(const graph::Plan& plan, std::uint32_t pass, const gl::Variant& variant,
                   const gl::Limits& limits, RoleCache& roles, base::Diagnostics& diagnostics);
 

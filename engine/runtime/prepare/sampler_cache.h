@@ -1,4 +1,4 @@
-// Sampler objects by what a slot asks for. They live across plans; equal wishes share one object.
+// Sampler objects, found by what a slot asks for. Equal requests share one object, which outlives the plan.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@ namespace weft::runtime {
 
 class SamplerCache {
  public:
-  // The sampler's name. `mipmapped`: the view has more than one level. `compare`: of a shadow sampler that names none;
-  // `always` means "less or equal". `texels`: of the texture; the colour of a border is of the same kind.
+  // The GL name of the sampler. `mipmapped`: the view has more than one level. `compare` is for a shadow sampler that names
+  // no comparison; `always` means "less or equal". `texels` is the kind of the texture's texels, and of `color`.
   GLuint get(const graph::Sampler& sampler, const graph::BorderColor& color, bool mipmapped,
              graph::Compare compare, graph::TexelKind texels);
 
  private:
-  // What lies outside 0..1, in numbers of the texture's kind.
+  // The border's colour, as numbers of the texture's kind.
   struct Border {
     graph::BorderColor color{};
     graph::TexelKind texels = graph::TexelKind::none;

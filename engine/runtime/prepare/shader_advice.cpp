@@ -12,7 +12,7 @@ using graph::Kind;
 using graph::Target;
 using graph::TexelKind;
 
-// "", "u" or "i", before sampler2D and vec4.
+// The prefix of "sampler2D" and "vec4": "", "u" or "i".
 const char* prefixFor(const FlatUse& use, const FlatResource& resource) {
   const TexelKind kind = graph::infoOf(resource.format).kind;
   if (use.planes == 2 || kind == TexelKind::unsigned_integer) return "u";

@@ -69,7 +69,7 @@ bool ShaderWords::maybe(std::string_view name, Role role, bool lastOnly) const {
 
 bool ShaderWords::declares(std::string_view name, graph::Kind kind) const {
   if (maybe(name, roleFor(kind), kind == graph::Kind::color)) return true;
-  // Of a block that is not named by its own name, the shader's side has a better message (W187).
+  // A slot may have the instance name of a block; W187 then says it better, from the side of the shader.
   const bool block = kind == graph::Kind::uniform || kind == graph::Kind::storage;
   return block && maybe(name, Role::instance, false);
 }

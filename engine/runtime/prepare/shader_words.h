@@ -16,13 +16,13 @@
 
 namespace weft::runtime {
 
-// Texts that were scanned, by what they say: a file that changes is another text. Answers stay valid until clear() or
-// makeRoom().
+// What was scanned, kept by the content of the text, so that a changed file is another text. References stay valid until
+// clear() or makeRoom().
 class RoleCache {
  public:
   const gl::ShaderRoles& ofText(const gl::ShaderSource& source);
   const gl::ShaderRoles& ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines);
-  // Of all texts that were scanned, each counted once for itself and once for each of its variants.
+  // The bytes of all texts that were scanned. A text counts once, and once more for each of its variants.
   std::size_t textBytes() const { return bytes_; }
   void clear();
   // Forgets everything when more than `most` bytes of texts were scanned.
@@ -53,14 +53,14 @@ class ShaderWords {
   std::vector<std::string> namesFor(graph::Kind kind) const;
   // The words of the layout of an image, in this variant.
   std::vector<std::string> imageFormatsOf(std::string_view name) const;
-  // Members of the block Parameters that this variant reads, or of which it reads another one.
+  // The members of the block Parameters, also those that are not read; empty when this variant reads no member of it.
   std::vector<gl::ShaderRoles::Member> parameters() const;
   // Whether main() of some stage reaches the name.
   bool uses(std::string_view name) const;
 
  private:
   bool maybe(std::string_view name, gl::Role role, bool lastOnly) const;
-  // Of this variant. Asked for once for each stage: a pass may have many slots, and as many defines.
+  // The roles in this variant. Looks them up once for each stage, because a pass may have many slots and many defines.
   const gl::ShaderRoles& variantOf(const gl::StageSource& stage) const;
 
   const std::span<const gl::StageSource> stages_;

@@ -1,4 +1,4 @@
-// Holds the slots and parameters of a pass against the words of its shaders, for those who have no OpenGL: the language
+// Compares the slots and parameters of a pass with the words of its shaders, for those who have no OpenGL: the language
 // server and `weft check --no-shaders`. Says what the check of the linked program (program_check.h) would say, as far as
 // words tell: names that are not declared as what they must be, members of Parameters that the pass does not set, and
 // formats of images (W181, W182, W183, W187). Does not: know types, or compile.

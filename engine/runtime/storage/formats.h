@@ -13,7 +13,7 @@ namespace weft::runtime {
 
 struct GlFormat {
   GLenum internal = GL_NONE;  // sized internal format
-  GLenum format = GL_NONE;    // client format and type for read-back
+  GLenum format = GL_NONE;    // client format, with `type` for read-back
   GLenum type = GL_NONE;
 };
 
@@ -29,7 +29,7 @@ struct ClearTexel {
   std::array<std::uint8_t, 16> bytes{};
 };
 ClearTexel clearTexelOf(graph::Format format, const graph::Value& value);
-// The same value as four channels of floats.
+// The same value as four floats.
 std::array<float, 4> clearChannelsOf(const graph::Value& value);
 
 }  // namespace weft::runtime

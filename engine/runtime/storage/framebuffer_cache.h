@@ -1,4 +1,5 @@
-// Framebuffers by their attachments. They are derived from slots; no author names them.
+// Framebuffers, found by their attachments. They are derived from slots; no author names them. Does not: notice that an
+// attached texture is deleted (takeOver() is told).
 #pragma once
 
 #include <memory>
@@ -14,7 +15,7 @@ namespace weft::runtime {
 
 class FramebufferCache {
  public:
-  // 0 after an error. Without attachments, width and height give the area that is rasterised.
+  // The GL name; 0 after an error. Without attachments, width and height give the area that is rasterised.
   GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
              base::Diagnostics& diagnostics, std::uint32_t width = 0, std::uint32_t height = 0);
   // Takes the framebuffers of `other` whose attachments all still exist; `alive` has the names of textures and views that do.

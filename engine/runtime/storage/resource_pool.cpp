@@ -112,7 +112,7 @@ std::uint32_t largestTransientOf(const Plan& plan) {
   return largest;
 }
 
-// Buffers that shaders see, held against the largest block of the device: what lies behind it no shader would reach.
+// Reports buffers of shaders that are larger than the largest block of the device, whose end no shader could reach.
 bool checkBlocks(const Plan& plan, base::Diagnostics& diagnostics) {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
@@ -176,7 +176,7 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
   for (const graph::ClearSpec& clear : plan.graph->clears) clearOf[clear.resource] = &clear.value;
   for (const graph::HistorySpec& history : plan.graph->histories)
     if ((*pool)[history.resource].fresh) pool->fill(plan, history.resource, history.first, diagnostics);
-  // What others see of a time-sliced group's resource before it is first published: version zero, else zeros.
+  // Until a time-sliced group first publishes a resource, other passes see version zero, or zeros where there is none.
   for (std::uint32_t r = 0; r < pool->resources_.size(); ++r) {
     GpuResource& mine = (*pool)[r];
     mine.group = plan.groups.slicedWriterOf(r);
@@ -209,7 +209,8 @@ void ResourcePool::giveBack(ResourcePool& before) {
   if (arenaTaken_) before.arena_ = std::move(arena_);
 }
 
-// First what a resource of the same name lies in, so that passes find their textures where they were; then whatever fits.
+// First takes the storage of resources of the same name, so that passes find their textures where they were; then whatever
+// fits.
 void ResourcePool::takeTextures(const Plan& plan, const std::vector<std::string>& owners,
                                 ResourcePool& before) {
   std::unordered_map<std::string_view, const PhysicalTexture*> byName;
@@ -292,7 +293,7 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
     } else {
       base::Diagnostics refused;
       auto arena = gl::Buffer::create(plan.arenaBytes, kFlags, "transient buffers", refused);
-      // The place of such a message is that of the largest of them.
+      // The message names the largest of the buffers, which gives it a place.
       for (base::Diagnostic each : refused.items()) {
         if (const std::uint32_t largest = largestTransientOf(plan); largest != kNone) {
           each.resource = names_[largest];

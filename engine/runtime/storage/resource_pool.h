@@ -59,9 +59,9 @@ struct PersistentBuffer {
 
 // Where a resource of the graph is stored, and when it was published.
 struct GpuResource {
-  PhysicalTexture* texture = nullptr;  // own textures
+  PhysicalTexture* texture = nullptr;  // null for buffers and imports
   gl::TextureRef imported, shown,
-      before;  // imported textures: the newest; the one that passes outside `publisher` see; @-1
+      before;  // of an import: the newest texture; the one that passes outside `publisher` see; @-1
   std::uint32_t publisher =
       graph::kNone;             // of an import: the group whose publication shows it to all other passes
   std::vector<GLuint> buffers;  // per copy
