@@ -19,7 +19,7 @@ constexpr int kParseError = -32700, kInvalidRequest = -32600, kUnknownMethod = -
               kInvalidParameters = -32602, kInternalError = -32603, kNotInitialized = -32002,
               kRequestFailed = -32803;
 
-// What a message has wrong; caught where it is answered.
+// Thrown for wrong parameters of a message; caught where the message is answered.
 struct WrongParameters {
   std::string what;
 };
@@ -58,7 +58,7 @@ std::string pathOf(const Json& parameters) {
   return path;
 }
 
-// Brackets around one another that a message may have: what reads and copies JSON recurses.
+// How deep brackets may be nested in a message; the code that reads and copies JSON recurses.
 constexpr int kMostDepth = 500;
 
 bool isTooDeep(std::string_view text) {
@@ -101,7 +101,7 @@ void Server::take(std::string_view text) {
     return fail(nullptr, kInvalidRequest, "\"id\": expected a string or a whole number");
   const auto method = message.find("method");
   if (method == message.end() && asks && (message.contains("result") || message.contains("error")))
-    return;  // an answer
+    return;  // an answer to us
   if (method == message.end() || !method->is_string())
     return fail(asks ? *id : Json(nullptr), kInvalidRequest, "\"method\": expected a string");
   const auto found = message.find("params");
@@ -117,7 +117,7 @@ void Server::take(std::string_view text) {
     if (asks)
       fail(*id, kInvalidParameters,
            fmt::format("{}: {}", base::printable(base::shortened(name)), wrong.what));
-  } catch (const std::exception& thrown) {  // by a library: it ends an answer, not the server
+  } catch (const std::exception& thrown) {  // a library threw: that ends an answer, not the server
     if (asks) fail(*id, kInternalError, thrown.what());
   }
 }
@@ -288,7 +288,7 @@ Json Server::toJson(const base::Diagnostic& d, const Text& text) const {
   const std::string_view all = text.bytes();
   Range range;
   range.begin = range.end = d.place.line > 0 ? text.map().offsetOf(d.place.inFile()) : 0;
-  // The word or the string that stands there.
+  // The range grows to the end of the word or the string there.
   if (range.end < all.size() && all[range.end] == '"') {
     do range.end += all[range.end] == '\\' ? 2 : 1;
     while (range.end < all.size() && all[range.end] != '"' && all[range.end] != '\n');

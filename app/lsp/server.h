@@ -1,5 +1,6 @@
-// The language server: messages in, messages out, of the Language Server Protocol 3.17. One thread; changes that are there
-// already are taken together before graphs are looked at again. Whatever comes in is answered by a result or an error.
+// The language server: takes messages of the Language Server Protocol 3.17, and sends messages. It has one thread. Changes
+// that have already arrived are taken together before graphs are checked again. Every request is answered by a result or an
+// error. Does not: read or frame the stream (text/framing.h).
 #pragma once
 
 #include <functional>
@@ -18,12 +19,13 @@ class Server {
   Server(const Options& options, Send send)
       : send_(std::move(send)), project_(texts_), analysis_(options, texts_, project_) {}
 
-  // The text of one message.
+  // Handles one message, given as its JSON text.
   void take(std::string_view text);
-  void refuse(const std::string& problem);  // of what was no message
-  // To be called when no more messages wait: looks at what has changed and publishes what is wrong.
+  // Answers what was no message, with the error of framing.
+  void refuse(const std::string& problem);
+  // To be called when no more messages wait: checks what has changed, and publishes diagnostics.
   void settle();
-  // The exit code, after "exit".
+  // The exit code after "exit"; nothing before.
   std::optional<int> ended() const { return ended_; }
 
  private:

@@ -131,9 +131,9 @@ class Completer {
           std::erase_if(items_, [&](const Item& item) { return item.label == slot->key; });
   }
 
-  // What the program of a pass declares, of these kinds.
+  // Offers the names of these kinds that the program of a pass declares.
   void shaderNames(const Node& stanza, std::initializer_list<GlslName::Kind> kinds) {
-    // What the engine itself gives to shaders.
+    // Blocks that the engine itself gives to shaders.
     constexpr std::string_view kOwn[] = {"View", "Parameters", "Slice", "instances"};
     const Project::Program program = context_.project.programOf(file_, stanza);
     for (const std::string& path : program.files) {
@@ -250,7 +250,8 @@ class Completer {
 
   // ---- names inside strings ----
 
-  // The bytes of the name at the cursor, up to it; its sign is in front of it.
+  // The text of the string before the name at the cursor. The range of that name goes to fragment_, the character before it to
+  // sign_.
   std::string_view typed(const Node& node) {
     const std::string_view all = text_.bytes();
     std::size_t begin = offset_;

@@ -7,7 +7,7 @@
 
 namespace weft::app::lsp {
 
-// In GLSL: what its passes name and it does not declare yet, and the HAS_… of all.
+// Offers the slots, parameters and defines of the shader's passes, and HAS_… of slots and parameters.
 Json completionInGlsl(const Context& context, const Text& text, std::size_t offset) {
   Range range{offset, offset};
   const std::string_view all = text.bytes();

@@ -35,7 +35,7 @@ std::vector<KeyDoc> keysOfResource(const graph::Registry& registry, const Node& 
   return keys;
 }
 
-// Without the keys that only other types of passes take.
+// The keys of a stanza, without those that only other types of passes take.
 std::vector<KeyDoc> keysOfStanza(const graph::Registry& registry, const Node& object, const Node& root) {
   std::vector<KeyDoc> keys;
   if (object.find("include")) {

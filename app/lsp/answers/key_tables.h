@@ -1,4 +1,5 @@
-// Which keys an object of a graph file may have, by where it stands; from the tables of the reader and the registry.
+// Which keys an object of a graph file may have at its place, from the tables of the reader and the registry. Does not: know
+// values, or names that authors give.
 #pragma once
 
 #include <string>
@@ -17,13 +18,13 @@ struct KeyDoc {
 // The keys on the way from the root to a node; "[]" for items of arrays.
 std::vector<std::string_view> wayTo(const Node& node);
 
-// Empty where names are the author's.
+// Empty where the author names the keys.
 std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Node& object);
 
-// The words of a key of "state"; empty for one that holds a value.
+// The words that a key of "state" takes; empty for a key that takes a value.
 std::vector<std::string_view> wordsOfState(std::string_view key);
 
-// Markdown; "" for no import.
+// Documentation as Markdown; "" when the type is no import.
 std::string docOfImport(const graph::Registry& registry, std::string_view type);
 
 }  // namespace weft::app::lsp

@@ -31,8 +31,8 @@ std::vector<Range> keysOf(const Project::Program& program, std::string_view name
   return keys;
 }
 
-// A program is consistent when every word `name` in all its files is renamed, and so is each program that has one of
-// these files.
+// Adds every word `name` in the files of a slot's programs. A renamed program is consistent only with all of them, and so is
+// every other program that has one of these files; so the set of files grows until it has the files of all such programs.
 void usesInShaders(const Context& context, Uses& uses, std::set<std::string> files) {
   const std::string presence = runtime::presenceDefineOf(uses.name);
   for (std::size_t before = files.size() + 1; before != files.size();) {

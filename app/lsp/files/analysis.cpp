@@ -19,7 +19,7 @@ namespace weft::app::lsp {
 
 namespace {
 
-// A scene that cannot be read leaves a graph to be checked all the same.
+// Graphs are checked even when the scene cannot be read, so its messages are left out.
 runtime::WorldFacts factsOf(const Options& options) {
   base::Diagnostics ignored;
   const auto world = loadWorld(options, ignored);
@@ -38,7 +38,7 @@ std::vector<std::string> shaderFilesOf(const Pass& pass, graph::ShaderShape shap
   return {pass.shader};
 }
 
-// A folder of shaders may be made, or go, while the graph is open.
+// Whether the graph's folders of shaders are still the same: one may appear or go while the graph is open.
 bool hasShaderRootsOf(const std::string& path, const Analysis::Graph& graph) {
   return graph.sources && graph.sources->roots() == runtime::shaderRootsOf(path, {}, dataFolder());
 }
@@ -51,14 +51,14 @@ Analysis::Analysis(const Options& options, const Texts& texts, const Project& pr
       project_(project),
       registry_(runtime::makeRegistry({}, factsOf(options))) {}
 
-// Whether what it was known for is hidden by a mistake, such as a comment or a quote that was begun before the first key.
+// Whether a file was a graph and a mistake hides that now, such as an open comment or quote before the first key.
 bool Analysis::isBrokenGraph(const std::string& path, const FileIndex& file) const {
   if (!graphs_.contains(path)) return false;
   base::Diagnostics said;
   return !base::parseJson(file.text->bytes(), std::make_shared<const std::string>(path), said);
 }
 
-// Graphs that are open and that no other open one includes or extends; of those that include each other in a circle, all.
+// The open graphs that no other open graph includes or extends, and all that include each other in a circle.
 std::set<std::string> Analysis::roots() const {
   std::map<std::string, std::set<std::string>> closures;
   for (const auto& [path, opened] : texts_.opened()) {
@@ -138,7 +138,7 @@ std::shared_ptr<const gl::ShaderSource> Analysis::source(Graph& graph, const std
   return known->second;
 }
 
-// Of the variant that runs once everything was published long ago.
+// Checks the shaders by their words, in the variant that runs once everything was published long ago.
 void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
   for (const graph::Step& step : plan.steps) {
@@ -165,7 +165,7 @@ void Analysis::checkFiles(Graph& graph, const graph::GraphDesc& desc) {
     if (pass.include && pass.include->graph) checkFiles(graph, *pass.include->graph);
     const auto type = std::ranges::find(registry_.passTypes, pass.type, &graph::PassType::name);
     if (pass.shader.empty() || type == registry_.passTypes.end()) continue;
-    // A shader of one stage, for a draw (W067).
+    // A draw with a shader of one stage has its own message (W067).
     if (type->shader == graph::ShaderShape::draw && pass.vertexShader.empty() &&
         pass.shader.ends_with(".glsl"))
       continue;

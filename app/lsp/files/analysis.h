@@ -1,5 +1,5 @@
-// What Weft says of the graphs that are open: read, expanded, compiled, and their shaders held against them by their words.
-// Opens no context. Keeps the last plan of each graph that had one. Does not: compile shaders.
+// What Weft reports of the graphs that are open: it reads, expands and compiles them, and checks their shaders by their words.
+// Keeps the last plan of each graph. Does not: open a context, or compile shaders.
 #pragma once
 
 #include <map>
@@ -21,20 +21,21 @@ class Analysis {
  public:
   Analysis(const Options& options, const Texts& texts, const Project& project);
 
-  // Looks again at the graphs that have one of these files. Then the files whose messages may have changed.
+  // Checks the graphs again that have one of these files. Returns the files whose messages may have changed.
   std::set<std::string> refresh(const std::set<std::string>& changed);
   // The messages of a file, each once.
   std::vector<base::Diagnostic> diagnosticsOf(const std::string& path) const;
 
   struct Graph {
-    std::shared_ptr<const graph::Plan> plan;  // the last one that there was; may be older than the text
-    bool current = false;                     // it is of the text as it is
+    std::shared_ptr<const graph::Plan> plan;  // the last one that was made; it may be older than the text
+    bool current = false;                     // whether the plan is of the present text
     base::Diagnostics said;
     std::set<std::string> files;
     std::unique_ptr<gl::SourceLoader> sources;
   };
   const std::map<std::string, Graph>& graphs() const { return graphs_; }
-  // The graph whose plan knows of `path`: itself when it is one, else one that includes it; and the prefix there.
+  // The graph whose plan has the file: the file itself when it is a graph with a plan, else a graph that includes it, with the
+  // prefix there.
   struct Found {
     const Graph* graph = nullptr;
     std::string prefix;
@@ -56,7 +57,7 @@ class Analysis {
   const Project& project_;
   graph::Registry registry_;
   std::map<std::string, Graph> graphs_;
-  std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;  // in one look
+  std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;  // of one check
   runtime::RoleCache roles_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 using Kind = Mention::Kind;
 using Type = Node::Type;
 
-constexpr int kMostParts = 128;  // of a dotted name: more than files that may include each other in a row
+constexpr int kMostParts = 128;  // of a dotted name; fewer files may include each other in a row
 
 bool isOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
   return std::ranges::find(words, word) != words.end();
@@ -176,7 +176,8 @@ class Indexer {
     for (const auto& child : node.children) references(*child);
   }
 
-  // The end of a dotted name that begins at `at`, or of its first kMostParts; each part is a mention of the name so far.
+  // Adds a mention for each part of the dotted name that begins at `at`, of the name up to that part, for kMostParts parts at
+  // most. Returns where they end.
   std::size_t dotted(std::string_view text, std::size_t base, std::size_t at, Kind kind) {
     const std::size_t start = at;
     for (int parts = 1;; ++parts) {

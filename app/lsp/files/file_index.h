@@ -1,5 +1,5 @@
-// What one graph file declares and which names it mentions, each with the bytes where it stands: from the outline, so also of
-// a file that is being typed. Knows which key holds what; does not: look into other files (project.h does).
+// What one graph file declares and which names it mentions, each with its byte range. It is made from the outline, so it works
+// while the file is being typed. Does not: look into other files (project.h does).
 #pragma once
 
 #include <map>
@@ -24,9 +24,9 @@ struct Mention {
     shader
   };
   Kind kind = Kind::resource;
-  bool mayBePass = false;      // of has(x): a resource, else a pass
-  Range range;                 // of the last part of the name
-  std::string name;            // whole up to that part, without @ and $
+  bool mayBePass = false;  // of has(x): the name of a resource, or of a pass when there is no such resource
+  Range range;             // of the last part of the name
+  std::string name;        // all parts up to that one, without @ and $
   const Node* pass = nullptr;  // the stanza it stands in
   bool declares = false;
 };
@@ -35,7 +35,7 @@ struct FileIndex {
   std::shared_ptr<const Text> text;
   bool isGraph = false;   // has a key that only graphs, overlays and presets have, or names their schema
   bool isPreset = false;  // sets values, shows no picture and extends nothing
-  std::vector<std::string> extends;  // absolute paths: the file below, then what is laid over it
+  std::vector<std::string> extends;  // absolute paths: the lowest file first, then what is laid over it
   std::map<std::string, std::string, std::less<>> includes;  // absolute paths by prefix
   std::map<std::string, Range, std::less<>> resources, variables, passes;
   std::map<std::string, Range, std::less<>> untyped;  // stanzas without a type, where nothing is extended
@@ -49,7 +49,7 @@ struct FileIndex {
 
 std::shared_ptr<const FileIndex> indexOf(std::shared_ptr<const Text> text);
 
-// "as", else the file's name; "" of a pass.
+// The prefix of an include: its "as", else the file's name. "" for a pass.
 std::string prefixOf(const Node& stanza);
 // Where the name of a stanza stands: the text of "name", "as" or "include".
 const Node* nameNode(const Node& stanza);

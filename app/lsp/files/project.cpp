@@ -17,7 +17,7 @@ namespace {
 
 using Kind = Mention::Kind;
 
-constexpr int kMostSteps = 256;    // from one file to the next, for one name
+constexpr int kMostSteps = 256;    // from one file to the next, in the look-up of one name
 constexpr int kMostFiles = 20000;  // looked at in a folder
 
 using Names = std::map<std::string, Range, std::less<>>;
@@ -271,7 +271,7 @@ std::optional<Definition> Project::resolve(const FileIndex& from, const Mention&
     case Kind::define: {
       const auto graph = index(from.text->path());
       if (!graph || !mention.pass) return std::nullopt;
-      // The node may be of an older outline of the same text.
+      // The node may belong to an older outline of the same text.
       const Node* const name = nameNode(*mention.pass);
       const Node* const stanza = name ? graph->stanza(name->text) : nullptr;
       return stanza ? findInShaders(programOf(graph, *stanza), mention.name) : std::nullopt;
@@ -300,7 +300,7 @@ const std::vector<std::string>& Project::shaderFolders(const std::string& path) 
   };
   std::vector<std::string> around{path};
   if (!path.ends_with(".json")) {
-    // A shader's own: the nearest folder of that name around it; then those of all graphs that are open.
+    // For a shader: the nearest folder "shaders" around it, then the folders of all open graphs.
     around.clear();
     for (fs::path at = fs::path(path).parent_path(); at.has_relative_path(); at = at.parent_path())
       if (at.filename() == "shaders") {
@@ -310,7 +310,7 @@ const std::vector<std::string>& Project::shaderFolders(const std::string& path) 
     for (const auto& [open, opened] : texts_.opened())
       if (open.ends_with(".json")) around.push_back(open);
   }
-  // Whoever includes it, directly or not, from the outermost in: those say where the shaders lie.
+  // The files that include it, directly or not, say where the shaders lie; the outermost come first.
   for (std::size_t i = 0; i < around.size(); ++i)
     for (const std::string& includer : includersOf(around[i]))
       if (std::ranges::find(around, includer) == around.end()) around.push_back(includer);
@@ -321,7 +321,7 @@ const std::vector<std::string>& Project::shaderFolders(const std::string& path) 
   const auto isOpen = [&](const std::string& each) { return texts_.isOpen(each); };
   std::ranges::stable_partition(around, isOpen);
   for (const std::string& each : around) addOf(each);
-  // Weft's own come last, whoever named them first.
+  // Weft's own folder comes last, wherever it was found.
   const std::string own = pathKey(dataFolder() + "/shaders");
   std::ranges::stable_partition(folders, [&](const std::string& each) { return each != own; });
   return folders;

@@ -1,5 +1,5 @@
-// The files that belong together: which include, extend or use which, and what a name in one of them means in another. Looks
-// at outlines, so that it works while a file is broken. Does not: check anything (analysis.h does).
+// Finds which files include, extend or use which, and what a name in one file means in another. It reads outlines, so it works
+// while a file is broken. Does not: check anything (analysis.h does).
 #pragma once
 
 #include <map>
@@ -39,29 +39,30 @@ class Project {
  public:
   explicit Project(const Texts& texts) : texts_(texts) {}
 
-  // The folders that the editor shows: graphs in them count when all uses of a name are wanted.
+  // The folders that the editor shows. When all uses of a name are wanted, the graphs in them count.
   void setFolders(std::vector<std::string> folders) { folders_ = std::move(folders); }
   bool isInFolders(const std::string& path) const;
-  // Files may have changed: what was gathered from many of them is gathered anew. To be called before each question.
+  // Forgets what was gathered from many files, because they may have changed. To be called before each request.
   void forget();
 
-  // Null for what is no JSON file, or is not there.
+  // Null when the file is not JSON, or not there.
   std::shared_ptr<const FileIndex> index(const std::string& path) const;
-  // Whether it is a preset, or extends one: a graph to lay it over is missing.
+  // Whether the file is a preset, or extends one, so that the graph below it is missing.
   bool isPreset(const std::string& path) const;
   // `path` with all that it includes and extends; at most as many as a graph may include.
   std::vector<std::string> closure(const std::string& path) const;
   // All graph files: those that are open, those of the folders, with their closures.
   const std::vector<std::string>& graphFiles() const;
-  // Those that include or extend `path`.
+  // The graph files that include or extend `path`.
   const std::vector<std::string>& includersOf(const std::string& path) const;
-  // "post." for graphs/post.json in graphs/studio.json; nothing when `path` is not in it.
+  // The prefix of the names of `path` in `root`: "post." for graphs/post.json in graphs/studio.json. Nothing when `root` does
+  // not include it.
   std::optional<std::string> prefixIn(const std::string& root, const std::string& path) const;
 
   std::optional<Definition> resolve(const FileIndex& from, const Mention& mention) const;
 
   // ---- shaders ----
-  // Where shaders of the passes in the graph `path` are looked for: as the graphs that include it do.
+  // The folders in which shaders of the passes of the graph `path` are looked for, as by the graphs that include it.
   const std::vector<std::string>& shaderFolders(const std::string& path) const;
   std::optional<std::string> locateShader(const std::string& graph, const std::string& shader) const;
   // A GLSL file with all that it includes.
@@ -77,13 +78,14 @@ class Project {
     std::vector<std::string> files;
   };
   Program programOf(const std::shared_ptr<const FileIndex>& graph, const Node& stanza) const;
-  // All whose files have one of these.
+  // All programs that have one of these files.
   std::vector<Program> programsWith(const std::set<std::string>& files) const;
   std::optional<Definition> findInShaders(const Program& program, std::string_view name) const;
 
  private:
   using File = std::shared_ptr<const FileIndex>;
-  // In whom, for which name, and whether upwards, too: files may include each other in a circle, or one file many times.
+  // What a look-up has tried: in which file, for which name, and whether upwards too. Files may include each other in a circle,
+  // or one file many times.
   using Seen = std::set<std::tuple<std::string, std::string, bool>>;
   static bool isNew(Seen& seen, const FileIndex& from, const std::string& name, bool up, int depth);
   std::optional<Definition> findResource(const FileIndex& from, const std::string& name, bool import,
@@ -92,11 +94,11 @@ class Project {
                                          int depth = 0) const;
   std::optional<Definition> findPass(const FileIndex& from, const std::string& name, Seen& seen,
                                      int depth = 0) const;
-  // What `from` is laid over where somebody lists it: all that stands before it in a list of "extends".
+  // The files that `from` is laid over in other files: all that stand before it in a list of "extends".
   std::vector<std::string> listedBefore(const FileIndex& from) const;
   // What `from` extends; at the beginning of a look-up also what stands before it in lists.
   std::vector<File> layersBelow(const FileIndex& from, int depth) const;
-  // The only one in all that `from` includes and is laid over whose dotted name ends in `name`.
+  // The only declaration whose dotted name ends in `name`, in all files that `from` includes or is laid over.
   std::optional<Definition> findInside(const FileIndex& from, const std::string& name,
                                        Mention::Kind kind) const;
 

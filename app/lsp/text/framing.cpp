@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t kMostHeader = 4096;  // bytes of one line
 
-// Where a header that says a length begins in a line, or npos. Not at its front stands the end of a message of whose length
-// nothing was known.
+// Where Content-Length begins in a line, or npos. What stands before it in the line is the end of a message whose length was
+// not known.
 std::size_t lengthHeaderIn(std::string_view line) {
   constexpr std::string_view kHeader = "content-length:";
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
@@ -63,7 +63,7 @@ bool FrameReader::hasMore() const {
   return ::poll(&one, 1, 0) > 0 && (one.revents & POLLIN) != 0;
 }
 
-// Without its line end; of one that is too long the last of it. False at the end of the stream.
+// Reads a line without its end; of a line that is too long, the last part. False at the end of the stream.
 bool FrameReader::readLine(std::string& line, bool& tooLong) {
   line.clear();
   for (;;) {
@@ -106,7 +106,7 @@ Incoming FrameReader::next() {
                         : fmt::format(", which begins '{}'", base::printable(base::shortened(line))));
     }
     if (tooLong && problem.empty()) problem = "a header line is too long";
-    if (line.empty() && !any) continue;  // what is left over between messages
+    if (line.empty() && !any) continue;  // an empty line between messages
     if (line.empty()) break;
     any = true;
     const std::size_t header = lengthHeaderIn(line);

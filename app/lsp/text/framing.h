@@ -1,6 +1,6 @@
-// The frame of the Language Server Protocol 3.17, "Base Protocol": header lines, an empty line, as many bytes of JSON as
-// Content-Length says. Whatever comes in, a message or an error comes out, and the next message is found again. Does not:
-// parse JSON.
+// Reads and writes the frame of the Language Server Protocol 3.17, "Base Protocol": header lines, an empty line, and as many
+// bytes of JSON as Content-Length says. Any input gives a message or an error, and after an error the next message is found.
+// Does not: parse JSON.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@ namespace weft::app::lsp {
 struct Incoming {
   enum class State { message, broken, ended };
   State state = State::ended;
-  std::string text;  // the JSON; of a broken one what is wrong; of an ended one what was cut off, or nothing
+  std::string text;  // message: the JSON; broken: what is wrong; ended: what was cut off, or ""
 };
 
 class FrameReader {
  public:
-  // The bytes of one message at most; more are skipped and reported.
+  // A message has at most so many bytes; a larger one is skipped and reported.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
   explicit FrameReader(int descriptor) : descriptor_(descriptor) {}
   // Waits for the next message.
   Incoming next();
-  // Whether bytes are there already: then more has happened, and answers that nobody waits for can wait.
+  // Whether more bytes have arrived. Then work that nobody waits for can wait.
   bool hasMore() const;
 
  private:

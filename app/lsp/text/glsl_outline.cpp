@@ -102,7 +102,8 @@ class GlslOutline::Scan {
     return std::ranges::find(statement_, word, &Token::text) != statement_.end();
   }
 
-  // Says uniform, buffer, in or out, and has no parentheses but those of layout (a function has its own).
+  // Whether the statement declares something of the interface: it has uniform, buffer, in or out, and no parentheses but those
+  // of layout (a function has its own).
   bool isInterface() const {
     int nested = 0;
     bool storage = false;

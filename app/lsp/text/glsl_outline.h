@@ -1,5 +1,5 @@
-// The words of a GLSL text with the bytes where they stand, what it declares for its pass, and what it includes. A scan of
-// tokens as that of engine/gl/shaders/scan.h: it knows neither macros nor which branch of an #if is taken. Does not: report.
+// The words of a GLSL text with their byte ranges, what it declares for its pass, and what it includes. It scans tokens as
+// engine/gl/shaders/scan.h does, without macros, and takes all branches of an #if. Does not: report.
 #pragma once
 
 #include <cstdint>

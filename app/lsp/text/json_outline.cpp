@@ -55,7 +55,7 @@ class JsonOutline::Parser {
         const bool line = text_[at_ + 1] == '/';
         const std::size_t begin = at_;
         std::size_t found = text_.find(line ? "\n" : "*/", at_ + 2);
-        // One that is never closed ends with its line: somebody is typing it, and what stands below is still meant.
+        // A comment that is never closed ends with its line: somebody is typing it, and the lines below still count.
         const bool closed = !line && found != std::string_view::npos;
         if (!line && !closed) found = text_.find('\n', at_ + 2);
         at_ = found == std::string_view::npos ? text_.size() : found + (closed ? 2 : 0);
@@ -109,7 +109,7 @@ class JsonOutline::Parser {
       blank();
       if (ends()) break;
       if (now() == '}' || now() == ']') {
-        // The other bracket closes a container further out: this one was left open.
+        // A bracket of the other kind closes a container further out; this one was left open.
         node.closed = (now() == '}') == object;
         if (node.closed) ++at_;
         break;
@@ -121,7 +121,7 @@ class JsonOutline::Parser {
         node.children.push_back(value(&node, depth + 1));
       blank();
       if (now() == ',') ++at_;
-      if (at_ == before) ++at_;  // what has no business here
+      if (at_ == before) ++at_;  // a byte that cannot stand here is passed over
     }
     node.range.end = at_;
   }

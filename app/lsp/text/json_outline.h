@@ -1,6 +1,6 @@
-// The values of a JSON text with the bytes where they stand, also of one that is being typed: what is broken is passed
-// over, and nothing is reported (the reader does that). Comments are skipped; one that is never closed ends with its line. Does not: resolve escapes in strings other
-// than those of quotes and backslashes, or convert numbers.
+// The values of a JSON text with their byte ranges, also of a text that is being typed: what is broken is passed over.
+// Comments are skipped; one that is never closed ends with its line. Does not: report (the reader does), resolve escapes in
+// strings other than those of quotes and backslashes, or convert numbers.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Node {
   const Node* find(std::string_view key) const;
   // The text of a member that is a string, or "".
   std::string_view textOf(std::string_view key) const;
-  // The bytes of the text, without quotes.
+  // The range of the text, without quotes.
   Range inside() const;
 };
 
@@ -39,9 +39,9 @@ class JsonOutline {
   const Node& root() const { return *root_; }
 
   struct Spot {
-    const Node* node = nullptr;  // the innermost value, or the container in which nothing stands here
+    const Node* node = nullptr;  // the innermost value here, or the container around an empty place
     bool inKey = false;          // in the key of `node`
-    bool atKey = false;          // in an object, where a key may be begun
+    bool atKey = false;          // in an object, where a key may begin
     bool inComment = false;
   };
   Spot at(std::size_t offset) const;

@@ -12,7 +12,7 @@ namespace weft::app::lsp {
 
 namespace {
 
-// Bytes of the character at `at` of UTF-8; of what is none, 1.
+// How many bytes the UTF-8 character at `at` has; 1 where there is none.
 std::size_t bytesAt(std::string_view text, std::size_t at) {
   const auto byte = static_cast<unsigned char>(text[at]);
   const std::size_t wanted = byte < 0x80                   ? 1
@@ -65,7 +65,7 @@ std::size_t LineMap::offsetOf(const Position& position) const {
   for (std::uint32_t units = 0; at < end && units < position.character;) {
     const std::size_t bytes = bytesAt(text_, at);
     units += unitsOf(bytes);
-    if (units > position.character) break;  // in the middle of a pair
+    if (units > position.character) break;  // the position is in the middle of a surrogate pair
     at += bytes;
   }
   return std::min(at, end);
@@ -108,7 +108,7 @@ Json toJson(const LineMap& map, const Range& range) {
 std::string pathOfUri(std::string_view uri) {
   if (!uri.starts_with("file://")) return "";
   uri.remove_prefix(7);
-  const std::size_t slash = uri.find('/');  // behind a host, which is this one
+  const std::size_t slash = uri.find('/');  // the path begins behind the host, which is taken for this one
   if (slash == std::string_view::npos) return "";
   uri.remove_prefix(slash);
   std::string path;

@@ -1,5 +1,5 @@
-// Places of the Language Server Protocol: lines from 0 and UTF-16 code units in them, file URIs. Those of diagnostics are
-// lines from 1 and bytes.
+// Places of the Language Server Protocol: lines from 0 and UTF-16 code units within them, and file URIs. Diagnostics count lines
+// and bytes, both from 1.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ struct Range {
   bool holds(std::size_t at) const { return begin <= at && at <= end; }
 };
 
-// A text with the beginnings of its lines. Ends of lines are \n, \r\n and \r. Offsets and positions outside of it are
-// taken for the nearest inside.
+// A text with the offsets of its lines, which end with \n, \r\n or \r. An offset or position outside is taken for the nearest
+// one inside. The text must outlive it.
 class LineMap {
  public:
   explicit LineMap(std::string_view text);
@@ -45,13 +45,13 @@ class LineMap {
   };
   std::string_view text_;
   std::vector<std::size_t> lines_;
-  std::vector<Mark> marks_;  // of each kStride bytes, so that positions in a long line are near to one
+  std::vector<Mark> marks_;  // one for each kStride bytes, so that a mark is near in a long line, too
 };
 
 Json toJson(const Position& position);
 Json toJson(const LineMap& map, const Range& range);
 
-// "" when it is no file: URI.
+// The path of a file: URI; "" for another URI.
 std::string pathOfUri(std::string_view uri);
 std::string uriOfPath(std::string_view path);
 

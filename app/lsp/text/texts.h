@@ -1,6 +1,6 @@
-// The texts that the server works on: those that the editor has open, as they are there (overlays of
-// engine/base/files/file_overlay.h, so that all of Weft reads them), and files on disk; with their outlines, made when they
-// are asked for. Paths are absolute.
+// The texts that the server works on: those that the editor has open, as the editor has them, and files on disk. Open texts are
+// overlays (engine/base/files/file_overlay.h), so that all of Weft reads them. Outlines are made when they are first asked for.
+// Paths are absolute. Does not: check texts.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class Texts {
  public:
   ~Texts();
   void open(const std::string& path, std::string text, std::int64_t version);
-  // The whole text, or one change in it. False: it is not open, or the range ends before it begins.
+  // Replaces the whole text, or a range of it. False when it is not open, or the range ends before it begins.
   bool replace(const std::string& path, std::string text);
   bool change(const std::string& path, const Position& start, const Position& end, const std::string& text);
   void setVersion(const std::string& path, std::int64_t version);
@@ -54,7 +54,7 @@ class Texts {
   const std::map<std::string, Opened>& opened() const { return opened_; }
   bool isOpen(const std::string& path) const { return opened_.contains(path); }
 
-  // Null when there is no such file. What was given stays what it is when the file changes.
+  // Null when there is no such file. A text that was returned does not change when the file does.
   std::shared_ptr<const Text> of(const std::string& path) const;
 
  private:
@@ -64,7 +64,7 @@ class Texts {
     std::uint64_t bytes = 0;
   };
   std::map<std::string, Opened> opened_;
-  std::map<std::string, std::shared_ptr<const Text>> texts_;  // of those
+  std::map<std::string, std::shared_ptr<const Text>> texts_;  // of opened_
   mutable std::map<std::string, Known> onDisk_;
 };
 
