@@ -61,6 +61,30 @@ std::string contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// A batch that is to fail: it writes one file over another, makes a new one, and then finds its last place taken.
+struct Blocked {
+  TemporaryFolder folder;
+  std::string old = folder.write("old.txt", "before"), blocked = folder.at("blocked.txt");
+  base::Diagnostics diagnostics;
+
+  // `made`: the new file. `block` is what somebody else does once all are written.
+  void publish(const std::string& made, const std::function<void()>& block) {
+    FileBatch batch;
+    REQUIRE(batch.writeText(old, "after", diagnostics));
+    REQUIRE(batch.writeText(made, "made", diagnostics));
+    REQUIRE(batch.writeText(blocked, "no", diagnostics));
+    block();
+    CHECK_FALSE(batch.publish(diagnostics));
+  }
+
+  // The only message.
+  const base::Diagnostic& said() const {
+    REQUIRE(diagnostics.size() == 1);
+    CHECK(diagnostics.items()[0].code == base::Code::outputNotWritten);
+    return diagnostics.items()[0];
+  }
+};
+
 // Of everything below a folder, hidden files too.
 std::size_t countOf(const TemporaryFolder& folder) {
   return static_cast<std::size_t>(
@@ -89,23 +113,12 @@ TEST_CASE("files appear when all are written, over what was there, also by the l
 }
 
 TEST_CASE("a rename that fails undoes those before it") {
-  const TemporaryFolder folder;
-  const std::string old = folder.write("old.txt", "before"), blocked = folder.at("blocked.txt");
-  base::Diagnostics diagnostics;
-  {
-    FileBatch batch;
-    REQUIRE(batch.writeText(old, "after", diagnostics));
-    REQUIRE(batch.writeText(folder.at("new/file.txt"), "new", diagnostics));
-    REQUIRE(batch.writeText(blocked, "no", diagnostics));
-    fs::create_directory(blocked);  // by somebody else, meanwhile
-    CHECK_FALSE(batch.publish(diagnostics));
-  }
-  REQUIRE(diagnostics.size() == 1);
-  CHECK(diagnostics.items()[0].code == base::Code::outputNotWritten);
-  CHECK(diagnostics.items()[0].message.find("blocked.txt'") != std::string::npos);
-  CHECK(diagnostics.items()[0].found.empty());  // nothing is replaced
-  CHECK(contentOf(old) == "before");
-  CHECK(countOf(folder) == 2);
+  Blocked test;
+  test.publish(test.folder.at("new/file.txt"), [&] { fs::create_directory(test.blocked); });
+  CHECK(test.said().message.find("blocked.txt'") != std::string::npos);
+  CHECK(test.said().found.empty());  // nothing is replaced
+  CHECK(contentOf(test.old) == "before");
+  CHECK(countOf(test.folder) == 2);
 }
 
 TEST_CASE("files that are not published leave nothing") {
@@ -120,29 +133,21 @@ TEST_CASE("files that are not published leave nothing") {
 }
 
 TEST_CASE("what cannot be put back is kept, and the message says where") {
-  const TemporaryFolder folder;
-  const std::string old = folder.write("old.txt", "before"), made = folder.at("made.txt"),
-                    blocked = folder.at("blocked.txt");
-  base::Diagnostics diagnostics;
-  {
-    FileBatch batch;
-    REQUIRE(batch.writeText(old, "after", diagnostics));
-    REQUIRE(batch.writeText(made, "made", diagnostics));
-    REQUIRE(batch.writeText(blocked, "no", diagnostics));
+  Blocked test;
+  const std::string made = test.folder.at("made.txt");
+  test.publish(made, [&] {
     meanwhile = {2, [&] {
-                   for (const std::string& path : {old, made, blocked}) putFolder(path);
+                   for (const std::string& path : {test.old, made, test.blocked}) putFolder(path);
                  }};
-    CHECK_FALSE(batch.publish(diagnostics));
-  }
-  REQUIRE(diagnostics.size() == 1);
-  const base::Diagnostic& said = diagnostics.items()[0];
-  CHECK(said.code == base::Code::outputNotWritten);
-  const std::string begin = fmt::format(
-      "'{}' is written, and cannot be removed; '{}' cannot be put back, and what it was is in '", made, old);
+  });
+  const base::Diagnostic& said = test.said();
+  const std::string begin =
+      fmt::format("'{}' is written, and cannot be removed; '{}' cannot be put back, and what it was is in '",
+                  made, test.old);
   REQUIRE_MESSAGE(said.found.starts_with(begin), said.found);
   CHECK(contentOf(said.found.substr(begin.size(), said.found.size() - begin.size() - 1)) == "before");
   CHECK(said.hint.find("by hand") != std::string::npos);
-  CHECK(countOf(folder) == 7);  // three folders with one inside each, and what is kept
+  CHECK(countOf(test.folder) == 7);  // three folders with one inside each, and what is kept
 }
 
 TEST_CASE("without hard links, what is replaced is copied first; on a full disk nothing is replaced") {
