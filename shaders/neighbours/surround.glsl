@@ -1,17 +1,17 @@
 // What the spheres around a point of a sphere do to its light: they hide light from everywhere, from the sun and from the brightest spot,
 // and what they hide they replace by light that they throw back. For shading/light.glsl.
-// Slot neighbours, see neighbours/lists.glsl; not `as linear`.
+// Slot neighbours, see neighbours/row.glsl. Loops of one turn stand where a condition would do: in software a condition skips nothing, a
+// loop that no lane enters does.
 #ifndef NEIGHBOURS_SURROUND_GLSL
 #define NEIGHBOURS_SURROUND_GLSL
 
 #include "neighbours/caps.glsl"
-#include "neighbours/lists.glsl"
+#include "neighbours/row.glsl"
 #include "shading/ibl.glsl"
 #ifdef HAS_SUN
 #include "scene/sun.glsl"
 #endif
 
-uniform sampler2D neighbours;
 #ifdef HAS_BRIGHTEST
 flat in vec4 spot_around;  // spotAround() of ibl/brightest.glsl
 #endif
@@ -44,6 +44,7 @@ struct Surround {
 };
 
 const float kConeWidth = 1.6;  // of a lobe's cone, in half angles of half vectors
+const float kLeast = 0.002;    // share of a lobe that is worth to be looked at
 
 // Share of a cone around a direction that lies below the horizon.
 float shareBelow(float height, float wide) {
@@ -63,17 +64,15 @@ float ballShare(float radius, float angle, float blur, vec3 light, vec3 to, floa
   return discShare(radius, angle * away + blur, along, sqrt(max(distance2 - along * along, 0.0)), away);
 }
 
-// Of a point of the sphere of that row, which has that colour. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
-Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, vec3 own_color, Lobe lobe) {
+// Of a point of a sphere, which has that colour. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
+Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, vec3 own_color, Lobe lobe) {
   axis = normalize(axis);
   float alpha = alphaOfRoughness(roughness), cone = kConeWidth * alpha + 0.005, hidden = 0.0;
-  // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
-  vec2 texel = 1.0 / vec2(textureSize(neighbours, 0)), first = (vec2(neighbourTexel(row, 0)) + 0.5) * texel;
-  vec4 common_row = textureLod(neighbours, 0.5 * texel, 0.0);
-  float reach = common_row.x;
-  Soil soil = Soil(common_row.w, common_row.y, common_row.z, textureLod(neighbours, vec2(1.5, 0.5) * texel, 0.0).rgb);
+  vec3 first = listed.first;
+  float reach = listed.reach;
+  Soil soil = Soil(listed.is_ground, listed.height, listed.radius, listed.albedo);
   // The ground below is met where the lower part of the lobe meets it.
-  float below = common_row.w * mix(shareBelow(axis.y, cone), 0.5 - 0.5 * n.y, alpha);
+  float below = soil.is * mix(shareBelow(axis.y, cone), 0.5 - 0.5 * n.y, alpha);
   vec3 ground_at = at + axis * ((at.y - soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
   ground_at.y = soil.height;
   float ground_blur = cone * length(ground_at - at);
@@ -97,7 +96,7 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, vec3 
     float distance2, distance_to, along;
     do {
       ++i;
-      ball = textureLod(neighbours, first + vec2(2 * i, 0) * texel, 0.0);
+      ball = textureLod(neighbours, vec2(first.x + float(2 * i) * first.z, first.y), 0.0);
       to = ball.xyz - at;
       distance2 = dot(to, to);
       distance_to = sqrt(distance2);
@@ -107,20 +106,22 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, vec3 
                (dot(n, to) > -ball.w || (along > -lobe_ends && distance2 - along * along < lobe_ends * lobe_ends));
     } while (i < MOST_NEIGHBOURS - 1 && !counts && ball.w > 0.0);
     if (!counts) break;
-    vec4 light = textureLod(neighbours, first + vec2(2 * i + 1, 0) * texel, 0.0);
+    vec4 light = textureLod(neighbours, vec2(first.x + float(2 * i + 1) * first.z, first.y), 0.0);
     float ratio = max(distance_to / ball.w, 1.0), near = withinReach(ratio, reach);
     vec3 matter = unpackMatter(light.a);
     float share = capShare(ratio, dot(n, to) / distance_to) * near;
     // What the ground sees there of this sphere itself, and of others as long as they are above the horizon.
-    vec3 over = vec3(ball.x, abs(ball.y - soil.height), ball.z) - vec3(ground_at.x, 0.0, ground_at.z);
-    float over2 = dot(over, over), over_by = light.a < 0.0 ? 1.0 : clamp(dot(n, to) / ball.w + 1.0, 0.0, 1.0) * near;
-    all.ground_hidden += vec4(light.a < 0.0 ? own_color : light.rgb, 1.0) * (capOnGround(over, ball.w) * over_by);
+    for (int once = below > kLeast ? 1 : 0; once > 0; --once) {
+      vec3 over = vec3(ball.x, abs(ball.y - soil.height), ball.z) - vec3(ground_at.x, 0.0, ground_at.z);
+      float over2 = dot(over, over), over_by = light.a < 0.0 ? 1.0 : clamp(dot(n, to) / ball.w + 1.0, 0.0, 1.0) * near;
+      all.ground_hidden += vec4(light.a < 0.0 ? own_color : light.rgb, 1.0) * (capOnGround(over, ball.w) * over_by);
 #ifdef HAS_BRIGHTEST
-    all.ground_lit.x *= 1.0 - ballShare(ball.w, spot_angle, ground_blur, lobe.spot, over, over2) * over_by;
+      all.ground_lit.x *= 1.0 - ballShare(ball.w, spot_angle, ground_blur, lobe.spot, over, over2) * over_by;
 #endif
 #ifdef HAS_SUN
-    all.ground_lit.y *= 1.0 - ballShare(ball.w, sun_angle, ground_blur, sun_direction, over, over2) * over_by;
+      all.ground_lit.y *= 1.0 - ballShare(ball.w, sun_angle, ground_blur, sun_direction, over, over2) * over_by;
 #endif
+    }
     if (light.a < 0.0) {
       all.foot = share * -light.a;
       share = near = 0.0;
@@ -131,14 +132,16 @@ Surround surroundOf(uint row, vec3 at, vec3 n, vec3 axis, float roughness, vec3 
     towards += share / distance_to * to;
     float beside = sqrt(max(distance2 - along * along, 0.0)), wide = cone * distance_to;
     float in_lobe = mix(discShare(ball.w, wide, along, beside, distance_to) * near, share, alpha) * all.mirror_seen;
-    all.mirror_seen -= in_lobe;
-    all.mirror_albedo += in_lobe * light.rgb;
-    // Where the middle of what the lobe and the sphere share meets it.
-    float middle = 0.5 * (max(beside - wide, -ball.w) + min(beside + wide, ball.w)), deep = sqrt(max(ball.w * ball.w - middle * middle, 0.0));
-    vec3 facing = (axis * along - to) * (middle / max(beside, 1e-6)) - axis * deep;
-    float far = max(along - deep, 0.0), alpha_of_it = alphaOfRoughness(matter.y);
-    all.mirror_facing += facing * (in_lobe / ball.w);
-    all.mirror_matter += vec4(alpha_of_it * alpha_of_it, matter.z, far / ball.w, far) * in_lobe;
+    for (int once = in_lobe > 0.05 * kLeast ? 1 : 0; once > 0; --once) {
+      all.mirror_seen -= in_lobe;
+      all.mirror_albedo += in_lobe * light.rgb;
+      // Where the middle of what the lobe and the sphere share meets it.
+      float middle = 0.5 * (max(beside - wide, -ball.w) + min(beside + wide, ball.w)), deep = sqrt(max(ball.w * ball.w - middle * middle, 0.0));
+      vec3 facing = (axis * along - to) * (middle / max(beside, 1e-6)) - axis * deep;
+      float far = max(along - deep, 0.0), alpha_of_it = alphaOfRoughness(matter.y);
+      all.mirror_facing += facing * (in_lobe / ball.w);
+      all.mirror_matter += vec4(alpha_of_it * alpha_of_it, matter.z, far / ball.w, far) * in_lobe;
+    }
 #ifdef HAS_BRIGHTEST
     all.spot_seen *= 1.0 - ballShare(ball.w, spot_angle, 0.0, lobe.spot, to, distance2) * near;
 #endif
@@ -219,15 +222,18 @@ vec3 overGround(Surround surround, vec3 axis) {
 
 // The lobe's light without neighbours: `sky` is what it reads above the ground.
 vec3 skyAndGround(Surround surround, GroundLight light, vec3 sky) {
-  float surface = surfaceOf(surround.soil, surround.ground_at);
-  return mix(sky, groundRadiance(surround.soil, light, sky, surface, surround.ground_hidden, surround.ground_lit), surround.ground_share);
+  for (int once = surround.ground_share > kLeast ? 1 : 0; once > 0; --once) {
+    float surface = surfaceOf(surround.soil, surround.ground_at);
+    sky = mix(sky, groundRadiance(surround.soil, light, sky, surface, surround.ground_hidden, surround.ground_lit), surround.ground_share);
+  }
+  return sky;
 }
 
 // Light of what hides the rest of the lobe. A metal shows what is behind the eye: the sky, the ground, and this sphere, whose light is about
 // `back` there. Anything else is a lobe of roughness 1. One place on one sphere stands for all.
 vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_color, float own_metallic, float own_alpha, Lobe lobe, GroundLight ground) {
   vec3 sum = vec3(0.0);
-  for (int once = surround.mirror_seen < 0.999 ? 1 : 0; once > 0; --once) {  // in software a condition would skip nothing
+  for (int once = surround.mirror_seen < 0.999 ? 1 : 0; once > 0; --once) {
     float hidden = 1.0 - surround.mirror_seen;
     vec3 color = surround.mirror_albedo / hidden, facing = normalize(surround.mirror_facing);
     vec4 matter = surround.mirror_matter / hidden;
@@ -239,29 +245,33 @@ vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_colo
     float alpha = sqrt(clamp(mix(1.0, before * spread * spread + matter.x, matter.y), 1e-6, 1.0)), cone = kConeWidth * alpha + 0.005;
     vec3 place = at + surround.mirror * matter.w;
     float below = surround.soil.is * shareBelow(axis.y, cone), surface = surfaceOf(surround.soil, place);
-    vec3 lifted = axis;
-    lifted.y = mix(axis.y, max(axis.y, kOverGround * cone), surface);
-    float level = clamp(placeOfAlpha(alpha), 0.0, 1.0) * lobe.poles.w;
-    vec3 light = sampleEquirect(specular, equirectUv(lifted) - vec2(sky_turn, 0.0), equirectLookup(level, lobe.poles.y)).rgb;
-    // The ground that it sees, with what it and this sphere hide of that.
-    vec3 foot = place + axis * ((place.y - surround.soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
-    foot.y = surround.soil.height;
-    vec3 own = at - n * radius;
-    float other_radius = matter.w / max(matter.z, 1e-4);
-    vec4 taken = vec4(color, 1.0) * capOnGround(place - facing * other_radius - foot, other_radius) + vec4(own_color, 1.0) * capOnGround(own - foot, radius);
-    light = mix(light, groundRadiance(surround.soil, ground, light, surface, taken, vec2(max(1.0 - taken.w, 0.0))), below);
-    // This sphere.
-    vec3 to = own - place;
+    // This sphere, as that one sees it.
+    vec3 own = at - n * radius, to = own - place;
     float distance2 = dot(to, to), distance_to = sqrt(distance2), along = dot(axis, to);
     float share = mix(discShare(radius, cone * distance_to, along, sqrt(max(distance2 - along * along, 0.0)), distance_to),
                       radius * radius * max(dot(facing, to), 0.0) / (distance2 * distance_to), alpha);
     float deep = sqrt(max(radius * radius - distance2 + along * along, 0.0)), far = max(along - deep, 0.0);
     vec3 own_facing = normalize(axis * far - to), again = reflect(axis, own_facing);
     again = mix(own_facing, again, own_metallic);
-    float wider = mix(1.0, min(alpha * (1.0 + 2.0 * far / radius) + own_alpha, 1.0), own_metallic), under = surround.soil.is * surface * shareBelow(again.y, kConeWidth * wider + 0.005);
-    again.y = mix(again.y, max(again.y, kOverGround * kConeWidth * wider), surface);
-    level = clamp(placeOfAlpha(wider), 0.0, 1.0) * lobe.poles.w;
-    vec3 back = sampleEquirect(specular, equirectUv(again) - vec2(sky_turn, 0.0), equirectLookup(level, lobe.poles.y)).rgb;
+    float wider = mix(1.0, min(alpha * (1.0 + 2.0 * far / radius) + own_alpha, 1.0), own_metallic);
+    float again_cone = kConeWidth * wider + 0.005, under = surround.soil.is * surface * shareBelow(again.y, again_cone);
+    // What this sphere sees there if it counts, then what that one sees: a call is its code again, a turn is not.
+    vec3 light = vec3(0.0), back = light;
+    for (int turn = share > kLeast ? 2 : 1; turn > 0; --turn) {
+      vec3 lifted = turn > 1 ? again : axis;
+      lifted.y = mix(lifted.y, max(lifted.y, kOverGround * (turn > 1 ? again_cone : cone)), surface);
+      float level = clamp(placeOfAlpha(turn > 1 ? wider : alpha), 0.0, 1.0) * lobe.poles.w;
+      back = light;
+      light = sampleEquirect(specular, equirectUv(lifted) - vec2(sky_turn, 0.0), equirectLookup(level, lobe.poles.y)).rgb;
+    }
+    // The ground that it sees, with what it and this sphere hide of that.
+    for (int ground_once = below > kLeast ? 1 : 0; ground_once > 0; --ground_once) {
+      vec3 foot = place + axis * ((place.y - surround.soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
+      foot.y = surround.soil.height;
+      float other_radius = matter.w / max(matter.z, 1e-4);
+      vec4 taken = vec4(color, 1.0) * capOnGround(place - facing * other_radius - foot, other_radius) + vec4(own_color, 1.0) * capOnGround(own - foot, radius);
+      light = mix(light, groundRadiance(surround.soil, ground, light, surface, taken, vec2(max(1.0 - taken.w, 0.0))), below);
+    }
     light = mix(light, mix(back, surround.soil.albedo * (ground.sky + ground.spot + ground.sun), under) * own_color, share);
 #ifdef HAS_BRIGHTEST
     float half2 = 0.5 + 0.5 * dot(axis, lobe.spot), a2 = min(alpha * alpha + spot_around.w * spot_around.w, 1.0), d = half2 * (a2 - 1.0) + 1.0;

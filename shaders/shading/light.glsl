@@ -8,9 +8,9 @@
 //   void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried)   how many lamps it went through
 // read    brdf, irradiance?, specular?, environment?, brightest?   see shading/ibl.glsl; without one its light is missing
 //         probes?, sh?  light that other things throw back, see gi/bounce.glsl
-//         neighbours?   what spheres hide of each other, see neighbours/surround.glsl; the vertex shader says of which row the
-//                       point is, and its radius: `flat out uint sphere_row`, `flat out float sphere_radius`, and with `brightest`
-//                       `flat out vec4 spot_around`
+//         neighbours?   what spheres hide of each other, see neighbours/surround.glsl; the vertex shader says what its
+//                       sphere has listed, and its radius: `flat out Listed listed` (neighbours/row.glsl), `flat out float sphere_radius`,
+//                       and with `brightest` `flat out vec4 spot_around`
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
 //         clusters?, slices?   which lamps reach where, see deferred/clusters.glsl (forward, `clusters` is its `columns`); without
@@ -37,7 +37,7 @@
 #if defined HAS_NEIGHBOURS && LOBE_IS_FLAT
 #define SEES_NEIGHBOURS 1
 #include "neighbours/surround.glsl"
-flat in uint sphere_row;
+flat in Listed listed;
 flat in float sphere_radius;
 #else
 #define SEES_NEIGHBOURS 0
@@ -92,15 +92,10 @@ void main() {
   Lobe lobe = lobeOf(point.roughness, 0.0);
 #endif
 #if SEES_NEIGHBOURS
-  Surround surround = surroundOf(sphere_row, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, point.surface.albedo, lobe);
+  Surround surround = surroundOf(listed, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, point.surface.albedo, lobe);
   // Light of the ground where nothing stands, and what is in its place in the environment.
-  vec3 from_above = vec3(0.0), from_below = vec3(0.0);
-#ifdef HAS_IRRADIANCE
-  from_above = sampleEquirect(irradiance, vec2(0.0), vec2(0.0, lobe.poles.z)).rgb;
-  from_below = sampleEquirect(irradiance, vec2(0.0, 1.0), vec2(0.0, lobe.poles.z)).rgb;
-#endif
-  GroundLight on_ground = groundLight(lobe, from_above);
-  vec3 open_ground = mix(from_below, surround.soil.albedo * (on_ground.sky + on_ground.spot + on_ground.sun), surfaceOf(surround.soil, point.at));
+  GroundLight on_ground = groundLight(lobe, listed.above);
+  vec3 open_ground = mix(listed.below, surround.soil.albedo * (on_ground.sky + on_ground.spot + on_ground.sun), surfaceOf(surround.soil, point.at));
 #endif
   // What single scattering reflects of the environment.
   vec3 reflected = vec3(0.0);
@@ -153,7 +148,7 @@ void main() {
 #endif
   around = sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), lookup).rgb;
 #if SEES_NEIGHBOURS
-  around = aroundSeen(surround, point.n, lobe, around, from_below, open_ground);
+  around = aroundSeen(surround, point.n, lobe, around, listed.below, open_ground);
 #endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];

@@ -6,6 +6,9 @@
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
 #include "shading/lobe.glsl"
+#ifdef HAS_NEIGHBOURS
+#include "neighbours/row.glsl"
+#endif
 #include "glint.glsl"
 
 #ifndef OCTAGON
@@ -31,7 +34,7 @@ flat out mat3 to_world;
 flat out vec3 world_eye;
 #endif
 #ifdef HAS_NEIGHBOURS
-flat out uint sphere_row;
+flat out Listed listed;
 #ifdef HAS_BRIGHTEST
 flat out vec4 spot_around;
 #endif
@@ -69,7 +72,7 @@ void main() {
 #endif
   Instance self = instance[row];
 #ifdef HAS_NEIGHBOURS
-  sphere_row = row;
+  listed = listedOf(row);
 #ifdef HAS_BRIGHTEST
   spot_around = spotAround();
 #endif

@@ -4,6 +4,9 @@
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
 #include "shading/lobe.glsl"
+#ifdef HAS_NEIGHBOURS
+#include "neighbours/row.glsl"
+#endif
 #include "glint.glsl"
 
 in vec3 position;
@@ -15,7 +18,7 @@ flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
 flat out Lobe lobe;             // see shading/lobe.glsl
 #ifdef HAS_NEIGHBOURS
-flat out uint sphere_row;
+flat out Listed listed;
 #ifdef HAS_BRIGHTEST
 flat out vec4 spot_around;
 #endif
@@ -26,7 +29,7 @@ out float gl_CullDistance[1];   // a triangle goes when all of its corners are b
 void main() {
   Instance self = instance[gl_InstanceID];
 #ifdef HAS_NEIGHBOURS
-  sphere_row = uint(gl_InstanceID);
+  listed = listedOf(uint(gl_InstanceID));
 #ifdef HAS_BRIGHTEST
   spot_around = spotAround();
 #endif

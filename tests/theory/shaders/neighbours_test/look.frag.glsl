@@ -28,7 +28,7 @@ void main() {
   vec3 v = normalize(eye - position);
   Lobe lobe = lobeOf(roughness, 0.0);
   float lean = responseOf(Surface(vec3(1.0), 1.0, roughness), clamp(dot(n, v), 0.0, 1.0)).lobe.x;
-  Surround all = surroundOf(uint(row), position, n, mix(reflect(-v, n), n, lean), roughness, vec3(1.0), lobe);
+  Surround all = surroundOf(listedOf(uint(row)), position, n, mix(reflect(-v, n), n, lean), roughness, vec3(1.0), lobe);
   shares = vec4(all.seen, all.mirror_seen, all.sun_seen, 1.0);
   vec2 lookup = vec2(0.0, 0.5 / float(textureSize(irradiance, 0).y));
   vec3 sky = sampleEquirect(irradiance, equirectUv(all.bent), lookup).rgb, below = sampleEquirect(irradiance, vec2(0.0, 1.0), lookup).rgb;
