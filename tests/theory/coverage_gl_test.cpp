@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "tests/theory/lab.h"
 #include "tests/theory/oracle.h"
@@ -114,6 +115,76 @@ TEST_CASE("coverage: two spheres side by side, each with its own area") {
   const double area = projectedSphereArea(f, 1, std::sqrt(9.0 + 144), 12) +
                       projectedSphereArea(f, 1.5, std::sqrt(9.0 + 1 + 225), 15);
   CHECK(sumOf(lab.read("hdr")).alpha == doctest::Approx(area).epsilon(0.002));
+}
+
+// The judge is 16 x 16 rays a pixel. What one sphere covers of a pixel is drawn right; where two silhouettes meet in
+// one, alphas multiply, as if the edges knew nothing of each other: docs/effects.md#spheres.
+TEST_CASE("coverage: silhouettes that touch are off only in pixels that both pass through") {
+  constexpr int kPairs = 12 * 9, kCell = 40, kRays = 16;
+  constexpr double kOff = 16.0 / 255;
+  const double pixel = 2 * std::tan(std::numbers::pi / 72) / kHeight;  // of the slope
+  std::mt19937 random(1);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  for (const bool outside : {true, false}) {  // one beside the other, or before it and within its silhouette
+    std::vector<Ball> balls;
+    for (int i = 0; i < kPairs; ++i) {
+      const double large = between(6, 9), small = outside ? between(4, 9) : between(3, 5),
+                   turn = between(0, 6.2831853);
+      const double apart = (outside ? large + small : large - small) + between(-0.5, 0.5);
+      const double x = (i % 12 - 5.5) * kCell + between(-0.5, 0.5),
+                   y = (i / 12 - 4.0) * kCell + between(-0.5, 0.5);
+      const double share = outside ? 0.5 : 0.0, far = between(210, 240), near = 200;
+      balls.push_back({.center = {(x - share * apart * std::cos(turn)) * pixel * far,
+                                  (y - share * apart * std::sin(turn)) * pixel * far, -far},
+                       .radius = static_cast<float>(large * pixel * far)});
+      balls.push_back({.center = {(x + (1 - share) * apart * std::cos(turn)) * pixel * near,
+                                  (y + (1 - share) * apart * std::sin(turn)) * pixel * near, -near},
+                       .radius = static_cast<float>(small * pixel * near)});
+    }
+    Lab lab(scene(balls, 5));
+    lab.frame();
+    const Picture picture = lab.read("hdr");
+    int both = 0, wrong = 0, wrong_of_one = 0;
+    double worst = 0, from_product = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y)
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        const std::size_t pair = x / kCell + 12 * (y / kCell);
+        int hits[2] = {}, any = 0;
+        for (int ray = 0; ray < kRays * kRays; ++ray) {
+          const double across = (x + (ray % kRays + 0.5) / kRays - kWidth / 2.0) * pixel,
+                       up = (y + (ray / kRays + 0.5) / kRays - kHeight / 2.0) * pixel;
+          bool hit = false;
+          for (std::size_t k = 0; k < 2; ++k) {
+            const Ball& ball = balls[2 * pair + k];
+            const glm::dvec3 c = ball.center;  // in floats a distance of 200 would lose a tenth of a pixel
+            const double cv = c[0] * across + c[1] * up - c[2], vv = across * across + up * up + 1;
+            const double r = ball.radius, cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+            const bool here = cv * cv >= vv * (cc - r * r);
+            hits[k] += here;
+            hit = hit || here;
+          }
+          any += hit;
+        }
+        const double all = kRays * kRays, a = hits[0] / all, b = hits[1] / all, drawn = picture.at(x, y)[3];
+        const bool meet = a > 0 && a < 1 && b > 0 && b < 1;
+        const double off = std::abs(drawn - any / all);
+        both += meet;
+        wrong += meet && off > kOff;
+        wrong_of_one += !meet && off > kOff;
+        if (meet) from_product = std::max(from_product, std::abs(drawn - (1 - (1 - a) * (1 - b))));
+        worst = std::max(worst, off);
+      }
+    MESSAGE((outside ? "beside: " : "within: "), kPairs, " pairs, ", both, " pixels with both edges, ", wrong,
+            " of them off by more than 16 of 255, worst ", worst * 255, "; from independent edges ",
+            from_product * 255, "; others off ", wrong_of_one);
+    CHECK(both > kPairs);
+    CHECK(wrong_of_one == 0);
+    CHECK(from_product < kOff);
+    CHECK(worst < 0.25 + kOff);
+    CHECK(lab.reports() == "");
+  }
 }
 
 TEST_CASE("coverage: the eye inside, the sphere behind, across the eye's plane, and degenerate ones") {
