@@ -1,8 +1,8 @@
-// The grid of neighbours/grid.glsl: a counting sort, by one group of 256 threads. The order within a cell is any.
+// Makes the grid of neighbours/grid.glsl by a counting sort, in one group of 256 threads. The order of the spheres within a cell is not defined.
 // read    instances   the spheres
-// write   grid        room for `cells` + 1 words and one a sphere
-// params  count       spheres
-//         cells       at most so many, without the one of the large spheres
+// write   grid        room for `cells` + 1 words, and one word for each sphere
+// params  count       of spheres
+//         cells       how many cells the grid has at most, without that of the large spheres
 #define GRID_ACCESS coherent
 #include "grid.glsl"
 #include "scene/instances.glsl"
@@ -15,10 +15,10 @@ layout(std140) uniform Parameters {
 
 shared vec3 lows[256];
 shared vec3 highs[256];
-shared vec2 radii[256];  // sum of logarithms, greatest
+shared vec2 radii[256];  // x: sum of the logarithms of radii; y: the greatest radius of a sphere that is not large
 shared uint sums[256];
 
-// Cubes of which `most` at most fill the box, as small as they may be.
+// Chooses a small side for the cubes, not below `least`, so that at most `most` of them fill the box. `many`: their number along x, y and z, and in all.
 void placeCells(vec3 low, vec3 high, float least, uint most, out float side, out uvec4 many) {
   vec3 size = high - low;
   float longest = max(max(size.x, size.y), size.z);
@@ -34,7 +34,7 @@ void placeCells(vec3 low, vec3 high, float least, uint most, out float side, out
 
 void main() {
   uint self = gl_LocalInvocationIndex;
-  // The last is that of the large spheres. In loops software reads what is uniform for each lane by itself, so a sum stands for `cells` there.
+  // The last cell is that of the large spheres. In a loop software reads a uniform for each lane by itself, so loops use the sum `words`, not `cells`.
   uint words = cells + 1u, part = (words + 255u) / 256u, first = min(self * part, words), last = min(first + part, words);
   for (uint cell = first; cell < last; ++cell) grid_word[cell] = 0u;
 
@@ -49,7 +49,8 @@ void main() {
   highs[self] = high;
   radii[self] = radius;
   barrier();
-  // Every thread goes through all parts: each barrier makes the program larger, and in software its translation takes longer than its work.
+  // Every thread goes through the values of all threads. To share that work would take more barriers; each of them makes the program larger, and in
+  // software the translation of the program takes longer than its work.
   radius = vec2(0.0);
   for (uint other = 0u; other < 256u; ++other) {
     low = min(low, lows[other]);
@@ -72,10 +73,10 @@ void main() {
     grid_radii = vec4(radius.y, large, 0.0, 0.0);
   }
 
-  // Two turns of the same, so that the program has it once. The first counts the spheres of each cell, from words that are 0. The second
-  // finds where each cell begins, and beginnings move on to the ends as spheres take their places.
+  // The loop runs twice, so that the program has its code once. The first turn counts the spheres of each cell, from words that are 0. The second
+  // turn finds where each cell begins; each word moves on to the end of its cell as spheres take their places.
   for (uint turn = 0u; turn < 2u; ++turn) {
-    // Each thread adds up a part of the cells, then takes what the threads before it have.
+    // Each thread adds up its part of the cells, then adds the sums of the threads before it.
     uint sum = 0u;
     for (uint cell = first; cell < last; ++cell) sum += grid_word[cell];
     sums[self] = sum;

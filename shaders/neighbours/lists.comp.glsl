@@ -1,13 +1,13 @@
-// The lists of neighbours/lists.glsl, one thread a sphere. Spheres of which some point of this one is nearer than their reach count, the
-// widest kCandidates of them; equally wide ones by their rows. Nearer ones may hide them: by caps, seen from this sphere's middle. What is
-// hidden nearly whole is left out.
+// Makes the lists of neighbours/lists.glsl, with one thread for each sphere. Another sphere is a candidate when some point of this one lies within its
+// reach. The widest kCandidates are kept, equally wide ones by their rows. A nearer candidate may hide a farther one; how much of it, the caps say that
+// both are from this sphere's middle. A candidate that is hidden nearly whole is left out.
 // read    instances   the spheres
 //         grid        of neighbours/grid.comp.glsl
 //         ground?     see scene/ground.glsl
 // write   neighbours
-// params  count       spheres
-//         cells       as that shader had it
-//         reach       in radii
+// params  count       of spheres
+//         cells       as in neighbours/grid.comp.glsl
+//         reach       how far a sphere hides anything, in its radii
 #include "common/fast_atan.glsl"
 #include "grid.glsl"
 #include "lists.glsl"
@@ -26,11 +26,11 @@ layout(std140) uniform Parameters {
 };
 
 const int kCandidates = 120;
-const float kHidden = 0.03;  // of a cap
-const float kImage = 1.3;    // fitted to traced paths
+const float kHidden = 0.03;  // a sphere is left out when less than this share of its cap is left
+const float kImage = 1.3;    // a factor on how dark the ground is around a foot: fitted to traced paths
 
-// Ordered by the sine of the half angle, then by row: sine and row. Shared memory, in which each thread has a column of its own: an array
-// of a thread's own is filled with zeros first, in software element by element.
+// Bits of the sine of the half angle, and row; ordered by both, the widest first. The array is in shared memory, where each thread has a column: software
+// would fill an array of the thread's own with zeros first, element by element.
 shared uvec2 candidates[kCandidates * 32];
 int found = 0;
 
@@ -53,13 +53,14 @@ void consider(uint self, vec4 own, float radii, uint row) {
   found = min(found + 1, kCandidates);
 }
 
-// Half angle of a cap.
+// The half angle of a cap, in radians.
 float angleOf(uint sine_bits) {
   float sine = uintBitsToFloat(sine_bits);
   return fastAtan(vec2(sine), vec2(sqrt(max(1.0 - sine * sine, 0.0)))).x;
 }
 
-// What nearer spheres leave of a cap of half angle `angle`, in the direction `axis` and as far away as that is long.
+// The share that nearer spheres leave of the cap of a sphere. `angle` is half the cap's; `axis` goes from `center`, where it is seen from, to the
+// sphere's centre.
 float leftOf(float angle, vec3 axis, vec3 center) {
   float left = 1.0, distance_to = length(axis);
   axis /= distance_to;
@@ -75,8 +76,8 @@ float leftOf(float angle, vec3 axis, vec3 center) {
   return left;
 }
 
-// In software the translation of this takes far longer than its work, and every access to a buffer, an array or an image makes it
-// longer. So each stands once: loops have rounds for the last cell, and for what comes before and after the spheres of a list.
+// In software the translation of this program takes far longer than its work, and every access in its text to a buffer, an array or an image makes it
+// longer. So each access stands once: the loops have extra rounds for the last cell, and for what comes before and after the spheres of a list.
 void main() {
   vec4 least = grid_low;
   uvec4 many = grid_cells;
@@ -101,7 +102,7 @@ void main() {
     if (at.y > high.y) at = ivec3(low.x, low.y, at.z + 1);
   }
 
-  // Round -2 writes the first texel of all, -1 the ground, and the last one what ends a list that is shorter.
+  // Round -2 writes the two texels for all lists, round -1 the image in the ground, and round `found` the end of a list that is shorter.
   int listed = 0;
   for (int i = self == 0u ? -2 : -1; i <= found && listed < MOST_NEIGHBOURS; ++i) {
     vec4 ball = vec4(0.0), light = vec4(0.0);
@@ -112,7 +113,7 @@ void main() {
       light.rgb = ground_albedo;
 #endif
     } else if (i == -1) {
-      // The ground around its foot is dark. A sphere sees about as much of that as of its own image in the ground, and a little beyond.
+      // The ground around a sphere's foot is dark. The sphere sees about as much of that as of its own image in the ground, and a little more.
 #ifdef HAS_GROUND
       if (own.y - height <= -own.w) continue;
       ball = vec4(own.x, 2.0 * height - own.y, own.zw);

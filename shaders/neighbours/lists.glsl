@@ -1,15 +1,19 @@
-// Which other spheres a sphere sees, at most MOST_NEIGHBOURS, the widest first; radius 0 ends a list that is shorter. A texture, two texels each: centre
-// and radius; albedo, and what packMatter makes of the share of its cap that nearer spheres leave, seen from the middle of the sphere whose list
-// this is, and of its roughness and metallic. The last is negative for the image of that sphere itself in the ground, and then the share alone.
-// The first texel of all says how far away a sphere hides anything, in radii; height of the ground; radius of its surface; 1 if there is a ground.
-// The second one is the ground's albedo.
+// For each sphere the list of the other spheres that it sees, at most MOST_NEIGHBOURS of them, the widest first. Each has two texels:
+//   centre, radius        a radius of 0 ends a list that is shorter
+//   albedo, packMatter()  packed: the share of its cap that nearer spheres leave, seen from the middle of the list's own sphere; roughness; metallic
+// A list may begin with the image of its own sphere in the ground. Its last number is negative: minus a factor on how dark the ground is around that
+// sphere's foot.
+// Row 0 has two texels that are for all lists:
+//   reach, height, radius, is   a sphere hides nothing from `reach` of its radii on; the ground's height; its surface's radius; 1: there is a ground
+//   albedo                      of the ground
 // neighbours   texture, LISTS_ACROSS lists wide
 #ifndef NEIGHBOURS_LISTS_GLSL
 #define NEIGHBOURS_LISTS_GLSL
 
+// The first texel of entry `i` in the list of the sphere of that row.
 ivec2 neighbourTexel(uint row, int i) { return ivec2((int(row) % LISTS_ACROSS) * 2 * MOST_NEIGHBOURS + 2 * i, int(row) / LISTS_ACROSS + 1); }
 
-// Whole steps of roughness and metallic, and below them half the share.
+// Three numbers in one float: the whole part has the steps of roughness and metallic, the fraction is half the share. All are 0 to 1.
 const float kRoughnessSteps = 127.0, kMetallicSteps = 15.0;
 float packMatter(float left, float roughness, float metallic) {
   return 0.5 * left + floor(roughness * kRoughnessSteps + 0.5) + (kRoughnessSteps + 1.0) * floor(metallic * kMetallicSteps + 0.5);

@@ -1,17 +1,18 @@
-// What caps of directions, and discs in the sky, cover of each other.
+// How much caps of directions, and discs in the sky, cover of each other.
 #ifndef NEIGHBOURS_OVERLAP_GLSL
 #define NEIGHBOURS_OVERLAP_GLSL
 
 #include "common/equirect.glsl"
 
-// Share of a cap of half angle `wide` that one of half angle `over` covers, their axes `apart`: a smooth step between touching and covering
-// (Oat and Sander, "Ambient aperture lighting", I3D 2007).
+// The share of a cap of half angle `wide` that a cap of half angle `over` covers. Their axes are `apart`; all are in radians. It is a
+// smooth step between touching and covering (Oat and Sander, "Ambient aperture lighting", I3D 2007).
 float capOverlap(float over, float wide, float apart) {
   float least = min(over, wide), size = sin(0.5 * least) / sin(0.5 * wide), x = clamp((over + wide - apart) / (2.0 * least), 0.0, 1.0);
   return size * size * x * x * (3.0 - 2.0 * x);
 }
 
-// Share of a disc of radius `wide` that one of radius `over` covers, their centres `apart`: the area that two circles share. Small angles.
+// The share of a disc of radius `wide` that a disc of radius `over` covers. Their centres are `apart`. It is the area that two flat circles share, which
+// is right for small angles.
 float discOverlap(float over, float wide, float apart) {
   if (apart >= over + wide) return 0.0;
   float least = min(over, wide);

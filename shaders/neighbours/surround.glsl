@@ -16,55 +16,56 @@
 flat in vec4 spot_around;  // spotAround() of ibl/brightest.glsl
 #endif
 
-// The ground, as the lists have it.
+// The ground, as the lists say it.
 struct Soil {
-  float is;  // 1: there is one
+  float is;  // 1: there is a ground
   float height, radius;
   vec3 albedo;
 };
 
 struct Surround {
   float seen;            // share of a uniform sky's light, weighted by the cosine
-  vec3 albedo;           // mean, of what hides the rest
+  vec3 albedo;           // mean albedo of what hides the rest
   vec3 bent;             // mean direction of what is seen, unit
-  float foot;            // share of the ground that is dark by the sphere itself
+  float foot;            // share of the ground that the sphere itself darkens, around its foot
   float mirror_seen;     // share of the reflected lobe that nothing hides
   vec3 mirror;           // the lobe's axis, unit
-  float mirror_width;    // of its cone: tangent of half the angle
-  vec3 mirror_albedo;    // of what hides the rest, times its share
-  vec3 mirror_facing;    // where that faces, times its share
-  vec4 mirror_matter;    // of it alpha squared, metallic, distance over radius, and distance, times its share
+  float mirror_width;    // tangent of half the angle of the lobe's cone
+  vec3 mirror_albedo;    // albedo of what hides the rest, times its share
+  vec3 mirror_facing;    // normal of what hides the rest, times its share
+  vec4 mirror_matter;    // four numbers of what hides the rest, times its share: alpha squared, metallic, distance over radius, distance
   Soil soil;
-  float ground_share;    // of the lobe, below the ground's horizon
+  float ground_share;    // share of the lobe below the ground's horizon
   vec3 ground_at;        // where the lobe meets the ground
-  vec4 ground_hidden;    // from there: share of the sky that spheres hide, in w; times their albedo
-  vec2 ground_lit;       // from there: shares of the brightest spot and of the sun that are seen
-  float spot_seen;       // shares of the brightest spot and of the sun
+  vec4 ground_hidden;    // seen from there: w is the share of the sky that spheres hide, rgb is that times their albedo
+  vec2 ground_lit;       // seen from there: the visible shares of the brightest spot and of the sun
+  float spot_seen;       // visible shares of the brightest spot and of the sun
   float sun_seen;
 };
 
-const float kConeWidth = 1.6;  // of a lobe's cone, in half angles of half vectors
+const float kConeWidth = 1.6;  // width of a lobe's cone, in alphas
 const float kLeast = 0.002;    // share of a lobe that is worth to be looked at
 
-// Share of a cone around a direction that lies below the horizon.
+// The share of a cone that lies below the horizon. `height` is y of its unit axis, `wide` the tangent of half its angle.
 float shareBelow(float height, float wide) {
   float x = clamp(0.5 - 0.5 * height / wide, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
 }
 
-// Share of a uniform sky that a sphere hides from the ground; `to` its centre.
+// The share of a uniform sky that a sphere hides from the ground; `to` goes to its centre.
 float capOnGround(vec3 to, float radius) {
   float per = inversesqrt(max(dot(to, to), radius * radius));
   return abs(to.y) * radius * radius * per * per * per;
 }
 
-// Share of a light's disc that a sphere covers; `to` its centre. `angle` of the disc, which is `blur` wider.
+// The share of a light's disc that a sphere covers; `to` goes to the sphere's centre. The disc has the half angle `angle`, and is `blur` wider, a length.
 float ballShare(float radius, float angle, float blur, vec3 light, vec3 to, float distance2) {
   float along = dot(light, to), away = sqrt(distance2);
   return discShare(radius, angle * away + blur, along, sqrt(max(distance2 - along * along, 0.0)), away);
 }
 
-// Of a point of a sphere, which has that colour. `axis` of the reflected lobe, not normalised; `roughness` of the surface.
+// What surrounds the point `at` with normal `n` of a sphere. `axis` is that of the reflected lobe, of any length; `roughness` and
+// `own_color` are those of the sphere's surface.
 Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, vec3 own_color, Lobe lobe) {
   axis = normalize(axis);
   float alpha = alphaOfRoughness(roughness), cone = kConeWidth * alpha + 0.005, hidden = 0.0;
@@ -87,8 +88,8 @@ Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, 
 #endif
   int i = -1;
   while (i < MOST_NEIGHBOURS - 1) {
-    // On to the next sphere that takes anything: above the horizon, where lights are, or in the lobe. This loop is short, so that the rest
-    // runs for these alone, also where lanes go together.
+    // Goes on to the next sphere that hides anything: it is above the horizon, where lights are, or in the lobe. This loop is short. The code after it
+    // runs for such spheres alone, also where lanes go together.
     // Its count goes up first of all: llvmpipe goes on computing for lanes that have left, from the count that they left with.
     bool counts;
     vec4 ball;
@@ -157,18 +158,19 @@ Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, 
   return all;
 }
 
-// Light from everywhere of a point with normal n: `sky` is the irradiance map's value in the bent direction, `below` that straight down. What hides a share of it is lit as this point is, so that the light goes to
-// and fro: a geometric series (Stewart and Langer, "Towards accurate recovery of shape from shading under diffuse lighting", PAMI 1997).
+// Irradiance over pi of a point with normal n. `sky` is the irradiance map's value in the bent direction, `below` the value straight down. What hides a
+// share of the sky is lit as this point is, so that light goes to and fro: a geometric series (Stewart and Langer, "Towards accurate recovery of shape
+// from shading under diffuse lighting", PAMI 1997).
 vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below, vec3 ground) {
   vec3 seen = vec3(surround.seen);
-  // A surface in place of the lower half.
+  // The ground is there in place of the lower half.
   sky = max(sky + (ground - below) * (0.5 - 0.5 * surround.bent.y), vec3(0.0));
 #ifdef HAS_BRIGHTEST
   vec3 spot = spot_around.rgb;
   sky = max(sky - spot * max(dot(surround.bent, lobe.spot), 0.0), vec3(0.0));
 #endif
 #ifndef HAS_PROBES
-  seen /= 1.0 - surround.albedo * (1.0 - seen);  // with probes these give what comes back
+  seen /= 1.0 - surround.albedo * (1.0 - seen);  // with probes, these give the light that comes back
 #endif
   vec3 around = sky * seen;
 #ifdef HAS_BRIGHTEST
@@ -177,18 +179,18 @@ vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below, vec3
   return max(around - ground * surround.foot, vec3(0.0));
 }
 
-const float kOverGround = 0.7;  // in widths of the cone: fitted to traced paths
+const float kOverGround = 0.7;  // least height of an axis above the ground, in widths of the cone: fitted to traced paths
 
-// 1 where the ground has a surface.
+// How much surface the ground has at a place: 1 within half its radius, 0 from its radius on.
 float surfaceOf(Soil soil, vec3 at) { return soil.radius > 0.0 ? 1.0 - smoothstep(0.5 * soil.radius, soil.radius, length(at.xz)) : 0.0; }
 
-// Of the sky's light that falls on the ground the share that spheres leave, and throw back: see ground/contact.frag.glsl.
+// The share of the sky's light on the ground that spheres leave, with what they throw back: see ground/contact.frag.glsl.
 vec3 skyOnGround(Soil soil, vec4 taken) {
   float left = max(1.0 - taken.w, 0.0);
   return (left + left * taken.rgb) / (1.0 - min(taken.w, 1.0) * taken.rgb * soil.albedo);
 }
 
-// Irradiance over pi of the ground where nothing stands, by the sky, the brightest spot and the sun.
+// Irradiance over pi of the ground where nothing stands: from the sky, the brightest spot and the sun.
 struct GroundLight {
   vec3 sky, spot, sun;
 };
@@ -206,7 +208,7 @@ GroundLight groundLight(Lobe lobe, vec3 up) {
   return light;
 }
 
-// Radiance of the ground: of its surface, by the share of that, else `shown`, which is darkened.
+// Radiance of the ground: `surface` is the share of its surface in it; the rest is `shown`, darkened as the surface is.
 vec3 groundRadiance(Soil soil, GroundLight light, vec3 shown, float surface, vec4 taken, vec2 lit) {
   const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
   vec3 arrives = light.sky * skyOnGround(soil, taken) + light.spot * lit.x + light.sun * lit.y, all = light.sky + light.spot + light.sun;
@@ -214,13 +216,13 @@ vec3 groundRadiance(Soil soil, GroundLight light, vec3 shown, float surface, vec
 }
 
 #ifdef HAS_SPECULAR
-// Towards what the lobe sees above the ground.
+// The lobe's axis, lifted so far that its cone sees what is above the ground.
 vec3 overGround(Surround surround, vec3 axis) {
   axis.y = mix(axis.y, max(axis.y, kOverGround * surround.mirror_width), surfaceOf(surround.soil, surround.ground_at));
   return axis;
 }
 
-// The lobe's light without neighbours: `sky` is what it reads above the ground.
+// The lobe's light without neighbours; `sky` is its light from above the ground.
 vec3 skyAndGround(Surround surround, GroundLight light, vec3 sky) {
   for (int once = surround.ground_share > kLeast ? 1 : 0; once > 0; --once) {
     float surface = surfaceOf(surround.soil, surround.ground_at);
@@ -229,8 +231,8 @@ vec3 skyAndGround(Surround surround, GroundLight light, vec3 sky) {
   return sky;
 }
 
-// Light of what hides the rest of the lobe. A metal shows what is behind the eye: the sky, the ground, and this sphere, whose light is about
-// `back` there. Anything else is a lobe of roughness 1. One place on one sphere stands for all.
+// Light of what hides the rest of the lobe. A metal reflects the sky, the ground, and this sphere, whose light is about `back` there. Anything else is
+// taken for a lobe of roughness 1. One place on one sphere stands for all that hides.
 vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_color, float own_metallic, float own_alpha, Lobe lobe, GroundLight ground) {
   vec3 sum = vec3(0.0);
   for (int once = surround.mirror_seen < 0.999 ? 1 : 0; once > 0; --once) {
@@ -240,7 +242,7 @@ vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_colo
     float slant = clamp(-dot(surround.mirror, facing), 0.0, 1.0), away = 1.0 - slant, away2 = away * away;
     color += max(vec3(1.0 - sqrt(sqrt(matter.x))) - color, vec3(0.0)) * (away2 * away2 * away * matter.y);
     vec3 axis = normalize(mix(facing, surround.mirror + 2.0 * slant * facing, matter.y));
-    // The pixel's width and the surface's roughness, wider by the curvature of what reflects them.
+    // The lobe of this point, with the width of its pixel, is widened by the other sphere's curvature, then by that sphere's roughness.
     float before = exp2((lobe.maps.y / lobe.poles.w - 1.0) * 4.0 * kOctaves), spread = 1.0 + 2.0 * matter.z;
     float alpha = sqrt(clamp(mix(1.0, before * spread * spread + matter.x, matter.y), 1e-6, 1.0)), cone = kConeWidth * alpha + 0.005;
     vec3 place = at + surround.mirror * matter.w;

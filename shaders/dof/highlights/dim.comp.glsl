@@ -1,4 +1,5 @@
-// Takes from the fields the light of the highlights that are drawn by themselves. What they cover stays covered.
+// Takes the light of the highlights out of the fields, because draw.frag.glsl draws it. The alpha of the fields stays, so that they go on covering
+// what they covered.
 // read    highlights   from find
 // modify  near, far    from split
 // params  grid         tiles

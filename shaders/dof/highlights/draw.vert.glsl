@@ -1,18 +1,10 @@
-// The tiles that the disc of a highlight may reach: a tile is at least as wide as the radius of the largest.
+// Draws the tiles that the disc of a highlight may reach: those that have highlights, and the eight around each of them. No disc goes beyond these,
+// because a tile is at least as wide as the radius of the largest disc.
 // read    highlights   from find
 // params  see draw.frag.glsl
 #include "common/tile_quad.glsl"
 #include "dof/coc.glsl"
-#include "list.glsl"
-
-layout(std430) readonly buffer highlights { TileHighlights lists[]; };
-layout(std140) uniform Parameters {
-  float infinity;
-  float focus;
-  int tile;
-  int blades;
-  ivec2 grid;
-};
+#include "parameters.glsl"
 
 void main() {
   ivec2 at = tileOf(grid);

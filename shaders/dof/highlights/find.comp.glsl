@@ -1,11 +1,12 @@
-// Highlights out of focus: the few texels far brighter than all around them, of which nothing but the aperture's outline is seen. They are listed for
-// each tile, taken from the fields by dim.comp.glsl, and drawn at full size by draw.frag.glsl (scattering beside gathering; Abadie, "A life of a
-// bokeh", SIGGRAPH 2018). Where a nearer surface may cover part of a disc they stay in the fields, which know what covers what.
+// Finds highlights out of focus: the few texels that are far brighter than all around them, so that the picture shows the aperture's outline there.
+// This shader lists them for each tile, dim.comp.glsl takes their light out of the fields, and draw.frag.glsl draws them at full size (scattering
+// beside gathering; Abadie, "A life of a bokeh", SIGGRAPH 2018). A highlight whose disc a nearer surface may partly cover stays in the fields, which
+// know what covers what.
 // read    near, far    from split
 //         discs        from split
 //         tiles        from tiles
 //         color        radiance, any sampler
-// write   highlights   see list.glsl, one list a tile; none where a tile has more than fit
+// write   highlights   see list.glsl, one list for each tile; the list of a tile with more than fit is empty
 // params  tile         texels of the fields along a tile's side
 //         blades       of the aperture
 //         largest      radius of the largest disc of the far field, pixels of the full picture
@@ -20,26 +21,29 @@ layout(std140) uniform Parameters {
   float largest;
 };
 
-const float kLeastDisc = 2.9;      // radius in pixels
-const float kContrast = 4.0;       // over the tile's mean
-const float kLeastVisible = 0.05;  // radiance of the disc over the tile's mean
-// Radiance around over that of the highlight: up to the first it is taken whole, from the second on not at all.
+const float kLeastDisc = 2.9;      // radius in pixels; smaller discs stay in the fields
+const float kContrast = 4.0;       // a highlight is brighter than so many means of its tile
+const float kLeastVisible = 0.05;  // least radiance of the disc, over the mean of the tile
+// The brightest texel around, over that of the highlight: up to kAlone the highlight takes all light above that, from kNotAlone on none.
 const float kAlone = 0.1, kNotAlone = 0.25;
 const ivec2 kAround[8] = ivec2[8](ivec2(4, 0), ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3));
 
+// Brightness of a texel of the fields, both together: green stands for it.
 float greenAt(ivec2 at) {
   at = clamp(at, ivec2(0), textureSize(far, 0) - 1);
   return texelFetch(near, at, 0).g + texelFetch(far, at, 0).g;
 }
 
-// The same of a texel and the three above and to the right of it.
+// The same of four texels: `at`, the one to its right, and the two above these. `reached` 0: no disc of the near field reaches them, and `near` is not
+// read.
 vec4 greenAround(ivec2 at, float reached) {
   vec2 middle = vec2(at + 1) / vec2(textureSize(far, 0));
   vec4 green = textureGather(far, middle, 1);
   return reached > 0.0 ? green + textureGather(near, middle, 1) : green;
 }
 
-// May the disc of something nearer lie over a disc of this radius? In the near field nearer things have larger discs, in the far field smaller ones.
+// Whether, in the near field, the disc of something nearer may lie over a disc of radius `disc` at `at`, in texels of the fields. Nearer things have
+// larger discs there.
 bool isOverlaid(ivec2 at, float disc) {
   bool overlaid = false;
   for (int i = 0; i < 25; ++i) {
@@ -50,6 +54,7 @@ bool isOverlaid(ivec2 at, float disc) {
   }
   return overlaid;
 }
+// The same in the far field, where nearer things have smaller discs.
 bool isCovered(ivec2 at, float disc) {
   bool covered = false;
   for (int i = 0; i < 8; ++i) {
@@ -60,7 +65,7 @@ bool isCovered(ivec2 at, float disc) {
   return covered;
 }
 
-// The highlight in a texel; `share` 0: there is none.
+// The highlight in a texel. `mean` is the brightness of the tile. A `share` of 0 says that there is none.
 Highlight highlightAt(ivec2 at, float mean) {
   Highlight found = Highlight(vec2(0.0), 0.0, 0.0, vec4(0.0));
   vec4 before = texelFetch(near, at, 0), behind = texelFetch(far, at, 0);
@@ -72,8 +77,9 @@ Highlight highlightAt(ivec2 at, float mean) {
   float share = (1.0 - around / green) * (1.0 - smoothstep(kAlone, kNotAlone, around / green));
   if (share <= 0.0 || (is_near ? isOverlaid(at, radius) : isCovered(at, radius))) return found;
   radius *= float(SCALE);
-  // Where in the texel the light is, and how far it is spread there: pixels are squares, the one that gives as well as the one that gets. An even slope
-  // must be wider by a seventh to be as steep in its middle as the edge that squares make.
+  // The place of the light within the texel, and the width of the disc's edge. Three things make the edge wider: the square of the pixel that gives the
+  // light, the square of the pixel that gets it, and how far the light is spread within the texel. An even slope must be a seventh wider to be as steep
+  // in its middle as the edge that squares make.
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < SCALE * SCALE; ++i) {
@@ -96,9 +102,9 @@ void main() {
   ivec2 first = at * tile, end = min(first + tile, size);
   vec4 sum = vec4(0.0), most = vec4(0.0);
   float reached = texelFetch(tiles, at, 0).r;  // by discs of the near field
-  // Where no disc can be large enough there is nothing to look for.
+  // No disc of this tile is large enough: there is nothing to look for.
   if (max(float(SCALE) * reached, largest) < kLeastDisc) end.y = first.y;
-  // Four texels at a time: sizes and tiles are even.
+  // The loops take four texels at a time; the sizes of fields and tiles are even.
   for (int y = first.y; y < end.y; y += 2)
     for (int x = first.x; x < end.x; x += 2) {
       vec4 green = greenAround(ivec2(x, y), reached);

@@ -1,5 +1,5 @@
-// Highlights out of focus: the list that find.comp.glsl makes, and the outline that each of them becomes.
-// defines HIGHLIGHTS  how many texels of a tile can be in the list
+// Highlights out of focus: the list that find.comp.glsl makes, and the disc or polygon that each highlight becomes.
+// defines HIGHLIGHTS  how many highlights the list of a tile has room for
 //         SCALE       see dof/coc.glsl
 //         POLYGON     the aperture has blades
 #ifndef DOF_HIGHLIGHTS_GLSL
@@ -10,18 +10,18 @@
 #endif
 
 struct Highlight {
-  vec2 middle;   // pixels of the full picture
-  float radius;  // of its disc, likewise; negative in the near field
-  float share;   // of its texel's light that it took
-  vec4 light;    // radiance in a pixel that its disc covers; pixels from there to where it covers none
+  vec2 middle;   // of its disc, in pixels of the full picture
+  float radius;  // of its disc, in the same pixels; negative in the near field
+  float share;   // how much of the light of its texel it takes, 0 to 1
+  vec4 light;    // two things: rgb is the radiance of a pixel that its disc covers whole; a is the width of the disc's soft edge, in the same pixels
 };
 struct TileHighlights {
-  vec4 count;  // only the first number counts
+  vec4 count;  // x: how many of the highlights are there; yzw have no meaning
   Highlight of[HIGHLIGHTS];
 };
 
-// Where a round disc, with the area of the aperture's outline, is half as bright as in its middle, if its edge is `soft` pixels wide. The edge is bent: so that
-// place is farther in than the radius, by as much as keeps the area.
+// A round disc has the area of the aperture's outline, and an edge that is `soft` pixels wide. This is the distance from its middle at which it is half as
+// bright as there. It is less than the radius by as much as keeps the area: the outer half of a round edge is larger than the inner half.
 float halfwayOf(float radius, float soft, int blades) {
 #if POLYGON
   float sector = 6.28318530717959 / float(blades);
@@ -30,10 +30,11 @@ float halfwayOf(float radius, float soft, int blades) {
   return sqrt(radius * radius - soft * soft / 12.0);
 }
 
-// How much of a disc its corners are seen of: of a few pixels none, because it would be wider along the pixels' rows or columns.
+// How much a disc shows of its corners, 0 to 1. A disc of a few pixels shows none, because corners would make it wider along rows or columns of pixels.
 float cornersOf(float radius) { return smoothstep(3.75, 4.75, radius); }
 
-// How much of the pixel at `offset` from the middle the disc covers. Before the focus it is upside down: there its rays have not yet crossed.
+// The share of a pixel that the disc covers; `offset` is from the disc's middle to the pixel's. In the near field the polygon is upside down, because the
+// rays of what is nearer than the focus have not yet crossed.
 float coveredBy(float radius, float soft, vec2 offset, int blades) {
   float away = length(offset), size = abs(radius), inside = halfwayOf(size, soft, blades) - away;
 #if POLYGON
@@ -44,7 +45,7 @@ float coveredBy(float radius, float soft, vec2 offset, int blades) {
   return clamp(inside / soft + 0.5, 0.0, 1.0);
 }
 
-// The sum of that over all pixels.
+// The disc's area in pixels, which is the sum of coveredBy() over all pixels.
 float areaOf(float radius, float soft, int blades) {
 #if POLYGON
   float sector = 6.28318530717959 / float(blades), inner = cos(0.5 * sector) * radius;
