@@ -268,6 +268,16 @@ class PassReader {
         bool good = context_.checkShaderName(slot.key, slot.place, slot.value.pointer, "a slot");
         good = context_.checkFresh(names_, slot.key, slot.place, slot.value.pointer, kSharedName) && good;
         std::optional<RefDesc> ref = context_.ref(&slot.value, what);
+        // Only a part may be missing, at some size.
+        if (ref && ref->optional && access == Access::write && !ref->mip && !ref->layer && !ref->face &&
+            !ref->element) {
+          auto& d =
+              context_.error(Code::badReference, slot.value, fmt::format("{} has a '?' in \"write\"", what));
+          d.found = fmt::format("\"{}\"", ref->text);
+          d.hint =
+              "leave the '?' out: what a pass writes is always there, and costs nothing where nobody reads "
+              "it";
+        }
         if (good && ref)
           out_.slots.push_back({slot.key, slot.place, slot.value.pointer, access, *std::move(ref)});
       }
