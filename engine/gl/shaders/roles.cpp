@@ -120,6 +120,7 @@ class RoleScan {
     } else if (has(statement_, "uniform") || has(statement_, "buffer")) {
       const bool uniform = has(statement_, "uniform");
       blockRole_ = uniform && name == "Parameters" ? Role::parameter : Role::member;
+      uniformBlock_ = uniform && blockRole_ == Role::member ? name : "";
       if (isNameText(name)) add(name, uniform ? Role::uniform_block : Role::storage_block);
     } else {
       blockRole_ = has(statement_, "out") ? Role::output : Role::input;
@@ -237,6 +238,8 @@ class RoleScan {
       const bool last = i + 1 == statement_.size();
       if (!last && statement_[i + 1] != "," && statement_[i + 1] != "[" && statement_[i + 1] != "=") continue;
       add(word, role);
+      if (role == Role::member && !uniformBlock_.empty())
+        out_.blockOf.try_emplace(std::string(word), uniformBlock_);
       if (role == Role::parameter)
         out_.parameters.push_back({std::string(type) + dimensionsAt(i + 1) + behindType, std::string(word)});
       if (role == Role::opaque && type.find("image") != std::string_view::npos) addFormats(word);
@@ -267,6 +270,7 @@ class RoleScan {
   std::set<std::string_view> globals_;                             // words of the values of global variables
   std::string_view name_, last_, before_;  // of the open function; its last words, when nothing stood behind
   Role blockRole_ = Role::member;
+  std::string uniformBlock_;  // that is open, under another name than Parameters
   bool function_ = false, block_ = false, closed_ = false;
   int depth_ = 0, initializer_ = 0;
 };

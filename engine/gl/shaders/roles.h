@@ -39,8 +39,10 @@ struct ShaderRoles {
   };
   std::map<std::string, std::uint16_t, std::less<>> roles;  // by name: roles, or'ed
   std::map<std::string, std::vector<std::string>, std::less<>>
-      imageFormats;                              // by image: the words of its layout
-  std::vector<Member> parameters;                // of the block Parameters
+      imageFormats;                // by image: the words of its layout
+  std::vector<Member> parameters;  // of the block Parameters
+  std::map<std::string, std::string, std::less<>>
+      blockOf;                                   // by member: its uniform block, where that has another name
   std::string parametersInstance;                // its instance name, or ""
   std::set<std::string, std::less<>> reachable;  // words of the functions that main() reaches
   bool unsure = false;                           // brackets do not pair

@@ -28,13 +28,13 @@ const char* neededFor(graph::Kind kind) {
   }
 }
 
+}  // namespace
+
 bool isSlotOf(const graph::FlatGraph& graph, const graph::PassSpec& spec, const std::string& name) {
   for (std::uint32_t i = 0; i < spec.slotCount; ++i)
     if (graph.slots[spec.firstSlot + i].name == name) return true;
   return false;
 }
-
-}  // namespace
 
 void sayMissingSlot(const graph::FlatGraph& graph, const graph::PassSpec& spec, const graph::SlotSpec& slot,
                     const ShaderWords& words, const std::string& shaders,
@@ -82,6 +82,13 @@ void sayMissingParameter(const graph::UniformSpec& uniform, const ShaderWords& w
   else
     d.hint =
         "give the parameter another name, and declare that in `layout(std140) uniform Parameters { … };`";
+}
+
+void sayBlockName(const std::string& block, const std::string& shaders, base::Diagnostic& d) {
+  d.message = fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders, block);
+  d.expected = "a uniform block 'Parameters'";
+  d.found = fmt::format("uniform {} {{ … }}", block);
+  d.hint = "call it 'Parameters'";
 }
 
 void sayUnset(const std::string& member, const std::string& type, const graph::PassSpec& spec,

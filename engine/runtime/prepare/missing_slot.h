@@ -12,6 +12,7 @@
 
 namespace weft::runtime {
 
+bool isSlotOf(const graph::FlatGraph& graph, const graph::PassSpec& spec, const std::string& name);
 // Fills in a W181 whose slot no introspection has. `declared`: all names that the texts declare.
 void sayMissingSlot(const graph::FlatGraph& graph, const graph::PassSpec& spec, const graph::SlotSpec& slot,
                     const ShaderWords& words, const std::string& shaders,
@@ -20,6 +21,8 @@ void sayMissingSlot(const graph::FlatGraph& graph, const graph::PassSpec& spec, 
 void sayMissingParameter(const graph::UniformSpec& uniform, const ShaderWords& words,
                          const std::string& shaders, const std::vector<std::string>& declared,
                          base::Diagnostic& d);
+// Fills in a W187 for a block that has the parameters of the pass, under another name.
+void sayBlockName(const std::string& block, const std::string& shaders, base::Diagnostic& d);
 // Fills in a W187 for a member of the block Parameters that the pass does not set.
 void sayUnset(const std::string& member, const std::string& type, const graph::PassSpec& spec,
               const std::string& shaders, base::Diagnostic& d);

@@ -30,25 +30,35 @@ class ParameterCheck : PassErrors {
 
   bool run() {
     const gl::Block* block = reflection_.findUniformBlock("Parameters");
+    std::string misnamed;  // one that has the parameters
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
       if (uniform.choosesVariant()) continue;
       const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
       if (!member) {
         if (words_.declaresParameter(uniform.name)) continue;
         parameterMissing_ = true;
+        if (const std::string other = words_.blockOf(uniform.name);
+            !other.empty() && !isSlotOf(graph_, spec_, other)) {
+          if (misnamed.empty())
+            sayBlockName(other, shaders_, fail(Code::undeclaredShaderInput, spec_.shaderPlace, ""));
+          misnamed = other;
+          continue;
+        }
         sayMissingParameter(uniform, words_, shaders_, declaredNames(variant_),
                             fail(Code::parameterNotInShader, uniform.place, ""));
         continue;
       }
       std::string expected;
       if (!memberTakes(*member, uniform.value, expected)) {
-        base::Diagnostic& d = fail(Code::parameterTypeMismatch, uniform.place,
-                                   fmt::format("parameter '{}' does not fit the shader's {}", uniform.name,
-                                               gl::glslTypeName(member->type)));
-        d.expected = expected;
-        d.found = graph::toText(uniform.value);
-        d.hint = fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
-                             uniform.name, expected);
+        base::Diagnostic* const d =
+            failOnce(graph_, Code::parameterTypeMismatch, uniform.place,
+                     fmt::format("parameter '{}' does not fit the shader's {}", uniform.name,
+                                 gl::glslTypeName(member->type)),
+                     fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
+                                 uniform.name, expected));
+        if (!d) continue;
+        d->expected = expected;
+        d->found = graph::toText(uniform.value);
         continue;
       }
       checkWhole(uniform, *member);

@@ -251,10 +251,14 @@ class Checker : PassErrors {
     return {};
   }
 
-  bool isSlot(const std::string& name) const {
-    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
-      if (graph_.slots[spec_.firstSlot + i].name == name) return true;
-    return false;
+  bool isSlot(const std::string& name) const { return isSlotOf(graph_, spec_, name); }
+
+  // One that has the parameters was reported with them.
+  bool hasParameters(const std::string& block) const {
+    return std::ranges::any_of(spec_.uniforms, [&](const graph::UniformSpec& uniform) {
+      return !uniform.choosesVariant() && !words_.declaresParameter(uniform.name) &&
+             words_.blockOf(uniform.name) == block;
+    });
   }
 
   // Says nothing when a slot was not found, because one misspelling is one mistake.
@@ -304,14 +308,14 @@ class Checker : PassErrors {
             fail(Code::unknownViewMember, spec_.shaderPlace,
                  fmt::format("the Slice block of '{}' has an unknown member '{}'", shaders_, member.name))
                 .hint = "include common/slice.glsl";
-      } else if (block.name != "Parameters" && !isSlot(block.name)) {
+      } else if (block.name != "Parameters" && !isSlot(block.name) && !hasParameters(block.name)) {
         unfed("a uniform block", block.name);
       }
     }
     for (const auto& loose : reflection_.looseUniforms)
-      fail(Code::parameterNotInShader, spec_.shaderPlace,
-           fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name))
-          .hint = "move it into `layout(std140) uniform Parameters { … };`";
+      failOnce(graph_, Code::parameterNotInShader, spec_.shaderPlace,
+               fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name),
+               "move it into `layout(std140) uniform Parameters { … };`");
   }
 
   // Reports a sliced compute pass whose shader does not read Slice: every slice would do the whole work.

@@ -120,6 +120,16 @@ std::vector<std::string> ShaderWords::imageFormatsOf(std::string_view name) cons
   return {};
 }
 
+std::string ShaderWords::blockOf(std::string_view name) const {
+  std::string block;
+  for (const gl::StageSource& stage : stages_) {
+    const ShaderRoles& all = cache_.ofText(*stage.source);
+    if (all.is("Parameters", Role::uniform_block)) return {};
+    if (const auto found = all.blockOf.find(name); found != all.blockOf.end()) block = found->second;
+  }
+  return block == "View" || block == "Slice" ? std::string() : block;
+}
+
 std::vector<ShaderRoles::Member> ShaderWords::parameters() const {
   for (const gl::StageSource& stage : stages_) {
     if (!stage.source->mentions("Parameters")) continue;

@@ -53,6 +53,8 @@ class ShaderWords {
   std::vector<std::string> namesFor(graph::Kind kind) const;
   // The words of the layout of an image, in this variant.
   std::vector<std::string> imageFormatsOf(std::string_view name) const;
+  // The uniform block that has the name as a member, where no block is called Parameters; "" for the engine's own blocks.
+  std::string blockOf(std::string_view name) const;
   // The members of the block Parameters, also those that are not read; empty when this variant reads no member of it.
   std::vector<gl::ShaderRoles::Member> parameters() const;
   // Whether main() of some stage reaches the name.

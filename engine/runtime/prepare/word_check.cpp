@@ -26,8 +26,16 @@ class WordChecker : PassErrors {
 
   void run() {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
+    std::string misnamed;  // block
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
       if (uniform.choosesVariant() || words_.declaresParameter(uniform.name)) continue;
+      const std::string block = words_.blockOf(uniform.name);
+      if (!block.empty() && !isSlotOf(graph_, spec_, block)) {
+        if (misnamed.empty())
+          sayBlockName(block, shaders_, fail(Code::undeclaredShaderInput, spec_.shaderPlace, ""));
+        misnamed = block;
+        continue;
+      }
       sayMissingParameter(uniform, words_, shaders_, declared(),
                           fail(Code::parameterNotInShader, uniform.place, ""));
     }
