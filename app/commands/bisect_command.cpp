@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
@@ -19,7 +20,7 @@ Options otherOf(const Options& options) {
   if (!options.otherGraph.empty()) other.graph = options.otherGraph;
   const TrialOptions& trial = options.trial;
   other.sets.insert(other.sets.end(), trial.otherSets.begin(), trial.otherSets.end());
-  other.disables.insert(other.disables.end(), trial.otherDisables.begin(), trial.otherDisables.end());
+  other.trial.isOther = true;  // with its --other-disable
   other.presets.insert(other.presets.end(), trial.otherPresets.begin(), trial.otherPresets.end());
   return other;
 }
@@ -71,8 +72,8 @@ std::string countSame(const Shot& shot, const Divergence& found) {
 
 class Bisection {
  public:
-  Bisection(gl::Context& context, const Options& options, const runtime::World& world)
-      : context_(context), world_(world), sides_{options, otherOf(options)}, frame_(options.lastFrame) {}
+  Bisection(gl::Context& context, std::span<const Options, 2> sides, const runtime::World& world)
+      : context_(context), world_(world), sides_(sides), frame_(sides[0].lastFrame) {}
 
   int run(base::Diagnostics& diagnostics) {
     const auto pair = shootPair(context_, sides_[0], sides_[1], world_, frame_, diagnostics);
@@ -103,16 +104,17 @@ class Bisection {
 
   gl::Context& context_;
   const runtime::World& world_;
-  Options sides_[2];
+  const std::span<const Options, 2> sides_;
   std::uint32_t frame_;
 };
 
 }  // namespace
 
 int runBisect(const Options& options) {
-  return runOnDevice({&options, 1}, 2,
+  const Options sides[] = {options, otherOf(options)};
+  return runOnDevice(sides, 2,
                      [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
-                       return Bisection(context, options, world).run(diagnostics);
+                       return Bisection(context, sides, world).run(diagnostics);
                      });
 }
 

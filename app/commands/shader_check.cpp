@@ -63,6 +63,7 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
     if (failed_) return;
   }
   runtime::Device& device = session_->renderer.device();
+  device.sources.setRoots(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
   base::Diagnostics said;
   for (const graph::Step& step : plan.steps) {
     const graph::PassSpec& spec = plan.graph->specs[step.pass];
@@ -88,10 +89,9 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
 void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
                              base::Diagnostics& diagnostics) {
   if (!sources_)
-    sources_ = std::make_unique<gl::SourceLoader>(
-        runtime::shaderRootsOf(options_.graph, options_.presets, dataFolder()));
+    sources_ = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
   const passes::PassRegistry types = passes::PassRegistry::builtin();
-  base::Diagnostics said, unread;  // --no-shaders asks for no files
+  base::Diagnostics said;
   const graph::PassSpec* last = nullptr;
   for (const graph::Step& step : plan.steps) {
     if (graph::enoughErrors(said)) break;
@@ -109,7 +109,7 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
       for (const gl::ProgramRequest::Stage& stage : request.stages) {
         if (!stage.text.empty()) continue;
         const auto [known, fresh] = loaded_.try_emplace(stage.file);
-        if (fresh) known->second = sources_->load(stage.file, unread, request.place);
+        if (fresh) known->second = sources_->load(stage.file, said, request.place);
         stages.push_back({stage.stage, known->second});
         whole = whole && known->second;
       }
@@ -126,7 +126,7 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
 }
 
 void ShaderCheck::checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics) {
-  gl::SourceLoader sources(runtime::shaderRootsOf(options_.graph, options_.presets, dataFolder()));
+  gl::SourceLoader sources(runtime::shaderRootsOf(desc.files, dataFolder()));
   checkFiles(desc, sources, diagnostics);
   read_.insert(sources.touched().begin(), sources.touched().end());
 }

@@ -68,11 +68,11 @@ void addDeviceOptions(CLI::App& command, Options& options) {
                    "measure each pass (slower: waits for the GPU after every pass on software)");
 }
 
-std::vector<graph::Setting> settingsFrom(const std::vector<std::string>& texts) {
+std::vector<graph::Setting> settingsFrom(const std::vector<std::string>& texts, const char* option) {
   std::vector<graph::Setting> settings;
   for (const std::string& text : texts) {
     const std::size_t at = text.find('=');
-    settings.emplace_back(text.substr(0, at), text.substr(at + 1));
+    settings.emplace_back(text.substr(0, at), text.substr(at + 1)).option = option;
   }
   return settings;
 }

@@ -24,7 +24,7 @@ void addPointerOption(CLI::App& command, Options& options);
 void addBackendOptions(CLI::App& command, Options& options);
 void addDeviceOptions(CLI::App& command, Options& options);
 
-// "NAME=VALUE" of --set.
-std::vector<graph::Setting> settingsFrom(const std::vector<std::string>& texts);
+// "NAME=VALUE" of `option`: "--set".
+std::vector<graph::Setting> settingsFrom(const std::vector<std::string>& texts, const char* option);
 
 }  // namespace weft::app

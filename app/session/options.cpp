@@ -382,8 +382,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   }
   for (std::string& preset : options.presets) preset = presetFile(preset, options.presetFolder);
   options.pointer = parsePointer(options.mouse).value_or(imports::Pointer{});
-  options.sets = settingsFrom(raw.sets);
-  options.trial.otherSets = settingsFrom(raw.otherSets);
+  options.sets = settingsFrom(raw.sets, "--set");
+  options.trial.otherSets = settingsFrom(raw.otherSets, "--other-set");
   for (std::string& preset : options.trial.otherPresets) preset = presetFile(preset, options.presetFolder);
   chooseFiles(options);
   return options;

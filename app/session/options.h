@@ -32,6 +32,7 @@ struct TrialOptions {
   bool render = false;                                   // diff: compare the pictures, too
   std::vector<graph::Setting> otherSets;                 // bisect: of the second graph alone
   std::vector<std::string> otherDisables, otherPresets;  // bisect
+  bool isOther = false;                                  // bisect: these are the options of the second graph
   std::uint32_t runs = 12;                               // fuzz: random orders
   std::optional<std::uint32_t> seed;                     // fuzz: this order alone; 0 is the declared one
   std::string order, share = "both", poison = "both";    // fuzz

@@ -66,11 +66,15 @@ runtime::WorldFacts factsWithoutWorld() {
 graph::Settings settingsOf(const Options& options, bool software) {
   std::vector<graph::Pick> kept;
   for (const PickedOutput& each : options.picked) kept.push_back(each.pick);
+  std::vector<graph::Disable> disables{options.disables.begin(), options.disables.end()};
+  if (options.trial.isOther)
+    for (const std::string& name : options.trial.otherDisables)
+      disables.emplace_back(name).option = "--other-disable";
   return {.screenWidth = options.width,
           .screenHeight = options.height,
           .software = software,
           .sets = options.sets,
-          .disables = {options.disables.begin(), options.disables.end()},
+          .disables = std::move(disables),
           .kept = std::move(kept)};
 }
 

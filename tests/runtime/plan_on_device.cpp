@@ -21,7 +21,7 @@ std::shared_ptr<const graph::Plan> compiledPlan(const std::string& graphFile) {
 }
 
 PlanOnDevice::PlanOnDevice(const std::string& graphFile)
-    : device(context(), shaderRootsOf(sourcePath(graphFile), {}, WEFT_SOURCE_DIR), "") {
+    : device(context(), shaderRootsOf({{sourcePath(graphFile)}}, WEFT_SOURCE_DIR), "") {
   base::Diagnostics diagnostics;
   auto made = preparePlan(device, compiledPlan(graphFile), nullptr, ShaderFiles::read, diagnostics);
   REQUIRE_MESSAGE(diagnostics.empty(), diagnostics.text());

@@ -39,8 +39,8 @@ std::vector<std::string> shaderFilesOf(const Pass& pass, graph::ShaderShape shap
 }
 
 // Whether the graph's folders of shaders are still the same: one may appear or go while the graph is open.
-bool hasShaderRootsOf(const std::string& path, const Analysis::Graph& graph) {
-  return graph.sources && graph.sources->roots() == runtime::shaderRootsOf(path, {}, dataFolder());
+bool hasShaderRoots(const Analysis::Graph& graph) {
+  return graph.sources && graph.sources->roots() == runtime::shaderRootsOf(graph.read, dataFolder());
 }
 
 }  // namespace
@@ -86,10 +86,10 @@ std::set<std::string> Analysis::refresh(const std::set<std::string>& changed) {
   });
   for (const std::string& path : wanted) {
     const auto known = graphs_.find(path);
-    const bool same =
-        known != graphs_.end() && (!known->second.sources || hasShaderRootsOf(path, known->second)) &&
-        std::ranges::none_of(changed,
-                             [&](const std::string& each) { return known->second.files.contains(each); });
+    const bool same = known != graphs_.end() && (!known->second.sources || hasShaderRoots(known->second)) &&
+                      std::ranges::none_of(changed, [&](const std::string& each) {
+                        return known->second.files.contains(each);
+                      });
     if (same) continue;
     Graph& graph = graphs_[path];
     touched.insert(graph.files.begin(), graph.files.end());
@@ -115,8 +115,9 @@ void Analysis::look(const std::string& path, Graph& graph) {
     for (const std::string& each : desc->files) graph.files.insert(pathKey(each));
   for (std::string& each : project_.closure(path)) graph.files.insert(std::move(each));
   if (!desc) return;
-  if (!hasShaderRootsOf(path, graph))
-    graph.sources = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(path, {}, dataFolder()));
+  graph.read = desc->files;
+  if (!hasShaderRoots(graph))
+    graph.sources = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(graph.read, dataFolder()));
   graph.sources->forgetTouched();
   const auto flat = graph::expandGraph(*desc, registry_, settingsOf(options_, true), graph.said);
   if (flat && !graph.said.hasErrors()) {

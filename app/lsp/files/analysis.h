@@ -31,6 +31,7 @@ class Analysis {
     bool current = false;                     // whether the plan is of the present text
     base::Diagnostics said;
     std::set<std::string> files;
+    std::vector<std::string> read;  // GraphDesc::files
     std::unique_ptr<gl::SourceLoader> sources;
   };
   const std::map<std::string, Graph>& graphs() const { return graphs_; }

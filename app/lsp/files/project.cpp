@@ -316,7 +316,7 @@ const std::vector<std::string>& Project::shaderFolders(const std::string& path) 
       if (std::ranges::find(around, includer) == around.end()) around.push_back(includer);
   std::ranges::reverse(around);
   const auto addOf = [&](const std::string& graph) {
-    for (const std::string& each : runtime::shaderRootsOf(graph, {}, dataFolder())) add(pathKey(each));
+    for (const std::string& each : runtime::shaderRootsOf(closure(graph), dataFolder())) add(pathKey(each));
   };
   const auto isOpen = [&](const std::string& each) { return texts_.isOpen(each); };
   std::ranges::stable_partition(around, isOpen);

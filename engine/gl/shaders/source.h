@@ -74,6 +74,12 @@ class SourceLoader {
     names_.forget();
   }
   const std::vector<std::string>& roots() const { return roots_; }
+  // Forgets everything when they are others: names may lead to other files.
+  void setRoots(std::vector<std::string> roots) {
+    if (roots == roots_) return;
+    roots_ = std::move(roots);
+    clear();
+  }
   // The files to watch: every path that was read or looked for since forgetTouched(), whether or not it exists.
   const std::set<std::string>& touched() const { return touched_; }
   void forgetTouched() {

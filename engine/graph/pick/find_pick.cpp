@@ -38,6 +38,19 @@ bool writesResource(const FlatGraph& graph, std::uint32_t pass, std::uint32_t re
   return false;
 }
 
+// For a pass in the place of a resource: what it writes. "" where no pass has the name.
+std::string hintAtWritten(const FlatGraph& graph, const std::string& name) {
+  const std::vector<std::size_t> passes = suffixMatches(graph.passNames, name);
+  if (passes.empty()) return {};
+  const auto pass = static_cast<std::uint32_t>(passes[0]);
+  std::string written;
+  for (std::uint32_t r = 0; r < graph.resources.size(); ++r)
+    if (writesResource(graph, pass, r))
+      written += fmt::format("{}'{}'", written.empty() ? "" : " or ", graph.resourceNames[r]);
+  const std::string said = fmt::format("'{}' is a pass", graph.passNames[pass]);
+  return written.empty() ? said : fmt::format("{}: name what it writes, {}", said, written);
+}
+
 std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
   std::vector<std::string> names;  // each once
   std::unordered_set<std::string_view> known;
@@ -59,10 +72,9 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
                          matches.empty()
                              ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
                              : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()));
-    if (matches.empty())
-      d.hint = suffixHint(pick.name, names);
-    else
-      d.hint = fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
+    if (matches.empty()) d.hint = hintAtWritten(graph, pick.name);
+    if (matches.empty() && d.hint.empty()) d.hint = suffixHint(pick.name, names);
+    if (!matches.empty()) d.hint = fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
     if (d.hint.empty() && pick.option == "-o") d.hint = kPathHint;
     return kNone;
   }

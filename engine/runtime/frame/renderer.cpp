@@ -14,16 +14,15 @@
 
 namespace weft::runtime {
 
-std::vector<std::string> shaderRootsOf(const std::string& graphPath, std::span<const std::string> presets,
-                                       const std::string& dataFolder) {
+std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const std::string& dataFolder) {
   std::vector<std::filesystem::path> candidates;
-  const auto addBeside = [&](const std::string& file) {
+  std::set<std::filesystem::path> folders;
+  for (const std::string& file : files) {
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (!folders.insert(folder).second) continue;
     candidates.push_back(folder / "shaders");
     candidates.push_back(folder / ".." / "shaders");
-  };
-  addBeside(graphPath);
-  for (const std::string& preset : presets) addBeside(preset);
+  }
   candidates.push_back(std::filesystem::path(dataFolder) / "shaders");
   std::vector<std::string> roots;
   for (const std::filesystem::path& candidate : candidates) {
@@ -36,11 +35,22 @@ std::vector<std::string> shaderRootsOf(const std::string& graphPath, std::span<c
   return roots;
 }
 
+namespace {
+
+// As far as they are known before the graph was read.
+std::vector<std::string> givenFiles(const std::string& graphPath, const Renderer::Options& options) {
+  std::vector<std::string> files{graphPath};
+  files.insert(files.end(), options.presets.begin(), options.presets.end());
+  return files;
+}
+
+}  // namespace
+
 Renderer::Renderer(gl::Context& context, const std::string& graphPath, Options options)
     : graphPath_(graphPath),
       options_(std::move(options)),
-      device_(context, shaderRootsOf(graphPath, options_.presets, options_.dataFolder), options_.cacheFolder,
-              options_.trial, options_.plugIns),
+      device_(context, shaderRootsOf(givenFiles(graphPath, options_), options_.dataFolder),
+              options_.cacheFolder, options_.trial, options_.plugIns),
       registry_(makeRegistry(device_.plugIns, {})) {}
 
 bool Renderer::load(const graph::Settings& settings, const World& world, base::Diagnostics& diagnostics) {
@@ -50,7 +60,10 @@ bool Renderer::load(const graph::Settings& settings, const World& world, base::D
   triedFiles_ = desc ? desc->files : std::vector<std::string>{graphPath_};
   refused_.clear();
   if (!desc) return false;
+  const std::vector<std::string> running = device_.sources.roots();
+  device_.sources.setRoots(shaderRootsOf(desc->files, options_.dataFolder));
   if (!said.hasErrors() && switchTo(desc, ShaderFiles::read, settings, world, diagnostics)) return true;
+  if (execution_) device_.sources.setRoots(running);
   const graph::Registry& registry = registryOf(world);
   if (said.hasErrors()) graph::expandGraph(*desc, registry, settings, diagnostics);  // for what else is wrong
   refused_ = graph::findRefused(*desc, registry, settings);
@@ -141,7 +154,7 @@ const Renderer::StandIn* Renderer::prepareStandIn(const std::string& name, const
           : nullptr;
   StandIn made{.path = path, .device = nullptr, .execution = nullptr};
   if (flat && !said.hasErrors()) {
-    made.device = std::make_unique<Device>(device_.context, shaderRootsOf(path, {}, options_.dataFolder),
+    made.device = std::make_unique<Device>(device_.context, shaderRootsOf(desc->files, options_.dataFolder),
                                            options_.cacheFolder, options_.trial, options_.plugIns);
     made.execution =
         Execution::create(*made.device, std::make_shared<const graph::Plan>(graph::compile(flat)), nullptr,

@@ -16,9 +16,9 @@
 
 namespace weft::runtime {
 
-// Where a graph's shaders are looked for: beside it, beside its folder, the same of each preset, then the bundled ones.
-std::vector<std::string> shaderRootsOf(const std::string& graphPath, std::span<const std::string> presets,
-                                       const std::string& dataFolder);
+// Where a graph's shaders are looked for: beside each of its files and beside that file's folder, in the order of
+// GraphDesc::files (the graph, what it extends, presets, includes), then the bundled ones.
+std::vector<std::string> shaderRootsOf(std::span<const std::string> files, const std::string& dataFolder);
 
 // The picture in 8 bits, as readPresented8() gives it: values are clamped to 0 and 1, NaN becomes 0, missing alpha 1.
 assets::Image8 toBytes(const assets::ImageF& picture);

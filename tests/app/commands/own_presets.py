@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Presets of a user's own: which folder a name is found in, that `weft presets` lists them, that they bring their shaders, and that a graph
-may extend several files.
+"""Presets of a user's own: which folder a name is found in, that `weft presets` lists them, that they bring their shaders, as every file of
+a graph does, and that a graph may extend several files.
 
     own_presets.py WEFT
 """
@@ -57,6 +57,19 @@ def main():
         shows(0.9375, "a preset that extends another and brings its shader", "--preset-folder", folder / "mine", "--preset", "negative")
         shows(0.9375, "the same by its path", "--preset", folder / "mine/negative.json")
         shows(0.875, "later presets win", "--preset", folder / "mine/negative.json", "--preset", "dim")
+        # Files of one graph in folders of their own: each brings the shaders beside it, and those of the nearer file win.
+        over = write("over/it.json", '{ "extends": "../graphs/g.json", "set": { "level": 0.5 } }')
+        shows(0.5, "an overlay in another folder", of=over)
+        including = write("outer/it.json", """{ "resources": { "ldr": { "texture": "rgba32f", "size": [2, 2] } },
+          "passes": [ { "include": "../part/part.json", "bind": { "target": "ldr" } } ], "present": "ldr" }""")
+        write("part/part.json", """{ "resources": { "target": { "input": "texture" } },
+          "passes": [ { "name": "one", "type": "fullscreen", "shader": "one.frag.glsl", "write": { "result": "target" } } ] }""")
+        write("part/shaders/one.frag.glsl", "out vec4 result;\nvoid main() { result = vec4(0.75); }\n")
+        shows(0.75, "a graph that is included from another folder", of=including)
+        write("over/shaders/fill.frag.glsl", FILL.replace("vec4(level)", "vec4(level * 4.0)"))
+        shows(2.0, "a shader beside the overlay hides that of the graph", of=over)
+        words = run(weft, "check", "--no-shaders", including)
+        report.check(words.code == 0, f"check --no-shaders of files in several folders: {words.err}")
         several = write("graphs/several.json", '{ "extends": ["g.json", "../user/weft/presets/dim.json", "../mine/dim.json"] }')
         shows(0.0625, "a graph that extends several files", of=several)
         listed = run(weft, "presets", "--json", "--preset-folder", folder / "mine", env=environment)
@@ -68,6 +81,12 @@ def main():
             for wrong, says in (("nowhere", "there is no folder"), ("a_file", "expected a folder")):
                 ran = run(weft, *command, "--preset-folder", folder / wrong, env=environment)
                 report.check(ran.code == 2 and says in ran.err and wrong in ran.err, f"{command[0]} --preset-folder {wrong}: {ran.code} {ran.err}")
+        # A preset of another graph is one mistake; a name that is misspelt is another.
+        write("mine/foreign.json", '{ "set": { "sun_azimuth": 1, "levle": 2, "bokeh": 3, "haze": 4 } }')
+        ran = run(weft, "check", graph, "--no-shaders", "--preset", folder / "mine/foreign.json")
+        told = [d["text"] for d in ran.diagnostics]
+        report.check(ran.codes() == ["W044"] and sorted(told) == ["no parameter is called 'levle'", "no parameters are called 'sun_azimuth', 'bokeh', 'haze'"], f"a preset of another graph: {ran.err}")
+        report.check("did you mean 'level'?" in ran.err and "the preset is for a graph that has them" in ran.err, f"its hints: {ran.err}")
         missing = run(weft, "check", graph, "--preset", "cinma", env=environment)
         report.check(missing.code == 1 and missing.codes() == ["W001"] and "cinema" in missing.err, f"a name that nobody has: {missing.err}")
         # A folder where the command is started hides no preset; a file that cannot be read hides the bundled one here and there.

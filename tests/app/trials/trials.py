@@ -290,6 +290,10 @@ def check_bisect(weft, report, folder):
     result = run(weft, "bisect", GLOW, TOP / "tests/golden/vignette.json", "--size", SIZE)
     report.check(result.code == 1 and "pass 'vignette' writes 'scene' in frame 0, which it did not" in result.out, result.out + result.err)
     report.check(run(weft, "bisect", GLOW, folder / "none.json").code == 2, "a graph that is not there")
+    # Where each mistake was written.
+    for option, text, code in (("--other-set", "threshld=3", "W044"), ("--set", "threshld=3", "W044"), ("--other-disable", "glow_upp", "W045")):
+        result = run(weft, "bisect", GLOW, "--size", SIZE, option, text)
+        report.check(result.code == 2 and [(d["place"], d["code"]) for d in result.diagnostics] == [(f"command line: {option} {text}", code)], f"{option}: {result.code} {result.err}")
 
 
 def check_ablate(weft, report):

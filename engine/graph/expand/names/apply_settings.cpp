@@ -134,9 +134,46 @@ std::string hintAtFixedValue(const Model& model, const std::string& wanted) {
   return {};
 }
 
-// `valueFor(type)` makes the value.
+// A value of a file whose name is like none that there is.
+struct Stranger {
+  const SetDesc* set;
+  std::string hint;
+};
+
+// Those of one file together: it may be a preset of another graph.
+void reportStrangers(Model& model, const std::vector<Stranger>& strangers) {
+  constexpr std::size_t kMost = 20;
+  std::vector<bool> told(strangers.size());
+  for (std::size_t first = 0; first < strangers.size(); ++first) {
+    if (told[first]) continue;
+    const SetDesc& set = *strangers[first].set;
+    std::string names;
+    std::size_t count = 0;
+    for (std::size_t i = first; i < strangers.size(); ++i) {
+      if (*strangers[i].set->place.file != *set.place.file) continue;
+      told[i] = true;
+      if (count++ < kMost) names += fmt::format("{}'{}'", count == 1 ? "" : ", ", strangers[i].set->name);
+    }
+    if (count > kMost) names += fmt::format(" and {} more", count - kMost);
+    auto& d =
+        model.diagnostics.error(Code::unknownParameter, set.place,
+                                fmt::format("no parameter{} called {}", count == 1 ? " is" : "s are", names));
+    d.pointer = set.pointer;
+    const std::string all = model.parameters.empty() ? "the graph has none"
+                                                     : fmt::format("'weft params {}' lists what there is",
+                                                                   model.scopes.front().desc->path);
+    if (count == 1)
+      d.hint = !strangers[first].hint.empty() ? strangers[first].hint : model.parameters.empty() ? "" : all;
+    else
+      d.hint = set.origin == Origin::preset ? "the preset is for a graph that has them; " + all : all;
+  }
+}
+
+// `valueFor(type)` makes the value. A value of a file whose name is like none is added to `strangers`, when they are
+// given, and not reported.
 template <class ValueFor>
-void applySet(Model& model, const std::string& wanted, const SetPlace& origin, const ValueFor& valueFor) {
+void applySet(Model& model, const std::string& wanted, const SetPlace& origin, const ValueFor& valueFor,
+              std::vector<Stranger>* strangers = nullptr, const SetDesc* set = nullptr) {
   std::vector<std::string> names;
   std::vector<std::size_t> parameters;
   const auto add = [&](std::size_t i) {
@@ -157,11 +194,17 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
     const bool few = maySuggest(model, model.parameters.size());
     if (few)
       for (std::size_t i = 0; i < model.parameters.size(); ++i) add(i);
+    std::string hint = few ? hintAtFixedValue(model, wanted) : "";
+    if (hint.empty()) hint = suffixHint(wanted, names);
+    const bool near = !hint.empty() && !hint.starts_with("known");
+    if (strangers && !near) {
+      strangers->push_back({set, std::move(hint)});
+      return;
+    }
     auto& d = model.diagnostics.error(Code::unknownParameter, origin.place,
                                       fmt::format("{}no parameter is called '{}'", origin.before, wanted));
     d.pointer = origin.pointer;
-    if (few) d.hint = hintAtFixedValue(model, wanted);
-    if (d.hint.empty()) d.hint = suffixHint(wanted, names);
+    d.hint = std::move(hint);
     if (d.hint.empty() && !model.parameters.empty())
       d.hint = fmt::format("'weft params {}' lists what there is", model.scopes.front().desc->path);
     return;
@@ -193,14 +236,18 @@ namespace {
 // What files say first, the innermost first, so that an including file has the last word; then the command
 // line.
 void applySets(Model& model) {
+  std::vector<Stranger> strangers;
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
-    for (const SetDesc& set : scope->desc->sets)
-      if (!isOver(model))
-        applySet(model, set.name, {*scope, scope->prefix, set.place, set.pointer, set.valuePlace, set.origin},
-                 [&](Type type) {
-                   const bool path = type == Type::file && set.value.type == Value::Type::symbol;
-                   return path ? Value::text(base::besideFile(set.place, set.value.symbol)) : set.value;
-                 });
+    for (const SetDesc& set : scope->desc->sets) {
+      if (isOver(model)) continue;
+      const SetPlace place{*scope, scope->prefix, set.place, set.pointer, set.valuePlace, set.origin};
+      const auto valueFor = [&](Type type) {
+        const bool path = type == Type::file && set.value.type == Value::Type::symbol;
+        return path ? Value::text(base::besideFile(set.place, set.value.symbol)) : set.value;
+      };
+      applySet(model, set.name, place, valueFor, &strangers, &set);
+    }
+  reportStrangers(model, strangers);
   for (const Setting& set : model.settings.sets) applySetting(model, set);
 }
 

@@ -19,7 +19,8 @@ struct Setting {
   std::string name;
   Value value;
   Origin origin = Origin::command_line;
-  std::string text{};  // as it was written on the command line
+  std::string text{};            // as it was written on the command line
+  std::string option = "--set";  // of the command line, for messages
   // From the command line: the text behind NAME=, which is read here and nowhere else.
   Setting(std::string setName, std::string setText);
   Setting(std::string setName, Value setValue, Origin setOrigin);
@@ -29,6 +30,7 @@ struct Setting {
 struct Disable {
   std::string name;
   Origin origin = Origin::command_line;
+  std::string option = "--disable";  // of the command line, for messages
   Disable(std::string passName, Origin from = Origin::command_line)
       : name(std::move(passName)), origin(from) {}
   Disable(const char* passName) : name(passName) {}
