@@ -1,23 +1,12 @@
-// What all points of a sphere share of what is around it: where its list stands, and the ground. Vertex shaders find it and hand it on as
-// `flat out Listed listed`: in software an input costs much less than a fetch.
-// Slots neighbours (see neighbours/lists.glsl; not `as linear`), irradiance?
+// Finds, for a vertex shader, what neighbours/listed.glsl describes.
+// Slots neighbours, irradiance?
 #ifndef NEIGHBOURS_ROW_GLSL
 #define NEIGHBOURS_ROW_GLSL
 
-#include "neighbours/lists.glsl"
+#include "neighbours/listed.glsl"
 #include "shading/lobe.glsl"
 
-uniform sampler2D neighbours;
-
-struct Listed {
-  vec3 first;        // in the texture: place of the list's first texel, width of a texel
-  float reach;       // how far away a sphere hides anything, in radii
-  float is_ground;   // 1: there is one
-  float height, radius;
-  vec3 albedo;       // of the ground
-  vec3 above, below; // the irradiance map's values straight up and down
-};
-
+// Of the sphere of that row.
 Listed listedOf(uint row) {
   // By a nearest sampler: in software a fetch that is told its level as a float costs less than one by whole numbers.
   vec2 texel = 1.0 / vec2(textureSize(neighbours, 0));

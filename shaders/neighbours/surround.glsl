@@ -1,12 +1,12 @@
 // What the spheres around a point of a sphere do to its light: they hide light from everywhere, from the sun and from the brightest spot,
 // and what they hide they replace by light that they throw back. For shading/light.glsl.
-// Slot neighbours, see neighbours/row.glsl. Loops of one turn stand where a condition would do: in software a condition skips nothing, a
+// Slot neighbours, see neighbours/listed.glsl. Loops of one turn stand where a condition would do: in software a condition skips nothing, a
 // loop that no lane enters does.
 #ifndef NEIGHBOURS_SURROUND_GLSL
 #define NEIGHBOURS_SURROUND_GLSL
 
 #include "neighbours/caps.glsl"
-#include "neighbours/row.glsl"
+#include "neighbours/listed.glsl"
 #include "shading/ibl.glsl"
 #ifdef HAS_SUN
 #include "scene/sun.glsl"

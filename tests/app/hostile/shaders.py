@@ -104,11 +104,18 @@ def commands(weft, folder, report):
         report.check(exit_code == 1, f"{name}: exit code {exit_code}\n{said}")
         report.check(at and re.fullmatch(code + r"shaders/bomb\.frag\.glsl" + place, at[0]), f"{name}: {at}\n{said}")
         report.check(SAYS.get(name, "") in said, f"{name}: not {SAYS.get(name)!r}\n{said}")
-    # An unusual shader that is good is tried, and compiles; the bundled ones are never tried.
+    # An unusual shader that is good is tried, and compiles; the bundled ones are never tried, also where spheres are lit by much.
     (folder / "shaders/many.frag.glsl").write_text(main_of("switch (int(a * 100.0)) {\n" + CASES[:CASES.index("case 80:")] + "}"))
     (folder / "g.json").write_text(graph("many.frag.glsl"))
-    for graph_file, trials in (("g.json", 1), (str(TOP / "graphs/studio.json"), 0)):
-        good = run(weft, "render", graph_file, "--size", "64x36", "-o", "out.png", "--stats", "--program-cache", "none", folder=folder)
+    (folder / "lit.json").write_text("""{ "sun": { "direction": [0.5, 0.6, 0.3], "lux": 60000 }, "ground": { "height": 0, "albedo": [0.4, 0.4, 0.4], "radius": 100 },
+  "lamps": { "lamp": { "position": [1, 2, 1], "candela": 100 } },
+  "spheres": [{ "center": [0, 1, 0], "radius": 1, "material": { "albedo": [1, 0.8, 0.3], "metallic": 1, "roughness": 0.1 } },
+              { "center": [2, 1, 0], "radius": 1, "material": { "albedo": [0.8, 0.8, 0.8], "roughness": 0.5 } }] }""")
+    lit = ["--scene", "lit.json", "--set", "occlusion=true"]
+    much = [*lit, "--set", "fog=true", "--set", "motion_blur=true"]
+    for graph_file, trials, options in (("g.json", 1, ()), (str(TOP / "graphs/studio.json"), 0, ()), (str(TOP / "graphs/studio.json"), 0, much),
+                                        (str(TOP / "graphs/studio_gi.json"), 0, lit)):
+        good = run(weft, "render", graph_file, "--size", "64x36", "-o", "out.png", "--stats", "--program-cache", "none", *options, folder=folder)
         report.check(good.code == 0 and f'"trials": {trials},' in good.err, f"{graph_file}: {good.code}\n{good.err}")
     # More work groups than the device takes: in both commands, where the threads stand.
     (folder / "shaders/count.comp.glsl").write_text("layout(local_size_x = 1, local_size_y = 2) in;\nlayout(std430) buffer data { uint n[]; };\nvoid main() { n[0] = 1u; }\n")
