@@ -169,6 +169,10 @@ def run_on_cpu(sheet, folder, sound, fits):
     sheet.graph("diff to", "diff", GLOW, code=(0, 1), sound=sound)
     expanded = sheet.graph("expand", "expand", sound=sound)
     if sound:
+        # With the shaders that stand beside the graph.
+        shaders = TOP / pathlib.Path(sheet.path).parent / "shaders"
+        if shaders.is_dir():
+            pathlib.Path(folder, "shaders").symlink_to(shaders)
         file = pathlib.Path(folder, "expanded.json")
         file.write_text(expanded.out)
         again = run(sheet.weft, "check", "--no-shaders", file, *sheet.more)
