@@ -3,7 +3,7 @@
 
 Usage: shaders_compile.py SOURCE_DIR [GRAPH...]; default: every .json with passes below graphs/, tests/golden and tests/theory.
 Per pass: everything connected, then each optional input, each output and each parameter left out alone, all optional
-ones left out together, and each value of each define (all combinations where they are few; a number has one). Needs
+ones left out together, and each value of each define (all combinations where they are few; a number has one, `max(…, 1)` stands for 1 and 2). Needs
 glslangValidator; exits 77 (skipped) without it.
 """
 import itertools
@@ -107,6 +107,8 @@ def variants(stanza, desc, constants):
             choices[name] = [{name: str(i), **named} for i in range(len(source["choices"]))]
         elif str(value) in constants:
             choices[name] = [{name: constants[value]}]
+        elif re.fullmatch(r"max\(.*, 1\)", str(number)):
+            choices[name] = [{name: "1"}, {name: "2"}]
         else:
             choices[name] = [{name: "0"}, {name: "1"}]
     everything = {f"HAS_{define_name(n)}": "1" for n in slots + parameters}

@@ -16,14 +16,12 @@ float arcCosine(float x) {
 // Exact: Snyder, "Area Light Sources for Real-Time Graphics", MSR-TR-96-11, 1996; as Lagarde and de Rousiers write it, "Moving Frostbite
 // to Physically Based Rendering", SIGGRAPH 2014, 4.7.2.
 float capShare(float ratio, float facing) {
-  float r2 = ratio * ratio, height = ratio * facing, share = height > 0.0 ? facing / r2 : 0.0;
-  // Where the horizon cuts it. A loop of one turn: in software a condition would skip nothing.
-  for (int once = abs(height) < 1.0 ? 1 : 0; once > 0; --once) {
-    float tangent = sqrt(max(r2 - 1.0, 1e-12)), rim = sqrt(max(1.0 - height * height, 0.0)), slant = sqrt(max(1.0 - facing * facing, 1e-12));
-    float above = facing * arcCosine(clamp(-facing * tangent / slant, -1.0, 1.0)) - rim * tangent;
-    share = max((above / r2 + fastAtan(vec2(rim), vec2(tangent)).x) / kPi, 0.0);
-  }
-  return share;
+  float r2 = ratio * ratio, height = ratio * facing;
+  if (height >= 1.0) return facing / r2;
+  if (height <= -1.0) return 0.0;
+  float tangent = sqrt(max(r2 - 1.0, 1e-12)), rim = sqrt(max(1.0 - height * height, 0.0)), slant = sqrt(max(1.0 - facing * facing, 1e-12));
+  float above = facing * arcCosine(clamp(-facing * tangent / slant, -1.0, 1.0)) - rim * tangent;
+  return max((above / r2 + fastAtan(vec2(rim), vec2(tangent)).x) / kPi, 0.0);
 }
 
 // The share of a disc of radius `wide` around a ray that a sphere of radius `over` covers: a smooth step between touching and covering (Oat and

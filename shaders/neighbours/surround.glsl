@@ -1,7 +1,7 @@
 // What the spheres around a point of a sphere do to its light: they hide light from everywhere, from the sun and from the brightest spot,
 // and what they hide they replace by light that they throw back. For shading/light.glsl.
-// Slot neighbours, see neighbours/listed.glsl. Loops of one turn stand where a condition would do: in software a condition skips nothing, a
-// loop that no lane enters does.
+// Slot neighbours, see neighbours/listed.glsl. A loop of one turn stands where a condition would do: in software a condition skips nothing, a
+// loop that no lane enters does. Small ones cost more than they skip.
 #ifndef NEIGHBOURS_SURROUND_GLSL
 #define NEIGHBOURS_SURROUND_GLSL
 
@@ -112,17 +112,15 @@ Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, 
     vec3 matter = unpackMatter(light.a);
     float share = capShare(ratio, dot(n, to) / distance_to) * near;
     // What the ground sees there of this sphere itself, and of others as long as they are above the horizon.
-    for (int once = below > kLeast ? 1 : 0; once > 0; --once) {
-      vec3 over = vec3(ball.x, abs(ball.y - soil.height), ball.z) - vec3(ground_at.x, 0.0, ground_at.z);
-      float over2 = dot(over, over), over_by = light.a < 0.0 ? 1.0 : clamp(dot(n, to) / ball.w + 1.0, 0.0, 1.0) * near;
-      all.ground_hidden += vec4(light.a < 0.0 ? own_color : light.rgb, 1.0) * (capOnGround(over, ball.w) * over_by);
+    vec3 over = vec3(ball.x, abs(ball.y - soil.height), ball.z) - vec3(ground_at.x, 0.0, ground_at.z);
+    float over2 = dot(over, over), over_by = light.a < 0.0 ? 1.0 : clamp(dot(n, to) / ball.w + 1.0, 0.0, 1.0) * near;
+    all.ground_hidden += vec4(light.a < 0.0 ? own_color : light.rgb, 1.0) * (capOnGround(over, ball.w) * over_by);
 #ifdef HAS_BRIGHTEST
-      all.ground_lit.x *= 1.0 - ballShare(ball.w, spot_angle, ground_blur, lobe.spot, over, over2) * over_by;
+    all.ground_lit.x *= 1.0 - ballShare(ball.w, spot_angle, ground_blur, lobe.spot, over, over2) * over_by;
 #endif
 #ifdef HAS_SUN
-      all.ground_lit.y *= 1.0 - ballShare(ball.w, sun_angle, ground_blur, sun_direction, over, over2) * over_by;
+    all.ground_lit.y *= 1.0 - ballShare(ball.w, sun_angle, ground_blur, sun_direction, over, over2) * over_by;
 #endif
-    }
     if (light.a < 0.0) {
       all.foot = share * -light.a;
       share = near = 0.0;
@@ -133,16 +131,14 @@ Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, 
     towards += share / distance_to * to;
     float beside = sqrt(max(distance2 - along * along, 0.0)), wide = cone * distance_to;
     float in_lobe = mix(discShare(ball.w, wide, along, beside, distance_to) * near, share, alpha) * all.mirror_seen;
-    for (int once = in_lobe > 0.05 * kLeast ? 1 : 0; once > 0; --once) {
-      all.mirror_seen -= in_lobe;
-      all.mirror_albedo += in_lobe * light.rgb;
-      // Where the middle of what the lobe and the sphere share meets it.
-      float middle = 0.5 * (max(beside - wide, -ball.w) + min(beside + wide, ball.w)), deep = sqrt(max(ball.w * ball.w - middle * middle, 0.0));
-      vec3 facing = (axis * along - to) * (middle / max(beside, 1e-6)) - axis * deep;
-      float far = max(along - deep, 0.0), alpha_of_it = alphaOfRoughness(matter.y);
-      all.mirror_facing += facing * (in_lobe / ball.w);
-      all.mirror_matter += vec4(alpha_of_it * alpha_of_it, matter.z, far / ball.w, far) * in_lobe;
-    }
+    all.mirror_seen -= in_lobe;
+    all.mirror_albedo += in_lobe * light.rgb;
+    // Where the middle of what the lobe and the sphere share meets it.
+    float middle = 0.5 * (max(beside - wide, -ball.w) + min(beside + wide, ball.w)), deep = sqrt(max(ball.w * ball.w - middle * middle, 0.0));
+    vec3 facing = (axis * along - to) * (middle / max(beside, 1e-6)) - axis * deep;
+    float far = max(along - deep, 0.0), alpha_of_it = alphaOfRoughness(matter.y);
+    all.mirror_facing += facing * (in_lobe / ball.w);
+    all.mirror_matter += vec4(alpha_of_it * alpha_of_it, matter.z, far / ball.w, far) * in_lobe;
 #ifdef HAS_BRIGHTEST
     all.spot_seen *= 1.0 - ballShare(ball.w, spot_angle, 0.0, lobe.spot, to, distance2) * near;
 #endif
@@ -224,11 +220,8 @@ vec3 overGround(Surround surround, vec3 axis) {
 
 // The lobe's light without neighbours; `sky` is its light from above the ground.
 vec3 skyAndGround(Surround surround, GroundLight light, vec3 sky) {
-  for (int once = surround.ground_share > kLeast ? 1 : 0; once > 0; --once) {
-    float surface = surfaceOf(surround.soil, surround.ground_at);
-    sky = mix(sky, groundRadiance(surround.soil, light, sky, surface, surround.ground_hidden, surround.ground_lit), surround.ground_share);
-  }
-  return sky;
+  float surface = surfaceOf(surround.soil, surround.ground_at);
+  return mix(sky, groundRadiance(surround.soil, light, sky, surface, surround.ground_hidden, surround.ground_lit), surround.ground_share);
 }
 
 // Light of what hides the rest of the lobe. A metal reflects the sky, the ground, and this sphere, whose light is about `back` there. Anything else is
@@ -267,13 +260,11 @@ vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_colo
       light = sampleEquirect(specular, equirectUv(lifted) - vec2(sky_turn, 0.0), equirectLookup(level, lobe.poles.y)).rgb;
     }
     // The ground that it sees, with what it and this sphere hide of that.
-    for (int ground_once = below > kLeast ? 1 : 0; ground_once > 0; --ground_once) {
-      vec3 foot = place + axis * ((place.y - surround.soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
-      foot.y = surround.soil.height;
-      float other_radius = matter.w / max(matter.z, 1e-4);
-      vec4 taken = vec4(color, 1.0) * capOnGround(place - facing * other_radius - foot, other_radius) + vec4(own_color, 1.0) * capOnGround(own - foot, radius);
-      light = mix(light, groundRadiance(surround.soil, ground, light, surface, taken, vec2(max(1.0 - taken.w, 0.0))), below);
-    }
+    vec3 foot = place + axis * ((place.y - surround.soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
+    foot.y = surround.soil.height;
+    float other_radius = matter.w / max(matter.z, 1e-4);
+    vec4 taken = vec4(color, 1.0) * capOnGround(place - facing * other_radius - foot, other_radius) + vec4(own_color, 1.0) * capOnGround(own - foot, radius);
+    light = mix(light, groundRadiance(surround.soil, ground, light, surface, taken, vec2(max(1.0 - taken.w, 0.0))), below);
     light = mix(light, mix(back, surround.soil.albedo * (ground.sky + ground.spot + ground.sun), under) * own_color, share);
 #ifdef HAS_BRIGHTEST
     float half2 = 0.5 + 0.5 * dot(axis, lobe.spot), a2 = min(alpha * alpha + spot_around.w * spot_around.w, 1.0), d = half2 * (a2 - 1.0) + 1.0;
