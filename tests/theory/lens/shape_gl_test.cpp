@@ -212,7 +212,7 @@ TEST_CASE(
     // 0.87 and 0.70.
     const double d = light.diameter;
     CHECK(shape.overlap > (light.source == Source::kSquare ? 0.97 : d < 7 ? 0.91 : 0.94));
-    CHECK(std::abs(shape.light - 1) < 0.015);
+    CHECK(std::abs(shape.light - 1) < 0.02);
   };
   for (const double diameter : {6.0, 9.0, 13.0, 20.0, 26.0, 33.0, 48.0, 64.0})
     for (const std::uint32_t odd : {0u, 1u, 3u}) {
@@ -262,7 +262,7 @@ TEST_CASE(
             CHECK(shape.low > (fullSize ? 0.87 : 0.89));
             // Measured: at half size 0.90 to 1.29; at full size from 1.04 at 9 pixels, from 0.75 above. In the fields at half size from -0.2 to 0.7.
             if (blades && d > 7) CHECK(shape.corners > (!fullSize ? 0.88 : d < 10 ? 0.95 : 0.72));
-            CHECK(std::abs(shape.light - 1) < (fullSize ? 0.07 : 0.015));
+            CHECK(std::abs(shape.light - 1) < (fullSize ? 0.07 : 0.02));
           }
         }
 }
