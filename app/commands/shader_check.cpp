@@ -91,7 +91,7 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
   if (!sources_)
     sources_ = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
   const passes::PassRegistry types = passes::PassRegistry::builtin();
-  base::Diagnostics said;
+  base::Diagnostics said, unread;  // --no-shaders asks for no files
   const graph::PassSpec* last = nullptr;
   for (const graph::Step& step : plan.steps) {
     if (graph::enoughErrors(said)) break;
@@ -109,7 +109,7 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
       for (const gl::ProgramRequest::Stage& stage : request.stages) {
         if (!stage.text.empty()) continue;
         const auto [known, fresh] = loaded_.try_emplace(stage.file);
-        if (fresh) known->second = sources_->load(stage.file, said, request.place);
+        if (fresh) known->second = sources_->load(stage.file, unread, request.place);
         stages.push_back({stage.stage, known->second});
         whole = whole && known->second;
       }

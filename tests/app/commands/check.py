@@ -84,19 +84,6 @@ def check_words(weft, report):
         report.check(done.codes() == ["W181", "W182"], f"a pass like another one: {done.code}\n{done.err}")
 
 
-def check_missing_shader(weft, report):
-    """A file that is not there is told with --no-shaders, whether or not the graph has another mistake."""
-    with temporary_folder() as name:
-        graph = pathlib.Path(name, "g.json")
-        for more, codes in (("", ["W100"]), (', "sceen": 1', ["W004", "W100"])):
-            graph.write_text(f"""{{ "resources": {{ "ldr": {{ "texture": "rgba8", "size": 8 }} }},
-  "passes": [ {{ "name": "fill", "type": "fullscreen", "shader": "nowhere.frag.glsl", "write": {{ "result": "ldr" }} }} ],
-  "present": "ldr"{more} }}
-""")
-            done = run(weft, "check", "--no-shaders", graph)
-            report.check(done.code == 1 and done.codes() == codes and done.err.count("[W100]") == 1, f"a shader that is missing{more}: {done.code}\n{done.err}")
-
-
 def check_present(weft, report):
     """A pass in the place of a picture, on the command line as in a graph."""
     done = run(weft, "render", GLOW, "--size", "8x8", "--present", "glow_prefilter", "-o", "out/pass.png")
@@ -257,7 +244,6 @@ def main():
     else:
         check_formats(weft, report)
         check_words(weft, report)
-        check_missing_shader(weft, report)
         check_matrix(weft, report)
         check_many_mistakes(weft, report)
         check_watch(weft, report)
