@@ -5,35 +5,14 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "engine/base/characters.h"
+
 namespace weft::base {
 
 namespace {
 
 constexpr std::size_t kLongestText = 400, kTextKept = 360;
 constexpr std::size_t kLongestWord = 256, kWordKept = 200;
-
-struct Character {
-  std::uint32_t value = 0;
-  std::size_t bytes = 1;
-  bool good = false;  // else one byte that is no UTF-8
-};
-
-// The first character of a text that is not empty (RFC 3629: no overlong forms, no surrogates).
-Character firstOf(std::string_view text) {
-  const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byteAt(0);
-  if (lead < 0x80) return {lead, 1, true};
-  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {lead, 1, false};
-  std::uint32_t value = lead & (0x7Fu >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byteAt(i) & 0xC0) != 0x80) return {lead, 1, false};
-    value = value << 6 | (byteAt(i) & 0x3Fu);
-  }
-  const bool good = value >= kLeast[bytes] && value <= 0x10FFFF && (value < 0xD800 || value > 0xDFFF);
-  return good ? Character{value, bytes, true} : Character{lead, 1, false};
-}
 
 bool isControl(std::uint32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x61C || c == 0x200E || c == 0x200F ||
@@ -58,7 +37,7 @@ std::string printable(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
-    const Character c = firstOf(text);
+    const Character c = firstCharacterOf(text);
     if (!c.good || isControl(c.value))
       out += escaped(c);
     else
@@ -92,7 +71,7 @@ std::string printableJson(std::string_view json) {
   std::string out;
   out.reserve(json.size());
   while (!json.empty()) {
-    const Character c = firstOf(json);
+    const Character c = firstCharacterOf(json);
     if (c.good && c.value >= 0x7F && isControl(c.value))
       out += fmt::format("\\u{:04x}", c.value);
     else

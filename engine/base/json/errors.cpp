@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/base/characters.h"
 #include "engine/base/chars.h"
 #include "engine/base/files/file_kind.h"
 
@@ -156,7 +157,23 @@ class Reporter {
       if (before != "true" && before != "false" && before != "null") --start;
     }
     if (isIdentChar(text_.at(start))) start = wordStart(start);
+    if (isConflict(start))
+      return report(start, "a merge conflict is left in the file", "keep one side, and take the marks away");
+    if (start > 0 && text_.at(start - 1) == '"') {
+      const std::size_t open = text_.startOfString(start);
+      return report(open,
+                    fmt::format("the string '{}' ends before '{}'", printable(open, start), word(start)),
+                    "a '\"' is missing in it, or one is too many");
+    }
+    if (static_cast<unsigned char>(text_.at(start)) >= 0x80) {
+      const StrayCharacter stray = describeStray(text_.text().substr(start));
+      return report(start, stray.message,
+                    stray.hint.empty() ? "outside of strings a graph is plain ASCII" : stray.hint);
+    }
     const std::string found = word(start);
+    if (says("while parsing object key") && isIdentChar(found[0]) && !isDigit(found[0]))
+      return report(start, fmt::format("the key '{}' has no quotes", found),
+                    fmt::format("write \"{}\"", found), "a key in double quotes");
     std::string lower = found;
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -170,6 +187,15 @@ class Reporter {
     if (found[0] == '.' || found[0] == '+') hint = "a number begins with a digit or '-'";
     if (found[0] == '#') hint = "comments are // to the end of the line and /* … */";
     report(start, fmt::format("'{}' is not a JSON value", found), hint);
+  }
+
+  // Whether git's mark of a merge conflict stands there, which fills the beginning of a line.
+  bool isConflict(std::size_t at) const {
+    if (at > 0 && text_.at(at - 1) != '\n') return false;
+    const std::string_view rest = text_.text().substr(at);
+    return std::ranges::any_of(
+        std::initializer_list<std::string_view>{"<<<<<<<", "=======", ">>>>>>>", "|||||||"},
+        [&](std::string_view mark) { return rest.starts_with(mark); });
   }
 
   void reportEnd() {

@@ -103,7 +103,7 @@ TEST_CASE("broken files: the place of the offending token, in words") {
   CHECK(broken("[1 2]") == "1:4 '2' follows a value of the array that opens at 1:1");
   CHECK(broken("[1, 2}") == "1:6 '}' follows a value of the array that opens at 1:1");
   CHECK(broken("{\"a\" 1}") == "1:6 '1' follows the key \"a\"");
-  CHECK(broken("{a: 1}") == "1:2 'a' is not a JSON value");
+  CHECK(broken("{a: 1}") == "1:2 the key 'a' has no quotes");
   CHECK(broken("{'a': 1}") == "1:2 ''' is not a JSON value");
   CHECK(broken("{1: 1}") == "1:2 '1' where a key is expected");
   CHECK(broken("{} {}") == "1:4 '{' follows the end of the document");
@@ -202,4 +202,27 @@ TEST_CASE("a file of another kind is called by its kind, with the option that ta
   // The beginning of one is none.
   CHECK(broken("\x89PN") != "1:1 this is a PNG picture, not JSON");
   CHECK(broken("RIFF").find("WebP") == std::string::npos);
+}
+
+TEST_CASE("quotes that are missing or of another kind, and marks of a merge, are called so") {
+  const auto hintOf = [](std::string_view text) {
+    Diagnostics diagnostics;
+    CHECK(!parseJson(text, kFile, diagnostics));
+    REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+    return diagnostics.items()[0].hint;
+  };
+  CHECK(broken("{ let: 1 }") == "1:3 the key 'let' has no quotes");
+  CHECK(hintOf("{ let: 1 }") == "write \"let\"");
+  // The quote of a key, then of a value, is missing: the string goes on to the next quote.
+  CHECK(broken("{\n  \"glow:   { \"texture\": 1 } }") ==
+        "2:3 the string '\"glow:   { \"' ends before 'texture'");
+  CHECK(broken("{ \"a\": \"soft, \"b\": 1 }") == "1:8 the string '\"soft, \"' ends before 'b'");
+  CHECK(hintOf("{ \"a\": \"soft, \"b\": 1 }") == "a '\"' is missing in it, or one is too many");
+  CHECK(broken("{ \xE2\x80\x9C"
+               "a\xE2\x80\x9D: 1 }") == "1:3 '\xE2\x80\x9C' (U+201C) is no plain quote");
+  CHECK(broken("{ \xC2\xA0\"a\": 1 }") == "1:3 U+00A0 is no plain space");
+  CHECK(hintOf("{ \xC2\xA0\"a\": 1 }") == "write a plain space in its place");
+  CHECK(broken("{ \"a\": \xC2\xB5 }") == "1:8 '\xC2\xB5' (U+00B5) has no meaning here");
+  CHECK(broken("{\n<<<<<<< HEAD\n \"a\": 1 }") == "2:1 a merge conflict is left in the file");
+  CHECK(broken("{ \"a\": 1,\n=======\n \"a\": 1 }") == "2:1 a merge conflict is left in the file");
 }

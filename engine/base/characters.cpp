@@ -1,0 +1,46 @@
+#include "engine/base/characters.h"
+
+#include <fmt/format.h>
+
+namespace weft::base {
+
+namespace {
+
+bool isOtherSpace(std::uint32_t c) {
+  return c == 0xA0 || c == 0x1680 || (c >= 0x2000 && c <= 0x200D) || c == 0x202F || c == 0x205F ||
+         c == 0x2060 || c == 0x3000 || c == 0xFEFF;
+}
+
+bool isOtherQuote(std::uint32_t c) {
+  return c == 0xAB || c == 0xBB || c == 0xB4 || (c >= 0x2018 && c <= 0x201F) || c == 0x2032 || c == 0x2033;
+}
+
+}  // namespace
+
+Character firstCharacterOf(std::string_view text) {
+  const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byteAt(0);
+  if (lead < 0x80) return {lead, 1, true};
+  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {lead, 1, false};
+  std::uint32_t value = lead & (0x7Fu >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byteAt(i) & 0xC0) != 0x80) return {lead, 1, false};
+    value = value << 6 | (byteAt(i) & 0x3Fu);
+  }
+  const bool good = value >= kLeast[bytes] && value <= 0x10FFFF && (value < 0xD800 || value > 0xDFFF);
+  return good ? Character{value, bytes, true} : Character{lead, 1, false};
+}
+
+StrayCharacter describeStray(std::string_view text) {
+  const Character c = firstCharacterOf(text);
+  if (!c.good) return {fmt::format("the byte 0x{:02X} is not UTF-8", c.value), "save the file as UTF-8"};
+  if (isOtherSpace(c.value))
+    return {fmt::format("U+{:04X} is no plain space", c.value), "write a plain space in its place"};
+  const std::string shown = fmt::format("'{}' (U+{:04X})", text.substr(0, c.bytes), c.value);
+  if (isOtherQuote(c.value)) return {shown + " is no plain quote", "write a plain quote in its place"};
+  return {shown + " has no meaning here", ""};
+}
+
+}  // namespace weft::base
