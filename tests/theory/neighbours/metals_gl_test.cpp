@@ -1,12 +1,12 @@
 // Metals that touch or nearly do, pixel by pixel against paths.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "tests/theory/neighbours/metals.h"
+#include "tests/theory/statistics.h"
 
 using namespace weft::theory;
 
@@ -24,16 +24,6 @@ struct Off {
       found += is[c];
       truth += should[c];
     }
-  }
-  double mean() const {
-    double sum = 0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
-  }
-  double percentile(double p) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
   }
   double radiance() const { return 100 * (found / truth - 1); }
 };
@@ -84,12 +74,13 @@ void checkMetals(MetalScene::Stand stand, const Bounds& bounds) {
   std::vector<Off> without = compare();
   for (std::size_t i = 0; i <= count; ++i) {
     const bool all = i == count;
-    const double percentile = with[i].percentile(0.95);
-    MESSAGE((all ? "all" : "sphere " + std::to_string(i)), ": mean ", with[i].mean(), ", 95th percentile ",
-            percentile, ", radiance ", with[i].radiance(), " %; without occlusion ", without[i].mean(), ", ",
-            without[i].percentile(0.95), ", ", without[i].radiance(), " %");
+    const double percentile = percentileOf(with[i].values, 0.95);
+    MESSAGE((all ? "all" : "sphere " + std::to_string(i)), ": mean ", meanOf(with[i].values),
+            ", 95th percentile ", percentile, ", radiance ", with[i].radiance(), " %; without occlusion ",
+            meanOf(without[i].values), ", ", percentileOf(without[i].values, 0.95), ", ",
+            without[i].radiance(), " %");
     REQUIRE(with[i].values.size() > 100);
-    CHECK(with[i].mean() < (all ? bounds.allMean : bounds.mean));
+    CHECK(meanOf(with[i].values) < (all ? bounds.allMean : bounds.mean));
     CHECK(percentile < (all ? bounds.allPercentile : bounds.percentile));
     CHECK(std::abs(with[i].radiance()) < (all ? bounds.allRadiance : bounds.radiance));
   }
@@ -111,8 +102,8 @@ TEST_CASE("metals: paths keep all light in a white furnace, and two sets of them
     const std::vector<Pixel> one = tracedPixels(each, tracer, 8, 1), other = tracedPixels(each, tracer, 8, 2);
     Off off;
     for (std::size_t i = 0; i < one.size(); ++i) off.add(one[i].truth, other[i].truth);
-    MESSAGE("two sets: mean ", off.mean(), ", 95th percentile ", off.percentile(0.95));
-    CHECK(off.mean() < 1.6);
+    MESSAGE("two sets: mean ", meanOf(off.values), ", 95th percentile ", percentileOf(off.values, 0.95));
+    CHECK(meanOf(off.values) < 1.6);
   }
 }
 

@@ -1,11 +1,11 @@
 // White metals of every roughness under a photographed sky with its sun, pixel by pixel against brute force.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "tests/theory/reflection/wall.h"
+#include "tests/theory/statistics.h"
 
 using namespace weft::theory;
 
@@ -24,16 +24,6 @@ struct Difference {
       found += is;
       truth += should;
     }
-  }
-  double mean() const {
-    double sum = 0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
-  }
-  double percentile(double p) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
   }
 };
 
@@ -69,10 +59,10 @@ void compare(double azimuth) {
     REQUIRE(d.values.size() > 800);
     const double radiance = 100 * (d.found / d.truth - 1);
     CAPTURE(kRoughness[i]);
-    MESSAGE("roughness ", kRoughness[i], ": mean ", d.mean(), ", 95th percentile ", d.percentile(0.95),
-            ", radiance ", radiance, " %");
-    CHECK(d.mean() < 2);
-    CHECK(d.percentile(0.95) < 8);
+    MESSAGE("roughness ", kRoughness[i], ": mean ", meanOf(d.values), ", 95th percentile ",
+            percentileOf(d.values, 0.95), ", radiance ", radiance, " %");
+    CHECK(meanOf(d.values) < 2);
+    CHECK(percentileOf(d.values, 0.95) < 8);
     if (kRoughness[i] >= 0.2) CHECK(std::abs(radiance) < 2);
   }
 }
@@ -95,9 +85,10 @@ TEST_CASE(
     });
     REQUIRE(d.values.size() > 60);
     CAPTURE(kRoughness[ball]);
-    MESSAGE("roughness ", kRoughness[ball], ": mean ", d.mean(), ", 95th percentile ", d.percentile(0.95));
-    CHECK(d.mean() < 0.2);
-    CHECK(d.percentile(0.95) < 0.8);
+    MESSAGE("roughness ", kRoughness[ball], ": mean ", meanOf(d.values), ", 95th percentile ",
+            percentileOf(d.values, 0.95));
+    CHECK(meanOf(d.values) < 0.2);
+    CHECK(percentileOf(d.values, 0.95) < 0.8);
   }
 }
 
