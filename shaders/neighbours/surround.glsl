@@ -32,7 +32,7 @@ struct Surround {
   vec3 mirror;           // the lobe's axis, unit
   float mirror_width;    // tangent of half the angle of the lobe's cone
   vec3 mirror_albedo;    // albedo of what hides the rest, times its share
-  vec3 mirror_facing;    // normal of what hides the rest, times its share
+  vec3 mirror_facing;    // mean normal of what hides the rest, times its share
   vec4 mirror_matter;    // four numbers of what hides the rest, times its share: alpha squared, metallic, distance over radius, distance
   Soil soil;
   float ground_share;    // share of the lobe below the ground's horizon
@@ -137,7 +137,9 @@ Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, 
     float middle = 0.5 * (max(beside - wide, -ball.w) + min(beside + wide, ball.w)), deep = sqrt(max(ball.w * ball.w - middle * middle, 0.0));
     vec3 facing = (axis * along - to) * (middle / max(beside, 1e-6)) - axis * deep;
     float far = max(along - deep, 0.0), alpha_of_it = alphaOfRoughness(matter.y);
-    all.mirror_facing += facing * (in_lobe / ball.w);
+    // Over a part of the sphere the mean normal is shorter than 1; over the half that is seen it is 2/3.
+    float part = min(wide / ball.w, 1.0);
+    all.mirror_facing += facing * (in_lobe / ball.w * (1.0 - part * part * (1.0 / 3.0)));
     all.mirror_matter += vec4(alpha_of_it * alpha_of_it, matter.z, far / ball.w, far) * in_lobe;
 #ifdef HAS_BRIGHTEST
     all.spot_seen *= 1.0 - ballShare(ball.w, spot_angle, 0.0, lobe.spot, to, distance2) * near;
@@ -268,8 +270,15 @@ vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_colo
     light = mix(light, mix(back, surround.soil.albedo * (ground.sky + ground.spot + ground.sun), under) * own_color, share);
 #ifdef HAS_BRIGHTEST
     float half2 = 0.5 + 0.5 * dot(axis, lobe.spot), a2 = min(alpha * alpha + spot_around.w * spot_around.w, 1.0), d = half2 * (a2 - 1.0) + 1.0;
-    float lit = max(dot(facing, lobe.spot), 0.0), metal = a2 / (4.0 * d * d * max(slant, 0.1));
-    light += spot_around.rgb * mix(lit, lit > 0.0 ? metal : 0.0, matter.y);
+    // Mean of the cosine over the normals that the lobe meets: the shorter their mean, the farther apart they are. So there is no edge where it
+    // gets dark. A metal's light ends there by Smith's height-correlated masking.
+    vec3 normals = surround.mirror_facing / hidden;
+    float cosine = dot(normals, lobe.spot), lit = 0.5 * (cosine + sqrt(cosine * cosine + 0.25 * max(1.0 - dot(normals, normals), 0.0)));
+    float masking = lit * sqrt(slant * slant * (1.0 - a2) + a2) + slant * sqrt(lit * lit * (1.0 - a2) + a2);
+    float metal = 0.5 * a2 * lit / (d * d * max(masking, 1e-4));
+    // This sphere may stand before the light.
+    float past = 1.0 - ballShare(radius, spot_around.w, surround.mirror_width * matter.w, lobe.spot, to, distance2);
+    light += spot_around.rgb * (mix(lit, metal, matter.y) * past);
 #endif
     sum = light * color * hidden;
   }

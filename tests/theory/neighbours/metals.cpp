@@ -28,13 +28,11 @@ std::shared_ptr<const assets::ImageF> dimmedSky() {
   });
 }
 
-}  // namespace
-
-MetalScene::MetalScene(Stand stand) {
-  setup = {
+Setup metalsThatTouch() {
+  return {
       .graph = "graphs/studio.json",
-      .width = kWidth,
-      .height = kHeight,
+      .width = MetalScene::kWidth,
+      .height = MetalScene::kHeight,
       .sets = {{"occlusion", "true"}},
       .balls =
           {{.center = {-4.1f, 1, 0}, .albedo = {0.95f, 0.64f, 0.54f}, .roughness = 0.3f},
@@ -46,6 +44,54 @@ MetalScene::MetalScene(Stand stand) {
            {.center = {1.3f, 0.5f, 1.4f}, .radius = 0.5f, .albedo = {0.95f, 0.93f, 0.88f}, .roughness = 0}},
       .camera = {.position = {0, 2.6f, 11}, .target = {0, 0.9f, 0}, .fovDegrees = 24, .nearPlane = 0.1},
       .environment = dimmedSky()};
+}
+
+// A plain sky with a sun of half angle 3.5 degrees, low at the left, brightest in its middle: there is one brightest texel.
+std::shared_ptr<const assets::ImageF> skyWithSun() {
+  constexpr double kDegree = std::numbers::pi / 180, kElevation = 11 * kDegree, kAzimuth = 160 * kDegree;
+  const Vec3 sun = {std::cos(kElevation) * std::cos(kAzimuth), std::sin(kElevation),
+                    std::cos(kElevation) * std::sin(kAzimuth)};
+  return makeEnvironment([&](int x, int y) {
+    const Vec3 to = equirectDirection(x, y, 256, 128);
+    const double up = std::max(to.y, 0.0);
+    const double away = std::acos(std::clamp(dot(to, sun), -1.0, 1.0)) / (3.5 * kDegree);
+    const double glow = away < 1 ? 1.2 - 0.4 * away : 0;
+    return std::array{0.7 - 0.45 * up + 220 * glow, 0.62 - 0.3 * up + 177 * glow,
+                      0.5 - 0.05 * up + 127 * glow};
+  });
+}
+
+Ball metal(glm::vec3 center, float radius, glm::vec3 albedo, float roughness) {
+  return {.center = center, .radius = radius, .albedo = albedo, .roughness = roughness};
+}
+
+Ball diffuse(glm::vec3 center, float radius, glm::vec3 albedo) {
+  return {.center = center, .radius = radius, .albedo = albedo, .metallic = 0, .roughness = 0.8f};
+}
+
+Setup metalsAmongLit() {
+  const glm::vec3 gold = {0.75f, 0.48f, 0.12f}, straw = {0.6f, 0.42f, 0.16f}, aluminium(0.9f), white(0.85f),
+                  yellow = {0.75f, 0.52f, 0.05f}, black(0.03f);
+  return {
+      .graph = "graphs/studio.json",
+      .width = MetalScene::kWidth,
+      .height = MetalScene::kHeight,
+      .sets = {{"occlusion", "true"}},
+      .balls = {metal({-1.75f, 0, 0}, 1.5f, gold, 0.28f), metal({1.75f, 0, 0}, 1.5f, straw, 0.2f),
+                // before the first
+                metal({-2.7f, -1.0f, 3.0f}, 0.6f, aluminium, 0.3f),
+                diffuse({-1.6f, -0.6f, 4.7f}, 1.1f, yellow), diffuse({-3.7f, -1.2f, 2.2f}, 0.6f, white),
+                // before the second
+                diffuse({1.2f, -1.3f, 2.4f}, 0.5f, white), metal({0.6f, -1.2f, 3.6f}, 0.7f, aluminium, 0.3f),
+                metal({2.6f, -1.2f, 2.6f}, 0.6f, gold, 0.25f), diffuse({3.4f, -0.9f, 3.6f}, 0.9f, black)},
+      .camera = {.position = {0, 6, 13}, .target = {0, -0.1f, 0}, .fovDegrees = 12.5f, .nearPlane = 0.1},
+      .environment = skyWithSun()};
+}
+
+}  // namespace
+
+MetalScene::MetalScene(Stand stand) {
+  setup = stand == Stand::amongLit ? metalsAmongLit() : metalsThatTouch();
   if (stand == Stand::onGround)
     setup.ground = scene::Ground{.albedo = glm::vec3(0.42f, 0.39f, 0.35f), .radius = 1e5f};
 }

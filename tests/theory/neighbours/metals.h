@@ -1,15 +1,19 @@
-// Metals of several colours and roughnesses that touch or nearly do, on a ground, and the radiance of their pixels by paths.
+// Metals of several colours and roughnesses that touch or nearly do, on a ground or not, or among other spheres in the
+// light of a low sun, and the radiance of their pixels by paths.
 #pragma once
 
 #include "tests/theory/neighbours/tracer.h"
 
 namespace weft::theory {
 
-// Under the bundled environment without its sun: dimmed where it is brighter than kBrightest.
+// `inTheAir` and `onGround`: under the bundled environment without its sun, dimmed where it is brighter than kBrightest.
+// `amongLit`: two rough metals, the first kRough balls, before which stand metal and diffuse ones, half of each in the
+// light of a low sun, under a plain sky; in the reflections of the two they overlap.
 struct MetalScene {
   static constexpr float kBrightest = 6;
   static constexpr std::uint32_t kWidth = 288, kHeight = 128;
-  enum class Stand { inTheAir, onGround };
+  static constexpr int kRough = 2;
+  enum class Stand { inTheAir, onGround, amongLit };
   explicit MetalScene(Stand stand);
 
   // The sphere that covers the whole pixel, -1: none. Counted from the lower left corner.

@@ -10,30 +10,43 @@
 
 using namespace weft::theory;
 
-TEST_CASE("pictures of metals that reflect one another") {
+namespace {
+
+void draw(MetalScene::Stand stand, const std::string& name) {
   std::filesystem::create_directories("out");
-  for (const auto& [stand, name] : {std::pair{MetalScene::Stand::inTheAir, std::string("air")},
-                                    std::pair{MetalScene::Stand::onGround, std::string("ground")}}) {
-    const MetalScene scene(stand);
-    Lab lab(scene.setup);
-    lab.frame();
-    const Picture picture = lab.read("hdr");
-    const MetalTracer tracer(scene.setup);
-    std::mt19937 random(1);
-    std::vector<std::uint8_t> drawn, truth;
-    const auto add = [](std::vector<std::uint8_t>& bytes, glm::dvec3 color) {
-      for (int c = 0; c < 3; ++c)
-        bytes.push_back(static_cast<std::uint8_t>(std::lround(shownOf255(std::max(color[c], 0.0)))));
-    };
-    for (std::uint32_t y = MetalScene::kHeight; y-- > 0;)
-      for (std::uint32_t x = 0; x < MetalScene::kWidth; ++x) {
-        const float* texel = picture.at(x, y);
-        add(drawn, {texel[0], texel[1], texel[2]});
-        add(truth, scene.truth(tracer, x, y, 24, random));
-      }
-    weft::base::Diagnostics said;
-    const int width = MetalScene::kWidth, height = MetalScene::kHeight;
-    CHECK(weft::assets::savePng8("out/metals_" + name + "_drawn.png", width, height, 3, drawn, said));
-    CHECK(weft::assets::savePng8("out/metals_" + name + "_reference.png", width, height, 3, truth, said));
-  }
+  const MetalScene scene(stand);
+  Lab lab(scene.setup);
+  lab.frame();
+  const Picture picture = lab.read("hdr");
+  const MetalTracer tracer(scene.setup);
+  std::mt19937 random(1);
+  std::vector<std::uint8_t> drawn, truth;
+  const auto add = [](std::vector<std::uint8_t>& bytes, glm::dvec3 color) {
+    for (int c = 0; c < 3; ++c)
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(shownOf255(std::max(color[c], 0.0)))));
+  };
+  for (std::uint32_t y = MetalScene::kHeight; y-- > 0;)
+    for (std::uint32_t x = 0; x < MetalScene::kWidth; ++x) {
+      const float* texel = picture.at(x, y);
+      add(drawn, {texel[0], texel[1], texel[2]});
+      add(truth, scene.truth(tracer, x, y, 24, random));
+    }
+  weft::base::Diagnostics said;
+  const int width = MetalScene::kWidth, height = MetalScene::kHeight;
+  CHECK(weft::assets::savePng8("out/metals_" + name + "_drawn.png", width, height, 3, drawn, said));
+  CHECK(weft::assets::savePng8("out/metals_" + name + "_reference.png", width, height, 3, truth, said));
+}
+
+}  // namespace
+
+TEST_CASE("pictures of metals in the air") {
+  draw(MetalScene::Stand::inTheAir, "air");
+}
+
+TEST_CASE("pictures of metals on a ground") {
+  draw(MetalScene::Stand::onGround, "ground");
+}
+
+TEST_CASE("pictures of metals among lit spheres") {
+  draw(MetalScene::Stand::amongLit, "lit");
 }

@@ -34,15 +34,16 @@ class ReflectionOracle {
   // The share of it that several bounces give; smooth, so one value serves a whole pixel.
   Vec3 severalBounces(Vec3 normal, Vec3 view, const Metal& metal) const;
   Vec3 lookUp(Vec3 direction) const;  // with what is above kBright
+  Vec3 dimAt(Vec3 direction) const;   // without it
 
   static constexpr float kBright = 30;
-
- private:
   struct Patch {
     Vec3 direction, light;  // radiance times solid angle
   };
+  const std::vector<Patch>& bright() const { return bright_; }  // what is above kBright
+
+ private:
   Vec3 texel(int x, int y) const;
-  Vec3 dimAt(Vec3 direction) const;
 
   int width_ = 0, height_ = 0;
   std::vector<Vec3> dim_, whole_;  // up to kBright; everything
