@@ -96,11 +96,11 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   if (kind == Kind::color && access == Access::read) return kindMisfit("writing or modifying for color");
 
   const bool known = shape.format != Format::none;
-  const auto formatMisfit = [&](std::string expected) {
+  const auto formatMisfit = [&](std::string expected, std::string hint = {}) {
     return report(Code::badFormat,
                   fmt::format("{}: the format {} of '{}' does not fit the use as {}", context.user,
                               infoOf(shape.format).name, entity.name, nameOf(kind)),
-                  std::move(expected));
+                  std::move(expected), std::move(hint));
   };
   if (known && kind == Kind::color && !infoOf(shape.format).colorRenderable)
     return formatMisfit("a format that can be rendered to");
@@ -115,14 +115,15 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
                   fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
                   "linear, wrap, mirror, border and compare for sampled textures");
   if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format))
-    return formatMisfit("a depth format for compare");
+    return formatMisfit("a depth format for compare", "name a depth texture, or leave 'compare' out");
   if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2))
-    return formatMisfit("a format that can be filtered, or no linear");
+    return formatMisfit("a format that can be filtered, or no linear", "leave 'linear' out");
   if (shape.samples > 1 && sampler.linear)
     return report(
         Code::badKind,
         fmt::format("{}: '{}' has several samples, it cannot be filtered", context.user, entity.name),
-        "no linear");
+        "no linear",
+        "leave 'linear' out: the shader declares a sampler2DMS and reads one sample by texelFetch");
   if (work.array && (kind == Kind::color || kind == Kind::depth))
     return report(
         Code::badKind,

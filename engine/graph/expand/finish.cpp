@@ -29,7 +29,7 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
   if (work.state != SlotWork::State::connected) return std::nullopt;
   if (work.array) {
     auto& d = model.diagnostics.error(Code::badKind, ref.place,
-                                      fmt::format("{} '{}', which is an array", user, ref.text));
+                                      fmt::format("{} reads '{}', which is an array", user, ref.text));
     d.expected = fmt::format("one element, '{}[0]'", ref.name);
     return std::nullopt;
   }
@@ -58,6 +58,8 @@ void resolvePresent(Model& model) {
     auto& d = model.diagnostics.error(
         Code::badKind, ref.place, fmt::format("present shows '{}', which is no colour texture", ref.text));
     d.expected = "a colour texture of this frame";
+    if (texture && isDepth(resource.format))
+      d.hint = fmt::format("to look at it: weft render --present {}", ref.text);
   }
 }
 
@@ -88,7 +90,7 @@ void resolveOutputs(Model& model) {
   for (Scope& scope : model.scopes)
     for (const OutputDesc& output : scope.desc->outputs) {
       const std::string name = scope.prefix + output.name;
-      auto use = resolveFinal(model, scope, output.ref, fmt::format("output '{}' reads", name), name);
+      auto use = resolveFinal(model, scope, output.ref, fmt::format("output '{}'", name), name);
       if (!use || !checkOutput(model, output, name, *use)) continue;
       use->kind = Kind::copy;
       model.graph.outputs.push_back(*use);

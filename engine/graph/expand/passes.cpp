@@ -60,6 +60,7 @@ class PassWalk {
   // Kept for each instance, so a long expression is cut.
   static std::string whyFalse(const Expr& enabled) {
     std::string text = enabled.text();
+    if (enabled.isConstant()) return fmt::format("\"enabled\": {}", text);
     if (text.size() > 80) text = text.substr(0, 80) + "…";
     return fmt::format("enabled: {} is false", text);
   }
@@ -80,7 +81,7 @@ class PassWalk {
     stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
     Names names(model_, scope);
     repeat(names, 0);
-    if (!failed_) return;
+    if (!failed_ && stanzaGood_) return;
     for (const SlotDesc& slot : desc.slots)
       if (slot.access != Access::read) leaveOutWrite(model_, scope, slot.ref);
   }

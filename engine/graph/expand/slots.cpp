@@ -69,13 +69,13 @@ bool addSelection(const SlotContext& context, Names& names, const RefDesc& ref, 
   return true;
 }
 
-bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity& entity,
-                    std::string message) {
-  auto& d = report(context, Code::badSelector, ref.place, fmt::format("{}: {}", context.user, message),
-                   entity.name);
+bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity& entity, std::string message,
+                    std::string hint) {
+  message = fmt::format("{}: {}", context.user, message);
+  auto& d = report(context, Code::badSelector, ref.place, std::move(message), entity.name);
   d.found = ref.text;
   d.pointer = ref.pointer;
-  d.hint = "leave the selector out, or name a resource that has such parts";
+  d.hint = hint.empty() ? "leave the selector out, or name a resource that has such parts" : std::move(hint);
   return false;
 }
 
@@ -155,19 +155,22 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   const Selection& selection = leaf.selection;
   const bool texture = shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
   const bool cube = isCube(shape);
+  const auto misfit = [&](std::string message, std::string hint = {}) {
+    return selectorMisfit(context, ref, entity, fmt::format("'{}' {}", entity.name, message),
+                          std::move(hint));
+  };
   if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
-    return selectorMisfit(context, ref, entity,
-                          fmt::format("'{}' is no texture, it has no levels, layers or planes", entity.name));
+    return misfit("is no texture, it has no levels, layers or planes");
   if (selection.element && entity.arrayCount == 0)
-    return selectorMisfit(context, ref, entity, fmt::format("'{}' is no array", entity.name));
+    return misfit("is no array",
+                  texture && shape.mips > 1 ? fmt::format("a level is '{}.mip[…]'", entity.name) : "");
   if (selection.layer && shape.target == Target::texture_3d)
-    return selectorMisfit(context, ref, entity,
-                          fmt::format("'{}' is a 3d texture, it has no layers", entity.name));
-  if (selection.face && !cube)
-    return selectorMisfit(context, ref, entity, fmt::format("'{}' is no cube, it has no faces", entity.name));
+    return misfit("is a 3d texture, it has no layers");
+  if (selection.face && !cube) return misfit("is no cube, it has no faces");
   if (selection.stencil && !hasStencil(shape.format))
-    return selectorMisfit(context, ref, entity,
-                          fmt::format("'{}' ({}) has no stencil", entity.name, infoOf(shape.format).name));
+    return misfit(
+        fmt::format("({}) has no stencil", infoOf(shape.format).name),
+        isDepth(shape.format) ? "formats with a stencil are depth24_stencil8 and depth32f_stencil8" : "");
 
   bool empty = false;
   std::int64_t mip = 0, mips = shape.mips, layer = 0, layers = cube ? shape.layers / 6 : shape.layers;
@@ -182,9 +185,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
     if (selection.face && !closeSpan(context, ref, entity, "face", 6, 6, *selection.face, face, faces, empty))
       return false;
     if (faces < 6 && layers > 1)
-      return selectorMisfit(
-          context, ref, entity,
-          fmt::format("faces of several cubes of '{}' are not next to each other", entity.name));
+      return misfit("has faces of several cubes, which are not next to each other");
     layer = layer * 6 + face;
     layers = faces < 6 ? faces : layers * 6;
   }

@@ -91,6 +91,8 @@ class Parser {
     if (token_.text == "and" || token_.text == "&") hint = "write '&&'";
     if (token_.text == "or" || token_.text == "|") hint = "write '||'";
     if (token_.text == "not") hint = "write '!'";
+    if (text_.substr(0, token_.begin).ends_with("not ")) hint = "write '!' for 'not'";
+    if (token_.text == "'") hint = "words of a choice stand without quotes";
     if (token_.text == "=") hint = "write '==' to compare";
     if (token_.text == ":") hint = "a ':' belongs to 'condition ? a : b'";
     return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected), hint,
@@ -362,11 +364,15 @@ class Parser {
     }
     if (node->op == ExprOp::identifier && at(".")) {
       const Token next = peek();
+      std::string meant = hintForMember(word.text, next.text);
       if (next.kind == Token::Kind::identifier && componentIndex(next.text) < 0)
         return fail(
             word, fmt::format("'{}.{}' is no value", word.text, next.text),
-            fmt::format("'${}.{}' for a parameter, or size(), mips(), count(), has(), age() of a resource",
-                        word.text, next.text));
+            !meant.empty()
+                ? std::move(meant)
+                : fmt::format(
+                      "'${}.{}' for a parameter, or size(), mips(), count(), has(), age() of a resource",
+                      word.text, next.text));
     }
     return node;
   }

@@ -74,6 +74,38 @@ std::string hintForColor(std::string_view text) {
   return fmt::format("a color is a list of numbers, which Weft takes as they are: [{}]", list);
 }
 
+// "1920,1080" to "[1920, 1080]".
+std::string hintForPair(std::string_view text) {
+  double first = 0, second = 0;
+  const char* const end = text.data() + text.size();
+  const auto comma = std::from_chars(text.data(), end, first);
+  if (comma.ec != std::errc() || comma.ptr == end || *comma.ptr != ',') return {};
+  const auto last = std::from_chars(comma.ptr + 1, end, second);
+  return last.ec == std::errc() && last.ptr == end ? fmt::format("write [{}, {}]", first, second) : "";
+}
+
+// "uint[256]" and "256uints" to "256*4": how many bytes that is.
+std::string hintForElements(std::string_view text) {
+  double count = 0;
+  std::string_view type = text;
+  if (const std::size_t open = text.find('['); open != std::string_view::npos && text.ends_with(']')) {
+    const char* const end = text.data() + text.size() - 1;
+    const auto number = std::from_chars(text.data() + open + 1, end, count);
+    if (number.ec != std::errc() || number.ptr != end) return {};
+    type = text.substr(0, open);
+  } else {
+    const auto number = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (number.ec != std::errc()) return {};
+    type.remove_prefix(static_cast<std::size_t>(number.ptr - text.data()));
+  }
+  if (type.ends_with('s')) type.remove_suffix(1);
+  for (const auto& [name, bytes] : {std::pair{"uint", 4}, std::pair{"int", 4}, std::pair{"float", 4},
+                                    std::pair{"uvec2", 8}, std::pair{"vec2", 8}, std::pair{"uvec4", 16},
+                                    std::pair{"vec4", 16}, std::pair{"uint32", 4}, std::pair{"float32", 4}})
+    if (type == name) return fmt::format("sizes of buffers are bytes: write {}*{}", count, bytes);
+  return {};
+}
+
 }  // namespace
 
 std::string hintForSize(std::string_view whole) {
@@ -82,6 +114,8 @@ std::string hintForSize(std::string_view whole) {
   std::erase_if(packed, isSpace);
   const std::string_view text = packed;
   if (text == "width,height") return "write 'screen'";
+  if (std::string list = hintForPair(text); !list.empty()) return list;
+  if (std::string bytes = hintForElements(text); !bytes.empty()) return bytes;
   // "screen*50%", "width/2,height/2", "screen.width"
   if (text.starts_with("screen*") && text.ends_with('%')) {
     double part = 0;
@@ -100,6 +134,8 @@ std::string hintForSize(std::string_view whole) {
   for (const auto& [theirs, ours] : {std::pair{".width", ".x"}, std::pair{".height", ".y"}})
     if (const std::size_t at = text.find(theirs); at != std::string_view::npos)
       return fmt::format("a size has .x and .y: write '{}{}'", text.substr(0, at), ours);
+  if (text.ends_with("px") && text.find(',') == std::string_view::npos && !isDigit(text[0]))
+    return fmt::format("texels have no unit: write '{}'", text.substr(0, text.size() - 2));
   double first = 0, second = 0;
   const char* const begin = text.data();
   const char* const end = begin + text.size();
@@ -118,6 +154,18 @@ std::string hintForSize(std::string_view whole) {
   if (rest[0] != 'x' && rest[0] != 'X') return {};
   const auto other = std::from_chars(number.ptr + 1, end, second);
   return other.ec == std::errc() && other.ptr == end ? fmt::format("write [{}, {}]", first, second) : "";
+}
+
+std::string hintForMember(std::string_view name, std::string_view member) {
+  struct Theirs {
+    const char *member, *before, *after;
+  };
+  constexpr Theirs kTheirs[] = {
+      {"size", "size(", ")"},   {"width", "size(", ").x"}, {"height", "size(", ").y"}, {"mips", "mips(", ")"},
+      {"levels", "mips(", ")"}, {"count", "count(", ")"},  {"length", "count(", ")"}};
+  for (const Theirs& theirs : kTheirs)
+    if (member == theirs.member) return fmt::format("write '{}{}{}'", theirs.before, name, theirs.after);
+  return {};
 }
 
 }  // namespace weft::graph

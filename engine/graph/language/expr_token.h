@@ -25,5 +25,7 @@ Token scanToken(std::string_view text, std::size_t from);
 // What to write for a size in another format's spelling: "50%", "1920x1080", "512px", and for a number
 // with a unit or a color of the web; "" for anything else.
 std::string hintForSize(std::string_view text);
+// What "scene.width" and the like of other languages is called here, or "".
+std::string hintForMember(std::string_view name, std::string_view member);
 
 }  // namespace weft::graph

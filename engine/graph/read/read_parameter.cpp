@@ -3,10 +3,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "engine/base/files/file.h"
 #include "engine/base/nearest.h"
+#include "engine/graph/language/expr_token.h"
 #include "engine/graph/read/read_context.h"
 
 namespace weft::graph {
@@ -102,6 +104,20 @@ class ParameterReader {
     return true;
   }
 
+  // What a text in the place of a number, or of a word among "choices", is meant as.
+  static std::string hintForText(const std::string& text) {
+    if (std::string color = text.starts_with('#') ? hintForSize(text) : ""; !color.empty()) return color;
+    std::string number = text;
+    std::ranges::replace(number, ',', '.');
+    double value = 0;
+    const char* const end = number.data() + number.size();
+    const auto [at, error] = std::from_chars(number.data(), end, value);
+    if (!number.empty() && error == std::errc() && at == end)
+      return fmt::format("write {}, without quotes", number);
+    if (text == "true" || text == "false") return fmt::format("write {}, without quotes", text);
+    return "list the \"choices\", or say \"type\": \"file\"";
+  }
+
   // The type that is written, else the one the default shows.
   std::optional<ParameterType> typeOf(const JsonValue& initial) {
     if (const JsonValue* written = object_.find("type")) {
@@ -124,7 +140,7 @@ class ParameterReader {
         if (object_.find("choices")) return ParameterType::choice;
         auto& d = context_.error(Code::missingKey, object_,
                                  fmt::format("{} has a string as its default, but no \"choices\"", what_));
-        d.hint = "list the \"choices\", or say \"type\": \"file\"";
+        d.hint = hintForText(initial.text);
         return std::nullopt;
       }
       default:
@@ -186,6 +202,8 @@ class ParameterReader {
         d.found = initial.text;
         if (const std::string nearest = base::nearestName(initial.text, out_.choices); !nearest.empty())
           d.hint = fmt::format("did you mean \"{}\"?", nearest);
+        out_.initial =
+            Value::text(out_.choices[0]);  // expressions that it stands in have no mistake of their own
         return true;
       }
       default:

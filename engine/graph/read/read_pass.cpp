@@ -124,8 +124,9 @@ class PassReader {
     readParameters();
     readDefines();
     readState();
-    // What the pass says with indices that nobody knows is not looked at.
-    return out_.name.empty() || indexless_ ? std::nullopt : std::optional(std::move(out_));
+    // What the pass says with indices that nobody knows is not looked at, nor what none of a kind says.
+    return out_.name.empty() || indexless_ || !value_.find("type") ? std::nullopt
+                                                                   : std::optional(std::move(out_));
   }
 
   void readWords() {
@@ -220,9 +221,7 @@ class PassReader {
         if (value.is(Type::number) && value.number >= 1)
           d.hint =
               fmt::format("for {} times, write \"{}\": [0, {}]", value.number, member.key, value.number - 1);
-        // The index is known all the same.
-        const Expr zero = Expr::constant(Value::number(0), value.place);
-        if (good) out_.repeat.push_back({member.key, member.place, zero, zero, {}});
+        indexless_ = true;
         continue;
       }
       RangeDesc range;
@@ -233,6 +232,7 @@ class PassReader {
       if (value.items.size() == 3) range.step = bound(value.items[2]);
       good = good && range.first.present() && range.last.present() &&
              (value.items.size() == 2 || range.step.present());
+      indexless_ = indexless_ || !good;
       if (good) out_.repeat.push_back(std::move(range));
     }
   }
@@ -338,6 +338,19 @@ class PassReader {
         d.hint = std::move(hint);
         return;
       }
+    const bool words =
+        member.value.is(Type::array) && !member.value.items.empty() && member.value.items[0].is(Type::string);
+    if (words && (member.key == "blend" || member.key == "depth_test" || member.key == "cull")) {
+      auto& d = context_.error(Code::badState, member.value,
+                               fmt::format("the state '{}' is a list of words", name));
+      d.expected = "one word";
+      if (member.key == "blend")
+        d.hint =
+            "factors of OpenGL are words here: 'alpha' is src_alpha, one_minus_src_alpha; 'premultiplied' is "
+            "one, "
+            "one_minus_src_alpha; 'add' is one, one";
+      return;
+    }
     Expr expr = context_.expr(&member.value, fmt::format("\"{}\"", member.key));
     if (expr.present())
       out_.state.push_back({std::move(name), member.place, member.value.pointer, std::move(expr)});
@@ -348,7 +361,7 @@ class PassReader {
   PassDesc out_;
   ReadContext::Seen names_;  // slots, parameters and defines share one namespace
   bool tooManyIndices_ = false;
-  bool indexless_ = false;  // its "repeat" names no index
+  bool indexless_ = false;  // its "repeat" gives no index, or not from where to where
 };
 
 }  // namespace

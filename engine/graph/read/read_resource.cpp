@@ -56,13 +56,55 @@ class ResourceReader {
       d.hint = "keep one of \"texture\", \"buffer\", \"import\" and \"input\"";
       return std::nullopt;
     }
+    if (texture && texture->is(JsonValue::Type::string) && looksLikePath(texture->text))
+      return reportPicture(*texture);
+    if (texture && texture->is(JsonValue::Type::object)) return reportObject(*texture, "texture");
     if (texture) return readTexture(*texture);
+    if (buffer && buffer->is(JsonValue::Type::object)) return reportObject(*buffer, "buffer");
     if (buffer) return readBuffer(*buffer);
     if (input) return readInput(*input);
     return reportKind();
   }
 
  private:
+  std::optional<ResourceDesc> reportPicture(const JsonValue& texture) {
+    context_
+        .error(Code::unknownFormat, texture,
+               fmt::format("texture '{}' has a file in the place of a format", out_.name))
+        .hint = fmt::format("a picture is an import: \"{}\": {{ \"import\": \"image\", \"file\": \"{}\" }}",
+                            out_.name, texture.text);
+    return std::nullopt;
+  }
+
+  // The keys of other engines that say inside what stands beside here.
+  std::optional<ResourceDesc> reportObject(const JsonValue& inside, std::string_view key) {
+    auto& d = context_.error(Code::wrongType, inside, fmt::format("\"{}\" has the wrong type", key));
+    d.expected =
+        key == "texture" ? "a format in a string" : "a number of bytes, or an expression in a string";
+    d.found = "an object";
+    for (const JsonMember& member : inside.members)
+      if (key == "texture" && member.value.is(JsonValue::Type::string) && member.key == "format")
+        d.hint = fmt::format("write \"texture\": \"{}\", and the other keys beside it", member.value.text);
+      else if (key == "buffer" && member.value.is(JsonValue::Type::number))
+        d.hint = fmt::format("write \"buffer\": {}, and the other keys beside it", member.value.number);
+    return std::nullopt;
+  }
+
+  // Code::wrongValueType for words and switches that other engines take in the place of "full".
+  bool isMeantAsFull(const JsonValue& mips) {
+    const bool on = mips.is(JsonValue::Type::boolean) && mips.flag;
+    const bool word = mips.is(JsonValue::Type::string) &&
+                      (mips.text == "all" || mips.text == "auto" || mips.text == "max" ||
+                       mips.text == "complete" || mips.text == "true");
+    if (!on && !word) return false;
+    auto& d = context_.error(Code::wrongValueType, mips,
+                             fmt::format("the number of mips of '{}' is no number", out_.name));
+    d.expected = "a number, or \"full\"";
+    d.found = on ? "true" : mips.text;
+    d.hint = "write \"full\" for all levels";
+    return true;
+  }
+
   std::optional<ResourceDesc> reportKind() {
     const std::vector<std::string> kinds = {"texture", "buffer", "import", "input"};
     for (const JsonMember& member : value_.members) {
@@ -138,7 +180,7 @@ class ResourceReader {
     out_.formatPlace = texture.place;
     out_.size = context_.expr(value_.find("size"), "\"size\"");
     const JsonValue* mips = value_.find("mips");
-    if (mips && mips->is(JsonValue::Type::string) && mips->text == "full")
+    if (mips && ((mips->is(JsonValue::Type::string) && mips->text == "full") || isMeantAsFull(*mips)))
       out_.fullMips = true;
     else
       out_.mips = context_.expr(mips, "\"mips\"");
@@ -180,11 +222,14 @@ class ResourceReader {
       }
     }
     for (const char* key : {"first", "reset"})
-      if (const JsonValue* value = value_.find(key); value && !value_.find("history"))
+      if (const JsonValue* value = value_.find(key); value && !value_.find("history")) {
         context_
             .error(Code::keysExclude, *value,
                    fmt::format("\"{}\" of '{}', which keeps no history", key, out_.name))
             .hint = "add \"history\": 1, or remove the key";
+        out_.history =
+            Expr::constant(Value::number(1), value->place);  // what reads it has no mistake of its own
+      }
   }
 
   // A value, or what to read in its place.

@@ -8,6 +8,7 @@
 #include "engine/base/nearest.h"
 #include "engine/graph/language/names.h"
 #include "engine/graph/read/ref_words.h"
+#include "engine/graph/subresource.h"
 
 namespace weft::graph {
 
@@ -102,7 +103,7 @@ class RefParser {
         return fail(at_,
                     ended() ? "the reference ends where a name is expected"
                             : fmt::format("'{}' where a name is expected", character(at_)),
-                    "names are letters, digits and '_', joined by '.'");
+                    hintForName());
       if (isReservedWord(word))
         return fail(at_, fmt::format("'{}' may not stand in a name", word),
                     "it selects a sub-resource, as in \"glow.mip[0]\"");
@@ -112,6 +113,17 @@ class RefParser {
       ref_.name += '.';
       ++at_;
     }
+  }
+
+  // What belongs in the place of a character that begins no name.
+  std::string hintForName() const {
+    if (here() == '?' && !ref_.optional) return "'?' stands at the very end";
+    if (here() == '$' && whole_.find('?') != std::string_view::npos &&
+        whole_.find(':') != std::string_view::npos)
+      return "a choice between resources is a list in \"resources\": [\"a if $x\", \"b\"]";
+    if (const std::string_view name = here() == '$' ? peekWord(at_ + 1) : ""; !name.empty())
+      return fmt::format("resources have no '$': write '{}'", name);
+    return "names are letters, digits and '_', joined by '.'";
   }
 
   std::optional<Expr> parseInner(std::size_t from, std::size_t end) {
@@ -217,6 +229,11 @@ class RefParser {
     return true;
   }
 
+  static bool isWordOfAs(std::string_view word) {
+    return std::ranges::find(kSamplerWords, word) != kSamplerWords.end() ||
+           std::ranges::find(kKindNames, word) != kKindNames.end();
+  }
+
   bool parseWords() {
     skipSpace();
     if (peekWord(at_) != "as") return true;
@@ -234,7 +251,8 @@ class RefParser {
       if (here() == '?') hint = "'?' stands at the very end";
       if (here() == '.') hint = "selectors stand right behind the name";
       if (ref_.history == 0 && isIdentStart(here()))
-        hint = fmt::format("did you mean 'as {}' or 'if {}'?", word, word);
+        hint = isWordOfAs(word) ? fmt::format("write 'as {}'", word)
+                                : fmt::format("did you mean 'as {}' or 'if {}'?", word, word);
       return fail(at_, fmt::format("unexpected '{}'", word.empty() ? character(at_) : word), hint);
     }
     at_ += 2;

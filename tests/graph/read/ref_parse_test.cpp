@@ -183,7 +183,7 @@ TEST_CASE("errors carry column and fix") {
   CHECK(refFailure("hdr as wrap clamp").column == 13);
   CHECK(refFailure("hdr as depth color").column == 14);
   CHECK(refFailure("hdr as depth linear").column == 14);
-  CHECK(refFailure("hdr linear").hint == "did you mean 'as linear' or 'if linear'?");
+  CHECK(refFailure("hdr linear").hint == "write 'as linear'");
   CHECK(refFailure("hdr if").column == 7);
   CHECK(refFailure("hdr if $").code == Code::badExpression);
   CHECK(refFailure("hdr if $").column == 8);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "engine/graph/expand/names/limits.h"
@@ -44,6 +45,7 @@ class Judge {
   void run() {
     for (std::size_t i = 0; i < model_.missing.size() && !isOver(model_); ++i)
       judge(model_.missing[i], found_[i]);
+    for (const auto& [thing, reads] : unwritten_) sayNobodyWrites(thing, reads);
     for (const EmptyRepeat& empty : model_.emptied)
       if (empty.written && !isOver(model_) && blamed_.insert(empty.pass).second) warnOfEmpty(empty);
   }
@@ -98,7 +100,7 @@ class Judge {
         fmt::format("{} {} {} {}", static_cast<int>(code), place.line, place.column,
                     missing.pass == kNone ? missing.slot : graph_.specs[missing.pass].declared);
     if (!said_.insert(key).second) return nullptr;  // another repeat of the same stanza
-    const bool live = missing.pass == kNone || live_.pass[missing.pass] != 0;
+    const bool live = isLive(missing);
     base::Diagnostic d;
     d.severity = live ? base::Severity::error : base::Severity::warning;
     d.code = code;
@@ -173,10 +175,32 @@ class Judge {
                            fmt::format("{} modifies {}, which nothing wrote before", subject, thing)))
         d->hint =
             fmt::format("use \"write\" if the pass covers everything, or give '{}' a \"clear\"", d->resource);
-    } else if (auto* d = report(missing, Code::nobodyWrites,
-                                fmt::format("{} reads {}, which no pass writes", subject, thing))) {
-      d->hint = fmt::format("let a pass before it write it, or give '{}' a \"clear\"", d->resource);
+    } else {
+      unwritten_[thing].push_back(&missing);
     }
+  }
+
+  bool isLive(const MissingRead& missing) const {
+    return missing.pass == kNone || live_.pass[missing.pass] != 0;
+  }
+
+  // However many passes read it, one that writes it is missing: said at the first that lives.
+  void sayNobodyWrites(const std::string& thing, const std::vector<const MissingRead*>& reads) {
+    const auto live = std::ranges::find_if(reads, [&](const MissingRead* read) { return isLive(*read); });
+    const MissingRead& first = live == reads.end() ? *reads.front() : **live;
+    std::set<std::string> others;
+    for (const MissingRead* read : reads)
+      if (read->pass == kNone || first.pass == kNone ||
+          graph_.specs[read->pass].declared != graph_.specs[first.pass].declared)
+        if (read != &first)
+          others.insert(read->pass == kNone ? who(*read) : graph_.specs[read->pass].declared);
+    auto* d = report(first, Code::nobodyWrites,
+                     fmt::format("{}{} {}, which no pass writes", who(first),
+                                 others.empty()       ? " reads"
+                                 : others.size() == 1 ? " and one more read"
+                                                      : fmt::format(" and {} more read", others.size()),
+                                 thing));
+    if (d) d->hint = fmt::format("let a pass before it write it, or give '{}' a \"clear\"", d->resource);
   }
 
   void judgeDisabled(const MissingRead& missing, const WriteRecord& writer, const std::string& thing,
@@ -325,6 +349,7 @@ class Judge {
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> byEntity_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> wouldRead_;
   std::vector<Writers> found_;
+  std::map<std::string, std::vector<const MissingRead*>> unwritten_;  // what no pass writes, and who reads it
   std::set<std::string> said_;
   std::set<std::string> blamed_;  // passes with an empty "repeat" that an error names
   int searches_ = 0;

@@ -76,6 +76,8 @@ bool evaluateSize(Model& model, Names& names, Entity& entity) {
     d.expected = "\"screen\", \"screen/2\", \"size(x)\", a number, or a list of 2 or 3 numbers";
     d.found = toText(value);
     d.hint = hintForWord(names, value);
+    if (value.type == Value::Type::symbol && names.scope().resources.contains(value.symbol))
+      d.hint = fmt::format("write 'size({})'", value.symbol);
     if (value.symbol == "full") d.hint = "write 'screen'";
     if (value.symbol == "half") d.hint = "write 'screen/2'";
     if (value.symbol == "quarter") d.hint = "write 'screen/4'";

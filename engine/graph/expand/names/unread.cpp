@@ -92,6 +92,17 @@ std::string resourceBelow(Model& model, const Scope& scope, std::string_view nam
   return shortest;
 }
 
+// Of "trail.previous" and the like, where `name` is a resource and `part` is nothing of it.
+std::string hintForPart(std::string_view name, std::string_view part, std::string otherwise) {
+  if (const std::string near = base::nearestName(part, kSelectors); !near.empty())
+    return fmt::format("did you mean '{}.{}{}'?", name, near, near == "stencil" ? "" : "[…]");
+  for (const char* level : {"lod", "level", "mipLevel", "mip_level"})
+    if (part == level) return fmt::format("a level is '{}.mip[…]'", name);
+  for (const char* before : {"previous", "prev", "last", "history", "old", "before"})
+    if (part == before) return fmt::format("what it was in the frame before is '{}@-1'", name);
+  return otherwise;
+}
+
 }  // namespace
 
 std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
@@ -117,9 +128,7 @@ std::string hintForResource(Model& model, const Scope& scope, std::string_view n
   std::string hint = base::nearestHint(name, names);
   if (const std::size_t dot = name.find('.');
       dot != std::string_view::npos && scope.resources.contains(name.substr(0, dot)))
-    if (const std::string near = base::nearestName(name.substr(dot + 1), kSelectors); !near.empty())
-      hint =
-          fmt::format("did you mean '{}.{}{}'?", name.substr(0, dot), near, near == "stencil" ? "" : "[…]");
+    hint = hintForPart(name.substr(0, dot), name.substr(dot + 1), std::move(hint));
   if (const std::string below = resourceBelow(model, scope, name); !below.empty())
     hint = fmt::format("did you mean '{}'?", below);
   if (!slot.empty() && scope.resources.contains(slot) && !hint.starts_with("did you mean"))
@@ -159,8 +168,10 @@ bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place
 
 void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref) {
   const std::uint32_t found = findEntity(model, scope, ref.name, ref.import);
-  if (found == kNone)
-    model.incomplete = true;
+  using Kind = ResourceDesc::Kind;
+  const Kind kind = found == kNone ? Kind::import : model.entities[found].kind;
+  if (kind == Kind::import || kind == Kind::alternatives)
+    model.incomplete = true;  // nobody knows which one is meant
   else
     model.entities[found].incomplete = true;
 }

@@ -1,0 +1,151 @@
+// Mistakes that a person makes at midnight, typed into a graph that is right: one message each, with the fix that mends it.
+#include <doctest/doctest.h>
+
+#include "engine/graph/compile/compile.h"
+#include "tests/graph/expand/support.h"
+
+using namespace weft;
+using namespace weft::graph;
+using namespace weft::graph::test;
+
+namespace {
+
+constexpr const char* kNightGraph = R"({
+  "parameters": {
+    "bloom": { "default": true },
+    "tone":  { "default": "soft", "choices": ["soft", "hard"] },
+    "keep":  { "default": 0.9 }
+  },
+  "resources": {
+    "scene": { "texture": "rgba16f", "size": "screen" },
+    "glow":  { "texture": "rgba16f", "size": "screen/2", "mips": 4 },
+    "depth": { "texture": "depth32f", "size": "screen", "clear": 0 },
+    "sums":  { "buffer": "4*256", "clear": 0 },
+    "trail": { "texture": "rgba16f", "size": "screen", "history": 1, "first": 0 },
+    "ldr":   { "texture": "rgba8", "size": "screen" }
+  },
+  "passes": [
+    { "name": "paint", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "radiance": "scene" } },
+    { "name": "bright", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "$bloom",
+      "read": { "source": "scene as linear" }, "write": { "result": "glow.mip[0]" } },
+    { "name": "down", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": "$bloom", "repeat": { "i": [1, 3] },
+      "read": { "source": "glow.mip[i-1]" }, "write": { "result": "glow.mip[i]" }, "state": { "blend": "none" } },
+    { "name": "follow", "type": "fullscreen", "shader": "a.frag.glsl",
+      "read": { "now": "scene", "before": "trail@-1" }, "write": { "result": "trail" }, "parameters": { "keep": "$keep" } },
+    { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "color": "trail", "glow": "glow ?", "sums": "sums" },
+      "write": { "result": "ldr" }, "defines": { "TONE": "$tone" } }
+  ],
+  "present": "ldr" })";
+
+// What is said of the graph with `right` written wrong. Nothing may crash on what is left, either.
+base::Diagnostics saidOfNight(const std::string& right, const std::string& wrong) {
+  std::string text = kNightGraph;
+  const std::size_t at = text.find(right);
+  REQUIRE_MESSAGE(at != std::string::npos, right);
+  text.replace(at, right.size(), wrong);
+  base::Diagnostics diagnostics;
+  const auto desc = readGraphText(text, "midnight.json", diagnostics);
+  if (desc) expandGraph(*desc, testRegistry(), {}, diagnostics);
+  return diagnostics;
+}
+
+void checkOne(const char* right, const char* wrong, base::Code code, std::string_view message,
+              std::string_view hint) {
+  const base::Diagnostics said = saidOfNight(right, wrong);
+  INFO(wrong, "\n", said.text());
+  REQUIRE(said.size() == 1);
+  const base::Diagnostic& d = said.items()[0];
+  CHECK(d.severity == base::Severity::error);
+  CHECK(d.code == code);
+  CHECK(d.message.find(message) != std::string::npos);
+  CHECK(d.hint.find(hint) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("the graph is right before a mistake is made in it") {
+  CHECK(saidOfNight("\"ldr\"", "\"ldr\"").empty());
+}
+
+TEST_CASE("a mistake at midnight: expressions in the words of other languages") {
+  using enum base::Code;
+  const char *size = "\"rgba8\", \"size\": \"screen\"", *enabled = "\"enabled\": \"$bloom\"",
+             *bytes = "\"4*256\"";
+  checkOne(size, "\"rgba8\", \"size\": \"1920,1080\"", badExpression, "is no value", "write [1920, 1080]");
+  checkOne(size, "\"rgba8\", \"size\": \"screen*0.5px\"", badExpression, "is no value", "write 'screen*0.5'");
+  checkOne(size, "\"rgba8\", \"size\": \"scene\"", wrongValueType, "is no size", "write 'size(scene)'");
+  checkOne(size, "\"rgba8\", \"size\": \"scene.size\"", badExpression, "is no value", "write 'size(scene)'");
+  checkOne(size, "\"rgba8\", \"size\": \"scene.width/2\"", badExpression, "is no value",
+           "write 'size(scene).x'");
+  checkOne(bytes, "\"uint[256]\"", badExpression, "is no value", "write 256*4");
+  checkOne(bytes, "\"64 vec4s\"", badExpression, "is no value", "write 64*16");
+  checkOne(enabled, "\"enabled\": \"not $bloom\"", badExpression, "unexpected '$'", "write '!' for 'not'");
+  checkOne(enabled, "\"enabled\": \"$tone == 'hard'\"", badExpression, "unexpected '''", "without quotes");
+  checkOne("\"blend\": \"none\"", "\"blend\": [\"src_alpha\", \"one\"]", badState, "a list of words",
+           "'alpha' is src_alpha");
+}
+
+TEST_CASE("a mistake at midnight: references") {
+  using enum base::Code;
+  checkOne("\"now\": \"scene\"", "\"now\": \"$scene\"", badReference, "'$' where a name is expected",
+           "write 'scene'");
+  checkOne("\"now\": \"scene\"", "\"now\": \"scene linear\"", badReference, "unexpected 'linear'",
+           "write 'as linear'");
+  checkOne("\"now\": \"scene\"", "\"now\": \"trail.previous\"", unknownResource, "'trail.previous'",
+           "'trail@-1'");
+  checkOne("\"glow.mip[0]\"", "\"glow.lod[0]\"", unknownResource, "'glow.lod'", "'glow.mip[…]'");
+  checkOne("\"glow.mip[0]\"", "\"glow[0]\"", badSelector, "is no array", "'glow.mip[…]'");
+  checkOne("\"now\": \"scene\"", "\"now\": \"depth.stencil\"", badSelector, "has no stencil",
+           "depth32f_stencil8");
+  checkOne("\"glow ?\"", "\"?glow\"", badReference, "'?' where a name is expected", "at the very end");
+  checkOne("\"present\": \"ldr\"", "\"present\": \"$bloom ? glow : ldr\"", badReference, "'$'",
+           "[\"a if $x\", \"b\"]");
+  checkOne("\"present\": \"ldr\"", "\"present\": \"depth\"", badKind, "no colour texture",
+           "render --present depth");
+  checkOne("\"now\": \"scene\"", "\"now\": \"scene as compare\"", badFormat, "does not fit",
+           "leave 'compare' out");
+  checkOne("\"present\": \"ldr\"", "\"present\": \"ldr\", \"outputs\": { \"bins\": \"sum\" }",
+           unknownResource, "output 'bins' reads the unknown resource 'sum'", "'sums'");
+}
+
+TEST_CASE(
+    "a mistake at midnight: declarations in the form of another engine, and nothing follows from them") {
+  using enum base::Code;
+  checkOne("{ \"texture\": \"rgba8\", \"size\": \"screen\" }", "{ \"texture\": \"paper.png\" }",
+           unknownFormat, "a file in the place of a format",
+           "\"import\": \"image\", \"file\": \"paper.png\"");
+  checkOne("\"texture\": \"rgba8\"", "\"texture\": { \"format\": \"rgba8\" }", wrongType,
+           "\"texture\" has the wrong type", "write \"texture\": \"rgba8\"");
+  checkOne("\"buffer\": \"4*256\"", "\"buffer\": { \"bytes\": 1024 }", wrongType,
+           "\"buffer\" has the wrong type", "write \"buffer\": 1024");
+  checkOne("\"mips\": 4", "\"mips\": true", wrongValueType, "the number of mips", "\"full\"");
+  checkOne("\"mips\": 4", "\"mips\": \"all\"", wrongValueType, "the number of mips", "\"full\"");
+  checkOne("\"history\": 1, \"first\": 0", "\"first\": 0", keysExclude, "keeps no history", "\"history\": 1");
+  checkOne("\"default\": 0.9", "\"default\": \"0,9\"", missingKey, "a string as its default",
+           "write 0.9, without quotes");
+  checkOne("\"default\": 0.9", "\"default\": \"#ffffff\"", missingKey, "a string as its default",
+           "[1, 1, 1]");
+  checkOne("\"default\": \"soft\"", "\"default\": \"Soft\"", notAChoice, "not one of its choices",
+           "\"soft\"");
+  checkOne("\"name\": \"paint\", \"type\": \"fullscreen\"", "\"name\": \"paint\"", missingKey,
+           "lacks the key \"type\"", "fullscreen");
+  checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": 3 }", wrongType, "the range of 'i'",
+           "\"i\": [0, 2]");
+  checkOne("\"repeat\": { \"i\": [1, 3] }", "\"repeat\": { \"i\": [1, \"glow.mips - 1\"] }", badExpression,
+           "is no value", "write 'mips(glow)'");
+  checkOne("{ \"radiance\": \"scene\" }", "{ \"radiance\": \"@environment\" }", notWritable,
+           "which is an import", "of the graph's own");
+}
+
+TEST_CASE("a texture that no pass writes is one mistake, however many passes read it") {
+  using enum base::Code;
+  checkOne(
+      "{ \"name\": \"paint\", \"type\": \"fullscreen\", \"shader\": \"a.frag.glsl\", \"write\": { "
+      "\"radiance\": \"scene\" } },",
+      "", nobodyWrites, "pass 'bright' and one more read 'scene', which no pass writes",
+      "let a pass before it write it");
+  // Two textures are two mistakes.
+  const base::Diagnostics said =
+      saidOfNight("\"write\": { \"result\": \"trail\" }", "\"write\": { \"result\": \"ldr\" }");
+  CHECK_MESSAGE(said.contains(nobodyWrites), said.text());
+}
