@@ -56,7 +56,8 @@ SUB_ROOMS = {
         "context": set(),
         "objects": {"context"},
         "shaders": set(),
-        "programs": {"context", "objects", "shaders"},
+        "messages": {"shaders"},
+        "programs": {"context", "objects", "shaders", "messages"},
     },
     "convert": {"text": set(), "isf": {"text"}, "mpv": {"text"}, ".": {"text", "isf", "mpv"}},
     "runtime": {

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "engine/gl/context/debug.h"
+#include "engine/gl/messages/log.h"
 
 namespace weft::gl {
 

@@ -1,11 +1,11 @@
-// A driver's compile or link log to diagnostics with true places. Declared in source.h.
+#include "engine/gl/messages/log.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "engine/gl/shaders/source.h"
-#include "engine/gl/shaders/words.h"
+#include "engine/gl/messages/words.h"
 
 namespace weft::gl {
 
@@ -208,7 +208,7 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
     }
   }
   flush();
-  dropConsequences(messages);
+  dropConsequences(messages, source);
   for (LogMessage& known : messages) {
     explainMessage(known, source, defines);
     diagnostics.add(std::move(known.diagnostic));

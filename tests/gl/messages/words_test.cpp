@@ -1,10 +1,11 @@
 // Messages of shader compilers in plain words, from logs as drivers write them. No OpenGL.
-#include "engine/gl/shaders/words.h"
+#include "engine/gl/messages/words.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "engine/gl/messages/log.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft::gl;
@@ -220,4 +221,62 @@ TEST_CASE("the scan finds instance names of blocks, and the words of layout() of
   REQUIRE(source->parts.imageFormats.size() == 1);
   const auto& formats = source->parts.imageFormats.at("result");
   CHECK(std::find(formats.begin(), formats.end(), "rgba16f") != formats.end());
+}
+
+TEST_CASE("what an error kept from being computed is not said to be uninitialized") {
+  const std::string text = "void main() {\n  vec3 c = texture2D(a, b).rgb;\n  float x = c.x;\n}\n";
+  const std::string line = std::to_string(kTextLine + 2);
+  const Diagnostics both = said(text, mesa(2, 12, "no function with name 'texture2D'") + "0:" + line +
+                                          "(13): warning: `c' used uninitialized\n");
+  CHECK(only(both).message == "there is no function 'texture2D'");
+  CHECK(said(text, "0:" + line + "(13): warning: `c' used uninitialized\n").size() == 1);
+}
+
+TEST_CASE("a character that is not ASCII is blamed, and not the end of the file") {
+  const Diagnostic d = only(said("void main() {\n  float x = f(0.3\xC2\xA0, 1.0);\n}\n",
+                                 mesa(2, 18, "syntax error, unexpected end of file, expecting ')' or ','")));
+  CHECK(d.message == "U+00A0 is no plain space");
+  CHECK(d.hint == "write a plain space in its place");
+  CHECK(d.place.line == 2);
+  CHECK(d.place.column == 18);
+  // In a comment it is none of a compiler's business.
+  const Diagnostic other = only(said("void main() {\n  float x = f(1.0;  // d\xC3\xA9j\xC3\xA0\n}\n",
+                                     mesa(2, 17, "syntax error, unexpected ';', expecting ')' or ','")));
+  CHECK(other.message == "syntax error at ';'");
+}
+
+TEST_CASE("a declaration that a conditional leaves out, and a conditional without its end") {
+  const std::string text =
+      "#ifdef HAS_glow\nuniform sampler2D glow;\n#endif\nvoid main() {\n  vec4 c = texture(glow, "
+      "vec2(0));\n}\n";
+  const Diagnostic d = only(said(text, mesa(5, 20, "`glow' undeclared")));
+  CHECK(d.message == "'glow' is not declared");
+  CHECK(d.hint == "its declaration stands under `#ifdef HAS_glow`, which does not hold here");
+  const Diagnostic open =
+      only(said("void main() {\n#if A\n#if B\n#endif\n#else\n}\n", mesa(6, 1, "Unterminated #if")));
+  CHECK(open.message == "the conditional that opens here is never closed");
+  CHECK(open.place.line == 2);
+  CHECK(open.hint == "write '#endif' behind what it guards");
+}
+
+TEST_CASE("a name that the pass has and the shader does not, and vectors of another length") {
+  const std::string text =
+      "uniform sampler2D src;\nvoid main() {\n  vec4 c = texelFetch(source, ivec2(0), 0);\n}\n";
+  TemporaryFolder folder;
+  folder.write("x.frag.glsl", text);
+  SourceLoader loader({folder.path().string()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE(source);
+  const Define defines[] = {{"HAS_SOURCE", "1"}};
+  mapLog(mesa(3, 23, "`source' undeclared"), *source, Code::shaderDoesNotCompile, diagnostics, defines);
+  CHECK(only(diagnostics).hint ==
+        "the pass has 'source' as a slot or a parameter: declare it, or give it there the name that it has "
+        "here");
+  const auto hint = [&](const std::string& message) { return only(said(text, mesa(3, 3, message))).hint; };
+  CHECK(hint("initializer of type vec4 cannot be assigned to variable of type vec3") ==
+        "write '.xyz' behind the value, or declare a vec4");
+  CHECK(hint("value of type float cannot be assigned to variable of type vec2") ==
+        "write 'vec2(…)' around the value");
+  CHECK(hint("initializer of type mat4 cannot be assigned to variable of type vec3").empty());
 }

@@ -1,6 +1,7 @@
 // What a shader's author reads: the driver's log at the true place, in the words of docs/errors.md.
 #include <doctest/doctest.h>
 
+#include "engine/gl/messages/log.h"
 #include "engine/gl/shaders/source.h"
 #include "tests/gl/documented.h"
 #include "tests/temporary_folder.h"

@@ -23,7 +23,7 @@ void explainMessage(LogMessage& message, const ShaderSource& source, std::span<c
 
 // Takes away errors that only follow from another one of the list: on the same line, or about the type
 // "error" that Mesa gives to what it could not understand. Before explainMessage.
-void dropConsequences(std::vector<LogMessage>& messages);
+void dropConsequences(std::vector<LogMessage>& messages, const ShaderSource& source);
 
 // Line `number` (from 1) of a text.
 std::string_view lineOf(std::string_view text, std::uint32_t number);

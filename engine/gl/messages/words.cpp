@@ -1,4 +1,4 @@
-#include "engine/gl/shaders/words.h"
+#include "engine/gl/messages/words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,28 +10,26 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/characters.h"
+#include "engine/base/chars.h"
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
 #include "engine/base/words/glsl_words.h"
-#include "engine/gl/shaders/vocabulary.h"
+#include "engine/gl/messages/conditionals.h"
+#include "engine/gl/messages/fixes.h"
+#include "engine/gl/messages/vocabulary.h"
 
 namespace weft::gl {
 
 namespace {
 
-bool isWordChar(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-bool isBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
 bool isNumber(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.';
+  return base::isDigit(c) || c == '.';
 }
 
 std::string_view withoutEnds(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && base::isSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && base::isSpace(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -64,10 +62,11 @@ std::string_view tokenAt(std::string_view line, std::uint32_t column, std::strin
   }
   const bool number = token.ends_with("CONSTANT") && token != "BOOLCONSTANT";
   const bool invalid = token == "invalid token" || token == "ERROR_TOK";
-  if (invalid) return isWordChar(rest[0]) || isBlank(rest[0]) ? std::string_view() : rest.substr(0, 1);
-  if (number != isNumber(rest[0]) || !(isWordChar(rest[0]) || number)) return {};
+  if (invalid)
+    return base::isIdentChar(rest[0]) || base::isSpace(rest[0]) ? std::string_view() : rest.substr(0, 1);
+  if (number != isNumber(rest[0]) || !(base::isIdentChar(rest[0]) || number)) return {};
   std::size_t end = 1;
-  while (end < rest.size() && (isWordChar(rest[end]) || (number && rest[end] == '.'))) ++end;
+  while (end < rest.size() && (base::isIdentChar(rest[end]) || (number && rest[end] == '.'))) ++end;
   return rest.substr(0, end);
 }
 
@@ -75,15 +74,17 @@ std::string_view tokenAt(std::string_view line, std::uint32_t column, std::strin
 std::string_view wordBefore(std::string_view line, std::uint32_t column) {
   std::string_view before = withoutEnds(line.substr(0, column - 1));
   std::size_t at = before.size();
-  while (at > 0 && isWordChar(before[at - 1])) --at;
+  while (at > 0 && base::isIdentChar(before[at - 1])) --at;
   return before.substr(at);
 }
 
 std::string nearestOf(std::string_view name, bool function, const ShaderSource& source) {
   std::vector<std::string> names(source.declared.begin(), source.declared.end());
+  std::erase(names, name);
   if (std::string near = base::nearestName(name, names); !near.empty()) return near;
   names.assign(std::begin(kWords), std::end(kWords));
   if (function) names.assign(base::glslFunctions().begin(), base::glslFunctions().end());
+  std::erase(names, name);
   // Names of variables and functions of its own are not told apart from other words of the text.
   for (const std::string& word : source.identifiers)
     if (word != name) names.push_back(word);
@@ -102,7 +103,8 @@ std::optional<std::string_view> between(std::string_view text, std::string_view 
 std::optional<std::string_view> undeclaredIn(std::string_view message) {
   for (const auto& [before, after] : std::initializer_list<std::pair<const char*, const char*>>{
            {"`", "' undeclared"}, {"undefined variable \"", "\""}, {"'", "' : undeclared identifier"}})
-    if (const auto name = between(message, before, after); name && std::ranges::all_of(*name, isWordChar))
+    if (const auto name = between(message, before, after);
+        name && std::ranges::all_of(*name, base::isIdentChar))
       return name;
   return std::nullopt;
 }
@@ -215,10 +217,44 @@ bool explainSyntax(LogMessage& message, const ShaderSource& source) {
   return true;
 }
 
+// A quote or a space of another kind ends the text for a compiler, which then misses a '}'.
+bool explainStray(LogMessage& message, const ShaderSource& source) {
+  if (!message.textLine || !message.diagnostic.message.starts_with("syntax error")) return false;
+  std::string_view line = lineOf(source.text, message.textLine);
+  line = line.substr(0, line.find("//"));
+  const auto stray = std::ranges::find_if(line, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  if (stray == line.end()) return false;
+  const auto at = static_cast<std::size_t>(stray - line.begin());
+  base::StrayCharacter said = base::describeStray(line.substr(at));
+  message.diagnostic.place = source.placeOf(message.textLine, static_cast<std::uint32_t>(at + 1));
+  message.diagnostic.message = std::move(said.message);
+  message.diagnostic.hint =
+      said.hint.empty() ? "outside of comments GLSL is plain ASCII" : std::move(said.hint);
+  return true;
+}
+
+// An #if without its #endif: the last one that is open where the text ends.
+bool explainUnterminated(LogMessage& message, const ShaderSource& source) {
+  base::Diagnostic& d = message.diagnostic;
+  if (!d.message.starts_with("Unterminated #if") && d.message.find("missing #endif") == std::string::npos)
+    return false;
+  const std::optional<Conditional> open = unterminatedConditional(source.text);
+  if (!open) return false;
+  d.place = source.placeOf(open->textLine, 1);
+  d.message = "the conditional that opens here is never closed";
+  d.hint = "write '#endif' behind what it guards";
+  return true;
+}
+
 constexpr std::string_view kReservedUse = "illegal use of reserved word `";
 
-void explainNames(base::Diagnostic& d, const ShaderSource& source) {
+void explainNames(base::Diagnostic& d, const ShaderSource& source, std::span<const Define> defines) {
   const auto meant = [&](std::string_view name, bool function) {
+    if (!function && source.declared.contains(name))
+      if (const std::string conditional = conditionalAround(name, source.text); !conditional.empty()) {
+        d.hint = fmt::format("its declaration stands under `{}`, which does not hold here", conditional);
+        return;
+      }
     d.hint = base::hintForForeign(base::Foreign::shader_name, name);
     if (!d.hint.empty()) return;
     if (const auto block = source.parts.blockOf.find(name);
@@ -227,6 +263,13 @@ void explainNames(base::Diagnostic& d, const ShaderSource& source) {
       d.message = fmt::format("'{}' is not declared by itself: its block '{}' has the instance name '{}'",
                               name, block->second, instance);
       d.hint = fmt::format("write '{}.{}', or take '{}' away behind the block", instance, name, instance);
+      return;
+    }
+    if (!function && isGiven(name, defines)) {
+      d.hint = fmt::format(
+          "the pass has '{}' as a slot or a parameter: declare it, or give it there the name that it has "
+          "here",
+          name);
       return;
     }
     if (const std::string near = nearestOf(name, function, source); !near.empty())
@@ -256,6 +299,13 @@ void explainNames(base::Diagnostic& d, const ShaderSource& source) {
         "a fullscreen pass has one input, 'in vec2 uv;', from 0 to 1; in other passes the vertex "
         "shader declares and writes 'out … {};'",
         *input);
+  } else if (raw.find("unrecognized layout identifier") != std::string::npos) {
+    if (raw.find("push_constant") != std::string::npos)
+      d.hint = "OpenGL has no push constants: parameters stand in `layout(std140) uniform Parameters { … };`";
+    else if (raw.find("`set'") != std::string::npos || raw.find("'set'") != std::string::npos)
+      d.hint = "OpenGL has no descriptor sets: take 'set' and 'binding' away, names bind";
+  } else if (std::string fix = fixForAssignment(raw); !fix.empty()) {
+    d.hint = std::move(fix);
   } else if (raw.starts_with("compute shader must contain a fixed or a variable local group size")) {
     d.message = "the compute shader does not say how large a group is";
     d.expected = "layout(local_size_x = 8, local_size_y = 8) in;";
@@ -277,6 +327,15 @@ bool namesErrorType(const std::string& text) {
          text.find(", error,") != std::string::npos || text.find(", error)") != std::string::npos;
 }
 
+// "`c' used uninitialized", where an error stands on a line with `c`: it kept it from being set.
+bool isKeptFromSetting(const LogMessage& message, const std::vector<std::uint32_t>& errors,
+                       const ShaderSource& source) {
+  const auto name = between(message.diagnostic.message, "`", "' used uninitialized");
+  return name && std::ranges::any_of(errors, [&](std::uint32_t line) {
+           return line != 0 && mentionsWord(lineOf(source.text, line), *name);
+         });
+}
+
 // The word at the place of the message, when a define of the graph stands in its place.
 const Define* hidingDefine(const LogMessage& message, const ShaderSource& source,
                            std::span<const Define> defines) {
@@ -285,8 +344,8 @@ const Define* hidingDefine(const LogMessage& message, const ShaderSource& source
   if (column == 0 || column > line.size() || !message.diagnostic.message.starts_with("syntax error"))
     return nullptr;
   std::size_t first = column - 1, end = column - 1;
-  while (first > 0 && isWordChar(line[first - 1])) --first;
-  while (end < line.size() && isWordChar(line[end])) ++end;
+  while (first > 0 && base::isIdentChar(line[first - 1])) --first;
+  while (end < line.size() && base::isIdentChar(line[end])) ++end;
   const auto found = std::ranges::find(defines, line.substr(first, end - first), &Define::name);
   return found == defines.end() ? nullptr : &*found;
 }
@@ -302,7 +361,7 @@ std::string_view lineOf(std::string_view text, std::uint32_t number) {
   return text.substr(0, text.find('\n'));
 }
 
-void dropConsequences(std::vector<LogMessage>& messages) {
+void dropConsequences(std::vector<LogMessage>& messages, const ShaderSource& source) {
   std::vector<std::uint32_t> causes, reserved;  // lines
   for (const LogMessage& message : messages) {
     const base::Diagnostic& d = message.diagnostic;
@@ -312,6 +371,7 @@ void dropConsequences(std::vector<LogMessage>& messages) {
   }
   std::erase_if(messages, [&](const LogMessage& message) {
     const std::string& text = message.diagnostic.message;
+    if (isKeptFromSetting(message, causes, source)) return true;
     const bool beside = std::ranges::find(causes, message.textLine) != causes.end();
     const bool behind =
         text.starts_with("syntax error") && std::ranges::find(reserved, message.textLine) != reserved.end();
@@ -328,7 +388,9 @@ void explainMessage(LogMessage& message, const ShaderSource& source, std::span<c
     d.hint = fmt::format("rename the define, such as '{}_MODE'", define->name);
     return;
   }
-  if (!explainSyntax(message, source)) explainNames(d, source);
+  if (!explainStray(message, source) && !explainUnterminated(message, source) &&
+      !explainSyntax(message, source))
+    explainNames(d, source, defines);
   std::ranges::replace(d.message, '`', '\'');
   for (const auto& [side, words] : std::initializer_list<std::pair<std::string_view, const char*>>{
            {"LHS of ", "left side of "}, {"RHS of ", "right side of "}})
