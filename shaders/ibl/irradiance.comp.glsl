@@ -1,6 +1,8 @@
 // Cosine-weighted mean radiance around each direction (irradiance / pi), equirectangular.
 // read   environment  equirectangular with mips, `as linear wrap`
-// write  result       rgba16f; COLUMNS wide: every row is one work group
+//        brightest?   see brightest.glsl
+// write  result       rgba16f; COLUMNS wide: every row is one work group. a: the mean cosine of the spot's light as the grid has it, whose cells are wide:
+//                     a times the spot's irradiance / pi is what rgb has of it
 //
 // Direct integration over a grid of COLUMNS x COLUMNS / 2 cells of the environment, taken at the level where a texel is as large as a cell, with
 // the exact solid angle of each cell and normalised by the sum of the weights: a constant environment is kept exactly, and
@@ -8,6 +10,7 @@
 // beside a sun.) Cells turn with the column of the result, so the weights of a row are computed once.
 #include "common/equirect.glsl"
 #include "common/slice.glsl"
+#include "brightest.glsl"
 
 const int kRows = COLUMNS / 2;
 layout(local_size_x = COLUMNS) in;
@@ -43,5 +46,20 @@ void main() {
       sum += weight * vec4(radiance, 1.0);
     }
   }
-  imageStore(result, ivec2(x, row), vec4(sum.rgb / sum.a, 1.0));
+  float spot = 0.0;
+#ifdef HAS_BRIGHTEST
+  // The cells that the spot covers have its light: a rectangle as wide as the spot is on average.
+  vec2 cells = vec2(COLUMNS, kRows), at = equirectUv(brightest_at.xyz) * cells;
+  float wide = sqrt(3.0 * brightest_light.w), from_pole = sqrt(max(1.0 - brightest_at.y * brightest_at.y, 1e-4));
+  vec2 reach = clamp(vec2(wide / from_pole * 0.5, wide) * cells / kPi, 1e-3, 0.5 * float(COLUMNS));
+  vec2 first = at - reach, last = at + reach;
+  for (int r = max(int(floor(first.y)), 0); r <= min(int(floor(last.y)), kRows - 1); ++r) {
+    float of_row = min(last.y, float(r + 1)) - max(first.y, float(r)), part = 0.0;
+    for (int c = int(floor(first.x)); c <= int(floor(last.x)); ++c)
+      part += (min(last.x, float(c + 1)) - max(first.x, float(c))) * weights[r * COLUMNS + (c - x + 2 * COLUMNS) % COLUMNS];
+    spot += part * of_row / (cos(float(r) * (kPi / float(kRows))) - cos(float(r + 1) * (kPi / float(kRows))));
+  }
+  spot /= 4.0 * reach.x * reach.y;
+#endif
+  imageStore(result, ivec2(x, row), vec4(sum.rgb / sum.a, spot));
 }

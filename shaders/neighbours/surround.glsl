@@ -156,16 +156,16 @@ Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, 
   return all;
 }
 
-// Irradiance over pi of a point with normal n. `sky` is the irradiance map's value in the bent direction, `below` the value straight down. What hides a
+// Irradiance over pi of a point with normal n. `sky` is the irradiance map's value in the bent direction, `spot_cosine` its alpha, `below` the value straight down. What hides a
 // share of the sky is lit as this point is, so that light goes to and fro: a geometric series (Stewart and Langer, "Towards accurate recovery of shape
 // from shading under diffuse lighting", PAMI 1997).
-vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, vec3 below, vec3 ground) {
+vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, float spot_cosine, vec3 below, vec3 ground) {
   vec3 seen = vec3(surround.seen);
   // The ground is there in place of the lower half.
   sky = max(sky + (ground - below) * (0.5 - 0.5 * surround.bent.y), vec3(0.0));
 #ifdef HAS_BRIGHTEST
   vec3 spot = spot_around.rgb;
-  sky = max(sky - spot * max(dot(surround.bent, lobe.spot), 0.0), vec3(0.0));
+  sky = max(sky - spot * spot_cosine, vec3(0.0));
 #endif
 #ifndef HAS_PROBES
   seen /= 1.0 - surround.albedo * (1.0 - seen);  // with probes, these give the light that comes back

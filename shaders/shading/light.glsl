@@ -146,9 +146,10 @@ void main() {
 #if SEES_NEIGHBOURS
   facing = surround.bent;
 #endif
-  around = sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), lookup).rgb;
+  vec4 mapped = sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), lookup);
+  around = mapped.rgb;
 #if SEES_NEIGHBOURS
-  around = aroundSeen(surround, point.n, lobe, around, listed.below, open_ground);
+  around = aroundSeen(surround, point.n, lobe, around, mapped.a, listed.below, open_ground);
 #endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];

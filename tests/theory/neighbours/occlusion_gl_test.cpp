@@ -209,3 +209,56 @@ TEST_CASE("occlusion: of the sun it is that of rays to its disc") {
     CHECK(shares.off / shares.count < (degrees < 1 ? 7e-4 : 0.01));
   }
 }
+
+// A sky of 1 lights the side that the spot does not reach, however bright the spot is. In the irradiance map, whose texels are wide, some of its light is there.
+TEST_CASE(
+    "occlusion: the side of a sphere that a bright spot does not reach gets the sky alone, up to the edge") {
+  constexpr double kPi = 3.14159265358979;
+  const std::vector<Ball> balls = {
+      {.center = {0, 0, 0}, .albedo = glm::vec3(0.8f), .metallic = 0, .roughness = 1},
+      {.center = {0, -2.4f, 0}, .albedo = glm::vec3(0), .metallic = 0, .roughness = 1}};
+  const auto pictureOf = [&](std::shared_ptr<const assets::ImageF> environment) {
+    Lab lab({.graph = "graphs/studio.json",
+             .width = 128,
+             .height = 128,
+             .sets = {{"occlusion", "true"}},
+             .balls = balls,
+             .camera = {.position = {0, 0, 40}, .target = {0, 0, 0}, .fovDegrees = 3, .nearPlane = 0.1},
+             .environment = std::move(environment)});
+    lab.frame();
+    CHECK(lab.reports() == "");
+    return lab.read("hdr");
+  };
+  const Picture sky = pictureOf(constantEnvironment(1, 1, 1));
+  // Four texels of 6600 are an irradiance over pi of about 5.
+  for (const glm::ivec2 at : {glm::ivec2{8, 54}, {11, 54}, {14, 40}, {17, 6}}) {
+    const Picture both = pictureOf(makeEnvironment([&](int x, int y) {
+      const double value = (x == at.x || x == at.x + 1) && (y == at.y || y == at.y + 1) ? 6600 : 1;
+      return std::array{value, value, value};
+    }));
+    const double polar = kPi * (at.y + 1) / 128, azimuth = 2 * kPi * ((at.x + 1) / 256.0 - 0.5);
+    const glm::dvec3 spot{std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                          std::sin(polar) * std::sin(azimuth)};
+    double most = 0, least = 0;
+    int count = 0;
+    for (std::uint32_t y = 0; y < 128; ++y)
+      for (std::uint32_t x = 0; x < 128; ++x) {
+        // So far away the lens is nearly parallel.
+        const double half = 40 * std::tan(3.0 / 360 * kPi);
+        const double u = ((x + 0.5) / 64 - 1) * half, v = ((y + 0.5) / 64 - 1) * half,
+                     rest = 1 - u * u - v * v;
+        if (rest < 0.05) continue;
+        const double facing = glm::dot(spot, glm::dvec3{u, v, std::sqrt(rest)});
+        if (facing > -0.03 || facing < -0.3) continue;
+        const double over = double(both.at(x, y)[0]) / double(sky.at(x, y)[0]) - 1;
+        most = std::max(most, over);
+        least = std::min(least, over);
+        ++count;
+      }
+    MESSAGE("azimuth ", azimuth, ", from the zenith ", polar, ": from ", least, " to ", most,
+            " of the sky's light");
+    CHECK(count > 500);
+    CHECK(most < 0.02);
+    CHECK(least > -0.02);
+  }
+}

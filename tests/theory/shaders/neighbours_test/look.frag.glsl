@@ -33,7 +33,7 @@ void main() {
   shares = vec4(all.seen, all.mirror_seen, all.sun_seen, 1.0);
   vec2 lookup = vec2(0.0, 0.5 / float(textureSize(irradiance, 0).y));
   vec3 sky = sampleEquirect(irradiance, equirectUv(all.bent), lookup).rgb, below = sampleEquirect(irradiance, vec2(0.0, 1.0), lookup).rgb;
-  around = vec4(aroundSeen(all, n, lobe, sky, below, below), 1.0);
+  around = vec4(aroundSeen(all, n, lobe, sky, 0.0, below, below), 1.0);
   place = vec4(position, 1.0);
   facing = vec4(n, 0.0);
 }
