@@ -123,6 +123,7 @@ namespace weft::base {
   X(W154, notACubeTable,             "not a .cube table")                                           \
   X(W155, badMaterialValue,          "material value out of range")                                 \
   X(W156, duplicateMaterial,         "duplicate material name")                                     \
+  X(W157, displayReferred,           "colours of a screen as light")                                \
   X(W160, badSceneValue,             "scene value out of range")                                    \
   X(W161, unknownMaterial,           "unknown material")                                            \
   X(W162, unknownSceneList,          "unknown draw list")                                           \

@@ -163,10 +163,25 @@ std::optional<ImageF> loadEnvironment(const std::string& path, Diagnostics& diag
   return decodeEnvironment(*bytes, path, diagnostics);
 }
 
+namespace {
+
+// A picture of a screen as a map of light: white is 1, however bright the sun was.
+void warnDisplayReferred(const std::string& name, Diagnostics& diagnostics) {
+  base::Diagnostic& d = diagnostics.warning(
+      Code::displayReferred, placeOf(name),
+      fmt::format("the environment '{}' holds colours of a screen: no light in it is brighter than 1", name));
+  d.expected = "radiance, as .hdr and .exr hold it";
+  d.found = "sRGB, which was decoded to linear light";
+  d.hint = "take an .hdr or .exr of the place, in which the sun is as bright as it was";
+}
+
+}  // namespace
+
 std::optional<ImageF> decodeEnvironment(std::string_view bytes, const std::string& name,
                                         Diagnostics& diagnostics) {
   std::optional<ImageF> image = decodeImage(bytes, name, diagnostics);
   if (!image) return {};
+  if (kindOfName(name) == ImageKind::eight_bit) warnDisplayReferred(name, diagnostics);
   ImageF wide = widenToRgba(std::move(*image));
   for (std::size_t i = 3; i < wide.texels.size(); i += 4) wide.texels[i] = 1;
   sanitizeRadiance(wide, name, diagnostics);

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <tinyexr.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <vector>
 
 #include "engine/assets/images/image_check.h"
 #include "engine/assets/images/image_codecs.h"
@@ -55,19 +57,50 @@ bool areCountsSound(const EXRHeader& header, long long width, long long height, 
   return header.chunk_count >= 0 && static_cast<std::size_t>(header.chunk_count) <= fileSize / 8;
 }
 
-// Which channel of the file each of R, G, B, A is, -1 for none. Of layers ("diffuse.R") the last one counts.
-// A file with one channel is grey in all three.
-std::array<int, 4> findChannels(const EXRHeader& header) {
-  std::array<int, 4> found = {-1, -1, -1, -1};
+// Which channel of the file each of R, G, B, A is, -1 for none, and the layer ("diffuse" of "diffuse.R") that they belong to.
+struct Layer {
+  std::string_view name;  // empty for the picture itself
+  std::array<int, 4> channels = {-1, -1, -1, -1};
+  bool isWhole() const { return channels[0] >= 0 && channels[1] >= 0 && channels[2] >= 0; }
+};
+
+// Those with channels R, G and B, in the order of the file. A file with one channel, or with Y where that
+// is no part of a colour, is grey.
+std::vector<Layer> findLayers(const EXRHeader& header) {
+  std::vector<Layer> layers;
+  int grey = header.num_channels == 1 ? 0 : -1;
+  bool hasColors = false;  // as X, Y, Z or as Y, RY, BY
   for (int c = 0; c < header.num_channels; ++c) {
     const std::string_view name = header.channels[c].name;
-    const std::string_view last = name.substr(name.find_last_of('.') + 1);
-    const std::size_t index =
-        last.size() == 1 ? std::string_view("RGBA").find(last[0]) : std::string_view::npos;
-    if (index != std::string_view::npos) found[index] = c;
+    const std::size_t dot = name.rfind('.');
+    const std::string_view of = dot == name.npos ? "" : name.substr(0, dot);
+    const std::string_view last = dot == name.npos ? name : name.substr(dot + 1);
+    if (name == "Y") grey = c;
+    hasColors |= name == "X" || name == "RY" || name == "BY";
+    const std::size_t index = last.size() == 1 ? std::string_view("RGBA").find(last[0]) : last.npos;
+    if (index == last.npos) continue;
+    auto layer = std::ranges::find(layers, of, &Layer::name);
+    if (layer == layers.end()) layer = layers.insert(layers.end(), Layer{of});
+    layer->channels[index] = c;
   }
-  if (header.num_channels == 1 && found[3] < 0) found = {0, 0, 0, -1};
-  return found;
+  const auto own = std::ranges::find(layers, std::string_view(), &Layer::name);
+  const int alpha = own == layers.end() ? -1 : own->channels[3];
+  const bool hasPicture = own != layers.end() && own->isWhole();
+  if (hasPicture) return {*own};
+  std::erase_if(layers, [](const Layer& layer) { return !layer.isWhole(); });
+  if (layers.empty() && grey >= 0 && grey != alpha && (!hasColors || header.num_channels == 1))
+    layers = {{"", {grey, grey, grey, alpha}}};
+  return layers;
+}
+
+// Why no picture can be chosen.
+std::string reasonOf(const std::vector<Layer>& layers) {
+  if (layers.empty()) return "it has no channels R, G and B";
+  std::string names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(layers.size(), 8); ++i)
+    names += fmt::format("{}'{}'", i == 0 ? "" : ", ", layers[i].name);
+  return fmt::format("it has several layers ({}{}) and no picture of its own; save one of them as a file",
+                     names, layers.size() > 8 ? ", …" : "");
 }
 
 // What the header says of the picture, and which channels are wanted as floats. Nothing after errors.
@@ -102,12 +135,13 @@ std::unique_ptr<Opening> openExr(std::string_view bytes, const std::string& name
     reportUnreadable(diagnostics, name, "its header has impossible channel or chunk counts");
     return {};
   }
-  opening->channels = findChannels(header);
-  const std::array<int, 4>& channels = opening->channels;
-  if (channels[0] < 0 || channels[1] < 0 || channels[2] < 0) {
-    reportUnreadable(diagnostics, name, "it has no channels R, G and B");
+  const std::vector<Layer> layers = findLayers(header);
+  if (layers.size() != 1) {
+    reportUnreadable(diagnostics, name, reasonOf(layers));
     return {};
   }
+  opening->channels = layers[0].channels;
+  const std::array<int, 4>& channels = opening->channels;
   for (const int channel : channels) {
     if (channel < 0) continue;
     int& type = header.requested_pixel_types[channel];

@@ -22,8 +22,8 @@ float valueAt(int x, int y, int c) {
 }
 
 // A picture whose channel `names[c]` holds valueAt(x, y, c), as half floats.
-std::string encode(const char* names, int compression, bool tiled) {
-  const int count = static_cast<int>(std::string_view(names).size());
+std::string encode(const std::vector<std::string>& names, int compression, bool tiled) {
+  const int count = static_cast<int>(names.size());
   std::vector<std::vector<std::uint16_t>> planes(static_cast<std::size_t>(count));
   std::vector<EXRChannelInfo> infos(static_cast<std::size_t>(count));
   std::vector<int> types(static_cast<std::size_t>(count), TINYEXR_PIXELTYPE_HALF);
@@ -32,7 +32,8 @@ std::string encode(const char* names, int compression, bool tiled) {
   std::vector<std::vector<std::uint16_t>> tilePlanes;
   for (int c = 0; c < count; ++c) {
     infos[static_cast<std::size_t>(c)] = {};
-    infos[static_cast<std::size_t>(c)].name[0] = names[c];
+    const std::string& name = names[static_cast<std::size_t>(c)];
+    std::copy(name.begin(), name.end(), infos[static_cast<std::size_t>(c)].name);
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
         planes[static_cast<std::size_t>(c)].push_back(floatToHalf(valueAt(x, y, c)));
@@ -90,6 +91,13 @@ std::string encode(const char* names, int compression, bool tiled) {
   std::string result(reinterpret_cast<char*>(bytes), size);
   std::free(bytes);
   return result;
+}
+
+// The same of channels with names of one letter.
+std::string encode(const char* letters, int compression, bool tiled) {
+  std::vector<std::string> names;
+  for (const char letter : std::string_view(letters)) names.emplace_back(1, letter);
+  return encode(names, compression, tiled);
 }
 
 int countWrong(const ImageF& image, const std::array<int, 4>& channels) {
@@ -158,4 +166,31 @@ TEST_CASE("RGB gets alpha 1, one channel is grey, and a file without colour is r
   CHECK_FALSE(decodeImage(encode("XZ", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics));
   CHECK_FALSE(decodeImage(encode("A", TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics));
   CHECK(diagnostics.errorCount() == 2);
+}
+
+TEST_CASE(
+    "the picture itself is read, whatever layers stand beside it, and no choice is made between layers") {
+  base::Diagnostics diagnostics;
+  const auto wrong = [&](const std::vector<std::string>& names, const std::array<int, 4>& channels) {
+    CAPTURE(names.size());
+    const auto image = decodeImage(encode(names, TINYEXR_COMPRESSIONTYPE_ZIP, false), "a.exr", diagnostics);
+    return image ? countWrong(*image, channels) : -1;
+  };
+  CHECK(wrong({"B", "G", "R", "albedo.B", "albedo.G", "albedo.R", "depth.Z"}, {2, 1, 0, -1}) == 0);
+  CHECK(wrong({"A", "B", "G", "R", "Albedo.A", "Albedo.R"}, {3, 2, 1, 0}) == 0);
+  CHECK(wrong({"View.Combined.A", "View.Combined.B", "View.Combined.G", "View.Combined.R", "View.Depth.Z"},
+              {3, 2, 1, 0}) == 0);
+  CHECK(wrong({"A", "Y"}, {1, 1, 1, 0}) == 0);
+  CHECK(wrong({"Y", "Z"}, {0, 0, 0, -1}) == 0);
+  CHECK(diagnostics.empty());
+  CHECK(wrong({"albedo.B", "albedo.G", "albedo.R", "light.B", "light.G", "light.R"}, {}) == -1);
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].message ==
+        "cannot read image 'a.exr': it has several layers ('albedo', 'light') and no picture of its own; "
+        "save one "
+        "of them as a file");
+  CHECK(wrong({"albedo.G", "albedo.R", "light.B"}, {}) == -1);  // no layer is whole
+  CHECK(wrong({"X", "Y", "Z"}, {}) == -1);
+  CHECK(wrong({"BY", "RY", "Y"}, {}) == -1);
+  CHECK(diagnostics.errorCount() == 4);
 }

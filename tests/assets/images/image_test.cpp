@@ -135,6 +135,20 @@ TEST_CASE("an environment becomes RGBA, finite and non-negative, and says how mu
   CHECK(diagnostics.items()[0].code == base::Code::texelsReplaced);
   CHECK(diagnostics.items()[0].severity == base::Severity::note);
 
+  // Colours of a screen are decoded, and said to be no radiance.
+  diagnostics.clear();
+  const std::uint8_t grey[] = {0, 128, 255, 188, 188, 188};
+  REQUIRE(savePng8(folder.at("photo.png"), 2, 1, 3, grey, diagnostics));
+  const auto photo = loadEnvironment(folder.at("photo.png"), diagnostics);
+  REQUIRE(photo);
+  CHECK(photo->texels[0] == 0);
+  CHECK(photo->texels[1] == doctest::Approx(std::pow((128 / 255.0 + 0.055) / 1.055, 2.4)));
+  CHECK(photo->texels[2] == 1);
+  CHECK(photo->texels[3] == 1);
+  REQUIRE(diagnostics.size() == 1);
+  CHECK(diagnostics.items()[0].code == base::Code::displayReferred);
+  CHECK(diagnostics.items()[0].severity == base::Severity::warning);
+
   diagnostics.clear();
   REQUIRE(saveHdr(folder.at("clean.hdr"), makeRamp(16, 8, 3), diagnostics));
   CHECK(loadEnvironment(folder.at("clean.hdr"), diagnostics));
