@@ -52,7 +52,9 @@ class IsfGraphWriter {
     JsonObjectText graph;
     graph.addText("name", options_.name);
     std::string about = header_.description;
-    if (!header_.credit.empty()) about += (about.empty() ? "By " : ". By ") + header_.credit;
+    std::string_view credit = header_.credit;  // most begin with "by"
+    if (credit.starts_with("by ") || credit.starts_with("By ")) credit.remove_prefix(3);
+    if (!credit.empty()) about += (about.empty() ? "By " : ". By ") + std::string(credit);
     if (!about.empty()) graph.addText("description", oneLine(about));
     if (!parameters_.empty()) graph.add("parameters", parameters_.text());
     if (!lets_.empty()) graph.add("let", lets_.text());

@@ -25,6 +25,14 @@ using JsonType = JsonValue::Type;
 
 constexpr std::size_t kMostPasses = 64;
 
+// Of the GLSL of any player. Other words, such as `sample`, are names in some, and are renamed.
+constexpr std::array<std::string_view, 45> kWordsOfGlsl{
+    "attribute", "const", "uniform", "varying",   "break", "continue",  "do",        "for",         "while",
+    "if",        "else",  "in",      "out",       "inout", "float",     "int",       "void",        "bool",
+    "true",      "false", "lowp",    "mediump",   "highp", "precision", "discard",   "return",      "struct",
+    "vec2",      "vec3",  "vec4",    "ivec2",     "ivec3", "ivec4",     "bvec2",     "bvec3",       "bvec4",
+    "mat2",      "mat3",  "mat4",    "sampler2D", "main",  "invariant", "sampler3D", "samplerCube", "uint"};
+
 struct Comment {
   std::size_t begin = 0, end = 0;  // of what stands between its marks
 };
@@ -150,6 +158,13 @@ class HeaderReader {
           diagnostics_.error(Code::notAName, at.place, fmt::format("\"{}\" cannot name {}", name, what));
       d.expected =
           "letters, digits and '_', not beginning with a digit: a variable of the shader has this name";
+      d.hint = "give it another name, here and in the shader";
+      return false;
+    }
+    if (std::ranges::find(kWordsOfGlsl, name) != kWordsOfGlsl.end()) {
+      auto& d =
+          diagnostics_.error(Code::notAName, at.place, fmt::format("\"{}\" cannot name {}", name, what));
+      d.expected = "no word of GLSL: no player can declare a variable of this name";
       d.hint = "give it another name, here and in the shader";
       return false;
     }

@@ -134,6 +134,7 @@ class FileReader {
                                                     "OFFSET",     "WIDTH",   "HEIGHT",  "WHEN",
                                                     "COMPONENTS", "COMPUTE", "TEXTURE", "PARAM"};
     MpvHook hook{.place = placeOf(at_), .headerLine = at_};
+    const std::size_t errors = diagnostics_.errorCount();
     for (; at_ < out_.lines.size() && isHeader(at_); ++at_) {
       const std::string_view word = wordAt(at_);
       MpvText rest = restAt(at_);
@@ -171,7 +172,8 @@ class FileReader {
       }
     }
     skipBody();
-    if (hook.hooks.empty())
+    // Behind an unknown header the block is something else.
+    if (hook.hooks.empty() && diagnostics_.errorCount() == errors)
       fail(hook.headerLine, 1, "a pass has no //!HOOK", "//!HOOK MAIN, for example", "");
     if (out_.hooks.size() < kMostBlocks) out_.hooks.push_back(std::move(hook));
   }
@@ -240,6 +242,7 @@ class FileReader {
   void readParameter() {
     static const std::array<std::string, 5> kKnown{"PARAM", "DESC", "TYPE", "MINIMUM", "MAXIMUM"};
     MpvParameter parameter{.place = placeOf(at_)};
+    std::size_t typeLine = at_;
     for (; at_ < out_.lines.size() && isHeader(at_); ++at_) {
       const std::string_view word = wordAt(at_);
       const MpvText rest = restAt(at_);
@@ -248,7 +251,12 @@ class FileReader {
       } else if (word == "DESC") {
         parameter.description = rest.text;
       } else if (word == "TYPE") {
+        typeLine = at_;
         parameter.type = rest.text;
+        // How often it may change means nothing here.
+        for (const std::string_view often : {"DYNAMIC ", "CONSTANT "})
+          if (parameter.type.starts_with(often))
+            parameter.type = trimmed(parameter.type.substr(often.size()));
       } else if (word == "MINIMUM" || word == "MAXIMUM") {
         const auto numbers = numbersIn(rest.text);
         if (numbers && numbers->size() == 1)
@@ -268,7 +276,7 @@ class FileReader {
     }
     const auto numbers = numbersIn(text);
     if (parameter.type != "float" && parameter.type != "int" && parameter.type != "uint")
-      return fail(begin - 1, 1,
+      return fail(typeLine, 1,
                   fmt::format("the parameter '{}' has the type '{}'", parameter.name, parameter.type),
                   "float, int or uint", "write a #define, or make it a number");
     if (!numbers || numbers->size() != 1)

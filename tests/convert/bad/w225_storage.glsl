@@ -1,0 +1,6 @@
+//!BUFFER seen
+vec4 light;
+
+//!HOOK MAIN
+//!BIND HOOKED
+vec4 hook() { return HOOKED_tex(HOOKED_pos) + light; }
