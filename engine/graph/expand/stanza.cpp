@@ -19,6 +19,9 @@ struct Stanza {
   const PassType* type;
   const std::string& declared;
 
+  void check(const Expr& expr, bool dynamicAllowed = false) const {
+    checkExpr(model, scope, expr, dynamicAllowed, desc.repeat);
+  }
   base::Diagnostic& error(Code code, const Place& place, std::string message) const {
     base::Diagnostic& d = model.diagnostics.error(code, place.line ? place : desc.place,
                                                   fmt::format("pass '{}' {}", declared, std::move(message)));
@@ -220,12 +223,12 @@ void checkFixedSlots(const Stanza& stanza) {
 }
 
 void checkReference(const Stanza& stanza, const RefDesc& ref) {
-  checkExpr(stanza.model, stanza.scope, ref.condition);
-  if (ref.element) checkExpr(stanza.model, stanza.scope, *ref.element);
+  stanza.check(ref.condition);
+  if (ref.element) stanza.check(*ref.element);
   for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
     if (*span) {
-      checkExpr(stanza.model, stanza.scope, (*span)->first);
-      checkExpr(stanza.model, stanza.scope, (*span)->last);
+      stanza.check((*span)->first);
+      stanza.check((*span)->last);
     }
   markStructural(stanza.model, stanza.scope, ref);
 }
@@ -235,24 +238,24 @@ void checkExpressions(const Stanza& stanza) {
   Scope& scope = stanza.scope;
   const PassDesc& desc = stanza.desc;
   const auto structural = [&](const Expr& expr) {
-    checkExpr(model, scope, expr);
+    stanza.check(expr);
     markStructural(model, scope, expr);
   };
-  checkExpr(model, scope, desc.enabled, true);
+  stanza.check(desc.enabled, true);
   markStructural(model, scope, desc.enabled);
   for (const RangeDesc& range : desc.repeat)
     for (const Expr* expr : {&range.first, &range.last, &range.step}) structural(*expr);
   for (const SlotDesc& slot : desc.slots) checkReference(stanza, slot.ref);
   if (desc.view) checkReference(stanza, *desc.view);
   for (const NamedExpr& define : desc.defines) {
-    checkExpr(model, scope, define.expr, true);
+    stanza.check(define.expr, true);
     markStructural(model, scope, define.expr);
   }
   for (const NamedExpr& state : desc.state) structural(state.expr);
   for (const Expr* expr : {&desc.slices, &desc.threads, &desc.instances}) structural(*expr);
   for (const Expr& argument : desc.geometryArguments) structural(argument);
   for (const PassParameterDesc& parameter : desc.parameters) {
-    if (!parameter.declared) checkExpr(model, scope, parameter.value, true);
+    if (!parameter.declared) stanza.check(parameter.value, true);
     if (parameter.declared && parameter.declared->define)
       if (Parameter* const own = findPassParameter(model, scope, desc.name, parameter.name))
         own->structural = true;

@@ -123,9 +123,9 @@ class Evaluator {
     if (base::Diagnostic* d = error(Code::unknownVariable, node, std::move(message))) {
       std::vector<std::string> names = scope_->candidates(kind);
       std::sort(names.begin(), names.end());
-      const std::vector<std::string> builtins = scope_->candidates(EvalScope::NameKind::builtin);
-      if (std::ranges::find(builtins, name) != builtins.end())
-        d->hint = fmt::format("write '{}', without the '$'", name);
+      const bool index = kind == EvalScope::NameKind::variable && scope_->index(name);
+      if (index || std::ranges::count(scope_->candidates(EvalScope::NameKind::builtin), name) > 0)
+        d->hint = fmt::format("write '{}', without the '$'{}", name, index ? ": it is an index" : "");
       else if (std::string foreign = base::hintForForeign(base::Foreign::value, name); !foreign.empty())
         d->hint = std::move(foreign);
       else if (const std::string nearest = base::nearestName(name, names); !nearest.empty())

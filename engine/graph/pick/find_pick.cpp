@@ -51,6 +51,19 @@ std::string hintAtWritten(const FlatGraph& graph, const std::string& name) {
   return written.empty() ? said : fmt::format("{}: name what it writes, {}", said, written);
 }
 
+// For an array in the place of one of its elements. "" where there is none of the name.
+std::string hintAtElements(const std::vector<std::string>& names, const std::string& name) {
+  std::vector<std::string> elements, arrays;
+  for (const std::string& element : names)
+    if (const std::size_t bracket = element.rfind('['); bracket != std::string::npos) {
+      elements.push_back(element);
+      arrays.push_back(element.substr(0, bracket));
+    }
+  const std::vector<std::size_t> matches = suffixMatches(arrays, name);
+  if (matches.empty()) return {};
+  return fmt::format("it has elements: name one, such as '{}'", elements[matches[0]]);
+}
+
 std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagnostics& diagnostics) {
   std::vector<std::string> names;  // each once
   std::unordered_set<std::string_view> known;
@@ -72,7 +85,8 @@ std::uint32_t findVersion(const FlatGraph& graph, const Pick& pick, base::Diagno
                          matches.empty()
                              ? fmt::format("no pass that is enabled uses a resource '{}'", pick.name)
                              : fmt::format("'{}' may be any of {} resources", pick.name, matches.size()));
-    if (matches.empty()) d.hint = hintAtWritten(graph, pick.name);
+    if (matches.empty()) d.hint = hintAtElements(names, pick.name);
+    if (matches.empty() && d.hint.empty()) d.hint = hintAtWritten(graph, pick.name);
     if (matches.empty() && d.hint.empty()) d.hint = suffixHint(pick.name, names);
     if (!matches.empty()) d.hint = fmt::format("write '{}' or '{}'", names[matches[0]], names[matches[1]]);
     if (d.hint.empty() && pick.option == "-o") d.hint = kPathHint;
@@ -132,19 +146,36 @@ std::optional<FoundPick> findPick(const FlatGraph& graph, const Pick& pick, base
   const std::uint32_t resource = findVersion(graph, pick, diagnostics);
   if (resource == kNone || !checkParts(graph.resources[resource], pick, diagnostics)) return std::nullopt;
   if (pick.pass.empty()) return FoundPick{resource, kNone};
+  // Without a version, that which the pass wrote is meant.
+  const auto isMeant = [&](std::uint32_t each) {
+    return each == resource || (pick.version == 0 && sharedName(graph.resourceNames[each]) ==
+                                                         sharedName(graph.resourceNames[resource]));
+  };
   std::vector<std::string> writers;
-  std::vector<std::uint32_t> passes;
-  for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
-    if (writesResource(graph, p, resource)) {
+  std::vector<FoundPick> written;
+  for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    const FlatPass& pass = graph.passes[p];
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const FlatUse& use = graph.uses[u];
+      const FoundPick found{use.resource, p};
+      if (use.access == Access::read || !isMeant(use.resource)) continue;
+      if (!written.empty() && written.back() == found) continue;
       writers.push_back(graph.passNames[p]);
-      passes.push_back(p);
+      written.push_back(found);
     }
+  }
   const std::vector<std::size_t> matches = suffixMatches(writers, pick.pass);
-  if (matches.size() == 1) return FoundPick{resource, passes[matches[0]]};
+  if (matches.size() == 1) {
+    const FoundPick found = written[matches[0]];
+    if (!checkParts(graph.resources[found.resource], pick, diagnostics)) return std::nullopt;
+    return found;
+  }
+  const std::string name(pick.version == 0 ? sharedName(graph.resourceNames[resource])
+                                           : std::string_view(graph.resourceNames[resource]));
   auto& d = reportPick(
       diagnostics, matches.empty() ? Code::unknownPass : Code::ambiguousName, pick,
       fmt::format("{} '{}' that writes '{}'", matches.empty() ? "there is no pass" : "more than one pass is",
-                  pick.pass, graph.resourceNames[resource]));
+                  pick.pass, name));
   for (const std::string& writer : writers) d.expected += (d.expected.empty() ? "" : ", ") + writer;
   return std::nullopt;
 }

@@ -20,6 +20,7 @@ std::string_view sharedName(std::string_view resourceName);
 struct FoundPick {
   std::uint32_t resource = kNone;  // into FlatGraph::resources
   std::uint32_t pass = kNone;      // into FlatGraph::passes; kNone: the last that writes it
+  friend bool operator==(const FoundPick&, const FoundPick&) = default;
 };
 
 // Nothing after an error: unknownResource, ambiguousName, missingSubresource, noHistory, badSelector, unknownPass.

@@ -89,6 +89,23 @@ TEST_CASE("a value of the program's own is told from a parameter") {
   CHECK(said.items()[0].hint == "write 'screen', without the '$'");
 }
 
+TEST_CASE("an index with a $ is told that it is bare, wherever it stands") {
+  const auto said = [](const char* level, const char* gain, const char* enabled) {
+    return diagnoseText(fmt::format(
+        R"({{ "resources": {{ "a": {{ "texture": "rgba8", "size": 8, "mips": 3 }} }}, "passes": [
+        {{ "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": {{ "level": [0, 2] }}, "enabled": "{}",
+           "write": {{ "result": "a.mip[{}]" }}, "parameters": {{ "gain": "{}" }} }} ], "present": "a" }})",
+        enabled, level, gain));
+  };
+  CHECK(said("level", "level / 2", "level >= 0").empty());
+  for (const auto& found : {said("$level", "1", "true"), said("level", "$level / 2", "true"),
+                            said("level", "1", "$level >= 0")}) {
+    REQUIRE(found.errorCount() == 1);
+    CHECK(found.items()[0].code == base::Code::unknownVariable);
+    CHECK(found.items()[0].hint == "write 'level', without the '$': it is an index");
+  }
+}
+
 TEST_CASE("levels that nobody reads are told of, unless the chain is read in part") {
   const auto chainRead = [](const char* read) {
     return diagnoseText(fmt::format(

@@ -237,10 +237,12 @@ const PassDesc* findPass(const Scope& scope, std::string_view name) {
   return nullptr;
 }
 
-bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed) {
+bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed,
+               std::span<const RangeDesc> repeat) {
   if (!expr.present() || expr.isConstant()) return true;
   const std::size_t before = model.diagnostics.errorCount();
   Names names(model, scope, dynamicAllowed);
+  for (const RangeDesc& range : repeat) names.indices.push_back({range.index, 0});
   expr.check(names, model.diagnostics);
   for (const auto& [fact, name] : expr.facts()) {
     if (findEntity(model, scope, name, false) != kNone || implicitImport(model, name) != kNone) continue;

@@ -8,6 +8,7 @@
 // Does not: evaluate shapes (resources.h), or know versions.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "engine/graph/expand/names/model.h"
@@ -59,7 +60,9 @@ void findLiveLets(Model& model);
 // True when the expression reads a live parameter, perhaps through a let; after findLiveLets().
 bool isLive(Model& model, Scope& scope, const Expr& expr);
 // Checks the names (variables, choices, resources) in all branches, also in those that are not taken.
-bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed = false);
+// `repeat`: of the pass, whose indices are bare.
+bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed = false,
+               std::span<const RangeDesc> repeat = {});
 
 // The nearest names for hints.
 std::vector<std::string> resourceNames(Model& model, const Scope& scope);
