@@ -85,6 +85,7 @@ namespace weft::base {
   X(W080, wordForNumber,             "word where the shader needs a number")                        \
   X(W081, tooManyPasses,             "too many passes")                                             \
   X(W082, contradictoryTexture,      "texture that contradicts itself")                             \
+  X(W083, cadenceMisfit,             "\"update\" that does not fit what is read")                     \
   X(W084, parameterNotPass,          "not a pass but a parameter")                                  \
   X(W085, conditionLeavesSlotEmpty,  "condition leaves a slot empty")                               \
   X(W086, badOutput,                 "output that cannot be read back")                             \

@@ -203,6 +203,7 @@ struct ImportSpec {
   bool before = false;                // as ImportType::before
   std::vector<std::string> standIns;  // names of own textures that a list of alternatives offers in its place
   double count = 0;                   // rows of a list or buffer, as ImportFacts::count
+  bool changing = false;              // as ImportFacts::changing
   Place place{};                      // of its declaration; without a file for one that is named only as @x
 };
 

@@ -93,6 +93,7 @@ struct ImportFacts {
   bool layered = false;                      // an array texture, also with one layer
   std::uint64_t bytes = 0;                   // buffers; 0 when not yet known
   double count = 0;                          // count(x): rows of a list or buffer
+  bool changing = false;                     // something else in the course of a run, whatever the scene is
   std::vector<base::Diagnostic> problems{};  // reported with the import; an error makes it unusable
 };
 

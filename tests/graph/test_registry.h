@@ -140,6 +140,7 @@ inline ImportFacts testFacts(const World& world, const ImportRequest& request) {
     facts.width = 64;
     facts.height = 32;
     facts.mips = request.arguments[5].second.truth() ? 7 : 1;
+    facts.changing = request.arguments[0].second.symbol.find("##") != std::string::npos;
   } else if (request.type == "spheres") {
     facts.count = world.spheres;
     facts.bytes = 4800;

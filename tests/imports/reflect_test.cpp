@@ -168,6 +168,26 @@ TEST_CASE("an image is not there without a file; a sequence is watched with the 
 }
 
 TEST_CASE(
+    "a sequence that plays and the mouse change while a graph runs; pictures per second are not below 0") {
+  const TemporaryFolder folder;
+  base::Diagnostics diagnostics;
+  const std::vector<std::uint8_t> texels(12, 7);
+  REQUIRE(assets::savePng8(folder.at("a.1.png"), 2, 2, 3, texels, diagnostics));
+  graph::ImportRequest request = requestOf("image", "file", folder.at("a.%d.png"));
+  CHECK(factsOf(request, {}).changing);
+  request.arguments[1].second = graph::Value::number(1);  // frame
+  CHECK_FALSE(factsOf(request, {}).changing);
+  CHECK_FALSE(factsOf(requestOf("image", "file", folder.at("a.1.png")), {}).changing);
+  CHECK(factsOf(requestOf("mouse"), {}).changing);
+  request.arguments[1].second = graph::Value::number(-1);
+  request.arguments[2].second = graph::Value::number(-1);  // fps
+  const graph::ImportFacts facts = factsOf(request, {});
+  REQUIRE(facts.problems.size() == 1);
+  CHECK(facts.problems[0].code == base::Code::badImportArgument);
+  CHECK(facts.problems[0].found == "-1");
+}
+
+TEST_CASE(
     "probes are a buffer of a header and nine vec4 each; a grid or distances that cannot be are refused") {
   const graph::ImportType type = importOf("probes").reflect();
   CHECK(type.kind == ImportKind::buffer);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/graph/expand/finish.h"
+#include "engine/graph/expand/judge/cadence.h"
 #include "engine/graph/expand/judge/culled.h"
 #include "engine/graph/expand/judge/missing.h"
 #include "engine/graph/expand/judge/unused.h"
@@ -45,6 +46,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   if (!own.hasErrors() && !diagnostics.hasErrors()) {
     warnUnread(model);
     warnUnused(model);
+    warnCadence(model);
   }
   own.sortByPlace();
   diagnostics.append(own);

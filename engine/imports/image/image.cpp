@@ -269,6 +269,11 @@ graph::ImportFacts Image::facts(const graph::ImportRequest& request, const World
   const ImageRequest image = imageRequestOf(request);
   if (image.file.empty()) return result;
   base::Diagnostics said;
+  if (image.fps < 0) {
+    base::Diagnostic& d = said.error(base::Code::badImportArgument, {}, "\"fps\" is below 0");
+    d.expected = "pictures per second, or 0 for one per frame";
+    d.found = fmt::format("{}", image.fps);
+  }
   const std::string path = firstFileOf(image, files, said);
   const auto header = path.empty() ? nullptr : files.get<StoredHeader>(path, assets::loadStoredHeader, said);
   if (header && fitsMemory(*header, image, path, said)) {
@@ -278,6 +283,7 @@ graph::ImportFacts Image::facts(const graph::ImportRequest& request, const World
     result.height = static_cast<std::uint32_t>(header->height);
     result.mips = levelsOf(*header, image.mips);
   }
+  result.changing = image.frame < 0 && sequencePatternOf(image.file).has_value();
   result.problems = said.items();
   return result;
 }

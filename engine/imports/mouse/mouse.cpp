@@ -52,7 +52,7 @@ graph::ImportType Mouse::reflect() const {
 }
 
 graph::ImportFacts Mouse::facts(const graph::ImportRequest&, const WorldFacts&, Files&) const {
-  return {.exists = true, .count = 1};
+  return {.exists = true, .count = 1, .changing = true};
 }
 
 std::unique_ptr<Provider> Mouse::provide(const graph::ImportRequest&) const {

@@ -17,6 +17,7 @@
 #include "engine/runtime/prepare/sampler_types.h"
 #include "engine/runtime/prepare/shader_advice.h"
 #include "engine/runtime/prepare/shader_words.h"
+#include "engine/runtime/prepare/word_check.h"
 #include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {
@@ -55,6 +56,7 @@ class Checker : PassErrors {
     checkRest();
     checkSlices(graph_.passes[pass_]);
     checkGroups();
+    if (reflection_.findUniformBlock("View")) warnTimeless(graph_, pass_, words_, diagnostics_);
     return parametersFit && !any();
   }
 

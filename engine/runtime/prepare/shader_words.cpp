@@ -142,6 +142,16 @@ std::vector<ShaderRoles::Member> ShaderWords::parameters() const {
   return {};
 }
 
+bool ShaderWords::usesOfView(std::string_view member) const {
+  return std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
+    if (!stage.source->mentions("View") || !stage.source->mentions(member)) return false;
+    const ShaderRoles& all = cache_.ofText(*stage.source);
+    const auto block = all.blockOf.find(member);
+    return block != all.blockOf.end() && block->second == "View" &&
+           variantOf(stage).reachable.contains(member);
+  });
+}
+
 bool ShaderWords::uses(std::string_view name) const {
   return std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
     return stage.source->mentions(name) && variantOf(stage).reachable.contains(name);

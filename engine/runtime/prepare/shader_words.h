@@ -59,6 +59,8 @@ class ShaderWords {
   std::vector<gl::ShaderRoles::Member> parameters() const;
   // Whether main() of some stage reaches the name.
   bool uses(std::string_view name) const;
+  // The same, of a member of the block View.
+  bool usesOfView(std::string_view member) const;
 
  private:
   bool maybe(std::string_view name, gl::Role role, bool lastOnly) const;

@@ -1,5 +1,7 @@
 #include "engine/runtime/prepare/word_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "engine/runtime/prepare/missing_slot.h"
@@ -21,6 +23,8 @@ class WordChecker : PassErrors {
         plan_(plan),
         graph_(*plan.graph),
         spec_(graph_.specs[pass]),
+        pass_(pass),
+        diagnostics_(diagnostics),
         stages_(stages),
         words_(stages, defines, cache) {}
 
@@ -39,6 +43,7 @@ class WordChecker : PassErrors {
       sayMissingParameter(uniform, words_, shaders_, declared(),
                           fail(Code::parameterNotInShader, uniform.place, ""));
     }
+    warnTimeless(graph_, pass_, words_, diagnostics_);
     // One misspelling is one mistake.
     if (any()) return;
     for (const auto& [type, name] : words_.parameters())
@@ -91,6 +96,8 @@ class WordChecker : PassErrors {
   const graph::Plan& plan_;
   const graph::FlatGraph& graph_;
   const graph::PassSpec& spec_;
+  const std::uint32_t pass_;
+  base::Diagnostics& diagnostics_;
   const std::span<const gl::StageSource> stages_;
   const ShaderWords words_;
   std::vector<std::string> declared_;
@@ -104,6 +111,26 @@ class WordChecker : PassErrors {
 void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
                 std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics) {
   WordChecker(plan, pass, stages, defines, cache, diagnostics).run();
+}
+
+void warnTimeless(const graph::FlatGraph& graph, std::uint32_t pass, const ShaderWords& words,
+                  base::Diagnostics& diagnostics) {
+  if (graph.passes[pass].cadence == graph::Cadence::always) return;
+  const graph::PassSpec& spec = graph.specs[pass];
+  for (const char* const member : {"time", "delta_time", "frame"}) {
+    if (!words.usesOfView(member)) continue;
+    const std::string message =
+        fmt::format("pass '{}' does not run in every frame, and its shader reads '{}', which is 0 there",
+                    spec.declared, member);
+    const auto isSaid = [&](const base::Diagnostic& d) {
+      return d.code == Code::cadenceMisfit && d.message == message;
+    };
+    if (std::ranges::any_of(diagnostics.items(), isSaid)) return;  // of another repeat
+    base::Diagnostic& d = diagnostics.warning(Code::cadenceMisfit, spec.place, message);
+    d.pass = spec.name;
+    d.hint = fmt::format("leave \"update\" out of '{}' if its picture is to move", spec.declared);
+    return;
+  }
 }
 
 }  // namespace weft::runtime

@@ -16,4 +16,8 @@ namespace weft::runtime {
 void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
                 std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics);
 
+// W083 for a pass that is not `always`, whose shaders read the time: it is 0 there.
+void warnTimeless(const graph::FlatGraph& graph, std::uint32_t pass, const ShaderWords& words,
+                  base::Diagnostics& diagnostics);
+
 }  // namespace weft::runtime

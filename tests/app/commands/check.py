@@ -84,6 +84,29 @@ def check_words(weft, report):
         report.check(done.codes() == ["W181", "W182"], f"a pass like another one: {done.code}\n{done.err}")
 
 
+def check_time(weft, report, *more):
+    """A shader that reads the time, in passes that see none: told once for all repeats, and not of what only has the name."""
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        (folder / "shaders").mkdir()
+        texts = {"moves": "float t() { return delta_time; }\nvoid main() { result = vec4(t()); }\n",
+                 "seeds": "#define NOW frame\nvoid main() { result = vec4(float(NOW)); }\n",
+                 "still": "float unused() { return time; }\nvoid main() { result = vec4(viewport, 0.0, 1.0); }\n"}
+        for stem, text in texts.items():
+            (folder / f"shaders/{stem}.frag.glsl").write_text('#include "common/view.glsl"\nout vec4 result;\n' + text)
+        (folder / "shaders/local.frag.glsl").write_text("out vec4 result;\nvoid main() { float time = 1.0; result = vec4(time); }\n")
+        for shader, update, told in (("moves", "on_change", "delta_time"), ("moves", "once", "delta_time"), ("seeds", "once", "frame"), ("still", "once", None),
+                                     ("local", "once", None), ("moves", "always", None)):
+            graph = folder / f"{shader}_{update}.json"
+            graph.write_text(json.dumps({
+                "resources": {"a": {"texture": "rgba8", "size": 8, "mips": 3}},
+                "passes": [{"name": "draw", "type": "fullscreen", "shader": f"{shader}.frag.glsl", "update": update, "repeat": {"i": [0, 2]}, "write": {"result": "a.mip[i]"}}],
+                "present": "a"}))
+            done = run(weft, "check", graph, *more)
+            report.check(done.code == 0 and done.codes("warning") == (["W083"] if told else []), f"{graph.name} {more}: {done.code}\n{done.err}")
+            report.check(not told or f"its shader reads '{told}', which is 0 there" in done.err, f"{graph.name} {more}: {done.err}")
+
+
 def check_present(weft, report):
     """A pass in the place of a picture, on the command line as in a graph."""
     done = run(weft, "render", GLOW, "--size", "8x8", "--present", "glow_prefilter", "-o", "out/pass.png")
@@ -241,9 +264,11 @@ def main():
     if "--gl" in sys.argv:
         check_all(weft, report)
         check_present(weft, report)
+        check_time(weft, report)
     else:
         check_formats(weft, report)
         check_words(weft, report)
+        check_time(weft, report, "--no-shaders")
         check_matrix(weft, report)
         check_many_mistakes(weft, report)
         check_watch(weft, report)

@@ -165,6 +165,7 @@ bool evaluateImport(Model& model, Entity& entity) {
     assert(import == entity.import + element);
     ImportSpec& spec = model.graph.imports[import];
     spec.count = facts.count;
+    spec.changing = facts.changing;
     if (!spec.place.file && entity.desc) spec.place = entity.desc->place;
   }
   shape.import = entity.import;
