@@ -14,8 +14,9 @@
                                             must change the picture; the same for the page of defects.py
 
 An entry: `name`; `graph`, where it is not the one of `all`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both;
-`says`, what to see; `property`, [test file, beginning of the name of a test case]. Pictures made by equal arguments are made once, and those that
-must be equal are one file. Each picture holds, in a text chunk, the command that made it.
+`says`, what to see; `crop`, [x, y, width, height], where it is too fine to be seen in the whole picture: this part alone, enlarged to the whole size;
+`property`, [test file, beginning of the name of a test case]. Pictures made by equal arguments are made once, and those that
+must be equal are one file. Each picture holds, in a text chunk, the command that made it, and its crop.
 """
 import hashlib
 import json
@@ -43,18 +44,23 @@ def arguments(entry, side):
     return " ".join(text for text in (entry.get("graph", GALLERY["all"]), entry.get("both"), entry.get(side)) if text)
 
 
+def key_of(entry, side):
+    """Equal for equal pictures."""
+    return " ".join(map(str, [arguments(entry, side), *entry.get("crop", [])]))
+
+
 def named():
     """Arguments -> picture: the name of the entry that has them on, else one made from the arguments."""
     names = {}
     for entry in ENTRIES:
         if entry.get("on") and not entry.get("equal"):
-            names.setdefault(arguments(entry, "on"), f"{entry['name']}.png")
+            names.setdefault(key_of(entry, "on"), f"{entry['name']}.png")
     for entry in ENTRIES:
-        line = arguments(entry, "off")
+        line = key_of(entry, "off")
         names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.png")
         if entry.get("equal"):
-            names[arguments(entry, "on")] = names[line]
-        line = arguments(entry, "on")
+            names[key_of(entry, "on")] = names[line]
+        line = key_of(entry, "on")
         names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.png")
     return names
 
@@ -64,21 +70,25 @@ NAMES = {}
 
 def picture_of(entry, side):
     NAMES.update(NAMES or named())
-    return NAMES[arguments(entry, side)]
+    return NAMES[key_of(entry, side)]
 
 
 def command_of(entry, side):
     return (f"./run render {arguments(entry, side)} --environment {GALLERY['environment']} --size {GALLERY['size']} "
-            f"-o docs/images/gallery/{picture_of(entry, side)}")
+            f"-o {'out' if entry.get('crop') else 'docs/images/gallery'}/{picture_of(entry, side)}")
 
 
 def commands():
-    """Picture -> the command that makes it. Where pictures are equal, that of the first."""
+    """Picture -> the command that makes it, and its crop. Where pictures are equal, that of the first."""
     made = {}
     for entry in ENTRIES:
         for side in SIDES:
-            made.setdefault(picture_of(entry, side), command_of(entry, side))
+            made.setdefault(picture_of(entry, side), (command_of(entry, side), entry.get("crop")))
     return made
+
+
+def scale_of(crop):
+    return int(GALLERY["size"].split("x")[0]) // crop[2]
 
 
 def command_of_front():
@@ -96,13 +106,22 @@ def run(weft, command, options):
         sys.exit(f"{shlex.join(words)}\n{done.stderr}")
 
 
-def render(weft, command, picture):
+def enlarged(channels, texels, width, crop):
+    scale, rows = scale_of(crop), []
+    for row in defects.crop_of(channels, texels, width, crop):
+        rows += [b"".join(texel * scale for texel in row)] * scale
+    return b"".join(rows)
+
+
+def render(weft, command, picture, crop=None):
     """As small as a PNG can be made without loss, with its command in it."""
     with tempfile.TemporaryDirectory() as folder:
         drawn = pathlib.Path(folder) / "drawn.png"
         run(weft, command, {"-o": drawn})
-        channels, texels = read_png(drawn)
-        write_png(picture, read_size(drawn)[0], channels, texels, [("Command", command)])
+        (channels, texels), width, said = read_png(drawn), read_size(drawn)[0], [("Command", command)]
+        if crop:
+            channels, texels, width, said = 3, enlarged(channels, texels, width, crop), crop[2] * scale_of(crop), [*said, ("Crop", str(crop))]
+        write_png(picture, width, channels, texels, said)
 
 
 def case_of(entry):
@@ -121,8 +140,10 @@ def page(family):
             chapter = entry["chapter"]
             out += [f"## {chapter}", ""]
         pictures = " | ".join(f"![{side}](../images/gallery/{picture_of(entry, side)})" for side in SIDES)
+        crop = entry.get("crop")
+        shown = [f"Shown: {crop[2]} x {crop[3]} pixels from ({crop[0]}, {crop[1]}), {scale_of(crop)} times as large.", ""] if crop else []
         out += [f"{'###' if chapter else '##'} {entry['effect']}", "", entry["says"], "",
-                "| " + " | ".join(f"`{entry.get(side) or 'as it is'}`" for side in SIDES) + " |", "|---|---|", f"| {pictures} |", "",
+                "| " + " | ".join(f"`{entry.get(side) or 'as it is'}`" for side in SIDES) + " |", "|---|---|", f"| {pictures} |", "", *shown,
                 "```text", *(command_of(entry, side) for side in SIDES), "```", "", f"Held by `{entry['property'][0]}`: {case_of(entry)}.", ""]
     if family["name"] == FRONT["family"]:
         out += [f"## {FRONT['effect']}", "", FRONT["says"], "", f"![front view](../images/gallery/{FRONT['name']}.png)", "",
@@ -150,14 +171,17 @@ def check_files():
     problems += [f"{path.relative_to(TOP)} is not what docs/gallery/gallery.json makes; run docs/gallery/gallery.py --pages"
                  for path, text in made.items() if not path.exists() or path.read_text() != text]
     problems += [f"{path.relative_to(TOP)} belongs to no family; delete it" for path in sorted(there - set(made))]
-    wanted = {**commands(), f"{FRONT['name']}.png": command_of_front()}
+    wanted = {**commands(), f"{FRONT['name']}.png": (command_of_front(), None)}
     found = {path.name for path in PICTURES.glob("*.png")}
     problems += [f"{PICTURES.name}/{name} is not there; run docs/gallery/gallery.py" for name in sorted(set(wanted) - found)]
     problems += [f"{PICTURES.name}/{name} belongs to no entry; delete it" for name in sorted(found - set(wanted))]
     for name in sorted(found & set(wanted)):
-        if (said := read_text(PICTURES / name, "Command")) != wanted[name]:
-            problems.append(f"{PICTURES.name}/{name} was made by another command; expected {wanted[name]}, found {said}; run docs/gallery/gallery.py")
-        size = re.search(r"--size (\S+)", wanted[name])[1]
+        command, crop = wanted[name]
+        if (said := read_text(PICTURES / name, "Command")) != command:
+            problems.append(f"{PICTURES.name}/{name} was made by another command; expected {command}, found {said}; run docs/gallery/gallery.py")
+        if (said := read_text(PICTURES / name, "Crop")) != (str(crop) if crop else None):
+            problems.append(f"{PICTURES.name}/{name} shows another part; expected {crop}, found {said}; run docs/gallery/gallery.py")
+        size = re.search(r"--size (\S+)", command)[1]
         if "{}x{}".format(*read_size(PICTURES / name)) != size:
             problems.append(f"{PICTURES.name}/{name} is not {size}; run docs/gallery/gallery.py")
     problems += [f"{entry['name']}: there is no test case {entry['property']}" for entry in ENTRIES if not case_of(entry)]
@@ -199,8 +223,8 @@ def name_old(weft):
     old = 0
     with tempfile.TemporaryDirectory() as folder:
         new = pathlib.Path(folder) / "new.png"
-        for name, command in commands().items():
-            render(weft, command, new)
+        for name, (command, crop) in commands().items():
+            render(weft, command, new, crop)
             pair = [read_png(path)[1] for path in (PICTURES / name, new)]
             differences = [abs(a - b) for a, b in zip(*pair)]
             if len(pair[0]) != len(pair[1]) or max(differences):
@@ -216,9 +240,9 @@ def make(weft, wanted, references):
     if unknown := set(wanted) - set(known):
         sys.exit(f"no entry and no family is called {', '.join(sorted(unknown))}")
     names = {picture_of(entry, side) for name in wanted or known for entry in known[name] for side in SIDES}
-    for name, command in commands().items():
+    for name, (command, crop) in commands().items():
         if name in names:
-            render(weft, command, PICTURES / name)
+            render(weft, command, PICTURES / name, crop)
             print(f"docs/images/gallery/{name}", flush=True)
     if not wanted or FRONT["name"] in wanted:
         if references:
