@@ -14,6 +14,6 @@ float alphaOfRoughness(float roughness) { return roughness * roughness; }
 float placeOfAlpha(float alpha) { return 1.0 + log2(max(alpha, 1e-6)) * (0.5 / kOctaves); }
 
 float levelOfAlpha(float alpha, int levels) { return placeOfAlpha(alpha) * float(levels - 1); }
-float roughnessOfLevel(float level, int levels) { return exp2(kOctaves * (level / float(levels - 1) - 1.0)); }
+float roughnessOfLevel(float level, int levels) { return exp2(kOctaves * (level / float(max(levels - 1, 1)) - 1.0)); }
 
 #endif

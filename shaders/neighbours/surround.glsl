@@ -54,7 +54,7 @@ float shareBelow(float height, float wide) {
 
 // The share of a uniform sky that a sphere hides from the ground; `to` goes to its centre.
 float capOnGround(vec3 to, float radius) {
-  float per = inversesqrt(max(dot(to, to), radius * radius));
+  float per = inversesqrt(max(max(dot(to, to), radius * radius), 1e-20));
   return abs(to.y) * radius * radius * per * per * per;
 }
 
@@ -184,8 +184,9 @@ float surfaceOf(Soil soil, vec3 at) { return soil.radius > 0.0 ? 1.0 - smoothste
 
 // The share of the sky's light on the ground that spheres leave, with what they throw back: see ground/contact.frag.glsl.
 vec3 skyOnGround(Soil soil, vec4 taken) {
-  float left = max(1.0 - taken.w, 0.0);
-  return (left + left * taken.rgb) / (1.0 - min(taken.w, 1.0) * taken.rgb * soil.albedo);
+  float hidden = min(taken.w, 0.999);  // of white things, all hidden is 0 / 0
+  vec3 thrown = min(taken.rgb, vec3(hidden));
+  return (1.0 - hidden) * (1.0 + thrown) / (1.0 - hidden * thrown * soil.albedo);
 }
 
 // Irradiance over pi of the ground where nothing stands: from the sky, the brightest spot and the sun.
@@ -238,7 +239,7 @@ vec3 hiddenLight(Surround surround, vec3 at, vec3 n, float radius, vec3 own_colo
     color += max(vec3(1.0 - sqrt(sqrt(matter.x))) - color, vec3(0.0)) * (away2 * away2 * away * matter.y);
     vec3 axis = normalize(mix(facing, surround.mirror + 2.0 * slant * facing, matter.y));
     // The lobe of this point, with the width of its pixel, is widened by the other sphere's curvature, then by that sphere's roughness.
-    float before = exp2((lobe.maps.y / lobe.poles.w - 1.0) * 4.0 * kOctaves), spread = 1.0 + 2.0 * matter.z;
+    float before = exp2((lobe.maps.y / max(lobe.poles.w, 1.0) - 1.0) * 4.0 * kOctaves), spread = 1.0 + 2.0 * matter.z;
     float alpha = sqrt(clamp(mix(1.0, before * spread * spread + matter.x, matter.y), 1e-6, 1.0)), cone = kConeWidth * alpha + 0.005;
     vec3 place = at + surround.mirror * matter.w;
     float below = surround.soil.is * shareBelow(axis.y, cone), surface = surfaceOf(surround.soil, place);

@@ -2,7 +2,7 @@
 // read    highlights   from find
 //         depth        reversed-Z, nearest
 //         covering     the near field from near_fill, `as linear`: premultiplied
-// modify  result       radiance, with "blend": "add"
+// modify  result       radiance, with "blend": "premultiplied"
 // params  infinity, focus   as in split
 //         tile, blades, grid   see highlights/parameters.glsl
 #include "dof/coc.glsl"
@@ -11,6 +11,8 @@
 
 uniform sampler2D depth, covering;
 out vec4 result;
+
+const float kMost = 65504.0;  // the largest half float
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), at = pixel / (tile * SCALE);
@@ -31,5 +33,7 @@ void main() {
       light += covered * seen * highlight.light.rgb;
     }
   }
-  result = vec4(light, 0.0);
+  // Discs may overlap. In "premultiplied" the share that is taken of what is there keeps the sum within half floats; of dim light it is next to nothing.
+  light = min(light, vec3(kMost));
+  result = vec4(light, max(light.r, max(light.g, light.b)) / kMost);
 }

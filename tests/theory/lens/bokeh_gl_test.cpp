@@ -96,3 +96,45 @@ TEST_CASE(
     CHECK(disc.greatest < 1.2 * disc.mean);
   }
 }
+
+// Each of the brightest texels of a small square becomes a disc. Their sum goes beyond half floats; here the picture has floats, which show it.
+TEST_CASE("focus: highlights that overlap are as bright as a half float can be, and no brighter") {
+  constexpr std::uint32_t kSize = 256;
+  for (const bool before : {false, true})
+    for (const int side : {6, 10}) {
+      constexpr double coc = 3.2;
+      const double distance = before ? 12 : 60, focus = 20, f = 0.95 * std::sqrt(coc / 120);
+      const double aperture =
+          f * f / (focus - f) * std::abs(1 - focus / distance) / (2 * coc * 0.024 / kSize);
+      Setup setup{.graph = "tests/theory/impulse_wide.json", .width = kSize, .height = kSize};
+      setup.sets = {{"dof", "true"},
+                    {"bloom", "false"},
+                    {"focal_length", std::to_string(1000 * f)},
+                    {"aperture", std::to_string(aperture)},
+                    {"focus_distance", "20"},
+                    {"plane.distance", std::to_string(distance)},
+                    {"plane.background", "0"},
+                    {"plane.value", "65504"},
+                    {"plane.side", std::to_string(side)},
+                    {"plane.at", "[60, 60]"}};
+      Lab lab(setup);
+      lab.frame(0);
+      const Picture panels = lab.read("panels");
+      CHECK(lab.reports() == "");
+      double greatest = 0;
+      bool finite = true;
+      for (std::uint32_t y = 0; y < kSize; ++y)
+        for (std::uint32_t x = kSize; x < 2 * kSize; ++x)
+          for (int c = 0; c < 3; ++c) {
+            const double value = double(panels.at(x, y)[c]);
+            finite = finite && std::isfinite(value);
+            greatest = std::max(greatest, value);
+          }
+      CAPTURE(before);
+      CAPTURE(side);
+      MESSAGE("greatest ", greatest);
+      CHECK(finite);
+      CHECK(greatest > 5000);
+      CHECK(greatest <= 65504);
+    }
+}

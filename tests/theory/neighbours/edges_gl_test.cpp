@@ -105,3 +105,29 @@ TEST_CASE("metals: two sets of paths agree on lit spheres and on their edges") {
   CHECK(meanOf(off.values) < 1.2);
   CHECK(percentileOf(off.edges, 0.99) < 8);
 }
+
+TEST_CASE("metals: with a specular map of one level all light is a number") {
+  MetalScene scene(MetalScene::Stand::onGround);
+  scene.setup.graph = "tests/theory/neighbours/one_level.json";
+  Lab lab(scene.setup);
+  lab.frame();
+  const Picture picture = lab.read("hdr");
+  CHECK(lab.reports() == "");
+  std::size_t bad = 0;
+  for (const float value : picture.texels) bad += std::isfinite(value) && value >= 0 ? 0 : 1;
+  CHECK(bad == 0);
+}
+
+TEST_CASE("ground: it gets some of the sky's light and no more than there is, whatever hides the sky") {
+  Lab lab({.graph = "tests/theory/neighbours/extremes.json", .balls = {Ball{}}});
+  lab.frame();
+  const Picture picture = lab.read("on_ground");
+  CHECK(lab.reports() == "");
+  std::size_t bad = 0;  // a NaN is neither greater nor less
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const float* is = picture.at(x, y);
+      bad += is[0] >= 0 && is[0] <= 1.0001f && std::abs(is[1] - (x > 0 ? 0.0625f : 0)) < 1e-5f ? 0 : 1;
+    }
+  CHECK(bad == 0);
+}
