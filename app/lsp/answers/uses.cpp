@@ -101,6 +101,42 @@ std::string problemOfName(const Uses& uses, const std::string& name) {
   return "";
 }
 
+// An input that an include does not bind takes the resource of its own name. Another name for one of the two parts them.
+std::string problemOfInputs(const Context& context, const Uses& uses) {
+  const auto isUnbound = [&](const Node& stanza) {
+    const Node* const bind = stanza.find("bind");
+    return stanza.find("include") && !(bind && bind->find(uses.name));
+  };
+  const auto isInput = [&](const FileIndex& file) {
+    const Node* const resources = file.text->json().root().find("resources");
+    const Node* const resource = resources ? resources->find(uses.name) : nullptr;
+    return resource && resource->find("input");
+  };
+  const auto problem = [&](const std::string& include, const std::string& path) {
+    return fmt::format(
+        "the include '{0}' in {1} gives '{2}' to the input of the same name: write \"bind\": {{ \"{2}\": "
+        "\"{2}\" }} there first",
+        include, path, uses.name);
+  };
+  for (const std::string& path : uses.files) {
+    const auto file = context.project.index(path);
+    if (!file || !file->resources.contains(uses.name)) continue;
+    for (const Node* const stanza : file->stanzas) {
+      const auto below = isUnbound(*stanza) ? file->includes.find(prefixOf(*stanza)) : file->includes.end();
+      const auto included = below == file->includes.end() ? nullptr : context.project.index(below->second);
+      if (included && isInput(*included)) return problem(below->first, path);
+    }
+    if (!isInput(*file)) continue;
+    for (const std::string& above : context.project.includersOf(path))
+      if (const auto including = context.project.index(above))
+        for (const Node* const stanza : including->stanzas)
+          if (const auto below = including->includes.find(prefixOf(*stanza));
+              isUnbound(*stanza) && below != including->includes.end() && below->second == path)
+            return problem(below->first, above);
+  }
+  return "";
+}
+
 std::string problemOfPlace(const Context& context, const Uses& uses, const std::string& name) {
   for (const Location& each : uses.locations)
     if (!context.texts.isOpen(each.path) && !context.project.isInFolders(each.path))
@@ -113,7 +149,7 @@ std::string problemOfPlace(const Context& context, const Uses& uses, const std::
                                                         : file->resources;
       if (names.contains(name)) return fmt::format("'{}' is declared already in {}", name, path);
     }
-    return "";
+    return uses.kind == Kind::resource ? problemOfInputs(context, uses) : "";
   }
   for (const std::string& path : uses.files)
     if (const auto text = context.texts.of(path))
