@@ -35,6 +35,7 @@ struct Checked {
   std::optional<graph::Matrix> matrix;
   std::size_t variants = 0;        // of shaders that were compiled
   std::vector<std::string> files;  // that were read
+  base::Diagnostics unread;        // why shaders were not looked at (--no-shaders)
 };
 
 // Compiled, or with --no-shaders by their words.
@@ -84,6 +85,7 @@ Checked checkOnce(const Options& options) {
   if (checked.files.empty()) checked.files = {options.graph};
   for (std::string& file : shaders.files()) checked.files.push_back(std::move(file));
   checked.variants = shaders.variants();
+  checked.unread = shaders.unread();
   if (checked.matrix && options.matrix)
     for (const graph::RefusedVariation& refused : checked.matrix->broken)
       for (base::Diagnostic each : refused.said.items()) {
@@ -124,6 +126,9 @@ int tellText(const Options& options, Checked& checked) {
                       base::counted(checked.plan->storages.size(), "texture"),
                       checked.plan->storages.size() == 1 ? "takes" : "share", checked.plan->bytesAllocated,
                       checked.plan->bytesDeclared));
+  // A graph may stand apart from its shaders: no mistake, but then nobody has looked at them.
+  for (const base::Diagnostic& each : checked.unread.items())
+    if (code == 0) print(fmt::format("  not looked at: {}\n", base::printable(each.message)));
   return code;
 }
 
@@ -147,6 +152,7 @@ Json documentOf(const Options& options, const Checked& checked) {
                    {"textures", checked.plan->storages.size()},
                    {"bytes_declared", checked.plan->bytesDeclared},
                    {"bytes_allocated", checked.plan->bytesAllocated}};
+  for (const base::Diagnostic& each : checked.unread.items()) out["not_looked_at"].push_back(each.message);
   if (options.shaders) out["shader_variants"] = checked.variants;
   if (checked.matrix && options.matrix)
     out["matrix"] = {{"passes", checked.matrix->passes},

@@ -24,6 +24,12 @@ std::string keyOf(const gl::ProgramRequest& request) {
   return key;
 }
 
+// What tells messages apart: the place and the words.
+std::string keyOf(const base::Diagnostic& d) {
+  const base::Place& place = d.place.inFile();
+  return fmt::format("{}:{}:{} {}", place.file ? *place.file : "", place.line, place.column, d.message);
+}
+
 // Whether two instances of one stanza have the same variant with the same things in its slots, so that one of them is enough. There
 // may be a million.
 bool isAlike(const graph::Plan& plan, const graph::PassSpec& a, const graph::PassSpec& b) {
@@ -51,6 +57,16 @@ bool isAlike(const graph::Plan& plan, const graph::PassSpec& a, const graph::Pas
 
 }  // namespace
 
+// A warning about a shader's text is the same in all its variants.
+void ShaderCheck::tell(const base::Diagnostics& said, const std::string& with,
+                       base::Diagnostics& diagnostics) {
+  for (base::Diagnostic each : said.items()) {
+    if (each.severity == base::Severity::warning && !told_.insert(keyOf(each)).second) continue;
+    if (!with.empty()) each.message += fmt::format(" (with {})", with);
+    diagnostics.add(std::move(each));
+  }
+}
+
 void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics) {
   if (failed_) return;
   if (!session_) {
@@ -77,12 +93,10 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
       if (!variant || !runtime::checkProgram(plan, step.pass, *variant, session_->context->device().limits,
                                              device.roles, said))
         break;
+      runtime::warnOfConditions(spec.name, variant->stages, variant->defines, said);
     }
   }
-  for (base::Diagnostic each : said.items()) {
-    if (!with.empty()) each.message += fmt::format(" (with {})", with);
-    diagnostics.add(std::move(each));
-  }
+  tell(said, with, diagnostics);
   read_.insert(device.sources.touched().begin(), device.sources.touched().end());
 }
 
@@ -91,7 +105,7 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
   if (!sources_)
     sources_ = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
   const passes::PassRegistry types = passes::PassRegistry::builtin();
-  base::Diagnostics said, unread;  // --no-shaders asks for no files
+  base::Diagnostics said;
   const graph::PassSpec* last = nullptr;
   for (const graph::Step& step : plan.steps) {
     if (graph::enoughErrors(said)) break;
@@ -109,19 +123,17 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
       for (const gl::ProgramRequest::Stage& stage : request.stages) {
         if (!stage.text.empty()) continue;
         const auto [known, fresh] = loaded_.try_emplace(stage.file);
-        if (fresh) known->second = sources_->load(stage.file, unread, request.place);
+        if (fresh) known->second = sources_->load(stage.file, unread_, request.place);
         stages.push_back({stage.stage, known->second});
         whole = whole && known->second;
       }
       const std::size_t before = said.items().size();
       if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, said);
+      if (whole) runtime::warnOfConditions(spec.name, stages, request.defines, said);
       if (!whole || said.items().size() > before) break;
     }
   }
-  for (base::Diagnostic each : said.items()) {
-    if (!with.empty()) each.message += fmt::format(" (with {})", with);
-    diagnostics.add(std::move(each));
-  }
+  tell(said, with, diagnostics);
   read_.insert(sources_->touched().begin(), sources_->touched().end());
 }
 
@@ -149,12 +161,9 @@ void ShaderCheck::checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sou
     base::Diagnostics said;
     for (const std::string& file : files) sources.load(file, said, pass.shaderPlace);
     for (const base::Diagnostic& each :
-         said.items())  // a pass that is like another has its shader from there
-      if (std::ranges::none_of(diagnostics.items(), [&](const base::Diagnostic& d) {
-            return d.code == each.code && base::isSamePlace(d.place.inFile(), each.place.inFile()) &&
-                   d.message == each.message;
-          }))
-        diagnostics.add(each);
+         said.items()) {  // a pass that is like another has its shader from there
+      if (told_.insert(keyOf(each)).second) diagnostics.add(each);
+    }
   }
 }
 

@@ -30,11 +30,14 @@ class ShaderCheck {
   void checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics);
 
   std::size_t variants() const { return known_.size(); }
+  // What checkWords() did not look at: shaders that are missing, or an include of theirs.
+  const base::Diagnostics& unread() const { return unread_; }
   // Every file that was read or looked for.
   std::vector<std::string> files() const;
 
  private:
   void checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sources, base::Diagnostics& diagnostics);
+  void tell(const base::Diagnostics& said, const std::string& with, base::Diagnostics& diagnostics);
 
   const Options options_;
   std::unique_ptr<DeviceSession> session_;
@@ -42,8 +45,9 @@ class ShaderCheck {
   std::unique_ptr<gl::SourceLoader> sources_;  // for checkWords()
   std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;
   runtime::RoleCache roles_;
-  std::set<std::string> known_;  // variants, by what they are made of
-  std::set<std::string> read_;
+  std::set<std::string> known_;        // variants, by what they are made of
+  std::set<std::string> read_, told_;  // files, messages
+  base::Diagnostics unread_;
 };
 
 }  // namespace weft::app

@@ -317,4 +317,40 @@ TokenList expandTokens(std::string_view text, std::span<const Define> defines, s
   return Expander(defines, most, deepest).run(text);
 }
 
+std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::span<const Define> defines) {
+  std::vector<Token> values, tested;
+  std::vector<std::string_view> made;
+  for (const Define& define : defines) made.push_back(define.name);
+  const std::vector<Token> all = splitTokens(text);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (!all[i].first || !all[i].is("#")) continue;
+    const Token& directive = all[i + 1];
+    for (std::size_t at = i + 2; at < all.size() && !all[at].first; ++at) {
+      if (directive.is("define")) {
+        made.push_back(all[at].text);
+        break;
+      }
+      if (all[at].kind != TokenKind::word || all[at].is("defined")) continue;
+      const bool asked = all[at - 1].is("defined") || (all[at - 1].is("(") && all[at - 2].is("defined"));
+      if (directive.is("ifdef") || directive.is("ifndef") || asked)
+        tested.push_back(all[at]);
+      else if (directive.is("if") || directive.is("elif"))
+        values.push_back(all[at]);
+    }
+  }
+  std::vector<UnknownCondition> unknown;
+  const auto add = [&](const Token& word, bool value) {
+    const auto sameText = [&](const Token& other) { return other.text == word.text; };
+    const bool driver = word.text.starts_with("GL_") || word.text.starts_with("__");
+    if (driver || std::ranges::find(made, word.text) != made.end() ||
+        (value && std::ranges::any_of(tested, sameText)) ||
+        std::ranges::any_of(unknown, [&](const UnknownCondition& known) { return sameText(known.word); }))
+      return;
+    unknown.push_back({word, value});
+  };
+  for (const Token& word : values) add(word, true);
+  for (const Token& word : tested) add(word, false);
+  return unknown;
+}
+
 }  // namespace weft::gl

@@ -46,6 +46,15 @@ struct TokenList {
 TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint64_t most,
                        std::uint32_t deepest);
 
+// The words of the conditionals of a text that neither `defines` nor a #define of the text makes, each once, in any branch:
+// to a compiler they are 0. `value`: compared in an #if or #elif that no #ifdef, #ifndef or defined() guards; else the words
+// of these. Names of drivers (GL_…, __…) are left out.
+struct UnknownCondition {
+  Token word;
+  bool value = false;
+};
+std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::span<const Define> defines);
+
 // The tokens of a text as it stands, directives included.
 std::vector<Token> splitTokens(std::string_view text);
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "engine/base/chars.h"
+#include "engine/base/nearest.h"
+#include "engine/gl/shaders/tokens.h"
 #include "engine/runtime/prepare/missing_slot.h"
 #include "engine/runtime/prepare/pass_errors.h"
 
@@ -131,6 +134,34 @@ void warnTimeless(const graph::FlatGraph& graph, std::uint32_t pass, const Shade
     d.hint = fmt::format("leave \"update\" out of '{}' if its picture is to move", spec.declared);
     return;
   }
+}
+
+void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
+                      std::span<const gl::Define> defines, base::Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const gl::Define& define : defines) names.push_back(define.name);
+  for (const gl::StageSource& stage : stages)
+    for (const gl::UnknownCondition& unknown : gl::unknownInConditions(stage.source->text, defines)) {
+      const auto likeIt = [&](const std::string& name) {
+        return base::lowered(name) == base::lowered(unknown.word.text);
+      };
+      const auto other = std::ranges::find_if(names, likeIt);
+      // A word that is only asked for may well be a slot that this pass does not have.
+      const std::string meant = other != names.end() ? *other
+                                : unknown.value      ? base::nearestName(unknown.word.text, names)
+                                                     : "";
+      const base::Place place = stage.source->placeOf(unknown.word.line, unknown.word.column);
+      if (meant.empty() || std::ranges::any_of(diagnostics.items(), [&](const base::Diagnostic& d) {
+            return d.code == Code::undeclaredShaderInput && base::isSamePlace(d.place.inFile(), place);
+          }))
+        continue;
+      base::Diagnostic& d =
+          diagnostics.warning(Code::undeclaredShaderInput, place,
+                              fmt::format("nothing defines '{}': {}", unknown.word.text,
+                                          unknown.value ? "to the compiler it is 0" : "it never is"));
+      d.pass = pass;
+      d.hint = fmt::format("did you mean '{}'?", meant);
+    }
 }
 
 }  // namespace weft::runtime

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "engine/base/diagnostic.h"
 #include "engine/graph/plan.h"
@@ -19,5 +20,10 @@ void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl:
 // W083 for a pass that is not `always`, whose shaders read the time: it is 0 there.
 void warnTimeless(const graph::FlatGraph& graph, std::uint32_t pass, const ShaderWords& words,
                   base::Diagnostics& diagnostics);
+
+// Warns (W187) of words in conditionals of the shaders that nothing defines and that look like a misspelt define of the pass:
+// to a compiler they are 0, whatever the graph says. Once for each place, however many passes have the shader.
+void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
+                      std::span<const gl::Define> defines, base::Diagnostics& diagnostics);
 
 }  // namespace weft::runtime

@@ -107,6 +107,57 @@ def check_time(weft, report, *more):
             report.check(not told or f"its shader reads '{told}', which is 0 there" in done.err, f"{graph.name} {more}: {done.err}")
 
 
+TONES = """{ "parameters": { "tone": { "default": "soft", "choices": ["soft", "hard"] } }, "resources": { "a": { "texture": "rgba8", "size": 8 }, "b": { "texture": "rgba8", "size": 8 } },
+  "passes": [
+    { "name": "one", "type": "fullscreen", "shader": "tone.frag.glsl", "write": { "result": "a" }, "defines": { "TONE": "$tone" } },
+    { "name": "two", "type": "fullscreen", "shader": "tone.frag.glsl", "read": { "glow": "a" }, "write": { "result": "b" }, "defines": { "TONE": "$tone" } } ],
+  "present": "b" }
+"""
+TONE = """out vec4 result;
+#ifdef HAS_%s
+uniform sampler2D glow;
+#endif
+void main() {
+  result = vec4(0.0);
+#if TONE == TONE_SOFT
+  result += 1.0;
+#elif TONE == TONE_%s
+  result += 2.0;
+#endif
+#if defined(LATER) && LATER > 2
+  result += 3.0;
+#endif
+}
+"""
+
+
+def check_conditions(weft, report):
+    """Words of an #if that nothing defines are 0 to a compiler: told where they look misspelt, once for a shader and all its variants."""
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        (folder / "shaders").mkdir()
+        (folder / "g.json").write_text(TONES)
+        for slot, word, said in (("GLOW", "HARD", []), ("GLOW", "HRAD", ["9:15"]), ("Glow", "HARD", ["2:8"])):
+            (folder / "shaders/tone.frag.glsl").write_text(TONE % (slot, word))
+            for more in ([], ["--all"]):
+                done = run(weft, "check", "--no-shaders", folder / "g.json", *more)
+                places = [line.split(": warning[W187]")[0].split("glsl:")[1] for line in done.err.splitlines() if "warning[W187]" in line]
+                report.check(done.code == 0 and places == said, f"{slot} {word} {more}: {done.code}\n{done.err}")
+        report.check("did you mean 'HAS_GLOW'?" in done.err, done.err)
+
+
+def check_missing_shader(weft, report):
+    """With --no-shaders a shader that is not there is no mistake, and not silent."""
+    with temporary_folder() as name:
+        graph = pathlib.Path(name, "g.json")
+        graph.write_text(TONES)
+        done = run(weft, "check", "--no-shaders", graph)
+        report.check(done.code == 0 and done.out.count("not looked at: shader 'tone.frag.glsl' not found") == 1, f"{done.code}\n{done.out}{done.err}")
+        done = run(weft, "check", "--no-shaders", graph, "--format", "json")
+        report.check(done.code == 0 and json.loads(done.out)["not_looked_at"] == ["shader 'tone.frag.glsl' not found"], done.out)
+        report.check("not looked at" not in run(weft, "check", "--no-shaders", GLOW).out, "a graph whose shaders are there")
+
+
 def check_present(weft, report):
     """A pass in the place of a picture, on the command line as in a graph."""
     done = run(weft, "render", GLOW, "--size", "8x8", "--present", "glow_prefilter", "-o", "out/pass.png")
@@ -269,6 +320,8 @@ def main():
         check_formats(weft, report)
         check_words(weft, report)
         check_time(weft, report, "--no-shaders")
+        check_conditions(weft, report)
+        check_missing_shader(weft, report)
         check_matrix(weft, report)
         check_many_mistakes(weft, report)
         check_watch(weft, report)
