@@ -1,6 +1,7 @@
 // Motion blur over an open shutter, centred on the frame, in the tiles that gather.vert.glsl picks. Scene-referred.
 // read    still, streaks   from streaks.frag.glsl; all textures by any sampler (texels are fetched)
 //         tiles, more?     from motions
+//         still_behind?, streaks_behind?   the same two of the picture without what is seen first; both or neither
 // modify  result     radiance; alpha stays
 // params  shutter    degrees: 360 is open all the time between two frames
 //         samples    moments of the shutter's time at most; short streaks take two for each pixel of their length
@@ -9,13 +10,16 @@
 // For each of some moments, what is at the pixel then? A texel that moves by a streak is at the pixel when it lies that far before it. Which
 // texel that is depends on its own motion, so it is searched for along the motion of the pixel and along up to four motions around it (tiles
 // after McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012). Of the texels that do arrive at the pixel the nearest is
-// seen. Where none does, something comes into view that nobody has drawn: of the surface behind, the texel stands in that is nearest to the
-// place which is hidden.
+// seen. With a picture of what is behind, its texels count too. What reaches the picture's side goes on beyond it. Where no texel arrives,
+// something comes into view that nobody has drawn: of the surface behind, the texel stands in that is nearest to the place which is hidden.
 #include "blur.glsl"
 
 uniform sampler2D still, streaks, tiles;
 #ifdef HAS_MORE
 uniform sampler2D more;
+#endif
+#ifdef HAS_STREAKS_BEHIND
+uniform sampler2D still_behind, streaks_behind;
 #endif
 layout(std140) uniform Parameters {
   float shutter;
@@ -61,18 +65,30 @@ void main() {
   for (int i = 0; i < (alike ? 0 : n); ++i) {
     float t = (float(i) + noise) / float(n) * 2.0 - 1.0, seen = -1.0;
     ivec2 seen_at = pixel;
+#ifdef HAS_STREAKS_BEHIND
+    bool seen_behind = false;
+#endif
     // The pixel's own motion and that of the texel found so, the first of the others and that of the texel found so, the rest.
     vec2 motion = own.xy;
     vec4 first = own;  // what the pixel's own motion leads to
     for (int k = 0; k < tries; ++k) {
       if (k == 2) motion = around[0];
       if (k > 3) motion = around[k - 3];
-      ivec2 at = clamp(ivec2(floor(here - motion * t)), ivec2(0), last);
+      vec2 from = floor(here - motion * t), way = here - from - 0.5;
+      ivec2 at = clamp(ivec2(from), ivec2(0), last);
       vec4 found = texelFetch(streaks, at, 0);
-      vec2 miss = abs(vec2(at) + 0.5 + found.xy * t - here);
+      vec2 miss = abs(found.xy * t - way);
       bool arrives = max(miss.x, miss.y) < kMiss && found.w > seen;
       seen = arrives ? found.w : seen;
       seen_at = arrives ? at : seen_at;
+#ifdef HAS_STREAKS_BEHIND
+      vec4 behind = texelFetch(streaks_behind, at, 0);
+      miss = abs(behind.xy * t - way);
+      bool arrives_behind = max(miss.x, miss.y) < kMiss && behind.w > seen;
+      seen = arrives_behind ? behind.w : seen;
+      seen_at = arrives_behind ? at : seen_at;
+      seen_behind = arrives_behind || (seen_behind && !arrives);
+#endif
       motion = found.xy;
       first = k == 0 ? found : first;
     }
@@ -87,7 +103,12 @@ void main() {
         seen_at = kBehind * texelFetch(streaks, at, 0).w <= back.w ? at : seen_at;
       }
     }
-    sum += texelFetch(still, seen_at, 0).rgb;
+#ifdef HAS_STREAKS_BEHIND
+    vec3 light = seen_behind ? texelFetch(still_behind, seen_at, 0).rgb : texelFetch(still, seen_at, 0).rgb;
+#else
+    vec3 light = texelFetch(still, seen_at, 0).rgb;
+#endif
+    sum += light;
   }
   result = vec4(sum / float(n), texelFetch(still, pixel, 0).a);
 }

@@ -1,5 +1,6 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment, the sun and lamps.
 // read    what light comes from   see shading/light.glsl; air?: fog/fog.glsl
+//         nearer?     a depth: only what is behind it is drawn; any sampler (texels are fetched)
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)
@@ -36,6 +37,9 @@ flat in mat3 before_turn;
 flat in vec3 before_eye;
 #endif
 
+#ifdef HAS_NEARER
+uniform sampler2D nearer;
+#endif
 #ifdef HAS_RADIANCE
 out vec4 radiance;
 #endif
@@ -85,6 +89,9 @@ void findPoint(out Point point) {
   float side = (cv - root) * per_vv >= near_distance ? -1.0 : 1.0;
   float t = (cv + side * root) * per_vv;
   if (coverage <= 0.0 || t < near_distance) discard;
+#ifdef HAS_NEARER
+  if (near_distance / t >= 0.9999 * texelFetch(nearer, ivec2(gl_FragCoord.xy), 0).r) discard;
+#endif
 
   // From the centre to the hit: the ray's foot is (c x v) x v / v.v away from it.
   vec3 out_of = (cross(cw, v) + side * root * v) * per_vv;

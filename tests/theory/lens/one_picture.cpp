@@ -1,0 +1,115 @@
+#include "tests/theory/lens/one_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::theory {
+
+namespace {
+
+constexpr int kSky = -1, kMixed = -2;
+
+}  // namespace
+
+OnePicture::OnePicture(std::vector<Ball> balls, const scene::CameraKey& camera, std::uint32_t width,
+                       std::uint32_t height, Radiance picture)
+    : balls_(std::move(balls)),
+      width_(int(width)),
+      height_(int(height)),
+      view_(viewOf(camera)),
+      picture_(std::move(picture)),
+      true_colors_(picture_.size()),
+      its_colors_(picture_.size()) {
+  std::vector<int> seen;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      seen.push_back(hitOf(view_.eye, rayOf(view_, {x + 0.5, y + 0.5}), 0).ball);
+  balls_seen_ = seen;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      for (int i = 0; i < 9; ++i) {
+        const int beside =
+            std::clamp(y + i / 3 - 1, 0, height_ - 1) * width_ + std::clamp(x + i % 3 - 1, 0, width_ - 1);
+        const int at = y * width_ + x;
+        if (seen[std::size_t(beside)] != seen[std::size_t(at)]) balls_seen_[std::size_t(at)] = kMixed;
+      }
+}
+
+OnePicture::View OnePicture::viewOf(const scene::CameraKey& camera) const {
+  const glm::dvec3 ahead = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.position));
+  const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
+  return {camera.position, right, glm::cross(right, ahead), ahead,
+          height_ / 2.0 / std::tan(glm::radians(double(camera.fovDegrees)) / 2)};
+}
+
+glm::dvec3 OnePicture::rayOf(const View& view, glm::dvec2 pixel) const {
+  const glm::dvec2 slope = (pixel - glm::dvec2(width_, height_) / 2.0) / view.focal;
+  return view.ahead + slope.x * view.right + slope.y * view.up;
+}
+
+OnePicture::Hit OnePicture::hitOf(glm::dvec3 eye, glm::dvec3 ray, double seconds) const {
+  Hit hit{kSky, 1e30, ray};
+  const double squared = glm::dot(ray, ray);
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    const glm::dvec3 to = glm::dvec3(balls_[i].center) + seconds * glm::dvec3(balls_[i].velocity) - eye;
+    const double along = glm::dot(to, ray), radius = double(balls_[i].radius);
+    const double root = along * along - squared * (glm::dot(to, to) - radius * radius);
+    if (root < 0) continue;
+    const double distance = (along - std::sqrt(root)) / squared;
+    if (distance > 0 && distance < hit.distance) hit = {int(i), distance, eye + distance * ray};
+  }
+  return hit;
+}
+
+// `hit` as it lies at the moment of the picture. `pixel`: where it would be seen.
+bool OnePicture::isVisible(const Hit& hit, glm::dvec2& pixel) const {
+  const glm::dvec3 ray = hit.ball == kSky ? hit.position : hit.position - view_.eye;
+  const double deep = glm::dot(ray, view_.ahead);
+  if (deep <= 0) return false;
+  pixel = glm::dvec2(width_, height_) / 2.0 +
+          view_.focal / deep * glm::dvec2(glm::dot(ray, view_.right), glm::dot(ray, view_.up));
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= width_ || pixel.y >= height_) return false;
+  const Hit first = hitOf(view_.eye, ray, 0);
+  return first.ball == hit.ball && (hit.ball == kSky || first.distance > 1 - 1e-6);
+}
+
+// The index of a pixel of the picture, found in growing squares; the nearest of all when the ball is nowhere visible.
+int OnePicture::guess(int ball, glm::dvec2 pixel) const {
+  const int x = std::clamp(int(std::floor(pixel.x)), 0, width_ - 1);
+  const int y = std::clamp(int(std::floor(pixel.y)), 0, height_ - 1);
+  int found = y * width_ + x;
+  double least = 1e30;
+  for (int ring = 0; ring < std::max(width_, height_) && double(ring - 2) * (ring - 2) < least; ++ring)
+    for (int j = -ring; j <= ring; ++j)
+      for (int i = -ring; i <= ring; i += std::abs(j) == ring ? 1 : 2 * ring) {
+        if (x + i < 0 || y + j < 0 || x + i >= width_ || y + j >= height_) continue;
+        const int at = (y + j) * width_ + x + i;
+        const glm::dvec2 apart = glm::dvec2(x + i, y + j) + 0.5 - pixel;
+        if (balls_seen_[std::size_t(at)] != ball || glm::dot(apart, apart) >= least) continue;
+        least = glm::dot(apart, apart);
+        found = at;
+      }
+  return found;
+}
+
+void OnePicture::add(double seconds, const scene::CameraKey& camera, const Picture& sharp, double weight) {
+  const View view = viewOf(camera);
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      Hit hit = hitOf(view.eye, rayOf(view, {x + 0.5, y + 0.5}), seconds);
+      if (hit.ball != kSky) hit.position -= seconds * glm::dvec3(balls_[std::size_t(hit.ball)].velocity);
+      glm::dvec2 pixel(x + 0.5, y + 0.5);
+      const bool visible = isVisible(hit, pixel);
+      const int from = visible ? int(pixel.y) * width_ + int(pixel.x) : guess(hit.ball, pixel);
+      const float* now = sharp.at(std::uint32_t(x), std::uint32_t(y));
+      const std::size_t at = std::size_t(y * width_ + x) * 3;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double carried = picture_[std::size_t(from) * 3 + c];
+        true_colors_[at + c] += weight * (visible ? double(now[c]) : carried);
+        its_colors_[at + c] += weight * carried;
+      }
+      hidden_ += visible ? 0 : weight / (width_ * height_);
+    }
+}
+
+}  // namespace weft::theory
