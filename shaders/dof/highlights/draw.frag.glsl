@@ -13,6 +13,36 @@ uniform sampler2D depth, covering;
 out vec4 result;
 
 const float kMost = 65504.0;  // the largest half float
+// Radius of the disc of each of the four pixels around `at`, in the order of textureGather; negative in the near field.
+vec4 radiiAround(vec2 at) {
+  vec4 depths = textureGather(depth, at / viewport);
+  return infinity - (infinity * focus / near_plane) * depths;
+}
+
+// How much of the light that a highlight sends to this pixel passes what is nearer. It comes from one place on the lens. On its way, at the depth
+// where discs have the radius r, it is seen at `middle` + (pixel - middle) (1 - r / radius). Something hides it where what is seen there is at that depth.
+// `nearest`: radius of the largest disc of the near field that may do so.
+float passing(vec2 middle, float radius, float nearest) {
+  vec2 way = gl_FragCoord.xy - middle;
+  float size = abs(radius), first = radius < 0.0 ? -1.15 * size : 0.85 * size, last = -nearest;
+  float step_size = min(0.12 * size, 1.5);
+  int steps = min(int(ceil((first - last) / step_size)), 64);
+  float seen = 1.0;
+  for (int i = 0; i <= steps && seen > 0.0; ++i) {
+    float there = first - step_size * float(i);
+    vec2 at = middle + way * (1.0 - there / radius);
+    if (any(notEqual(at, clamp(at, vec2(0.0), viewport)))) continue;
+    float scene = infinity - (infinity * focus / near_plane) * texelFetch(depth, ivec2(at), 0).r;
+    if (abs(scene - there) > step_size || scene > first) continue;
+    // As exact as the pixels are: there the light is at the depth of what was found.
+    at = middle + way * (1.0 - scene / radius);
+    vec4 hit = step(abs(radiiAround(at) - scene), vec4(step_size));
+    vec2 part = fract(at - 0.5);
+    // Depth has a whole pixel where a thing covers any part of it: on average it ends half a pixel too far out.
+    seen = min(seen, 2.0 - 2.0 * mix(mix(hit.w, hit.z, part.x), mix(hit.x, hit.y, part.x), part.y));
+  }
+  return seen;
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), at = pixel / (tile * SCALE);
@@ -27,9 +57,10 @@ void main() {
     int list = inside ? there.y * grid.x + there.x : 0, count = inside ? int(lists[list].count.x) : 0;
     for (int k = 0; k < count; ++k) {
       Highlight highlight = lists[list].of[k];
-      float covered = coveredBy(highlight.radius, highlight.light.a, gl_FragCoord.xy - highlight.middle, blades);
+      float covered = coveredBy(highlight.radius, abs(highlight.light.a), gl_FragCoord.xy - highlight.middle, blades);
       // A surface of the far field hides the discs behind it. It is nearer than a highlight when its own disc is smaller.
       float seen = highlight.radius < 0.0 ? 1.0 : own < 0.0 ? open : open * smoothstep(0.77, 0.91, own / highlight.radius);
+      if (covered > 0.0 && highlight.light.a < 0.0) seen = passing(highlight.middle, highlight.radius, lists[list].count.y);
       light += covered * seen * highlight.light.rgb;
     }
   }

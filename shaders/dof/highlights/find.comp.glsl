@@ -1,7 +1,7 @@
 // Finds highlights out of focus: the few texels that are far brighter than all around them, so that the picture shows the aperture's outline there.
 // This shader lists them for each tile, dim.comp.glsl takes their light out of the fields, and draw.frag.glsl draws them at full size (scattering
-// beside gathering; Abadie, "A life of a bokeh", SIGGRAPH 2018). A highlight whose disc a nearer surface may partly cover stays in the fields, which
-// know what covers what.
+// beside gathering; Abadie, "A life of a bokeh", SIGGRAPH 2018). Where a nearer surface may hide a highlight from a part of the lens, the draw looks
+// for what does.
 // read    near, far    from split
 //         discs        from split
 //         tiles        from tiles
@@ -21,11 +21,13 @@ layout(std140) uniform Parameters {
   float largest;
 };
 
-const float kLeastDisc = 2.9;      // radius in pixels; smaller discs stay in the fields
+// Radii in pixels: smaller discs than the first stay in the fields, larger ones than the second are drawn, in between a part of each.
+const float kLeastDisc = 2.6, kWholeDisc = 2.95;
 const float kContrast = 4.0;       // a highlight is brighter than so many means of its tile
-const float kLeastVisible = 0.05;  // least radiance of the disc, over the mean of the tile
+// The same for the radiance of the disc, over the mean of the tile. Parts instead of a switch: else what moves or grows would switch from frame to frame.
+const float kLeastVisible = 0.01, kWholeVisible = 0.03;
 // The brightest texel around, over that of the highlight: up to kAlone the highlight takes all light above that, from kNotAlone on none.
-const float kAlone = 0.1, kNotAlone = 0.25;
+const float kAlone = 0.1, kNotAlone = 0.3;
 const ivec2 kAround[8] = ivec2[8](ivec2(4, 0), ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3));
 
 // Brightness of a texel of the fields, both together: green stands for it.
@@ -42,25 +44,25 @@ vec4 greenAround(ivec2 at, float reached) {
   return reached > 0.0 ? green + textureGather(near, middle, 1) : green;
 }
 
-// Whether, in the near field, the disc of something nearer may lie over a disc of radius `disc` at `at`, in texels of the fields. Nearer things have
-// larger discs there.
-bool isOverlaid(ivec2 at, float disc) {
+// Whether something of the near field may hide a disc of radius `disc` at `at` from a part of the lens; both in texels of the fields. Of discs of the
+// near field themselves only larger ones do: these are nearer.
+bool isOverlaid(ivec2 at, float disc, bool is_near) {
   bool overlaid = false;
   for (int i = 0; i < 25; ++i) {
     ivec2 there = clamp(at / tile + ivec2(i % 5, i / 5) - 2, ivec2(0), textureSize(tiles, 0) - 1);
     float other = texelFetch(tiles, there, 0).r;
     vec2 away = vec2(max(max(there * tile - at, at - (there + 1) * tile), ivec2(0)));
-    overlaid = overlaid || (other > 1.3 * disc && length(away) < disc + other);
+    overlaid = overlaid || (other > (is_near ? 1.15 * disc : 0.0) && length(away) < disc + other);
   }
   return overlaid;
 }
-// The same in the far field, where nearer things have smaller discs.
+// Whether something nearer of the far field may, where nearer things have smaller discs.
 bool isCovered(ivec2 at, float disc) {
   bool covered = false;
-  for (int i = 0; i < 8; ++i) {
-    ivec2 there = clamp(at + ivec2(round(vec2(kAround[i]) * 0.25 * disc)), ivec2(0), textureSize(far, 0) - 1);
+  for (int i = 0; i < 16; ++i) {
+    ivec2 there = clamp(at + ivec2(round(vec2(kAround[i & 7]) * (i < 8 ? 0.125 : 0.25) * disc)), ivec2(0), textureSize(far, 0) - 1);
     float share = texelFetch(far, there, 0).a;
-    covered = covered || (share > 0.0 && texelFetch(discs, there, 0).g < 0.75 * disc * share);
+    covered = covered || (share > 0.0 && texelFetch(discs, there, 0).g < 0.9 * disc * share);
   }
   return covered;
 }
@@ -75,11 +77,13 @@ Highlight highlightAt(ivec2 at, float mean) {
   if (float(SCALE) * radius < kLeastDisc) return found;
   for (int i = 0; i < 8; ++i) around = max(around, greenAt(at + kAround[i]));
   float share = (1.0 - around / green) * (1.0 - smoothstep(kAlone, kNotAlone, around / green));
-  if (share <= 0.0 || (is_near ? isOverlaid(at, radius) : isCovered(at, radius))) return found;
+  if (share <= 0.0) return found;
+  bool partial = isOverlaid(at, radius, is_near) || (!is_near && isCovered(at, radius));
   radius *= float(SCALE);
   // The place of the light within the texel, and the width of the disc's edge. Three things make the edge wider: the square of the pixel that gives the
   // light, the square of the pixel that gets it, and how far the light is spread within the texel. An even slope must be a seventh wider to be as steep
-  // in its middle as the edge that squares make.
+  // in its middle as the edge that squares make. The first of the three counts only a fifth: edges of lights are anti-aliased, so that a pixel mostly
+  // has its light from a part of it.
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < SCALE * SCALE; ++i) {
@@ -90,10 +94,13 @@ Highlight highlightAt(ivec2 at, float mean) {
     weights += weight;
   }
   sum /= weights;
-  float soft = sqrt(2.67 + 16.0 * max(sum.z - 0.5 * dot(sum.xy, sum.xy), 0.0));
+  float soft = sqrt(1.6 + 16.0 * max(sum.z - 0.5 * dot(sum.xy, sum.xy), 0.0));
   vec3 light = (is_near ? before.rgb : behind.rgb) * share * (float(SCALE * SCALE) / areaOf(radius, soft, blades));
-  if (light.g < kLeastVisible * mean) return found;
-  return Highlight(vec2(at * SCALE) + sum.xy, is_near ? -radius : radius, share, vec4(light, soft));
+  float part = smoothstep(kLeastVisible, kWholeVisible, light.g / mean) * smoothstep(kLeastDisc, kWholeDisc, radius);
+  if (part <= 0.0) return found;
+  share *= part;
+  light *= part;
+  return Highlight(vec2(at * SCALE) + sum.xy, is_near ? -radius : radius, share, vec4(light, partial ? -soft : soft));
 }
 
 void main() {
@@ -127,5 +134,7 @@ void main() {
         count += found.share > 0.0 ? 1 : 0;
       }
     }
-  lists[list].count = vec4(count <= HIGHLIGHTS ? float(count) : 0.0);
+  float nearest = 0.0;
+  for (int i = 0; i < (count > 0 ? 25 : 0); ++i) nearest = max(nearest, texelFetch(tiles, clamp(at + ivec2(i % 5, i / 5) - 2, ivec2(0), grid - 1), 0).r);
+  lists[list].count = vec4(count <= HIGHLIGHTS ? float(count) : 0.0, float(SCALE) * nearest, 0.0, 0.0);
 }

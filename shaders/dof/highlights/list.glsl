@@ -13,10 +13,11 @@ struct Highlight {
   vec2 middle;   // of its disc, in pixels of the full picture
   float radius;  // of its disc, in the same pixels; negative in the near field
   float share;   // how much of the light of its texel it takes, 0 to 1
-  vec4 light;    // two things: rgb is the radiance of a pixel that its disc covers whole; a is the width of the disc's soft edge, in the same pixels
+  vec4 light;    // two things: rgb is the radiance of a pixel that its disc covers whole; a is the width of the disc's soft edge, in the same pixels,
+                 // negative where something nearer may hide a part of the disc
 };
 struct TileHighlights {
-  vec4 count;  // x: how many of the highlights are there; yzw have no meaning
+  vec4 count;  // x: how many of the highlights are there; y: radius in pixels of the largest disc of the near field around; zw have no meaning
   Highlight of[HIGHLIGHTS];
 };
 
