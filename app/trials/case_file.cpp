@@ -75,6 +75,13 @@ class CaseReader {
     if (const JsonValue* object = fields.object("defaults")) {
       JsonFields given(*object, "the defaults", Code::outOfRange, diagnostics_);
       readShared(given, defaults);
+      for (const char* key : {"name", "graph", "plan"})
+        if (const JsonValue* own = given.find(key)) {
+          graphInDefaults_ = graphInDefaults_ || key == std::string_view("graph");
+          base::Diagnostic& d = diagnostics_.error(Code::unknownKey, own->place,
+                                                   fmt::format("\"{}\" stands in \"defaults\"", key));
+          d.hint = "write it in each case";
+        }
       given.finish();
     }
     if (const JsonValue* list = fields.array("cases"))
@@ -101,7 +108,10 @@ class CaseReader {
     JsonFields fields(value,
                       named && named->is(JsonValue::Type::string) ? "case '" + named->text + "'" : "a case",
                       Code::outOfRange, diagnostics_);
-    fields.require({"name", "graph"});
+    if (graphInDefaults_)  // reported there
+      fields.require({"name"});
+    else
+      fields.require({"name", "graph"});
     if (const auto name = fields.text("name")) readName(*name, fields.find("name")->textPlace(), test);
     if (const auto graph = fields.text("graph")) test.options.graph = besideCase(fields, "graph", *graph);
     test.plan = fields.boolean("plan").value_or(false);
@@ -235,6 +245,7 @@ class CaseReader {
   base::Diagnostics& diagnostics_;
   std::shared_ptr<const std::string> file_;
   std::string folder_;
+  bool graphInDefaults_ = false;
   std::set<std::string> names_;
 };
 

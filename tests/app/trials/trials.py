@@ -23,6 +23,14 @@ def write_mask(path, width, height, white):
     path.write_bytes(png([[(255 if white(x, y) else 0,) for x in range(width)] for y in range(height)]))
 
 
+def check_defaults(weft, report, folder):
+    """A graph among the defaults is one mistake, however many cases have none of their own."""
+    write_cases(folder, [{"name": "one"}, {"name": "two"}], defaults={"size": SIZE, "graph": GLOW})
+    result = run(weft, "test", folder)
+    report.check(result.code == 2 and result.err.count("error[") == 1 and '"graph" stands in "defaults"' in result.err and "write it in each case" in result.err,
+                 f"{result.code}\n{result.out}{result.err}")
+
+
 def check_test(weft, report, folder):
     def test(*arguments):
         return run(weft, "test", folder, *arguments)
@@ -342,7 +350,7 @@ def check_new(weft, report, folder):
 
 def main():
     weft, report = pathlib.Path(sys.argv[1]).resolve(), Report()
-    for check in (check_test, check_mistakes, check_files, check_bisect, check_fuzz, check_new):
+    for check in (check_test, check_defaults, check_mistakes, check_files, check_bisect, check_fuzz, check_new):
         with temporary_folder() as folder:
             check(weft, report, pathlib.Path(folder))
     check_ablate(weft, report)
