@@ -13,6 +13,7 @@ uniform sampler2D depth, covering;
 out vec4 result;
 
 const float kMost = 65504.0;  // the largest half float
+
 // Radius of the disc of each of the four pixels around `at`, in the order of textureGather; negative in the near field.
 vec4 radiiAround(vec2 at) {
   vec4 depths = textureGather(depth, at / viewport);
