@@ -39,9 +39,9 @@ float varianceOf(float alpha) {
 }
 
 // Width of the lobe of V = N that has this variance, from 0.005 on: narrower ones are not in the map.
-float alphaOfVariance(float variance) {
+float alphaOfVariance(float variance, int steps) {
   vec2 range = vec2(log2(0.005), log2(0.995));
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < steps; ++i) {
     float middle = 0.5 * (range.x + range.y);
     range = varianceOf(exp2(middle)) < variance ? vec2(middle, range.y) : vec2(range.x, middle);
   }
@@ -62,6 +62,7 @@ void main() {
   float cap = 1.0 - lowest;
   float masking = sqrt(1.0 + a2 * (sv * sv) / (nv * nv));  // 1 + 2 Lambda(V)
 
+  int quarters = size.x > 0 ? kAzimuths / 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
   vec2 sum = vec2(0.0);
   vec3 light = vec3(0.0);  // mean direction towards the light in the plane of incidence; mean square across it
   for (int i = 0; i < kHeights; ++i) {
@@ -73,7 +74,7 @@ void main() {
     vec3 part_light = vec3(0.0);
     vec2 around = kFirst;
     // Four midpoints at once, mirrored at the azimuths pi / 4 and pi / 2.
-    for (int j = 0; j < kAzimuths / 4; ++j) {
+    for (int j = 0; j < quarters; ++j) {
       vec4 hx = alpha * (w.x + ring * vec4(around, -around)), hy = (alpha * ring) * around.yxyx;
       vec4 scale = inversesqrt(hx * hx + hy * hy + hz * hz);
       vec4 vh = clamp((hx * sv + hz * nv) * scale, 0.0, 1.0), twice = 2.0 * vh * scale;
@@ -93,7 +94,7 @@ void main() {
   // V leans to +X, so the mirror direction is (-sv, nv).
   float rise = light.y * sv + light.x * nv, lean = clamp(rise / max(rise - light.x, 1e-6), 0.0, 1.0);
   float across = light.z, along = max(1.0 - dot(light.xy, light.xy) - across, 0.0);
-  float like = alphaOfVariance(sqrt(along * across));
+  float like = alphaOfVariance(sqrt(along * across), 3 * quarters);
   // Mirrors, whose variance is beyond the precision of floats: the lobe is nv times as wide across the plane.
   if (alpha < 0.005) like = alpha * sqrt(nv);
   imageStore(table, at, vec4(sum * (cap / ((1.0 + w.y) * float(kAzimuths))), lean, placeOfAlpha(like) - placeOfAlpha(alpha)));

@@ -26,23 +26,32 @@ void main() {
   float cos_n = cos(theta), sin_n = sin(theta);
   int column = int(gl_LocalInvocationID.x);
   float cos_phi = cos(float(column) * (2.0 * kPi / float(COLUMNS)));
-  for (int y = 0; y < kRows; ++y) {
-    float top = cos(float(y) * (kPi / float(kRows))), bottom = cos(float(y + 1) * (kPi / float(kRows)));
-    float middle = (float(y) + 0.5) * (kPi / float(kRows));
-    weights[y * COLUMNS + column] = max(cos_n * cos(middle) + sin_n * sin(middle) * cos_phi, 0.0) * (top - bottom);
+  int rows = size.y > 0 ? kRows : 1;  // not a constant: unrolled, the loop takes longer to translate
+  for (int y = 0; y < rows; ++y) {
+    // A cell is cos(top) - cos(bottom) high: the sine of its middle times a constant, which normalising takes out.
+    float middle = (float(y) + 0.5) * (kPi / float(kRows)), cos_m = cos(middle), sin_m = sqrt(1.0 - cos_m * cos_m);
+    weights[y * COLUMNS + column] = max(cos_n * cos_m + sin_n * sin_m * cos_phi, 0.0) * sin_m;
   }
   barrier();
 
   int x = int(sliceInvocation().x);
   if (x >= size.x || row >= size.y) return;
+#if EXACT
+  int level = int(log2(float(textureSize(environment, 0).x) / float(COLUMNS)) + 0.5);
+#else
   float level = max(log2(float(textureSize(environment, 0).x) / float(COLUMNS)), 0.0);
+#endif
   float u = (float(x) + 0.5) / float(size.x);
   vec4 sum = vec4(0.0);
   for (int y = 0; y < kRows; ++y) {
     float v = (float(y) + 0.5) / float(kRows);
     for (int k = 0; k < COLUMNS; ++k) {
       float weight = weights[y * COLUMNS + k];
+#if EXACT
+      vec3 radiance = texelFetch(environment, ivec2((x + k) & (COLUMNS - 1), y), level).rgb;
+#else
       vec3 radiance = textureLod(environment, vec2(u + float(k) / float(COLUMNS), v), level).rgb;
+#endif
       sum += weight * vec4(radiance, 1.0);
     }
   }
@@ -57,7 +66,7 @@ void main() {
     float of_row = min(last.y, float(r + 1)) - max(first.y, float(r)), part = 0.0;
     for (int c = int(floor(first.x)); c <= int(floor(last.x)); ++c)
       part += (min(last.x, float(c + 1)) - max(first.x, float(c))) * weights[r * COLUMNS + (c - x + 2 * COLUMNS) % COLUMNS];
-    spot += part * of_row / (cos(float(r) * (kPi / float(kRows))) - cos(float(r + 1) * (kPi / float(kRows))));
+    spot += part * of_row / sin((float(r) + 0.5) * (kPi / float(kRows)));
   }
   spot /= 4.0 * reach.x * reach.y;
 #endif

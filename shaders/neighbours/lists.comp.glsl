@@ -2,14 +2,16 @@
 // reach. The widest kCandidates are kept, equally wide ones by their rows. A nearer candidate may hide a farther one; how much of it, the caps say that
 // both are from this sphere's middle. A candidate that is hidden nearly whole is left out.
 // read    instances   the spheres
-//         grid        of neighbours/grid.comp.glsl
+//         grid?       of neighbours/grid.comp.glsl; without it each sphere looks at all
 //         ground?     see scene/ground.glsl
 // write   neighbours
 // params  count       of spheres
 //         cells       as in neighbours/grid.comp.glsl
 //         reach       how far a sphere hides anything, in its radii
 #include "common/fast_atan.glsl"
+#ifdef HAS_GRID
 #include "grid.glsl"
+#endif
 #include "lists.glsl"
 #include "overlap.glsl"
 #ifdef HAS_GROUND
@@ -79,10 +81,15 @@ float leftOf(float angle, vec3 axis, vec3 center) {
 // In software the translation of this program takes far longer than its work, and every access in its text to a buffer, an array or an image makes it
 // longer. So each access stands once: the loops have extra rounds for the last cell, and for what comes before and after the spheres of a list.
 void main() {
+  float radii = max(reach, 0.0);
+#ifdef HAS_GRID
   vec4 least = grid_low;
   uvec4 many = grid_cells;
-  float radii = max(reach, 0.0), widest = grid_radii.x;
+  float widest = grid_radii.x;
   uint words = cells + 1u;
+#else
+  uint rows = max(count, 1u);  // not `count` itself, which software would read for each lane in the loop
+#endif
 #ifdef HAS_GROUND
   float height = ground_row[0].height, ground_radius = ground_row[0].radius;
   vec3 ground_albedo = groundAlbedo(ground_row[0]);
@@ -90,6 +97,7 @@ void main() {
   uint self = gl_GlobalInvocationID.x;
   if (self >= count) return;
   vec4 own = vec4(instance[self].center, instance[self].radius);
+#ifdef HAS_GRID
   float far = radii * widest + own.w;
   ivec3 low = cellOf(own.xyz - far, least, many), high = cellOf(own.xyz + far, least, many), at = low;
   for (bool more = true; more;) {
@@ -101,6 +109,9 @@ void main() {
     if (at.x > high.x) at = ivec3(low.x, at.y + 1, at.z);
     if (at.y > high.y) at = ivec3(low.x, low.y, at.z + 1);
   }
+#else
+  for (uint row = 0u; row < rows; ++row) consider(self, own, radii, row);
+#endif
 
   // Round -2 writes the two texels for all lists, round -1 the image in the ground, and round `found` the end of a list that is shorter.
   int listed = 0;

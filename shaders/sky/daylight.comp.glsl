@@ -2,7 +2,10 @@
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
 // small map can hold it. Ground: Lambertian, lit by both.
-// write   radiance   rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near 1 at exposure 0
+// Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
+// write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near 1 at exposure 0
+//         rest, rest_1           the same without what of the sun stands out
+//         sun                    what of it stands out: two vec4, `brightest` of ibl/brightest.glsl
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
 //         turbidity  2 (clear) to 8 (hazy)
@@ -10,6 +13,21 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) uniform writeonly image2D radiance;
+#ifdef HAS_RADIANCE_1
+layout(rgba16f) uniform writeonly image2D radiance_1;
+#endif
+#ifdef HAS_REST
+layout(rgba16f) uniform writeonly image2D rest;
+#endif
+#ifdef HAS_REST_1
+layout(rgba16f) uniform writeonly image2D rest_1;
+#endif
+#ifdef HAS_SUN
+layout(std430) writeonly buffer sun {
+  vec4 at;
+  vec4 light;
+};
+#endif
 layout(std140) uniform Parameters {
   float elevation;
   float azimuth;
@@ -19,15 +37,14 @@ layout(std140) uniform Parameters {
 const float kUnit = 0.06;           // per kcd/m2
 const float kSunLuminance = 128.0;  // klx above the atmosphere
 
-// Luminance and x of the model at angle `theta` from the zenith and `gamma` from the sun, not normalised.
-vec2 perez(float cos_theta, float gamma) {
+// Luminance and x of the model at the angle theta from the zenith and `gamma` from the sun, not normalised.
+vec2 perez(float cos_theta, float gamma, float cos_gamma) {
   float t = turbidity;
   vec2 a = vec2(0.1787 * t - 1.4630, -0.0193 * t - 0.2592);
   vec2 b = vec2(-0.3554 * t + 0.4275, -0.0665 * t + 0.0008);
   vec2 c = vec2(-0.0227 * t + 5.3251, -0.0004 * t + 0.2125);
   vec2 d = vec2(0.1206 * t - 2.5771, -0.0641 * t - 0.8989);
   vec2 e = vec2(-0.0670 * t + 0.3703, -0.0033 * t + 0.0452);
-  float cos_gamma = cos(gamma);
   return (1.0 + a * exp(b / cos_theta)) * (1.0 + c * exp(d * gamma) + e * cos_gamma * cos_gamma);
 }
 
@@ -48,25 +65,67 @@ vec3 colorOf(vec2 luminance_x) {
   return max(mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570) * xyz, vec3(0.0));
 }
 
-void main() {
-  // Row 0 of the map is the top. What lies outside is not stored.
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-  vec3 direction = equirectDirection((vec2(at) + 0.5) / vec2(imageSize(radiance)));
-  float high = radians(elevation), theta_sun = 0.5 * kPi - high;
-  vec3 sun = vec3(cos(high) * cos(radians(azimuth)), sin(high), cos(high) * sin(radians(azimuth)));
+const float kWidth2 = 0.035 * 0.035;  // of the sun's lobe, radians squared; its integral is pi times this
 
-  float cos_gamma = clamp(dot(direction, sun), -1.0, 1.0), gamma = acos(cos_gamma);
-  vec2 top = zenith(theta_sun), norm = perez(1.0, theta_sun);
-  vec3 sky = kUnit * colorOf(top * perez(max(direction.y, 0.01), gamma) / norm);
+float most(vec3 color) { return max(color.r, max(color.g, color.b)); }
+
+void main() {
+  ivec2 corner = 2 * ivec2(gl_GlobalInvocationID.xy);
+  float high = radians(elevation), theta_sun = 0.5 * kPi - high;
+  vec3 to_sun = vec3(cos(high) * cos(radians(azimuth)), sin(high), cos(high) * sin(radians(azimuth)));
+  vec2 top = zenith(theta_sun), scale = top / perez(1.0, theta_sun, to_sun.y);
 
   // Optical depths of 680, 550 and 440 nm along the relative air mass of Kasten and Young 1989.
   float air_mass = 1.0 / (sin(high) + 0.50572 * pow(elevation + 6.07995, -1.6364));
   vec3 depth = vec3(0.041, 0.097, 0.243) + (0.046 * turbidity - 0.046) * vec3(0.76, 1.0, 1.34);
-  vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass);
-  const float kWidth2 = 0.035 * 0.035;  // radians squared; the lobe's integral is pi * kWidth2
-  sky += sun_light * exp(-gamma * gamma / kWidth2) / (kPi * kWidth2) * step(gamma, 0.15);
-
+  vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass), peak = sun_light / (kPi * kWidth2);
   vec3 sky_light = kUnit * colorOf(top) * kPi;
-  vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * sun.y + sky_light) / kPi;
-  imageStore(radiance, at, vec4(min(mix(ground, sky, smoothstep(-0.012, 0.006, direction.y)), vec3(60000.0)), 1.0));
+  vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * to_sun.y + sky_light) / kPi;
+
+#if defined HAS_REST || defined HAS_SUN
+  // What is brighter than this stands out. Near 16 times the mean luminance, as in ibl/brightest.comp, while the sun is not low in haze.
+  vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
+  float limit = max(most(peak) * (0.005906 + 0.0000673 * elevation), 2.0 * most(around));
+#endif
+
+  vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
+  int texels = imageSize(radiance).x > 1 ? 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
+  for (int i = 0; i < texels; ++i) {
+    // Row 0 of the map is the top. What lies outside is not stored.
+    ivec2 texel = corner + ivec2(i & 1, i >> 1);
+    vec3 direction = equirectDirection((vec2(texel) + 0.5) / vec2(imageSize(radiance)));
+    float cos_gamma = clamp(dot(direction, to_sun), -1.0, 1.0), gamma = acos(cos_gamma);
+    vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma)) + peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15);
+    vec3 color = min(mix(ground, sky, smoothstep(-0.012, 0.006, direction.y)), vec3(60000.0));
+    imageStore(radiance, texel, vec4(color, 1.0));
+    sum += color;
+#ifdef HAS_REST
+    color *= min(limit / most(color), 1.0);
+    imageStore(rest, texel, vec4(color, 1.0));
+    sum_rest += color;
+#endif
+  }
+#ifdef HAS_RADIANCE_1
+  imageStore(radiance_1, corner / 2, vec4(0.25 * sum, 1.0));
+#endif
+#ifdef HAS_REST_1
+  imageStore(rest_1, corner / 2, vec4(0.25 * sum_rest, 1.0));
+#endif
+
+#ifdef HAS_SUN
+  if (corner != ivec2(0)) return;
+  // Sky and lobe, around + peak g with g = exp(-gamma^2 / kWidth2), cut in proportion where their largest channel is above the limit: for g from
+  // `least` to 1. Integrals over gamma^2 in closed form, in units of kWidth2.
+  float highest = most(peak), base = most(around), above = limit - base, least = clamp(above / highest, 0.0, 1.0), reach = -log(max(least, 1e-6));
+  float lobe = 1.0 - least - reach * above / highest;
+  float moment = 1.0 - (1.0 + reach) * least - 0.5 * reach * reach * above / highest;
+  float share_of_sky = reach - limit / base * log(limit / (max(least, 1e-6) * (base + highest)));
+  // The horizon hides what is below it of a Gaussian: the rest of its light, where that is on average, and how wide.
+  float x = (high + 0.003) / sqrt(kWidth2);
+  float seen = 1.0 / (1.0 + exp(-x * (2.257 + 0.2018 * x * x))), lean = exp(-x * x) / (sqrt(2.0 * kPi) * seen);
+  vec3 up = normalize(vec3(0.0, 1.0, 0.0) - to_sun.y * to_sun + vec3(1e-6, 0.0, 0.0));
+  at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), limit);
+  light = vec4(kPi * kWidth2 * seen * (peak * lobe + (around - peak * (base / highest)) * share_of_sky),
+               0.5 * kWidth2 * moment / max(lobe, 1e-6) * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
+#endif
 }

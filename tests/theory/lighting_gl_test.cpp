@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -135,17 +136,20 @@ std::shared_ptr<const weft::assets::ImageF> spotEnvironment(double degrees, floa
 struct Spot {
   float direction[3], limit, light[3], variance;
 };
+Spot readSpot(Lab& lab, const char* buffer) {
+  Spot spot;
+  const std::vector<std::uint32_t> words = lab.readBuffer(buffer, 8);
+  static_assert(sizeof spot == 32);
+  std::memcpy(&spot, words.data(), sizeof spot);
+  return spot;
+}
 Spot spotOf(std::shared_ptr<const weft::assets::ImageF> environment) {
   Setup setup{.graph = "tests/theory/draw_modes.json", .balls = {{}}};
   setup.environment = std::move(environment);
   Lab lab(setup);
   lab.frame();
   CHECK(lab.reports() == "");
-  Spot spot;
-  const std::vector<std::uint32_t> words = lab.readBuffer("ibl.brightest", 8);
-  static_assert(sizeof spot == 32);
-  std::memcpy(&spot, words.data(), sizeof spot);
-  return spot;
+  return readSpot(lab, "ibl.brightest");
 }
 
 }  // namespace
@@ -166,6 +170,56 @@ TEST_CASE(
     CHECK(none.light[0] == 0);
     CHECK(none.limit == 65504);
   }
+}
+
+// What the map without the sun lacks, summed over all texels, is the sun.
+TEST_CASE(
+    "the computed sky's sun is what its two maps differ by: light, direction and size, also at the horizon") {
+  for (const double turbidity : {2.0, 2.5, 8.0})
+    for (const double elevation : {2.0, 5.0, 11.0, 35.0, 80.0}) {
+      Lab lab(
+          {.graph = "tests/theory/daylight_sun.json",
+           .sets = {{"sun_elevation", std::to_string(elevation)}, {"turbidity", std::to_string(turbidity)}},
+           .balls = {{}}});
+      lab.frame();
+      CHECK(lab.reports() == "");
+      const Spot sun = readSpot(lab, "sun");
+      const Picture sky = lab.read("daylight.sky_map"), rest = lab.read("daylight.rest_map");
+      REQUIRE(rest.width == sky.width);
+      double light[3] = {}, moment[3] = {}, square = 0, weight = 0, brightest = 0;
+      const int width = static_cast<int>(sky.width), height = static_cast<int>(sky.height);
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          const Vec3 d = equirectDirection(x, y, width, height);
+          const double angle =
+              2 * std::numbers::pi / width *
+              (std::cos(y * std::numbers::pi / height) - std::cos((y + 1) * std::numbers::pi / height));
+          double luminance = 0;
+          const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+          for (std::size_t c = 0; c < 3; ++c) {
+            const double out = static_cast<double>(sky.at(column, row)[c] - rest.at(column, row)[c]) * angle;
+            light[c] += out;
+            luminance += std::array{0.2126, 0.7152, 0.0722}[c] * out;
+            brightest = std::max<double>(brightest, rest.at(column, row)[c]);
+          }
+          const double at[3] = {d.x, d.y, d.z};
+          for (std::size_t c = 0; c < 3; ++c) moment[c] += luminance * at[c];
+          weight += luminance;
+        }
+      const double length = std::sqrt(moment[0] * moment[0] + moment[1] * moment[1] + moment[2] * moment[2]);
+      double cosine = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        cosine += moment[c] / length * static_cast<double>(sun.direction[c]);
+      square = 2 * (1 - length / weight);  // mean square of the angle to the mean direction
+      CAPTURE(turbidity);
+      CAPTURE(elevation);
+      CHECK(brightest <= static_cast<double>(sun.limit) * 1.001);
+      const double greatest = std::max(light[0], std::max(light[1], light[2]));
+      for (std::size_t c = 0; c < 3; ++c)
+        CHECK(std::abs(static_cast<double>(sun.light[c]) - light[c]) < 0.01 * greatest);
+      CHECK(std::acos(std::min(cosine, 1.0)) < 0.1 * std::numbers::pi / 180);
+      CHECK(static_cast<double>(sun.variance) == doctest::Approx(0.5 * square).epsilon(0.03));
+    }
 }
 
 TEST_CASE("the maps made in slices are those made at once, byte for byte") {

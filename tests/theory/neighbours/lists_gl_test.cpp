@@ -1,4 +1,4 @@
-// The lists of graphs/neighbours.json, made through a grid, against all pairs of spheres.
+// The lists of graphs/neighbours.json, made with a grid and without one, against all pairs of spheres.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -84,9 +84,9 @@ std::vector<Candidate> bruteList(const std::vector<Ball>& balls, std::size_t sel
   return all;
 }
 
-Setup labOf(std::vector<Ball> balls, const char* reach = "8") {
+Setup labOf(std::vector<Ball> balls, const char* reach, bool grid) {
   return {.graph = "tests/theory/neighbours/neighbours.json",
-          .sets = {{"neighbours.reach", reach}},
+          .sets = {{"neighbours.reach", reach}, {"neighbours.grid_from", grid ? "1" : "65537"}},
           .balls = std::move(balls)};
 }
 
@@ -104,9 +104,11 @@ std::vector<Ball> randomBalls(int count, float side, float least, float most, un
 }
 
 // Checks every `step`-th list.
-void checkLists(const std::vector<Ball>& balls, std::size_t step, double reach = 8) {
-  Lab lab(labOf(balls, std::to_string(reach).c_str()));
+void checkListsOf(bool grid, const std::vector<Ball>& balls, std::size_t step, double reach) {
+  CAPTURE(grid);
+  Lab lab(labOf(balls, std::to_string(reach).c_str(), grid));
   lab.frame();
+  CHECK((lab.passNames().find("neighbour_grid") != std::string::npos) == grid);
   const Picture lists = lab.read("neighbours.lists");
   CHECK(double(lists.at(0, 0)[0]) == reach);
   std::size_t entries = 0, wrong = 0;
@@ -140,6 +142,11 @@ void checkLists(const std::vector<Ball>& balls, std::size_t step, double reach =
   CHECK(wrong == 0);
   CHECK((balls.size() == 1 || entries > 0));
   CHECK(lab.reports() == "");
+}
+
+void checkLists(const std::vector<Ball>& balls, std::size_t step, double reach = 8) {
+  checkListsOf(true, balls, step, reach);
+  if (balls.size() < 1000) checkListsOf(false, balls, step, reach);
 }
 
 }  // namespace
