@@ -37,6 +37,7 @@ struct Surround {
   Soil soil;
   float ground_share;    // share of the lobe below the ground's horizon
   vec3 ground_at;        // where the lobe meets the ground
+  float ground_surface;  // how much surface it has there
   vec4 ground_hidden;    // seen from there: w is the share of the sky that spheres hide, rgb is that times their albedo
   vec2 ground_lit;       // seen from there: the visible shares of the brightest spot and of the sun
   float spot_seen;       // visible shares of the brightest spot and of the sun
@@ -51,6 +52,9 @@ float shareBelow(float height, float wide) {
   float x = clamp(0.5 - 0.5 * height / wide, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
 }
+
+// How much surface the ground has at a place: 1 within half its radius, 0 from its radius on.
+float surfaceOf(Soil soil, vec3 at) { return soil.radius > 0.0 ? 1.0 - smoothstep(0.5 * soil.radius, soil.radius, length(at.xz)) : 0.0; }
 
 // The share of a uniform sky that a sphere hides from the ground; `to` goes to its centre.
 float capOnGround(vec3 to, float radius) {
@@ -77,7 +81,7 @@ Surround surroundOf(Listed listed, vec3 at, vec3 n, vec3 axis, float roughness, 
   vec3 ground_at = at + axis * ((at.y - soil.height) / max(-axis.y, max(0.5 * cone, 0.01)));
   ground_at.y = soil.height;
   float ground_blur = cone * length(ground_at - at);
-  Surround all = Surround(1.0, vec3(0.0), n, 0.0, 1.0, axis, cone, vec3(0.0), vec3(0.0), vec4(0.0), soil, below, ground_at, vec4(0.0), vec2(1.0), 1.0, 1.0);
+  Surround all = Surround(1.0, vec3(0.0), n, 0.0, 1.0, axis, cone, vec3(0.0), vec3(0.0), vec4(0.0), soil, below, ground_at, surfaceOf(soil, ground_at), vec4(0.0), vec2(1.0), 1.0, 1.0);
   vec3 colors = vec3(0.0), towards = colors;
 #ifdef HAS_BRIGHTEST
   float spot_angle = spot_around.w;
@@ -179,9 +183,6 @@ vec3 aroundSeen(Surround surround, vec3 n, Lobe lobe, vec3 sky, float spot_cosin
 
 const float kOverGround = 0.7;  // least height of an axis above the ground, in widths of the cone: fitted to traced paths
 
-// How much surface the ground has at a place: 1 within half its radius, 0 from its radius on.
-float surfaceOf(Soil soil, vec3 at) { return soil.radius > 0.0 ? 1.0 - smoothstep(0.5 * soil.radius, soil.radius, length(at.xz)) : 0.0; }
-
 // The share of the sky's light on the ground that spheres leave, with what they throw back: see ground/contact.frag.glsl.
 vec3 skyOnGround(Soil soil, vec4 taken) {
   float hidden = min(taken.w, 0.999);  // of white things, all hidden is 0 / 0
@@ -217,14 +218,13 @@ vec3 groundRadiance(Soil soil, GroundLight light, vec3 shown, float surface, vec
 #ifdef HAS_SPECULAR
 // The lobe's axis, lifted so far that its cone sees what is above the ground.
 vec3 overGround(Surround surround, vec3 axis) {
-  axis.y = mix(axis.y, max(axis.y, kOverGround * surround.mirror_width), surfaceOf(surround.soil, surround.ground_at));
+  axis.y = mix(axis.y, max(axis.y, kOverGround * surround.mirror_width), surround.ground_surface);
   return axis;
 }
 
 // The lobe's light without neighbours; `sky` is its light from above the ground.
 vec3 skyAndGround(Surround surround, GroundLight light, vec3 sky) {
-  float surface = surfaceOf(surround.soil, surround.ground_at);
-  return mix(sky, groundRadiance(surround.soil, light, sky, surface, surround.ground_hidden, surround.ground_lit), surround.ground_share);
+  return mix(sky, groundRadiance(surround.soil, light, sky, surround.ground_surface, surround.ground_hidden, surround.ground_lit), surround.ground_share);
 }
 
 // Light of what hides the rest of the lobe. A metal reflects the sky, the ground, and this sphere, whose light is about `back` there. Anything else is

@@ -65,7 +65,9 @@ void main() {
       light += covered * seen * highlight.light.rgb;
     }
   }
-  // Discs may overlap. In "premultiplied" the share that is taken of what is there keeps the sum within half floats; of dim light it is next to nothing.
+  // Discs may overlap. Where their sum comes near the largest half float, "premultiplied" takes away a share of what is there, so that both
+  // together stay below it. Dimmer ones leave it alone.
   light = min(light, vec3(kMost));
-  result = vec4(light, max(light.r, max(light.g, light.b)) / kMost);
+  float full = max(light.r, max(light.g, light.b)) / kMost;
+  result = vec4(light, full * smoothstep(0.1, 0.3, full));
 }

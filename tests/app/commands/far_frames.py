@@ -45,7 +45,7 @@ def main():
             every = run(weft, "render", graph, "-o", folder / "f_%d.png", "--frames", f"0:{LAST}", *more, *common)
             if not report.check(alone.code == 0 and every.code == 0, f"{label}: {alone.err}{every.err}"):
                 continue
-            ran = json.loads(alone.err)["times"]["frames_run"]
+            ran = json.JSONDecoder().raw_decode(alone.err[alone.err.index("{"):])[0]["times"]["frames_run"]
             report.check(ran == frames, f"{label}: {ran} frames ran, not {frames}")
             report.check((folder / "alone.png").read_bytes() == (folder / f"f_{LAST}.png").read_bytes(),
                          f"{label}: frame {LAST} alone is not frame {LAST} of a run")
