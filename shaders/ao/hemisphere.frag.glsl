@@ -3,6 +3,7 @@
 // it, "StarCraft II effects and techniques", SIGGRAPH 2008). Directions are cosine-weighted. What is below the tangent plane
 // blocks nothing, so a plane is exactly 1.
 // read    depth, normal   the G-buffer's
+//         occluders?      see ao/surface.glsl
 // write   result          half size; x: visibility, y: distance along the view axis, 0 for the sky
 // params  radius    world units, of the hemisphere
 //         samples   points per pixel; 16 pixels next to each other take different ones
@@ -38,7 +39,7 @@ void main() {
     vec2 ndc = point.xy / -point.z * vec2(projection[0].x, projection[1].y) - projection[2].xy;
     ivec2 at = ivec2(floor((ndc * 0.5 + 0.5) * size));
     if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) continue;
-    float there = texelFetch(depth, at, 0).r;
+    float there = depthOfOccluder(at);
     if (there <= 0.0) continue;
     vec3 surface = placeAt(at, there), delta = surface - place;
     if (surface.z <= point.z || dot(delta, n) <= kTangent * length(delta)) continue;

@@ -4,6 +4,7 @@
 // With `backs` each occluder ends where its back face is, so the sky between it and the surface behind it is seen: the occluders of one side
 // are one interval of angles. Without, everything behind an occluder is filled, which is too dark beside round things seen from low angles.
 // read    depth, normal   the G-buffer's
+//         occluders?      see ao/surface.glsl
 //         backs?          depth of the nearest back faces; 0: there are none
 // write   result          half size; x: visibility, y: distance along the view axis, 0 for the sky
 // params  radius    world units within which things occlude, with a soft end
@@ -62,7 +63,7 @@ void main() {
         vec2 to = vec2(pixel) + 0.5 + way * far;
         ivec2 at = ivec2(floor(to));
         if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) break;
-        float there = texelFetch(depth, at, 0).r;
+        float there = depthOfOccluder(at);
         if (there <= 0.0) continue;
         vec3 delta = placeAt(at, there) - place;
         float distance2 = dot(delta, delta), per_length = inversesqrt(max(distance2, 1e-20));

@@ -1,5 +1,5 @@
 // What ambient occlusion needs of the G-buffer. It works at half size in view space: texel p of its textures is pixel 2p.
-// Slots: depth, normal, both nearest.
+// Slots: depth, normal; occluders? is the depth of all that hides the sky, where it is not `depth`. All nearest.
 #ifndef AO_SURFACE_GLSL
 #define AO_SURFACE_GLSL
 
@@ -9,6 +9,17 @@ const float kPi = 3.14159265358979;
 
 uniform sampler2D depth;
 uniform sampler2D normal;
+#ifdef HAS_OCCLUDERS
+uniform sampler2D occluders;
+#endif
+
+float depthOfOccluder(ivec2 pixel) {
+#ifdef HAS_OCCLUDERS
+  return texelFetch(occluders, pixel, 0).r;
+#else
+  return texelFetch(depth, pixel, 0).r;
+#endif
+}
 
 // View-space ray through a point of the target in pixels; times the distance along the axis it is the position.
 vec3 axisRay(vec2 pixel) {
