@@ -68,7 +68,7 @@ void main() {
       part += (min(last.x, float(c + 1)) - max(first.x, float(c))) * weights[r * COLUMNS + (c - x + 2 * COLUMNS) % COLUMNS];
     spot += part * of_row / sin((float(r) + 0.5) * (kPi / float(kRows)));
   }
-  spot /= 4.0 * reach.x * reach.y;
+  spot /= 2.0 * reach.x * (min(last.y, float(kRows)) - max(first.y, 0.0));  // at a pole a part of the rectangle is outside of the map
 #endif
   imageStore(result, ivec2(x, row), vec4(sum.rgb / sum.a, spot));
 }

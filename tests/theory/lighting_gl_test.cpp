@@ -222,6 +222,33 @@ TEST_CASE(
     }
 }
 
+// The integrals are sums over the texels of the sky itself, by their shares of the sphere.
+TEST_CASE("irradiance under a computed sun near the zenith: its light is there once, and the map says so") {
+  for (const double elevation : {60.0, 85.0, 88.0, 90.0}) {
+    Lab lab({.graph = "tests/theory/daylight_irradiance.json",
+             .sets = {{"sun_elevation", std::to_string(elevation)}},
+             .balls = {{}}});
+    lab.frame();
+    CHECK(lab.reports() == "");
+    const Picture map = lab.read("irradiance"), sky = lab.read("daylight.sky_map");
+    const Vec3 up = equirectDirection(0, 0, static_cast<int>(map.width), static_cast<int>(map.height));
+    const int width = static_cast<int>(sky.width), height = static_cast<int>(sky.height);
+    const double row = std::numbers::pi / height;
+    double sum = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        sum += std::max(0.0, dot(up, equirectDirection(x, y, width, height))) * 2 / width *
+               (std::cos(y * row) - std::cos((y + 1) * row)) *
+               static_cast<double>(sky.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))[1]);
+    const Spot sun = readSpot(lab, "sun");
+    const double cosine = dot(up, Vec3{sun.direction[0], sun.direction[1], sun.direction[2]});
+    MESSAGE("sun at ", elevation, ": ", map.at(0, 0)[1], " of ", sum, ", cosine ", map.at(0, 0)[3], " of ",
+            cosine);
+    CHECK(static_cast<double>(map.at(0, 0)[1]) == doctest::Approx(sum).epsilon(0.02));
+    CHECK(static_cast<double>(map.at(0, 0)[3]) == doctest::Approx(cosine).epsilon(0.02));
+  }
+}
+
 TEST_CASE("the maps made in slices are those made at once, byte for byte") {
   Setup setup = lit();
   Lab whole(setup);
