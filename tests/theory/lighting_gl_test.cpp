@@ -249,6 +249,22 @@ TEST_CASE("irradiance under a computed sun near the zenith: its light is there o
   }
 }
 
+// In an even environment the spot has no light, and is at the zenith.
+TEST_CASE("irradiance: alpha is the cosine to the brightest spot, also where that is at the pole") {
+  Lab lab({.graph = "tests/theory/draw_modes.json", .balls = {{}}});
+  lab.frame();
+  CHECK(lab.reports() == "");
+  REQUIRE(readSpot(lab, "ibl.brightest").direction[1] > 0.999f);
+  const Picture map = lab.read("ibl.irradiance");
+  double worst = 0;
+  for (std::uint32_t y = 0; y < map.height; ++y) {
+    const double cosine = std::cos((y + 0.5) * std::numbers::pi / map.height);
+    worst = std::max(worst, std::abs(static_cast<double>(map.at(0, y)[3]) - std::max(cosine, 0.0)));
+  }
+  MESSAGE("off by ", worst);
+  CHECK(worst < 0.06);  // a cell is 0.1 wide
+}
+
 TEST_CASE("the maps made in slices are those made at once, byte for byte") {
   Setup setup = lit();
   Lab whole(setup);

@@ -33,7 +33,7 @@ float passing(vec2 middle, float radius, float nearest) {
     float there = first - step_size * float(i);
     vec2 at = middle + way * (1.0 - there / radius);
     if (any(notEqual(at, clamp(at, vec2(0.0), viewport)))) continue;
-    float scene = infinity - (infinity * focus / near_plane) * texelFetch(depth, ivec2(at), 0).r;
+    float scene = infinity - (infinity * focus / near_plane) * texelFetch(depth, min(ivec2(at), ivec2(viewport) - 1), 0).r;
     if (abs(scene - there) > step_size || scene > first) continue;
     // As exact as the pixels are: there the light is at the depth of what was found.
     at = middle + way * (1.0 - scene / radius);
