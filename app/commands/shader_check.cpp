@@ -127,10 +127,10 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
         stages.push_back({stage.stage, known->second});
         whole = whole && known->second;
       }
-      const std::size_t before = said.items().size();
+      const std::size_t before = said.errorCount();
       if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, said);
       if (whole) runtime::warnOfConditions(spec.name, stages, request.defines, said);
-      if (!whole || said.items().size() > before) break;
+      if (!whole || said.errorCount() > before) break;
     }
   }
   tell(said, with, diagnostics);

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/assets/images/image_check.h"
@@ -68,6 +69,7 @@ struct Layer {
 // is no part of a colour, is grey.
 std::vector<Layer> findLayers(const EXRHeader& header) {
   std::vector<Layer> layers;
+  std::unordered_map<std::string_view, std::size_t> places;  // of layers in `layers`
   int grey = header.num_channels == 1 ? 0 : -1;
   bool hasColors = false;  // as X, Y, Z or as Y, RY, BY
   for (int c = 0; c < header.num_channels; ++c) {
@@ -79,9 +81,9 @@ std::vector<Layer> findLayers(const EXRHeader& header) {
     hasColors |= name == "X" || name == "RY" || name == "BY";
     const std::size_t index = last.size() == 1 ? std::string_view("RGBA").find(last[0]) : last.npos;
     if (index == last.npos) continue;
-    auto layer = std::ranges::find(layers, of, &Layer::name);
-    if (layer == layers.end()) layer = layers.insert(layers.end(), Layer{of});
-    layer->channels[index] = c;
+    const auto [known, fresh] = places.try_emplace(of, layers.size());
+    if (fresh) layers.push_back(Layer{of});
+    layers[known->second].channels[index] = c;
   }
   const auto own = std::ranges::find(layers, std::string_view(), &Layer::name);
   const int alpha = own == layers.end() ? -1 : own->channels[3];

@@ -27,21 +27,23 @@ void follow(std::string_view line, std::uint32_t number, OpenOnes& open) {
     open.push_back({number, std::string(line)});
   else if (word.starts_with("elif") && !open.empty())
     open.back().text = line;
-  else if (word.starts_with("else") && !open.empty())
+  else if (word.starts_with("else") && !open.empty() && !open.back().text.starts_with("#else of "))
     open.back().text = fmt::format("#else of {}", open.back().text);
   else if (word.starts_with("endif") && !open.empty())
     open.pop_back();
 }
 
-// Calls `see` with each line, without blanks at its ends, and what is open there; stops when that returns true.
-void forEachLine(std::string_view text, const std::function<bool(std::string_view, const OpenOnes&)>& see) {
+// Calls `see` with each line, without blanks at its ends, and what is open there; stops when that returns true. What is open at the end.
+OpenOnes forEachLine(std::string_view text,
+                     const std::function<bool(std::string_view, const OpenOnes&)>& see) {
   OpenOnes open;
   for (std::uint32_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     follow(trimmedEnds(line), number, open);
-    if (see(trimmedEnds(line), open)) return;
+    if (see(trimmedEnds(line), open)) break;
   }
+  return open;
 }
 
 }  // namespace
@@ -70,12 +72,8 @@ std::string conditionalAround(std::string_view name, std::string_view text) {
 }
 
 std::optional<Conditional> unterminatedConditional(std::string_view text) {
-  std::optional<Conditional> last;
-  forEachLine(text, [&](std::string_view, const OpenOnes& open) {
-    last = open.empty() ? std::nullopt : std::optional(open.back());
-    return false;
-  });
-  return last;
+  const OpenOnes open = forEachLine(text, [](std::string_view, const OpenOnes&) { return false; });
+  return open.empty() ? std::nullopt : std::optional(open.back());
 }
 
 }  // namespace weft::gl

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/gl/shaders/tokens.h"
@@ -319,15 +320,15 @@ TokenList expandTokens(std::string_view text, std::span<const Define> defines, s
 
 std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::span<const Define> defines) {
   std::vector<Token> values, tested;
-  std::vector<std::string_view> made;
-  for (const Define& define : defines) made.push_back(define.name);
+  std::unordered_set<std::string_view> made;
+  for (const Define& define : defines) made.insert(define.name);
   const std::vector<Token> all = splitTokens(text);
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     if (!all[i].first || !all[i].is("#")) continue;
     const Token& directive = all[i + 1];
     for (std::size_t at = i + 2; at < all.size() && !all[at].first; ++at) {
       if (directive.is("define")) {
-        made.push_back(all[at].text);
+        made.insert(all[at].text);
         break;
       }
       if (all[at].kind != TokenKind::word || all[at].is("defined")) continue;
@@ -339,14 +340,12 @@ std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::sp
     }
   }
   std::vector<UnknownCondition> unknown;
+  std::unordered_set<std::string_view> asked, known;
+  for (const Token& word : tested) asked.insert(word.text);
   const auto add = [&](const Token& word, bool value) {
-    const auto sameText = [&](const Token& other) { return other.text == word.text; };
     const bool driver = word.text.starts_with("GL_") || word.text.starts_with("__");
-    if (driver || std::ranges::find(made, word.text) != made.end() ||
-        (value && std::ranges::any_of(tested, sameText)) ||
-        std::ranges::any_of(unknown, [&](const UnknownCondition& known) { return sameText(known.word); }))
-      return;
-    unknown.push_back({word, value});
+    if (driver || made.contains(word.text) || (value && asked.contains(word.text))) return;
+    if (known.insert(word.text).second) unknown.push_back({word, value});
   };
   for (const Token& word : values) add(word, true);
   for (const Token& word : tested) add(word, false);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/base/chars.h"
 #include "engine/base/words/glsl_words.h"
 
 namespace weft::runtime {
@@ -142,13 +143,36 @@ std::vector<ShaderRoles::Member> ShaderWords::parameters() const {
   return {};
 }
 
+namespace {
+
+// Whether the block View alone gives the name: nothing else declares it (a parameter, a local variable), and it is no member of anything.
+bool isOfViewAlone(std::string_view text, std::string_view name) {
+  int declared = 0;
+  for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at > 0 && base::isIdentChar(text[at - 1])) || (end < text.size() && base::isIdentChar(text[end])))
+      continue;
+    std::string_view before = text.substr(0, at);
+    while (!before.empty() && base::isSpace(before.back())) before.remove_suffix(1);
+    if (before.ends_with('.')) return false;
+    for (const std::string_view type : {"float", "int", "uint", "double", "vec2", "vec3", "vec4"})
+      if (before.ends_with(type)) {
+        ++declared;
+        break;  // "uint" ends with "int", too
+      }
+  }
+  return declared <= 1;
+}
+
+}  // namespace
+
 bool ShaderWords::usesOfView(std::string_view member) const {
   return std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
     if (!stage.source->mentions("View") || !stage.source->mentions(member)) return false;
     const ShaderRoles& all = cache_.ofText(*stage.source);
     const auto block = all.blockOf.find(member);
     return block != all.blockOf.end() && block->second == "View" &&
-           variantOf(stage).reachable.contains(member);
+           variantOf(stage).reachable.contains(member) && isOfViewAlone(stage.source->text, member);
   });
 }
 

@@ -91,11 +91,12 @@ def check_time(weft, report, *more):
         (folder / "shaders").mkdir()
         texts = {"moves": "float t() { return delta_time; }\nvoid main() { result = vec4(t()); }\n",
                  "seeds": "#define NOW frame\nvoid main() { result = vec4(float(NOW)); }\n",
+                 "named": "float t(float time) { return time; }\nvoid main() { result = vec4(viewport, t(1.0), 1.0); }\n",
                  "still": "float unused() { return time; }\nvoid main() { result = vec4(viewport, 0.0, 1.0); }\n"}
         for stem, text in texts.items():
             (folder / f"shaders/{stem}.frag.glsl").write_text('#include "common/view.glsl"\nout vec4 result;\n' + text)
         (folder / "shaders/local.frag.glsl").write_text("out vec4 result;\nvoid main() { float time = 1.0; result = vec4(time); }\n")
-        for shader, update, told in (("moves", "on_change", "delta_time"), ("moves", "once", "delta_time"), ("seeds", "once", "frame"), ("still", "once", None),
+        for shader, update, told in (("moves", "on_change", "delta_time"), ("moves", "once", "delta_time"), ("seeds", "once", "frame"), ("named", "once", None), ("still", "once", None),
                                      ("local", "once", None), ("moves", "always", None)):
             graph = folder / f"{shader}_{update}.json"
             graph.write_text(json.dumps({

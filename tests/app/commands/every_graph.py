@@ -176,7 +176,7 @@ def run_on_cpu(sheet, folder, sound, fits):
         file = pathlib.Path(folder, "expanded.json")
         file.write_text(expanded.out)
         again = run(sheet.weft, "check", "--no-shaders", file, *sheet.more)
-        sheet.report.check(again.code == 0, f"{sheet.path}: its expanded form is refused\n{again.err[-3000:]}")
+        sheet.report.check((again.code == 0) == fits, f"{sheet.path}: its expanded form: {again.code}, shaders fit: {fits}\n{again.err[-3000:]}")
     for column, command in (("plan", "plan"), ("plan json", "plan --format json --explain"), ("dot", "dot"), ("params", "params")):
         done = sheet.graph(column, command, sound=sound)
         sheet.report.check(bool(done.out) == sound, f"{column} of {sheet.path} prints {done.out[:200]!r}")

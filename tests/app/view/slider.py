@@ -75,7 +75,7 @@ def session(weft, folder, display, report, moves):
 
 
 def studio(weft, folder, display, report):
-    """sky_rotation of graphs/studio.json, below the slider of a parameter that changes the plan. The viewer says of each frame in which
+    """sky_rotation of graphs/studio.json, below the sliders of two parameters that change the plan. The viewer says of each frame in which
     a panel changed something; when each of these was a value that was set at once, none of them built a plan."""
     live = Session(weft, folder, "--panels", "passes", "--stats", "--no-vsync", "--render-scale", "0.25", size="640x800", data=False,
                    graph=TOP / "graphs/studio.json")
@@ -83,9 +83,9 @@ def studio(weft, folder, display, report):
     try:
         if not report.check(live.open() and live.event("shown"), f"no picture\n{live.said()}"):
             return
-        if not report.check(live.until(lambda: len(find_grabs(screen)) > 1), "no two sliders on the screen"):
+        if not report.check(live.until(lambda: len(find_grabs(screen)) > 2), "no three sliders on the screen"):
             return
-        x, y = find_grabs(screen)[1]
+        x, y = find_grabs(screen)[2]
         live.tool("mousemove", x + 20, y)
         moves = [("mousemove", x - 20 + abs(i % 40 - 20), y) for i in range(1, MOVES_OF_STUDIO)]
         for i, step in enumerate([("mousedown", 1), *moves]):

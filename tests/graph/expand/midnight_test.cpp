@@ -149,3 +149,21 @@ TEST_CASE("a texture that no pass writes is one mistake, however many passes rea
       saidOfNight("\"write\": { \"result\": \"trail\" }", "\"write\": { \"result\": \"ldr\" }");
   CHECK_MESSAGE(said.contains(nobodyWrites), said.text());
 }
+
+// The dead instance comes first, and only warns; the live one of the same stanza is an error all the same.
+TEST_CASE(
+    "midnight: a live read of what nobody writes is an error, also behind a dead read by the same stanza") {
+  constexpr const char* kHalfDead = R"({
+    "resources": {
+      "src": { "texture": "rgba8", "size": "screen", "array": 2 },
+      "dst": { "texture": "rgba8", "size": "screen", "array": 2 } },
+    "passes": [
+      { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "repeat": { "i": [0, 1] },
+        "read": { "source": "src[i]" }, "write": { "result": "dst[i]" } } ],
+    "present": "dst[1]" })";
+  base::Diagnostics diagnostics;
+  const auto desc = readGraphText(kHalfDead, "half_dead.json", diagnostics);
+  REQUIRE(desc);
+  CHECK_FALSE(expandGraph(*desc, testRegistry(), {}, diagnostics));
+  CHECK(diagnostics.errorCount() == 1);
+}

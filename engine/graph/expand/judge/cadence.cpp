@@ -137,9 +137,10 @@ void warnCadence(Model& model) {
   const Reruns reruns(graph);
   std::set<std::string_view> said;  // stanzas
   for (const Suspect& suspect : suspects) {
-    if (live.pass[suspect.pass] == 0 || !said.insert(graph.specs[suspect.pass].declared).second) continue;
-    const bool once = graph.passes[suspect.pass].cadence == Cadence::once;
-    if (!once || !reruns.has(suspect.pass)) warnOfCadence(model, suspect.pass, suspect.use, suspect.found);
+    if (live.pass[suspect.pass] == 0) continue;
+    if (graph.passes[suspect.pass].cadence == Cadence::once && reruns.has(suspect.pass)) continue;
+    if (said.insert(graph.specs[suspect.pass].declared).second)
+      warnOfCadence(model, suspect.pass, suspect.use, suspect.found);
   }
 }
 

@@ -45,7 +45,8 @@ class Judge {
   void run() {
     for (std::size_t i = 0; i < model_.missing.size() && !isOver(model_); ++i)
       judge(model_.missing[i], found_[i]);
-    for (const auto& [thing, reads] : unwritten_) sayNobodyWrites(thing, reads);
+    for (const auto& [thing, reads] : unwritten_)
+      if (!isOver(model_)) sayNobodyWrites(thing, reads);
     for (const EmptyRepeat& empty : model_.emptied)
       if (empty.written && !isOver(model_) && blamed_.insert(empty.pass).second) warnOfEmpty(empty);
   }
@@ -96,11 +97,11 @@ class Judge {
 
   base::Diagnostic* report(const MissingRead& missing, Code code, std::string message) {
     const Place& place = missing.ref->place;
+    const bool live = isLive(missing);
     const std::string key =
-        fmt::format("{} {} {} {}", static_cast<int>(code), place.line, place.column,
+        fmt::format("{} {} {} {} {}", static_cast<int>(code), place.line, place.column, live,
                     missing.pass == kNone ? missing.slot : graph_.specs[missing.pass].declared);
     if (!said_.insert(key).second) return nullptr;  // another repeat of the same stanza
-    const bool live = isLive(missing);
     base::Diagnostic d;
     d.severity = live ? base::Severity::error : base::Severity::warning;
     d.code = code;
