@@ -31,6 +31,13 @@ void sortRadix(std::vector<SortElement>& elements, std::vector<SortElement>& scr
   }
 }
 
+template <typename Choice>
+std::optional<Choice> findChoice(const std::vector<std::string>& names, std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return static_cast<Choice>(found - names.begin());
+}
+
 }  // namespace
 
 const std::vector<std::string>& sortMethodNames() {
@@ -39,20 +46,35 @@ const std::vector<std::string>& sortMethodNames() {
 }
 
 std::optional<SortMethod> findSortMethod(std::string_view name) {
-  const std::vector<std::string>& names = sortMethodNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<SortMethod>(found - names.begin());
+  return findChoice<SortMethod>(sortMethodNames(), name);
+}
+
+const std::vector<std::string>& sortByNames() {
+  static const std::vector<std::string> names = {"power", "depth"};
+  return names;
+}
+
+std::optional<SortBy> findSortBy(std::string_view name) {
+  return findChoice<SortBy>(sortByNames(), name);
 }
 
 float viewDepth(const glm::mat4& view, glm::vec3 center) {
   return -(((view[0].z * center.x + view[1].z * center.y) + view[2].z * center.z) + view[3].z);
 }
 
-void makeKeys(std::span<const Instance> instances, const glm::mat4& view, std::vector<SortElement>& out) {
+float powerOf(glm::vec3 eye, glm::vec3 center, float radius) {
+  const glm::vec3 to = center - eye;
+  return ((to.x * to.x + to.y * to.y) + to.z * to.z) - radius * radius;
+}
+
+void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by, std::vector<SortElement>& out) {
   out.resize(instances.size());
-  for (std::size_t i = 0; i < instances.size(); ++i)
-    out[i] = {depthKey(viewDepth(view, instances[i].center)), static_cast<std::uint32_t>(i)};
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
+    const float far = by == SortBy::power ? powerOf(view.eye, instance.center, instance.radius)
+                                          : viewDepth(view.view, instance.center);
+    out[i] = {depthKey(far), static_cast<std::uint32_t>(i)};
+  }
 }
 
 void sortElements(std::vector<SortElement>& elements, SortMethod method, std::vector<SortElement>& scratch) {
@@ -61,9 +83,9 @@ void sortElements(std::vector<SortElement>& elements, SortMethod method, std::ve
                    [](const SortElement& a, const SortElement& b) { return a.key < b.key; });
 }
 
-void drawOrder(std::span<const Instance> instances, const glm::mat4& view, SortMethod method,
+void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by, SortMethod method,
                std::vector<SortElement>& out, std::vector<SortElement>& scratch) {
-  makeKeys(instances, view, out);
+  makeKeys(instances, view, by, out);
   sortElements(out, method, scratch);
 }
 

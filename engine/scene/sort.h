@@ -1,8 +1,11 @@
 // Back-to-front draw order on the CPU, and the contract it shares with shaders/sort/order.glsl.
 //
-// Depth of an instance: d = -(((V[0].z * x + V[1].z * y) + V[2].z * z) + V[3].z), that is -z of its centre in
-// view space, in float, in exactly this order without fused operations (`precise` in GLSL). Key, a uint, of
-// *descending* depth (farthest first when sorted ascending):
+// What is compared, d, in float, in exactly this order without fused operations (`precise` in GLSL):
+//   power: d = ((x * x + y * y) + z * z) - r * r, with (x, y, z) = centre - eye: the squared length of a tangent from the eye.
+//     Of two spheres that do not meet, the one with the greater power is never before the other: the plane in which both powers
+//     are equal lies between them, and the eye is on the nearer one's side of it (Aurenhammer, "Power diagrams", SIAM J. Comput. 1987).
+//   depth: d = -(((V[0].z * x + V[1].z * y) + V[2].z * z) + V[3].z), -z of its centre in view space
+// Key, a uint, of *descending* d (farthest first when sorted ascending):
 //   d is NaN  -> 0xffffffff (last);     d == 0 -> d = +0 (so that -0 equals +0)
 //   b = floatBitsToUint(d);   u = (b & 0x80000000) != 0 ? ~b : b | 0x80000000;   key = ~u
 // Elements are (key, index), sorted ascending by key, then by index. Padding of the GPU sort is
@@ -18,6 +21,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/scene/camera.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {
@@ -37,6 +41,11 @@ constexpr std::uint32_t depthKey(float depth) {
   return ~((bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u);
 }
 float viewDepth(const glm::mat4& view, glm::vec3 center);
+float powerOf(glm::vec3 eye, glm::vec3 center, float radius);
+
+enum class SortBy : std::uint8_t { power, depth };
+const std::vector<std::string>& sortByNames();  // "power", "depth"
+std::optional<SortBy> findSortBy(std::string_view name);
 
 // Sorts by (key, index) ascending. `elements` must come with ascending indices (as makeKeys leaves them):
 // both methods are stable and look at the key only. `scratch` is working memory, reused from call to call;
@@ -44,10 +53,10 @@ float viewDepth(const glm::mat4& view, glm::vec3 center);
 void sortElements(std::vector<SortElement>& elements, SortMethod method, std::vector<SortElement>& scratch);
 
 // Replaces `out` by (key, index) of each instance, unsorted.
-void makeKeys(std::span<const Instance> instances, const glm::mat4& view, std::vector<SortElement>& out);
+void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by, std::vector<SortElement>& out);
 
 // makeKeys, then sortElements.
-void drawOrder(std::span<const Instance> instances, const glm::mat4& view, SortMethod method,
+void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by, SortMethod method,
                std::vector<SortElement>& out, std::vector<SortElement>& scratch);
 
 }  // namespace weft::scene

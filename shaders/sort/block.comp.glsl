@@ -1,4 +1,4 @@
-// Keys of all instances, and each block of 2 * 2^HALF sorted in shared memory: the first HALF + 1 stages of the bitonic sort.
+// Keys of all instances, back to front by power, and each block of 2 * 2^HALF sorted in shared memory: the first HALF + 1 stages of the bitonic sort.
 // read    instances  draw list
 // write   keys       uvec2 per element, pow2ceil(count) of them; the rest is padded with the greatest key
 // params  count      instances
@@ -22,13 +22,14 @@ shared uvec2 block[2u * kHalf];
 void main() {
   uint t = gl_LocalInvocationID.x, first = groupIndex() * 2u * kHalf;
   // In a loop software reads what is uniform for each lane by itself; an expression before it, it does not move into it.
-  vec4 away = -vec4(view[0].z, view[1].z, view[2].z, view[3].z);
+  vec3 from = eye;
   uint many = max(count, 1u);
   for (uint i = t; i < 2u * kHalf; i += kHalf) {
     uint index = first + i;
-    vec3 c = index < many ? instance[index].center : vec3(0.0);
-    precise float depth = ((away.x * c.x + away.y * c.y) + away.z * c.z) + away.w;
-    block[i] = uvec2(index < many ? depthKey(depth) : kPadding.x, index);
+    vec4 s = index < many ? vec4(instance[index].center, instance[index].radius) : vec4(0.0);
+    precise vec3 to = s.xyz - from;
+    precise float power = ((to.x * to.x + to.y * to.y) + to.z * to.z) - s.w * s.w;
+    block[i] = uvec2(index < many ? depthKey(power) : kPadding.x, index);
   }
   barrier();
   for (uint k = 1u; k <= uint(HALF + 1); ++k) {

@@ -1,5 +1,5 @@
 // The elements of a draw order: uvec2(key, index), ascending by key, then by index. Keys and padding are those of the
-// CPU sort (engine/scene/sort.h), so that both give the same order.
+// CPU sort by power (engine/scene/sort.h), so that both give the same order.
 #ifndef SORT_ORDER_GLSL
 #define SORT_ORDER_GLSL
 

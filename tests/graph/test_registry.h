@@ -96,7 +96,7 @@ inline std::vector<ImportType> testImports() {
       {"draw_order",
        ImportKind::buffer,
        "",
-       {drawListArgument(), argument("by", Value::text("depth"), {"depth"}),
+       {drawListArgument(), argument("by", Value::text("power"), {"power", "depth"}),
         argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"})}},
       {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
       {"image",

@@ -90,6 +90,7 @@ TEST_CASE("a hundred thousand, of any bits, all equal, sorted and reversed") {
 TEST_CASE("the draw order of instances is back to front in view depth") {
   CameraPose pose{{0, 0, 20}, {0, 0, 0}, 60, 0.1};
   const glm::mat4 view(viewMatrix(pose));
+  const ViewData seen{.view = view};
   CHECK(viewDepth(view, {5, -3, 0}) == doctest::Approx(20));
   CHECK(viewDepth(view, {0, 0, 25}) == doctest::Approx(-5));
   std::vector<Instance> instances(4);
@@ -99,15 +100,51 @@ TEST_CASE("the draw order of instances is back to front in view depth") {
   instances[3].center = {0, 0, 7};
   std::vector<SortElement> order, scratch;
   for (const SortMethod method : {SortMethod::cpu_std, SortMethod::cpu_radix}) {
-    drawOrder(instances, view, method, order, scratch);
+    drawOrder(instances, seen, SortBy::depth, method, order, scratch);
     REQUIRE(order.size() == 4);
     CHECK(order[0].index == 1);
     CHECK(order[1].index == 0);
     CHECK(order[2].index == 2);
     CHECK(order[3].index == 3);
   }
-  drawOrder({}, view, SortMethod::cpu_radix, order, scratch);
+  drawOrder({}, seen, SortBy::power, SortMethod::cpu_radix, order, scratch);
   CHECK(order.empty());
+}
+
+// The judge shoots rays: of two spheres that do not meet, the one that a ray meets first is before the other.
+TEST_CASE("by power, no sphere that hides another comes before it; by depth, some do") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1, 1), size(0.05, 0.9);
+  std::size_t wrongByPower = 0, wrongByDepth = 0, pairs = 0;
+  while (pairs < 2000) {
+    std::vector<Instance> both(2);
+    for (Instance& one : both) {
+      one.center = glm::vec3(3 * place(random), 3 * place(random), -3 + 2 * place(random));
+      one.radius = float(size(random));
+    }
+    const glm::dvec3 a(both[0].center), b(both[1].center);
+    const double ra = double(both[0].radius), rb = double(both[1].radius);
+    if (glm::length(a - b) < ra + rb || glm::length(a) < ra || glm::length(b) < rb) continue;
+    int first = -1;  // that hides the other
+    for (int i = 0; i < 4000 && first < 0; ++i) {
+      const glm::dvec3 towards = glm::normalize(a + ra * glm::dvec3(place(random), place(random), place(random)));
+      const auto hit = [&](glm::dvec3 c, double r) {
+        const double along = glm::dot(c, towards), square = along * along - glm::dot(c, c) + r * r;
+        return square > 0 && along > 0 ? along - std::sqrt(square) : std::numeric_limits<double>::infinity();
+      };
+      const double toA = hit(a, ra), toB = hit(b, rb);
+      if (std::isfinite(toA) && std::isfinite(toB)) first = toA < toB ? 0 : 1;
+    }
+    if (first < 0) continue;
+    ++pairs;
+    std::vector<SortElement> order, scratch;
+    drawOrder(both, ViewData{}, SortBy::power, SortMethod::cpu_std, order, scratch);
+    wrongByPower += order.back().index != std::uint32_t(first);
+    drawOrder(both, ViewData{}, SortBy::depth, SortMethod::cpu_std, order, scratch);
+    wrongByDepth += order.back().index != std::uint32_t(first);
+  }
+  CHECK(wrongByPower == 0);
+  CHECK(wrongByDepth > 0);
 }
 
 TEST_CASE("methods are found by name") {

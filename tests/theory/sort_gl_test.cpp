@@ -1,4 +1,4 @@
-// The GPU sort against std::stable_sort by view depth, element for element.
+// The GPU sort against std::stable_sort by power, element for element.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,13 +14,13 @@ using namespace weft::theory;
 
 namespace {
 
-std::vector<std::uint32_t> sortedByTheory(const std::vector<Ball>& balls, const glm::mat4& view) {
-  std::vector<float> depth;
-  for (const Ball& ball : balls) depth.push_back(weft::scene::viewDepth(view, ball.center));
+std::vector<std::uint32_t> sortedByTheory(const std::vector<Ball>& balls, glm::vec3 eye) {
+  std::vector<float> power;
+  for (const Ball& ball : balls) power.push_back(weft::scene::powerOf(eye, ball.center, ball.radius));
   std::vector<std::uint32_t> order(balls.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return depth[a] > depth[b]; });
+                   [&](std::uint32_t a, std::uint32_t b) { return power[a] > power[b]; });
   return order;
 }
 
@@ -30,7 +30,7 @@ void compare(std::vector<Ball> balls) {
   Lab lab(setup);
   lab.frame();
   const std::vector<std::uint32_t> words = lab.readBuffer("keys", balls.size() * 2);
-  const std::vector<std::uint32_t> truth = sortedByTheory(balls, lab.view().view);
+  const std::vector<std::uint32_t> truth = sortedByTheory(balls, lab.view().eye);
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < balls.size(); ++i) wrong += words[i * 2 + 1] != truth[i];
   CAPTURE(balls.size());
@@ -49,7 +49,7 @@ std::vector<Ball> randomBalls(std::size_t count, std::uint32_t seed, bool specia
     if (kind == 0) ball.center = balls[random() % count].center;  // equal keys
     if (kind == 1) ball.center = {1, 2, 3};
     if (kind == 2)
-      ball.center.y = std::numeric_limits<float>::infinity();  // depth becomes infinite, either sign
+      ball.center.y = std::numeric_limits<float>::infinity();  // power becomes infinite
     if (kind == 3) ball.center.z = -std::numeric_limits<float>::infinity();
   }
   return balls;

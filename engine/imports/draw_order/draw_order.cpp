@@ -19,6 +19,9 @@ using graph::Value;
 const std::string& orderedList(const graph::ImportRequest& request) {
   return request.arguments[0].second.symbol;
 }
+const std::string& orderedBy(const graph::ImportRequest& request) {
+  return request.arguments[1].second.symbol;
+}
 const std::string& methodOf(const graph::ImportRequest& request) {
   return request.arguments[2].second.symbol;
 }
@@ -26,13 +29,15 @@ const std::string& methodOf(const graph::ImportRequest& request) {
 class DrawOrderProvider : public Provider {
  public:
   explicit DrawOrderProvider(const graph::ImportRequest& request)
-      : list_(scene::findDrawList(orderedList(request))), method_(scene::findSortMethod(methodOf(request))) {}
+      : list_(scene::findDrawList(orderedList(request))),
+        by_(scene::findSortBy(orderedBy(request)).value_or(scene::SortBy::power)),
+        method_(scene::findSortMethod(methodOf(request))) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
     if (!list_ || !method_) return {};
     if (frame_ != frame.number) {
       const scene::ViewData& view = frame.camera.view(frame, 1, 1);
-      scene::drawOrder(frame.tables.rows(*list_), view.view, *method_, elements_, scratch_);
+      scene::drawOrder(frame.tables.rows(*list_), view, by_, *method_, elements_, scratch_);
       const std::uint64_t bytes = std::max<std::size_t>(elements_.size(), 1) * sizeof(scene::SortElement);
       if (!buffer_ || buffer_.bytes() != bytes) {
         auto buffer = gl::Buffer::create(bytes, GL_DYNAMIC_STORAGE_BIT, "draw order", diagnostics);
@@ -47,6 +52,7 @@ class DrawOrderProvider : public Provider {
 
  private:
   std::optional<scene::DrawList> list_;
+  scene::SortBy by_;
   std::optional<scene::SortMethod> method_;  // none: a graph's own passes sort
   gl::Buffer buffer_;
   std::uint64_t frame_ = 0;  // that it was sorted in
@@ -66,7 +72,11 @@ graph::ImportType DrawOrder::reflect() const {
            .choices = {},
            .doc = "a draw list",
            .drawList = true},
-          {.name = "by", .initial = Value::text("depth"), .choices = {"depth"}, .doc = "what is compared"},
+          {.name = "by",
+           .initial = Value::text("power"),
+           .choices = scene::sortByNames(),
+           .doc = "what is compared: power, the squared distance from the eye less the squared radius, right for all "
+                  "spheres that do not meet; depth, of the centres along the view axis"},
           {.name = "method",
            .initial = Value::text("cpu_radix"),
            .choices = {"cpu_std", "cpu_radix", "gpu_bitonic"},
