@@ -16,6 +16,7 @@
 #include "engine/imports/meshes/meshes.h"
 #include "engine/imports/mouse/mouse.h"
 #include "engine/imports/probes/probes.h"
+#include "engine/imports/silhouettes/silhouettes.h"
 #include "engine/imports/spheres/spheres.h"
 #include "engine/imports/sun/sun.h"
 #include "engine/imports/vertex_colors/vertex_colors.h"
@@ -27,6 +28,7 @@ ImportRegistry ImportRegistry::builtin() {
   registry.add(std::make_unique<Environment>());
   registry.add(std::make_unique<Spheres>());
   registry.add(std::make_unique<DrawOrder>());
+  registry.add(std::make_unique<Silhouettes>());
   registry.add(std::make_unique<Meshes>());
   registry.add(std::make_unique<Materials>());
   registry.add(std::make_unique<MaterialMaps>());

@@ -67,7 +67,8 @@ float powerOf(glm::vec3 eye, glm::vec3 center, float radius) {
   return ((to.x * to.x + to.y * to.y) + to.z * to.z) - radius * radius;
 }
 
-void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by, std::vector<SortElement>& out) {
+void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by,
+              std::vector<SortElement>& out) {
   out.resize(instances.size());
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];

@@ -53,7 +53,8 @@ std::optional<SortBy> findSortBy(std::string_view name);
 void sortElements(std::vector<SortElement>& elements, SortMethod method, std::vector<SortElement>& scratch);
 
 // Replaces `out` by (key, index) of each instance, unsorted.
-void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by, std::vector<SortElement>& out);
+void makeKeys(std::span<const Instance> instances, const ViewData& view, SortBy by,
+              std::vector<SortElement>& out);
 
 // makeKeys, then sortElements.
 void drawOrder(std::span<const Instance> instances, const ViewData& view, SortBy by, SortMethod method,

@@ -1,5 +1,6 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment, the sun and lamps.
 // read    what light comes from   see shading/light.glsl; air?: fog/fog.glsl
+//         silhouettes?  spheres before this one whose silhouettes meet its own, see spheres/silhouettes.glsl
 //         nearer?     a depth: only what is behind it is drawn; any sampler (texels are fetched)
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
@@ -47,6 +48,8 @@ out vec4 radiance;
 out vec2 velocity;
 #endif
 
+#include "silhouettes.glsl"
+
 // Area of a unit square on the inner side of a straight edge: `inside` is the signed distance of its centre, `normal`
 // the edge's direction, both components positive. A ramp for edges along the axes, smoother for slanted ones.
 float halfPlane(float inside, vec2 normal) {
@@ -68,16 +71,13 @@ void findPoint(out Point point) {
   float vv = dot(v, v), cv = dot(c, v), per_length = inversesqrt(vv), per_vv = per_length * per_length;
   float q = dot(cw, cw) - r2 * vv;                  // the silhouette's conic: negative inside
 
-  // Signed distance in pixels along the conic's gradient.
-  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) * per_pixel.xy;
-  float steep = length(slope);
-  vec2 outwards = slope * (1.0 / max(steep, 1e-30));
-  vec3 across = vec3(outwards * per_pixel.xy, 0.0);
-  vec3 c_across = cross(c, across);
-  float curve = dot(c_across, c_across) - r2 * dot(across, across);
-  float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
+  vec2 outwards;
+  float outside = outsideOf(c, d2, r2, q, v, w, outwards);
   bool inside_sphere = d2 <= r2;
   coverage = inside_sphere ? 1.0 : halfPlane(-outside - edge.x, abs(outwards));
+#ifdef HAS_SILHOUETTES
+  if (coverage > 0.0 && coverage < 1.0 && edge.y == 0.0) coverage = min(coverage * leftBehind(-outside - edge.x, outwards, v, vv), 1.0);
+#endif
 
   if (edge.y > 0.0) {  // small ones only
     vec2 lengths = clamp(0.5 * (edge.y + 1.0) - abs(pixels), 0.0, min(edge.y, 1.0));

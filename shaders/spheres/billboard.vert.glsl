@@ -1,7 +1,8 @@
 // A screen-space rectangle around each sphere: the bounds by the sphere's tangent planes through the eye (Mara and
 // McGuire, JCGT 2013), one pixel wider for the soft edge. Handles the eye outside, inside and beside, and spheres behind.
 // OCTAGON: with the diagonal planes as well, for geometry "octagon"; a sixth fewer pixels that the sphere does not cover.
-// read    order?   uvec2(key, index) per instance: the instance to draw i-th is element i's index
+// read    order?        uvec2(key, index) per instance: the instance to draw i-th is element i's index
+//         silhouettes?  see spheres/silhouettes.glsl
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
@@ -17,6 +18,11 @@
 
 #ifdef HAS_ORDER
 layout(std430) readonly buffer order { uvec2 order_element[]; };
+#endif
+
+#ifdef HAS_SILHOUETTES
+layout(std430) readonly buffer silhouettes { uvec4 silhouette[]; };
+flat out uvec2 before;      // first and number of the spheres before it whose silhouettes meet its own
 #endif
 
 flat out vec4 sphere;       // centre in view space, radius
@@ -77,6 +83,9 @@ void main() {
   spot_around = spotAround();
 #endif
   sphere_radius = self.radius;
+#endif
+#ifdef HAS_SILHOUETTES
+  before = silhouette[row].xy;
 #endif
   vec3 c = (view * vec4(self.center, 1.0)).xyz;
   float r = self.radius, z = -c.z;

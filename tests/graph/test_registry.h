@@ -98,6 +98,7 @@ inline std::vector<ImportType> testImports() {
        "",
        {drawListArgument(), argument("by", Value::text("power"), {"power", "depth"}),
         argument("method", Value::text("cpu_radix"), {"cpu_std", "cpu_radix", "gpu_bitonic"})}},
+      {"silhouettes", ImportKind::buffer, "", {drawListArgument(), argument("height", Value::number(720))}},
       {"cube_lut", ImportKind::texture, "", {argument("file", Value{})}},
       {"image",
        ImportKind::texture,

@@ -71,7 +71,7 @@ TEST_CASE(
   }
   CHECK(names == std::set<std::string>{"camera", "cube_lut", "cut", "draw_order", "environment", "ground",
                                        "image", "joints", "lamps", "material_maps", "materials", "meshes",
-                                       "mouse", "probes", "spheres", "sun", "vertex_colors"});
+                                       "mouse", "probes", "silhouettes", "spheres", "sun", "vertex_colors"});
   CHECK_FALSE(registry().find("clouds"));
 }
 
@@ -113,6 +113,18 @@ TEST_CASE("a draw order has eight bytes per instance of the list that it names, 
   CHECK(facts.count == 3);
   CHECK(facts.bytes == 24);
   CHECK(factsOf(requestOf("draw_order", "list", "opaque"), {}).bytes == 8);
+}
+
+TEST_CASE(
+    "silhouettes have the rows of the list that they name, and a size that is known when they are found") {
+  const graph::ImportType type = importOf("silhouettes").reflect();
+  CHECK(type.kind == ImportKind::buffer);
+  CHECK(type.columns.empty());
+  const graph::ImportFacts facts =
+      factsOf(requestOf("silhouettes", "list", "opaque"), {.lists = {{"spheres", 7}, {"opaque", 3}}});
+  CHECK(facts.exists);
+  CHECK(facts.count == 3);
+  CHECK(facts.bytes == 0);
 }
 
 TEST_CASE("the camera is the one view of every pass; a lens and a jitter are its arguments") {

@@ -127,7 +127,8 @@ TEST_CASE("by power, no sphere that hides another comes before it; by depth, som
     if (glm::length(a - b) < ra + rb || glm::length(a) < ra || glm::length(b) < rb) continue;
     int first = -1;  // that hides the other
     for (int i = 0; i < 4000 && first < 0; ++i) {
-      const glm::dvec3 towards = glm::normalize(a + ra * glm::dvec3(place(random), place(random), place(random)));
+      const glm::dvec3 towards =
+          glm::normalize(a + ra * glm::dvec3(place(random), place(random), place(random)));
       const auto hit = [&](glm::dvec3 c, double r) {
         const double along = glm::dot(c, towards), square = along * along - glm::dot(c, c) + r * r;
         return square > 0 && along > 0 ? along - std::sqrt(square) : std::numeric_limits<double>::infinity();

@@ -48,8 +48,7 @@ std::vector<Ball> randomBalls(std::size_t count, std::uint32_t seed, bool specia
     const std::uint32_t kind = random() % 8;
     if (kind == 0) ball.center = balls[random() % count].center;  // equal keys
     if (kind == 1) ball.center = {1, 2, 3};
-    if (kind == 2)
-      ball.center.y = std::numeric_limits<float>::infinity();  // power becomes infinite
+    if (kind == 2) ball.center.y = std::numeric_limits<float>::infinity();  // power becomes infinite
     if (kind == 3) ball.center.z = -std::numeric_limits<float>::infinity();
   }
   return balls;

@@ -62,25 +62,24 @@ class DrawOrderProvider : public Provider {
 }  // namespace
 
 graph::ImportType DrawOrder::reflect() const {
-  return {
-      .name = "draw_order",
-      .kind = graph::ImportKind::buffer,
-      .doc = "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame.",
-      .arguments = {
-          {.name = "list",
-           .initial = Value::text(scene::drawListNames().front()),
-           .choices = {},
-           .doc = "a draw list",
-           .drawList = true},
-          {.name = "by",
-           .initial = Value::text("power"),
-           .choices = scene::sortByNames(),
-           .doc = "what is compared: power, the squared distance from the eye less the squared radius, right for all "
-                  "spheres that do not meet; depth, of the centres along the view axis"},
-          {.name = "method",
-           .initial = Value::text("cpu_radix"),
-           .choices = {"cpu_std", "cpu_radix", "gpu_bitonic"},
-           .doc = "how; gpu_bitonic leaves the buffer to a graph's own passes"}}};
+  return {.name = "draw_order",
+          .kind = graph::ImportKind::buffer,
+          .doc = "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame.",
+          .arguments = {{.name = "list",
+                         .initial = Value::text(scene::drawListNames().front()),
+                         .choices = {},
+                         .doc = "a draw list",
+                         .drawList = true},
+                        {.name = "by",
+                         .initial = Value::text("power"),
+                         .choices = scene::sortByNames(),
+                         .doc = "what is compared: power, the squared distance from the eye less the squared "
+                                "radius, right for all "
+                                "spheres that do not meet; depth, of the centres along the view axis"},
+                        {.name = "method",
+                         .initial = Value::text("cpu_radix"),
+                         .choices = {"cpu_std", "cpu_radix", "gpu_bitonic"},
+                         .doc = "how; gpu_bitonic leaves the buffer to a graph's own passes"}}};
 }
 
 graph::ImportFacts DrawOrder::facts(const graph::ImportRequest& request, const WorldFacts& world,

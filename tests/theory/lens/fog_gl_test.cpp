@@ -1,6 +1,6 @@
 // Fog at silhouettes: a pixel that a sphere covers in part is the mean of the same frame at eight times the size, in radiance. So what is
-// behind has the fog before it, not that of the sphere, and no line shows. Pixels in which the silhouettes of two spheres pass are counted apart:
-// coverage does not know which parts of such a pixel each one covers, with fog or without.
+// behind has the fog before it, not that of the sphere, and no line shows. Pixels in which the silhouettes of two spheres pass are counted apart,
+// and beside them how far the picture would be off if these edges had nothing to do with each other.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -106,7 +106,7 @@ TEST_CASE(
     const auto clear = shown(setupOf(graph, false, 1), 1), once = shown(fog, 1),
                often = shown(setupOf(graph, true, kFiner), kFiner);
     double mean = 0, unseen = 0;
-    std::size_t edges = 0, off = 0, crossings = 0, otherwise = 0;
+    std::size_t edges = 0, off = 0, crossings = 0, independent = 0;
     for (std::size_t y = 1; y < kHeight; ++y)
       for (std::size_t x = 1; x < kWidth; ++x) {
         const std::size_t i = (y * kWidth + x) * 3;
@@ -116,19 +116,20 @@ TEST_CASE(
         if (difference > 0.02) {
           const bool cross = silhouettes(fog, x, y) > 1;
           (cross ? crossings : off) += 1;
-          otherwise += cross && std::abs(once[i] - ifIndependent(fog, x, y)) > 0.02;
         }
-        edges += std::max(std::abs(often[i] - often[i - 3]),
-                          std::abs(often[i] - often[i - std::size_t{kWidth} * 3])) > 0.1;
+        const bool edge = std::max(std::abs(often[i] - often[i - 3]),
+                                   std::abs(often[i] - often[i - std::size_t{kWidth} * 3])) > 0.1;
+        edges += edge;
+        if (edge && silhouettes(fog, x, y) > 1)
+          independent += std::abs(often[i] - ifIndependent(fog, x, y)) > 0.02;
       }
     MESSAGE(graph, ": mean ", mean, ", off by more than 0.02: ", off, " of ", edges, " at edges, and ",
-            crossings, " at crossings, ", otherwise,
-            " of them not as independent edges are, because two spheres are drawn in the wrong order");
+            crossings, " at crossings; ", independent, " of independent edges");
     CHECK(unseen < 0.01);
     CHECK(edges > 800);
-    CHECK(mean < 0.001);
+    CHECK(mean < 0.0003);
     CHECK(off == 0);
-    CHECK(otherwise == 0);
-    CHECK(crossings < edges / 20);
+    CHECK(crossings == 0);
+    CHECK(independent > 10);  // the picture has crossings that tell
   }
 }

@@ -1,0 +1,98 @@
+#include "engine/imports/silhouettes/silhouettes.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "engine/imports/camera_views.h"
+#include "engine/imports/scene_tables.h"
+#include "engine/scene/silhouettes.h"
+
+namespace weft::imports {
+
+namespace {
+
+using graph::Value;
+
+// In the order of reflect().
+const std::string& listOf(const graph::ImportRequest& request) {
+  return request.arguments[0].second.symbol;
+}
+double heightOf(const graph::ImportRequest& request) {
+  return std::clamp(request.arguments[1].second.v[0], 1.0, 65536.0);
+}
+
+// Pixels that two silhouettes may be apart and still meet: the diagonal of one, and what a lens wider than the scene's makes of it.
+constexpr float kPixels = 3;
+
+class SilhouettesProvider : public Provider {
+ public:
+  explicit SilhouettesProvider(const graph::ImportRequest& request)
+      : list_(scene::findDrawList(listOf(request))), height_(static_cast<float>(heightOf(request))) {}
+
+  BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
+    if (!list_) return {};
+    if (frame_ == frame.number) return {buffer_.id(), buffer_.bytes()};
+    frame_ = frame.number;
+    const scene::ViewData& view = frame.camera.view(frame, 1, 1);
+    const float pixel = 2 / (view.projection[1].y * height_);
+    const std::uint64_t generation = frame.tables.generation(*list_);
+    if (buffer_ && generation == generation_ && view.eye == eye_ && pixel == pixel_)
+      return {buffer_.id(), buffer_.bytes()};
+    found_.find(frame.tables.rows(*list_), view.eye, kPixels * pixel);
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(found_.rows()));
+    if (!buffer_ || buffer_.bytes() < bytes.size()) {
+      // Half as much again, so that spheres which move do not make it anew in every frame.
+      auto buffer = gl::Buffer::create(bytes.size() + bytes.size() / 2, GL_DYNAMIC_STORAGE_BIT, "silhouettes",
+                                       diagnostics);
+      if (!buffer) return {};
+      buffer_ = std::move(*buffer);
+    }
+    gl::uploadBuffer(buffer_.id(), 0, bytes);
+    generation_ = generation;
+    eye_ = view.eye;
+    pixel_ = pixel;
+    return {buffer_.id(), buffer_.bytes()};
+  }
+
+ private:
+  std::optional<scene::DrawList> list_;
+  float height_;
+  scene::Silhouettes found_;
+  gl::Buffer buffer_;
+  std::uint64_t frame_ = 0;       // that it was asked for in
+  std::uint64_t generation_ = 0;  // of the list, the eye and the pixel that it was made for
+  glm::vec3 eye_{0};
+  float pixel_ = 0;
+};
+
+}  // namespace
+
+graph::ImportType Silhouettes::reflect() const {
+  return {
+      .name = "silhouettes",
+      .kind = graph::ImportKind::buffer,
+      .doc =
+          "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
+          "uvec4(first, number, 0, 0) per "
+          "instance, then per such sphere the bits of vec4(centre from the eye, radius); empty with more "
+          "than 4096.",
+      .arguments = {
+          {.name = "list",
+           .initial = Value::text(scene::drawListNames().front()),
+           .choices = {},
+           .doc = "a draw list",
+           .drawList = true},
+          {.name = "height", .initial = Value::number(720), .choices = {}, .doc = "of the picture, pixels"}}};
+}
+
+graph::ImportFacts Silhouettes::facts(const graph::ImportRequest& request, const WorldFacts& world,
+                                      Files&) const {
+  return {.exists = true, .count = world.countOf(listOf(request))};
+}
+
+std::unique_ptr<Provider> Silhouettes::provide(const graph::ImportRequest& request) const {
+  return std::make_unique<SilhouettesProvider>(request);
+}
+
+}  // namespace weft::imports

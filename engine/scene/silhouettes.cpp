@@ -1,0 +1,89 @@
+#include "engine/scene/silhouettes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/scene/sort.h"
+
+namespace weft::scene {
+
+namespace {
+
+// Whether one is drawn before the other: it is farther, or as far and earlier in the table, as in SortElement.
+bool isBehind(float power, std::uint32_t index, float otherPower, std::uint32_t otherIndex) {
+  return power != otherPower ? power > otherPower : index < otherIndex;
+}
+
+// The axis along which the directions are spread most: the fewest spans overlap there.
+template <typename Items>
+int widestAxis(const Items& items) {
+  glm::vec3 sum(0), squares(0);
+  for (const auto& item : items) {
+    sum += item.towards;
+    squares += item.towards * item.towards;
+  }
+  const glm::vec3 spread = squares - sum * sum / float(std::max<std::size_t>(items.size(), 1));
+  return spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+}
+
+}  // namespace
+
+void Silhouettes::find(std::span<const Instance> instances, glm::vec3 eye, float near) {
+  seen_.clear();
+  pairs_.clear();
+  if (instances.size() <= kMostSpheres) {
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      const Instance& instance = instances[i];
+      const glm::vec3 to = instance.center - eye;
+      const float distance = glm::length(to), power = powerOf(eye, instance.center, instance.radius);
+      // From within there is no silhouette; nor has what is not a number, or infinitely far.
+      if (!(instance.radius > 0 && power > 0 && std::isfinite(power))) continue;
+      seen_.push_back({.towards = to / distance,
+                       .angle = std::asin(std::min(instance.radius / distance, 1.0f)),
+                       .power = power,
+                       .index = static_cast<std::uint32_t>(i)});
+    }
+    findPairs(near);
+  }
+  // The spheres of each in the order in which they are drawn.
+  std::sort(pairs_.begin(), pairs_.end(), [&](const auto& a, const auto& b) {
+    if (a.first != b.first) return a.first < b.first;
+    const Seen &left = seen_[a.second], &right = seen_[b.second];
+    return isBehind(left.power, left.index, right.power, right.index);
+  });
+  rows_.assign(std::max<std::size_t>(instances.size(), 1), glm::uvec4(0));
+  for (std::size_t begin = 0, end = 0; begin < pairs_.size(); begin = end) {
+    while (end < pairs_.size() && pairs_[end].first == pairs_[begin].first) ++end;
+    const std::size_t count = std::min(end - begin, kMostEach);
+    rows_[seen_[pairs_[begin].first].index] = {rows_.size(), count, 0, 0};
+    for (std::size_t pair = end - count; pair < end; ++pair) {
+      const Instance& before = instances[seen_[pairs_[pair].second].index];
+      const glm::vec3 to = before.center - eye;
+      rows_.emplace_back(std::bit_cast<std::uint32_t>(to.x), std::bit_cast<std::uint32_t>(to.y),
+                         std::bit_cast<std::uint32_t>(to.z), std::bit_cast<std::uint32_t>(before.radius));
+    }
+  }
+}
+
+// By sweep: only spheres whose spans along one axis overlap are compared.
+void Silhouettes::findPairs(float near) {
+  const int axis = widestAxis(seen_);
+  for (Seen& sphere : seen_) {
+    // A point at an angle from a direction is at most as far from it along an axis.
+    sphere.low = sphere.towards[axis] - sphere.angle - near;
+    sphere.high = sphere.towards[axis] + sphere.angle;
+  }
+  std::sort(seen_.begin(), seen_.end(),
+            [](const Seen& a, const Seen& b) { return a.low != b.low ? a.low < b.low : a.index < b.index; });
+  for (std::uint32_t i = 0; i < seen_.size(); ++i)
+    for (std::uint32_t k = i + 1; k < seen_.size() && seen_[k].low <= seen_[i].high; ++k) {
+      const Seen &a = seen_[i], &b = seen_[k];
+      const float apart = 2 * std::asin(std::min(0.5f * glm::length(a.towards - b.towards), 1.0f));
+      if (apart > a.angle + b.angle + near || apart < std::abs(a.angle - b.angle) - near) continue;
+      const bool first = isBehind(a.power, a.index, b.power, b.index);
+      pairs_.emplace_back(first ? i : k, first ? k : i);
+    }
+}
+
+}  // namespace weft::scene

@@ -1,0 +1,56 @@
+// Signed distances to silhouettes, and what of a sphere's share of a pixel the spheres before it leave.
+// read    silhouettes?   uvec4(first, number, 0, 0) per instance, then per sphere before it the bits of vec4(centre from the eye, radius): the import
+//                        silhouettes. The vertex shader reads the former and says it in `before`.
+#ifndef SPHERES_SILHOUETTES_GLSL
+#define SPHERES_SILHOUETTES_GLSL
+
+// From the pixel's centre to the silhouette of a sphere, in pixels along the gradient of the silhouette's conic, negative inside; `outwards`: that
+// direction. c, d2, r2: centre in view space, its square, the radius' square; v: the ray; w: v, or what has the same cross product with c; q:
+// |c x v|^2 - r2 v.v
+float outsideOf(vec3 c, float d2, float r2, float q, vec3 v, vec3 w, out vec2 outwards) {
+  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) * per_pixel.xy;
+  float steep = length(slope);
+  outwards = slope * (1.0 / max(steep, 1e-30));
+  vec3 across = vec3(outwards * per_pixel.xy, 0.0);
+  vec3 c_across = cross(c, across);
+  float curve = dot(c_across, c_across) - r2 * dot(across, across);
+  return 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
+}
+
+#ifdef HAS_SILHOUETTES
+flat in uvec2 before;
+layout(std430) readonly buffer silhouettes { uvec4 silhouette[]; };
+
+// Spheres are blended back to front, so that of a share `a` of the pixel that lies behind another share `b` the part a (1 - b) is left, as if
+// the two edges had nothing to do with each other. This is what `a` must be multiplied by so that what lies outside of `b` is left. `inside`: of the
+// sphere's own edge, which is `outwards`. Both edges are straight within a pixel; eight rows of it are exact. Where several spheres
+// are before it, each takes its part of what the others leave.
+float leftBehind(float inside, vec2 outwards, vec3 v, float vv) {
+  float left = 1.0;
+  for (uint i = 0u; i < before.y; ++i) {
+    vec4 other = uintBitsToFloat(silhouette[before.x + i]);
+    vec3 c = other.xyz * to_world, cv = cross(c, v);  // to_world turns only: from the left it turns back
+    float r2 = other.w * other.w;
+    vec2 others;
+    float outside = outsideOf(c, dot(c, c), r2, dot(cv, cv) - r2 * vv, v, v, others);
+    if (abs(outside) > 0.70710678 || dot(c, v) <= 0.0) continue;
+    // Along the axis that the edges cross rather than follow.
+    bool turned = abs(outwards.x) + abs(others.x) < abs(outwards.y) + abs(others.y);
+    vec2 along = turned ? vec2(outwards.y, others.y) : vec2(outwards.x, others.x);
+    vec2 beside = turned ? vec2(outwards.x, others.x) : vec2(outwards.y, others.y);
+    vec2 per = 1.0 / max(abs(along), 1e-4), facing = mix(vec2(1.0), vec2(-1.0), lessThan(along, vec2(0.0)));
+    vec3 sums = vec3(0.0);  // inside the one, inside the other, inside both
+    for (float row = -0.4375; row < 0.5; row += 0.125) {
+      vec2 to = clamp((vec2(inside, -outside) - beside * row) * per, -0.5, 0.5);
+      vec2 ends = facing * to, starts = -0.5 * facing;
+      vec2 low = min(starts, ends), high = max(starts, ends);
+      sums += vec3(high - low, max(min(high.x, high.y) - max(low.x, low.y), 0.0));
+    }
+    sums *= 0.125;
+    left *= (sums.x - sums.z) / max(sums.x * (1.0 - sums.y), 1e-4);
+  }
+  return left;
+}
+#endif
+
+#endif
