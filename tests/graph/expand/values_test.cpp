@@ -172,6 +172,37 @@ TEST_CASE("has() of a pass is whether nothing disables all of it by name") {
   CHECK(expandText(other).has(Code::unknownResource));
 }
 
+TEST_CASE("has() of a pass of an included file is whether nothing disables it or the include") {
+  const TestFolder folder("values_test_has_below");
+  folder.write("in.json", R"J({ "resources": { "c": { "texture": "rgba8", "size": 8 } }, "passes": [
+    { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "c" } } ] })J");
+  folder.write("mid.json", R"J({ "passes": [ { "include": "in.json" } ] })J");
+  const auto names = [&](const std::string& asked, const std::string& disabled,
+                         const std::string& stanza = "") {
+    const std::string path =
+        folder.write("top.json", R"J({ "resources": { "out": { "texture": "rgba8", "size": 8 } }, "passes": [
+    { "name": "with", "type": "fullscreen", "shader": "a.frag.glsl", "enabled": ")J" +
+                                     asked + R"J(", "write": { "r": "out" } },
+    { "include": "mid.json")J" + stanza +
+                                     R"J( },
+    { "name": "end", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "s": "out?", "t": "mid.in.c?" }, "write": { "r": "out" } } ],
+    "present": "out" })J");
+    Expanded e;
+    const auto desc = readGraph(path, e.diagnostics);
+    REQUIRE_MESSAGE(desc, e.text());
+    e.graph = expandGraph(*desc, testRegistry(), disabled.empty() ? Settings{} : with({}, {disabled}),
+                          e.diagnostics);
+    return e.has(Code::unknownResource) ? "unknown" : e.names();
+  };
+  CHECK(names("has(mid.in.p)", "") == "with mid.in.p end");
+  CHECK(names("has(mid.in.p)", "mid.in.p") == "end");
+  CHECK(names("has(mid.in.p)", "mid.in") == "end");
+  CHECK(names("has(mid.in.p)", "mid") == "end");
+  CHECK(names("has(mid.in.p)", "", R"(, "enabled": false)") == "end");
+  CHECK(names("has(mid.in.q)", "") == "unknown");
+  CHECK(names("has(in.p)", "") == "unknown");
+}
+
 TEST_CASE("--disable of a name in a file that is included twice means both, of two files neither") {
   const TestFolder folder("values_test_files");
   folder.write("in.json", R"J({ "resources": { "c": { "texture": "rgba8", "size": 8 } }, "passes": [

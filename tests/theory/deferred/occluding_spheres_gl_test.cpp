@@ -107,3 +107,31 @@ TEST_CASE("ambient occlusion: without spheres a mesh that is a plane sees all of
     CHECK(hidden > 1000);
   }
 }
+
+TEST_CASE("spheres that are not drawn hide no light from meshes, and throw none on them") {
+  const auto floorOf = [](bool sphere, std::vector<graph::Disable> disables) {
+    const CleanScope clean;
+    MeshScene made({0, -8, 4}, 45);
+    made.put(made.addSquare(40), {.name = "", .metallic = 0, .roughness = 1}, {0, 0, 0});
+    if (sphere)
+      made.putSphere(
+          {0, 0, 1}, 1, {.name = "", .metallic = 0, .roughness = 1},
+          scene::maskOf(scene::DrawList::spheres) | scene::maskOf(scene::DrawList::shadow_casters));
+    made.scene.sun =
+        scene::Sun{.direction = glm::normalize(glm::vec3(1, 0.5f, 1)), .irradiance = glm::vec3(2)};
+    made.scene.lamps.add(
+        {.name = "lamp", .position = {-3, -2, 4}, .intensity = glm::vec3(20), .shadow = true});
+    return take(made.scene, {.graph = "graphs/deferred_gi.json", .disables = std::move(disables)}).radiance;
+  };
+  const std::vector<float> drawn = floorOf(true, {}), without = floorOf(true, {"lit.spheres"}),
+                           never = floorOf(false, {});
+  float worst = 0;
+  int darker = 0;
+  for (std::size_t i = 0; i < never.size(); ++i) {
+    worst = std::max(worst, std::abs(without[i] - never[i]));
+    darker += drawn[i] < never[i] - 0.1f;
+  }
+  MESSAGE("not drawn: worst ", worst, "; drawn: ", darker, " values darker");
+  CHECK(worst < 0.002f);  // a step of a half between 1 and 2 is 0.001
+  CHECK(darker > 200);
+}

@@ -121,13 +121,17 @@ std::optional<Value> Names::builtin(std::string_view name) {
 
 namespace {
 
-// Whether nothing disables the pass by name, nor its stanza by a plain `"enabled": false`, which is what the viewer writes. An expression is not
-// asked: it could ask back.
-bool isLeft(Names& names, const Model& model, const PassDesc& pass) {
-  if (pass.enabled.present() && pass.enabled.isConstant() &&
-      !evaluateCondition(names, pass.enabled, true, "'enabled' of a pass").value_or(true))
-    return false;
-  const auto rules = model.disables.find(names.scope().prefix + pass.name);
+// Whether nothing disables the pass or an include around it by name, nor its stanza by a plain `"enabled": false`, which is what the viewer
+// writes. An expression is not asked: it could ask back.
+bool isLeft(Names& names, const Model& model, const AskedPass& asked) {
+  const auto isOn = [&](const PassDesc& stanza, const char* what) {
+    return !stanza.enabled.present() || !stanza.enabled.isConstant() ||
+           evaluateCondition(names, stanza.enabled, true, what).value_or(true);
+  };
+  for (const Scope* at = asked.scope; at != &names.scope(); at = at->parent)
+    if (!at->disabledBy.empty() || !isOn(*at->stanza, "'enabled' of an include")) return false;
+  if (!isOn(*asked.desc, "'enabled' of a pass")) return false;
+  const auto rules = model.disables.find(asked.scope->prefix + asked.desc->name);
   return rules == model.disables.end() ||
          std::ranges::none_of(rules->second, [](const DisableRule& rule) { return rule.instance.empty(); });
 }
@@ -140,8 +144,8 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   if (index == kNone && !scope_.resources.contains(resource))
     index = findEntity(model_, scope_, resource, true);
   if (index == kNone && fact == Fact::has)
-    if (const PassDesc* pass = findPass(scope_, resource))
-      return Value::boolean(isLeft(*this, model_, *pass));
+    if (const AskedPass asked = findAskedPass(scope_, resource); asked.desc)
+      return Value::boolean(isLeft(*this, model_, asked));
   if (index == kNone) {
     // Its declaration, or the input that has nothing behind it, was reported where it stands.
     if (isUnread(scope_, resource) || scope_.resources.contains(resource) ||

@@ -237,6 +237,18 @@ const PassDesc* findPass(const Scope& scope, std::string_view name) {
   return nullptr;
 }
 
+AskedPass findAskedPass(const Scope& scope, std::string_view name) {
+  const Scope* at = &scope;
+  for (std::size_t dot = name.find('.'); dot != std::string_view::npos; dot = name.find('.')) {
+    const auto child = at->includes.find(name.substr(0, dot));
+    if (child == at->includes.end()) return {};
+    at = child->second;
+    name = name.substr(dot + 1);
+  }
+  const PassDesc* pass = findPass(*at, name);
+  return {pass, pass ? at : nullptr};
+}
+
 bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed,
                std::span<const RangeDesc> repeat) {
   if (!expr.present() || expr.isConstant()) return true;
@@ -246,7 +258,7 @@ bool checkExpr(Model& model, Scope& scope, const Expr& expr, bool dynamicAllowed
   expr.check(names, model.diagnostics);
   for (const auto& [fact, name] : expr.facts()) {
     if (findEntity(model, scope, name, false) != kNone || implicitImport(model, name) != kNone) continue;
-    if (fact == Fact::has && findPass(scope, name)) continue;
+    if (fact == Fact::has && findAskedPass(scope, name).desc) continue;
     const std::size_t known = model.diagnostics.errorCount();
     findEntityOrReport(model, scope, name, name.starts_with("@"), expr.place(), kAsksOf, {}, {},
                        fact == Fact::has);

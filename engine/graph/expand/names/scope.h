@@ -30,8 +30,14 @@ std::uint32_t findEntity(Model& model, Scope& scope, std::string_view name, bool
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
                                  const Place& place, const Called& user, const std::string& pass = {},
                                  std::string_view slot = {}, bool orPass = false);
-// The pass of the scope's own file that has(name) is about where no resource has the name; null: there is none.
+// A pass of the scope's own file; null: there is none.
 const PassDesc* findPass(const Scope& scope, std::string_view name);
+// What has(name) is about where no resource has the name: a pass of the scope's own file, or `include.pass` of one included below.
+struct AskedPass {
+  const PassDesc* desc = nullptr;  // null: there is none
+  const Scope* scope = nullptr;    // whose file declares it
+};
+AskedPass findAskedPass(const Scope& scope, std::string_view name);
 // The `user` of a name in size(name) and other facts.
 constexpr const char* kAsksOf = "an expression asks of the";
 // False when so many names were gathered for suggestions that further messages make none.
