@@ -1,7 +1,7 @@
 // An analytic clear sky with a sun and a plain ground, as an equirectangular map: the environment when none is loaded.
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
-// small map can hold it. Ground: Lambertian, lit by both.
+// small map can hold it. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near 1 at exposure 0
 //         rest, rest_1           the same without what of the sun stands out
@@ -81,6 +81,7 @@ void main() {
   vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass), peak = sun_light / (kPi * kWidth2);
   vec3 sky_light = kUnit * colorOf(top) * kPi;
   vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * to_sun.y + sky_light) / kPi;
+  float haze = 0.01 + 0.01 * turbidity;
 
 #if defined HAS_REST || defined HAS_SUN
   // What is brighter than this stands out. Near 16 times the mean luminance, as in ibl/brightest.comp, while the sun is not low in haze.
@@ -95,8 +96,9 @@ void main() {
     ivec2 texel = corner + ivec2(i & 1, i >> 1);
     vec3 direction = equirectDirection((vec2(texel) + 0.5) / vec2(imageSize(radiance)));
     float cos_gamma = clamp(dot(direction, to_sun), -1.0, 1.0), gamma = acos(cos_gamma);
-    vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma)) + peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15);
-    vec3 color = min(mix(ground, sky, smoothstep(-0.012, 0.006, direction.y)), vec3(60000.0));
+    vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma));
+    vec3 lobe = peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15) * smoothstep(-0.011, 0.007, direction.y);
+    vec3 color = min(mix(ground, sky, exp(min(direction.y, 0.0) / haze)) + lobe, vec3(60000.0));
     imageStore(radiance, texel, vec4(color, 1.0));
     sum += color;
 #ifdef HAS_REST

@@ -40,7 +40,8 @@ scene::Scene sceneOf(const Setup& setup) {
 }  // namespace
 
 Lab::Lab(const Setup& setup) : setup_(setup), world_(sceneOf(setup)) {
-  world_.setEnvironment(setup.environment ? setup.environment : constantEnvironment(1, 1, 1));
+  if (!setup.daylight)
+    world_.setEnvironment(setup.environment ? setup.environment : constantEnvironment(1, 1, 1));
   renderer_ = std::make_unique<runtime::Renderer>(
       sharedContext(), std::string(WEFT_SOURCE_DIR) + "/" + setup.graph,
       runtime::Renderer::Options{.dataFolder = WEFT_SOURCE_DIR, .cacheFolder = ""});

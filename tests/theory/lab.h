@@ -34,6 +34,7 @@ struct Setup {
   double orbitDegreesPerSecond = 0;                   // of the camera about its target
   std::vector<scene::CameraKey> path{};               // of the camera, instead of an orbit
   std::shared_ptr<const assets::ImageF> environment;  // null: a white one
+  bool daylight = false;                              // the computed sky instead
   std::optional<scene::Sun> sun{};
   std::optional<scene::Ground> ground{};
 };

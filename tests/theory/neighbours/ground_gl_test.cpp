@@ -216,3 +216,39 @@ TEST_CASE("ground: spheres that are not drawn leave it as it is in a scene witho
     CHECK(darker > 100);
   }
 }
+
+// A photographer's view: the surface of the ground ends in the distance, and the computed sky's own ground is behind it.
+TEST_CASE("ground: towards the computed sky's horizon no strip is darker than what is below and above it") {
+  double deepest = 1;
+  for (const char* turbidity : {"2", "2.5", "8"})
+    for (const char* elevation : {"2", "13", "35", "80"})
+      for (const double to : {-1.0, 1.0}) {
+        CAPTURE(turbidity);
+        CAPTURE(elevation);
+        Setup setup = studio({{.center = {0, -50, 0}}});
+        setup.height = 192;
+        setup.camera = {
+            .position = {0, 1.75f, 0}, .target = {to, 1.7f, 0}, .fovDegrees = 20, .nearPlane = 0.1};
+        setup.ground = scene::Ground{.albedo = glm::vec3(0.38f, 0.32f, 0.255f), .radius = 120};
+        setup.daylight = true;
+        setup.sets = {{"sun_elevation", elevation}, {"sun_azimuth", "0"}, {"turbidity", turbidity}};
+        Lab lab(setup);
+        lab.frame();
+        CHECK(lab.reports() == "");
+        const Picture hdr = lab.read("hdr");
+        for (std::uint32_t x = 0; x < setup.width; x += 5) {
+          const auto luminance = [&](std::uint32_t y) {
+            const float* rgb = hdr.at(x, y);
+            return 0.2126 * double(rgb[0]) + 0.7152 * double(rgb[1]) + 0.0722 * double(rgb[2]);
+          };
+          std::uint32_t horizon = 0;
+          while (rayOf(setup, x, horizon).direction.y < 0.01) ++horizon;
+          REQUIRE(horizon < setup.height);
+          const double least = std::min(luminance(0), luminance(horizon));
+          for (std::uint32_t y = 0; y < horizon; ++y) deepest = std::min(deepest, luminance(y) / least);
+        }
+      }
+  MESSAGE("the darkest strip has ", deepest, " of what is beside it");
+  // Least where sky and surface are about as bright, and the ground between is darker.
+  CHECK(deepest > 0.86);
+}
