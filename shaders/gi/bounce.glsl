@@ -14,10 +14,10 @@ struct Bounce {
   float sure;   // nearly 1 where light comes along the normal alone, less where it comes from many sides, 1/2 at least
 };
 
-// Of the coefficients that probeAt() gives.
+// Of the coefficients that probeAt() gives, and of what it returns.
 // Cosine-weighted mean direction of the light by its moments up to band 2 (w n = cosine, F, D, T the integrals of the radiance times
 // 1, w, w w'): 3/16 D + 1/2 T n + 3/16 n (n.D). See bounceOf in engine/scene/probes.
-Bounce bounceOf(vec3 c[9], vec3 normal) {
+Bounce bounceOf(vec3 c[9], float left, vec3 normal) {
   const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
   float y[9], l[9], all = 0.0;
   vec3 irradiance_here = vec3(0.0);
@@ -36,7 +36,7 @@ Bounce bounceOf(vec3 c[9], vec3 normal) {
   vec3 from = 0.1875 * d + 0.5 * tn + 0.1875 * dot(normal, d) * normal;
   float size = length(from);
   vec3 facing = size > 1e-6 ? -from / size : -normal;
-  return Bounce(max(irradiance_here, vec3(0.0)) / kShPi, facing, 0.5 + 0.5 * clamp(size / max(all, 1e-6), 0.0, 1.0));
+  return Bounce(max(irradiance_here, vec3(0.0)) * (left / kShPi), facing, 0.5 + 0.5 * clamp(size / max(all, 1e-6), 0.0, 1.0));
 }
 
 // The light to add to the irradiance map's value in the normal. `there` and `behind` are that map in `facing` and opposite to it.

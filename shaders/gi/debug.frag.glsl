@@ -27,8 +27,8 @@ vec3 ambient(vec3 direction) {
 
 void main() {
   vec3 coefficients[9];
-  probeAt(center, coefficients);
-  Bounce bounce = bounceOf(coefficients, normalize(outwards));
+  float left = probeAt(center, coefficients);
+  Bounce bounce = bounceOf(coefficients, left, normalize(outwards));
   radiance = vec4(gain * bounced(bounce, ambient(bounce.facing), ambient(-bounce.facing)), 1.0);
 #ifdef HAS_VELOCITY
   velocity = gl_FragCoord.xy / viewport - (before.xy / max(before.w, 1e-3) * 0.5 + 0.5);

@@ -12,11 +12,12 @@
 uniform sampler3D sh[7];
 #endif
 
-// The nine coefficients at a place, rgb; outside the box those of its nearest point. Textures and buffer differ only by the rounding
-// to half floats.
-void probeAt(vec3 position, out vec3 c[9]) {
+// The nine coefficients at a place, rgb; outside the box those of its nearest point, and what the result is to be multiplied by, as
+// leftOutside in engine/scene/probes. Textures and buffer differ only by the rounding to half floats.
+float probeAt(vec3 position, out vec3 c[9]) {
   vec3 count = vec3(probes_count.xyz), extent = probes_high.xyz - probes_low.xyz;
-  vec3 at = clamp((position - probes_low.xyz) / max(extent, vec3(1e-20)), 0.0, 1.0) * (count - 1.0);
+  vec3 nearest = clamp(position, probes_low.xyz, probes_high.xyz) - probes_low.xyz;
+  vec3 at = nearest / max(extent, vec3(1e-20)) * (count - 1.0);
 #ifdef HAS_SH
   vec3 uvw = (at + 0.5) / count;
   vec4 t0 = textureLod(sh[0], uvw, 0.0), t1 = textureLod(sh[1], uvw, 0.0), t2 = textureLod(sh[2], uvw, 0.0);
@@ -42,6 +43,9 @@ void probeAt(vec3 position, out vec3 c[9]) {
     for (uint i = 0u; i < 9u; ++i) c[i] += weights.x * weights.y * weights.z * probe_sh[first + i].xyz;
   }
 #endif
+  vec3 away = position - 0.5 * (probes_low.xyz + probes_high.xyz), edge = nearest - 0.5 * extent;
+  float spread = dot(extent, extent) / 64.0;
+  return (dot(edge, edge) + spread) / max(dot(away, away) + spread, 1e-20);
 }
 
 // Irradiance of a surface, not below zero. `normal`: unit, world.

@@ -153,8 +153,8 @@ void main() {
 #endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];
-  probeAt(point.at, coefficients);
-  Bounce bounce = bounceOf(coefficients, point.n);
+  float bounce_left = probeAt(point.at, coefficients);
+  Bounce bounce = bounceOf(coefficients, bounce_left, point.n);
   vec2 there = equirectUv(bounce.facing) - vec2(sky_turn, 0.0), behind = vec2(there.x + 0.5, 1.0 - there.y);
   around += bounced(bounce, sampleEquirect(irradiance, there, lookup).rgb, sampleEquirect(irradiance, behind, lookup).rgb);
 #endif

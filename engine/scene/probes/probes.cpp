@@ -136,6 +136,14 @@ Bounce bounceOf(const Probe& probe, glm::vec3 normal) {
   return bounce;
 }
 
+// From a source in the middle of the box, spread over a quarter of its half diagonal.
+float leftOutside(const ProbeGrid& grid, glm::vec3 point) {
+  const glm::vec3 half = 0.5f * (grid.high - grid.low), out = point - 0.5f * (grid.low + grid.high);
+  const glm::vec3 edge = glm::clamp(out, -half, half);
+  const float spread = glm::dot(half, half) / 16;
+  return (glm::dot(edge, edge) + spread) / std::max(glm::dot(out, out) + spread, 1e-20f);
+}
+
 Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 point) {
   glm::uvec3 below(0), above(0);
   glm::vec3 part(0);
@@ -147,6 +155,7 @@ Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 po
     above[axis] = std::min(below[axis] + 1, grid.count[axis] - 1);
     part[axis] = at - static_cast<float>(below[axis]);
   }
+  const float left = leftOutside(grid, point);
   Probe mixed{};
   for (unsigned corner = 0; corner < 8; ++corner) {
     glm::uvec3 at = below;
@@ -157,7 +166,7 @@ Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 po
       weight *= up ? part[axis] : 1.0f - part[axis];
     }
     const Probe& probe = probes[grid.indexOf(at)];
-    for (std::size_t n = 0; n < kShCount; ++n) mixed.sh[n] += weight * probe.sh[n];
+    for (std::size_t n = 0; n < kShCount; ++n) mixed.sh[n] += weight * left * probe.sh[n];
   }
   return mixed;
 }

@@ -69,7 +69,12 @@ struct Bounce {
 };
 Bounce bounceOf(const Probe& probe, glm::vec3 normal);
 
-// The mix of the eight probes around a point, each as near as it is along the axes; outside the box that of its nearest point.
+// The share of the light at the nearest point of the box that is left at a point outside: far away it falls with the square of the
+// distance. 1 inside.
+float leftOutside(const ProbeGrid& grid, glm::vec3 point);
+
+// The mix of the eight probes around a point, each as near as it is along the axes; outside the box that of its nearest point,
+// times leftOutside.
 Probe probeAt(const ProbeGrid& grid, std::span<const Probe> probes, glm::vec3 point);
 
 }  // namespace weft::scene

@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "tests/theory/gi/spheres.h"
 
@@ -82,6 +84,44 @@ TEST_CASE("gi: in a wall of spheres, which hide nothing here, a sphere gets abou
   MESSAGE("of the truth: ", given / truth);
   CHECK(given > 1.3 * truth);
   CHECK(given < 1.8 * truth);
+}
+
+// Where light stays what it is at the box, it is 9 to 12 times too much at the farthest.
+TEST_CASE("gi: outside the box of the spheres their light falls off about as rays say") {
+  std::vector<Instance> wall;
+  for (int i = 0; i < 100; ++i) wall.push_back(ball({(i % 10 - 4.5f) * 2.5f, (i / 10 - 4.5f) * 2.5f, 0}, 1));
+  const std::vector<Instance> floor = {ball({-0.36f, 0.2f, 0}, 0.2f), ball({0.36f, 0.2f, 0}, 0.2f),
+                                       ball({0.12f, 0.1f, 0.3f}, 0.1f), ball({-0.2f, 0.07f, 0.36f}, 0.07f)};
+  for (const auto& [name, spheres, counts] :
+       {std::tuple("wall", wall, glm::uvec3(21, 21, 3)),
+        std::tuple("on a floor", floor, glm::uvec3(19, 7, 10)),
+        std::tuple("two", std::vector{ball({-2.5f, 0, 0}, 1), ball({2.5f, 0, 0}, 1)},
+                   glm::uvec3(21, 13, 13))}) {
+    const ProbeGrid grid = placeProbes(spheres, counts);
+    const std::vector<Probe> probes = computed(grid, {}, spheres);
+    const glm::dvec3 half = glm::dvec3(grid.high - grid.low) * 0.5,
+                     middle = glm::dvec3(grid.high + grid.low) * 0.5;
+    for (const auto& [away, most] :
+         {std::pair(0.1, 0.29), std::pair(0.3, 0.66), std::pair(1.0, 1.45), std::pair(2.0, 1.8)}) {
+      double off = 0, all = 0;
+      for (const glm::dvec3& to : directions(24, 5)) {
+        // From the box outwards, by a share of its half diagonal.
+        const glm::dvec3 side = glm::abs(to) / half;
+        const glm::dvec3 at =
+            middle + to * (1 / std::max({side.x, side.y, side.z}) + away * glm::length(half));
+        for (const glm::dvec3& tilt : directions(4, 6)) {
+          const glm::dvec3 normal = glm::normalize(0.7 * tilt - to);
+          const double truth = bruteForce(at, normal, spheres, 60).x;
+          off += std::abs(double(irradianceOf(probeAt(grid, probes, glm::vec3(at)), glm::vec3(normal)).x) -
+                          truth);
+          all += truth;
+        }
+      }
+      MESSAGE(std::string(name), ", ", away, " of the half diagonal away: off by ", off / all,
+              " of the light");
+      CHECK(off < most * all);
+    }
+  }
 }
 
 TEST_CASE(

@@ -201,7 +201,7 @@ TEST_CASE(
   for (const Probe& probe : computed(none, {}, {})) CHECK(irradianceOf(probe, {0, 1, 0}) == glm::vec3(0));
 }
 
-TEST_CASE("gi: between probes their mix is linear, and outside the box it stays") {
+TEST_CASE("gi: between probes their mix is linear, and outside the box it falls off without a step") {
   const ProbeGrid grid{.low = {-1, 0, 2}, .high = {3, 5, 2.5f}, .count = {4, 3, 2}};
   const auto plane = [](glm::vec3 p) { return 1.0f + 2.0f * p.x - 3.0f * p.y + 0.5f * p.z; };
   std::vector<Probe> probes(grid.size());
@@ -216,9 +216,17 @@ TEST_CASE("gi: between probes their mix is linear, and outside the box it stays"
   for (int i = 0; i < 200; ++i) {
     const glm::vec3 point(place(random), place(random), place(random));
     const Probe probe = probeAt(grid, probes, point);
-    const float expected = plane(glm::clamp(point, grid.low, grid.high));
+    const glm::vec3 edge = glm::clamp(point, grid.low, grid.high);
+    const float left = leftOutside(grid, point), expected = left * plane(edge);
     CHECK(probe.sh[0].x == doctest::Approx(expected).epsilon(1e-4).scale(10));
     CHECK(probe.sh[8].x == doctest::Approx(9 * expected).epsilon(1e-4).scale(90));
+    CHECK(leftOutside(grid, edge) == doctest::Approx(1));
+    if (point == edge) continue;
+    CHECK(left < 1);
+    CHECK(leftOutside(grid, edge + 1.1f * (point - edge)) < left);
+    const float far = leftOutside(grid, edge + 200.0f * (point - edge)),
+                farther = leftOutside(grid, edge + 400.0f * (point - edge));
+    CHECK(far == doctest::Approx(4 * farther).epsilon(0.05));
   }
 }
 

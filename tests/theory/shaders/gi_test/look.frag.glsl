@@ -24,8 +24,8 @@ void main() {
   place = vec4(at, 1.0);
   facing = vec4(normal, 0.0);
   vec3 c[9];
-  probeAt(at, c);
-  light = vec4(probeIrradiance(c, normal), 1.0);
-  Bounce bounce = bounceOf(c, normal);
+  float left = probeAt(at, c);
+  light = vec4(left * probeIrradiance(c, normal), 1.0);
+  Bounce bounce = bounceOf(c, left, normal);
   from = vec4(bounce.facing, bounce.sure);
 }
