@@ -249,6 +249,41 @@ TEST_CASE("irradiance under a computed sun near the zenith: its light is there o
   }
 }
 
+// A disc of 1.5 degrees in radius over an even sky, from the zenith downwards. The integrals are sums over the texels, by their shares of the sphere.
+TEST_CASE("irradiance of a loaded map: a small sun counts as much as it is large, also at the poles") {
+  double worst = 0;
+  for (const int width : {1024, 600})
+    for (const double from : {0.0, 2.0, 4.5, 7.0, 30.0})
+      for (const double strength : {40.0, 4000.0}) {
+        const double angle = from * std::numbers::pi / 180;
+        const Vec3 to{std::sin(angle) * 0.8, std::cos(angle), std::sin(angle) * 0.6};
+        auto map = std::make_shared<weft::assets::ImageF>();
+        map->width = width;
+        map->height = width / 2;
+        map->channels = 4;
+        double truth = 0;
+        for (int y = 0; y < map->height; ++y)
+          for (int x = 0; x < width; ++x) {
+            const Vec3 d = equirectDirection(x, y, width, map->height);
+            const double value = dot(d, to) > std::cos(1.5 * std::numbers::pi / 180) ? strength : 1;
+            for (const double c : {value, value, value, 1.0}) map->texels.push_back(static_cast<float>(c));
+            truth += std::max(d.y, 0.0) * value * 2 / width *
+                     (std::cos(y * std::numbers::pi / map->height) -
+                      std::cos((y + 1) * std::numbers::pi / map->height));
+          }
+        Setup setup{.graph = "tests/theory/furnace.json", .balls = {{}}};
+        setup.environment = map;
+        Lab lab(setup);
+        lab.frame();
+        CHECK(lab.reports() == "");
+        const double given = static_cast<double>(lab.read("ibl.irradiance").at(0, 0)[0]);
+        MESSAGE(width, " wide, ", strength, " at ", from, " degrees: ", given, " of ", truth);
+        worst = std::max(worst, std::abs(given / truth - 1));
+      }
+  MESSAGE("off by ", worst);
+  CHECK(worst < 0.022);
+}
+
 // In an even environment the spot has no light, and is at the zenith.
 TEST_CASE("irradiance: alpha is the cosine to the brightest spot, also where that is at the pole") {
   Lab lab({.graph = "tests/theory/draw_modes.json", .balls = {{}}});
