@@ -12,6 +12,7 @@
 //                       sphere has listed, and its radius: `flat out Listed listed` (neighbours/row.glsl), `flat out float sphere_radius`,
 //                       and with `brightest` `flat out vec4 spot_around`
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
+//         light_maps?, light_depths?, ball?   see shading/mesh_shadow.glsl; in place of sun_map
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
 //         clusters?, slices?   which lamps reach where, see deferred/clusters.glsl (forward, `clusters` is its `columns`); without
 //                       both every pixel goes through all lamps
@@ -51,6 +52,12 @@ flat in float sphere_radius;
 #include "shading/lamp_shadow.glsl"
 #elif defined HAS_LAMPS
 #include "scene/lamps.glsl"
+#endif
+#if defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_BALL
+#define SEES_MESHES 1
+#include "shading/mesh_shadow.glsl"
+#else
+#define SEES_MESHES 0
 #endif
 #if defined HAS_LAMPS && (defined HAS_CLUSTERS || defined HAS_SLICES)
 #include "deferred/clusters.glsl"
@@ -97,6 +104,15 @@ void main() {
   GroundLight on_ground = groundLight(lobe, listed.above);
   vec3 open_ground = mix(listed.below, surround.soil.albedo * (on_ground.sky + on_ground.spot + on_ground.sun), surfaceOf(surround.soil, point.at));
 #endif
+#if SEES_MESHES
+  vec2 past_meshes = seenOfLights(point.at, point.n, sky_turn);
+#if SEES_NEIGHBOURS
+  // Spheres may stand in both.
+  past_meshes = min(past_meshes, vec2(surround.sun_seen, surround.spot_seen));
+  surround.sun_seen = past_meshes.x;
+  surround.spot_seen = past_meshes.y;
+#endif
+#endif
   // What single scattering reflects of the environment.
   vec3 reflected = vec3(0.0);
 #ifdef HAS_SPECULAR
@@ -134,6 +150,8 @@ void main() {
   float m = 1.0 - 0.5 * sqrt(h2), m2 = m * m;
 #if SEES_NEIGHBOURS
   strength *= surround.spot_seen;
+#elif SEES_MESHES
+  strength *= past_meshes.y;
 #endif
   reflected += (response.f0 + (1.0 - response.f0) * (m2 * m2 * m)) * lobe.light * strength;
 #endif
@@ -150,6 +168,9 @@ void main() {
   around = mapped.rgb;
 #if SEES_NEIGHBOURS
   around = aroundSeen(surround, point.n, lobe, around, mapped.a, listed.below, open_ground);
+#elif SEES_MESHES && defined HAS_BRIGHTEST
+  // The map has the spot's light in it.
+  around = max(around - spotAround().rgb * (max(dot(point.n, towardsBrightest(sky_turn)), 0.0) * (1.0 - past_meshes.y)), vec3(0.0));
 #endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];
@@ -171,6 +192,8 @@ void main() {
 #endif
 #if SEES_NEIGHBOURS
     from_lights *= surround.sun_seen;
+#elif SEES_MESHES
+    from_lights *= past_meshes.x;
 #endif
   }
 #endif

@@ -1,10 +1,10 @@
-// Spheres into a shadow map, as triangles.
-#include "common/view.glsl"
+// Spheres into a shadow map, as triangles, seen as meshes are: see shadow/from_spot.glsl.
 #include "scene/instances.glsl"
+#include "shadow/from_spot.glsl"
 
 in vec3 position;
 
 void main() {
   Instance self = instance[gl_InstanceID];
-  gl_Position = view_projection * vec4(self.center + self.radius * position, 1.0);
+  gl_Position = lightClip(self.center + self.radius * position);
 }

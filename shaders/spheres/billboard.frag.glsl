@@ -30,7 +30,7 @@ flat in float metallic;
 flat in vec4 per_pixel;
 flat in float near_distance;
 flat in mat3 to_world;
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
 flat in vec3 world_eye;
 #endif
 #ifdef HAS_VELOCITY
@@ -105,7 +105,7 @@ void findPoint(out Point point) {
   point.nv = nv;
   point.roughness = albedo_roughness.w;
   point.surface = Surface(albedo_roughness.rgb, metallic, albedo_roughness.w);
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
   point.at = from_eye + world_eye;
 #else
   point.at = vec3(0.0);

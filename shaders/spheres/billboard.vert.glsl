@@ -36,7 +36,7 @@ flat out Lobe lobe;             // see shading/lobe.glsl
 flat out vec4 per_pixel;        // slope, screen UV
 flat out float near_distance;
 flat out mat3 to_world;
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
 flat out vec3 world_eye;
 #endif
 #ifdef HAS_NEIGHBOURS
@@ -101,7 +101,7 @@ void main() {
   per_pixel = vec4(1.0 / focal, 1.0 / viewport);
   near_distance = near_plane;
   to_world = transpose(mat3(view));
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS
+#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
   world_eye = eye;
 #endif
 #ifdef HAS_VELOCITY

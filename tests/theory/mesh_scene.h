@@ -29,6 +29,23 @@ class MeshScene {
     return end();
   }
 
+  // Around the origin; `half` of its sides. Flat faces, outwards.
+  scene::MeshId addBox(glm::vec3 half) {
+    begin("box");
+    for (int axis = 0; axis < 3; ++axis)
+      for (const float way : {-1.0f, 1.0f}) {
+        const std::uint32_t first = static_cast<std::uint32_t>(data_->vertices.size()) - mesh_.firstVertex;
+        glm::vec3 normal(0), u(0), v(0);
+        normal[axis] = way;
+        u[(axis + 1) % 3] = way;
+        v[(axis + 2) % 3] = 1;
+        for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+          addVertex((normal + u * corner.x + v * corner.y) * half, normal);
+        for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) data_->indices.push_back(first + index);
+      }
+    return end();
+  }
+
   // Of the unit sphere.
   scene::MeshId addBall() {
     begin("ball");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
@@ -14,9 +15,19 @@ namespace {
 
 constexpr double kMostTexels = 16384;
 
+// Where a graph's own sun stands; empty: where the scene's does.
+std::optional<glm::vec3> directionOf(const graph::ImportRequest& request) {
+  const graph::Value& value = request.arguments[1].second;
+  const glm::dvec3 towards(value.v[0], value.v[1], value.v[2]);
+  const double length = glm::length(towards);
+  if (!(length > 0 && std::isfinite(length))) return {};
+  return glm::vec3(towards / length);
+}
+
 class SunProvider : public Provider {
  public:
-  explicit SunProvider(std::uint32_t texels) : texels_(texels) {}
+  SunProvider(std::uint32_t texels, std::optional<glm::vec3> direction)
+      : texels_(texels), direction_(direction) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     follow(frame);
@@ -46,7 +57,8 @@ class SunProvider : public Provider {
     frame_ = frame.number;
     const std::uint64_t changed = frame.world.sceneGeneration();
     const scene::Box bounds = frame.tables.bounds();
-    const scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{});
+    scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{});
+    sun.direction = direction_.value_or(sun.direction);
     if (scene_ == changed && sun.direction == sun_.direction && bounds.low == bounds_.low &&
         bounds.high == bounds_.high)
       return;
@@ -62,6 +74,7 @@ class SunProvider : public Provider {
   }
 
   std::uint32_t texels_;
+  std::optional<glm::vec3> direction_;
   scene::Sun sun_;
   scene::SunView fitted_;
   scene::Box bounds_;
@@ -78,7 +91,11 @@ graph::ImportType Sun::reflect() const {
           .arguments = {{.name = "texels",
                          .initial = graph::Value::number(2048),
                          .choices = {},
-                         .doc = "a side of the map that its shadow is drawn into"}},
+                         .doc = "a side of the map that its shadow is drawn into"},
+                        {.name = "direction",
+                         .initial = graph::Value{graph::Value::Type::list, 3, {}, {}},
+                         .choices = {},
+                         .doc = "towards it, in place of the scene's; then it is there without a sun, too"}},
           .columns = {{"direction", "vec3", "unit, towards it, world"},
                       {"cos_angle", "float", "of half its diameter in the sky"},
                       {"irradiance", "vec3", "linear RGB on what faces it, scene-referred"},
@@ -87,13 +104,14 @@ graph::ImportType Sun::reflect() const {
           .views = true};
 }
 
-graph::ImportFacts Sun::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
-  return {.exists = world.sun, .count = world.sun ? 1.0 : 0.0};
+graph::ImportFacts Sun::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {
+  const bool exists = world.sun || directionOf(request);
+  return {.exists = exists, .count = exists ? 1.0 : 0.0};
 }
 
 std::unique_ptr<Provider> Sun::provide(const graph::ImportRequest& request) const {
   const double texels = std::clamp(std::floor(request.arguments[0].second.v[0]), 1.0, kMostTexels);
-  return std::make_unique<SunProvider>(static_cast<std::uint32_t>(texels));
+  return std::make_unique<SunProvider>(static_cast<std::uint32_t>(texels), directionOf(request));
 }
 
 }  // namespace weft::imports

@@ -1,0 +1,60 @@
+// How much of the sun and of the environment's brightest spot a point sees past what graphs/mesh_shadows.json has drawn, see
+// shading/soft_shadow.glsl.
+// read    light_maps    `as compare`, an array: layer 0 of the sun, 1 of the spot; LIT_IS_GREATER is defined
+//         light_depths  the same as numbers
+//         ball          see shadow/ball.glsl
+//         sun?, brightest?   see scene/sun.glsl, ibl/brightest.glsl; included before, as is sky_turn
+#ifndef SHADING_MESH_SHADOW_GLSL
+#define SHADING_MESH_SHADOW_GLSL
+
+#define SOFT_SUN 1
+#include "ibl/brightest.glsl"
+#include "shading/compare.glsl"
+#include "shadow/ball.glsl"
+#ifdef HAS_SUN
+#include "scene/sun.glsl"
+#endif
+
+uniform sampler2DArrayShadow light_maps;
+uniform sampler2DArray light_depths;
+
+float light_layer = 0.0;
+vec2 shadowSize() { return vec2(textureSize(light_maps, 0).xy); }
+float shadowHides(vec3 at) { return hiddenBy(texture(light_maps, vec4(at.xy, light_layer, at.z))); }
+float shadowDepth(vec2 at) { return textureLod(light_depths, vec3(at, light_layer), 0.0).r; }
+#include "shading/soft_shadow.glsl"
+
+// x of the sun, y of the spot. A loop, so that the filter stands in the program once.
+vec2 seenOfLights(vec3 position, vec3 n, float turn) {
+  vec2 seen = vec2(1.0);
+#ifdef HAS_SUN
+  const int first = 0;
+#else
+  const int first = 1;
+#endif
+#ifdef HAS_BRIGHTEST
+  const int last = 1;
+#else
+  const int last = 0;
+#endif
+  for (int i = first; i <= last; ++i) {
+    ShadowedLight self = ShadowedLight(vec3(0.0, 1.0, 0.0), 0.0, ball_row[0].texel, mat4(1.0));
+    light_layer = float(i);
+    if (i == 1) {
+      self.direction = towardsBrightest(turn);
+      self.spread = tan(min(spotAround().w, 0.5));
+      self.matrix = mapFrom(self.direction);
+    }
+#ifdef HAS_SUN
+    if (i == 0) {
+      Sun light = sun_light[0];
+      self = ShadowedLight(light.direction, sqrt(max(1.0 - light.cos_angle * light.cos_angle, 0.0)) / max(light.cos_angle, 1e-3),
+                           light.texel, light.shadow_matrix);
+    }
+#endif
+    if (dot(n, self.direction) > 0.0) seen[i] = seenInMap(self, position, n);
+  }
+  return seen;
+}
+
+#endif

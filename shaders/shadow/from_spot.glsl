@@ -1,0 +1,22 @@
+// Where a vertex lies in the map that the environment's brightest spot sees; without one it is what the pass's view says.
+// read    brightest?   `as uniform`, see ibl/brightest.glsl; with it ball, see shadow/ball.glsl
+// params  sky_turn     with it: by how much of a full turn the environment is rotated
+#ifndef SHADOW_FROM_SPOT_GLSL
+#define SHADOW_FROM_SPOT_GLSL
+
+#include "common/view.glsl"
+#if defined HAS_BRIGHTEST && defined HAS_BALL
+#include "ibl/brightest.glsl"
+#include "shadow/ball.glsl"
+
+layout(std140) uniform Parameters { float sky_turn; };
+
+vec4 lightClip(vec3 at) {
+  vec3 map = (mapFrom(towardsBrightest(sky_turn)) * vec4(at, 1.0)).xyz;
+  return vec4(map.xy * 2.0 - 1.0, map.z, 1.0);
+}
+#else
+vec4 lightClip(vec3 at) { return view_projection * vec4(at, 1.0); }
+#endif
+
+#endif

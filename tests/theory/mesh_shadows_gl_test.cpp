@@ -1,0 +1,243 @@
+// Shadows of meshes in the studio against rays to every triangle: what is left of the sun, of the environment's brightest spot and of the sky.
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/theory/mesh_scene.h"
+#include "tests/theory/statistics.h"
+
+using namespace weft;
+using namespace weft::theory;
+using runtime::test::CleanScope;
+
+namespace {
+
+constexpr std::uint32_t kWide = 128, kHigh = 96;
+constexpr double kTurn = 6.28318530717959, kFov = 42;
+const glm::dvec3 kEye(1.5, 2.6, 4.1);
+const glm::dvec3 kBall(1.15, 0.4, 0.1);  // a ray-traced sphere that casts no shadow into maps
+constexpr double kBallRadius = 0.3;
+
+struct Place {
+  glm::vec3 at, half;
+};
+// A table on a leg, a box on the table, a box on the ground and one in the air.
+const std::vector<Place> kBoxes = {{{0, 0.95f, 0}, {0.8f, 0.05f, 0.6f}},
+                                   {{0, 0.45f, 0}, {0.12f, 0.45f, 0.12f}},
+                                   {{-0.3f, 1.2f, 0.1f}, {0.15f, 0.2f, 0.15f}},
+                                   {{-1.7f, 0.3f, 0.4f}, {0.3f, 0.3f, 0.4f}},
+                                   {{0.9f, 1.5f, -1.3f}, {0.35f, 0.25f, 0.2f}}};
+
+scene::Scene furniture(std::optional<scene::Sun> sun) {
+  MeshScene made(kEye, kFov);
+  constexpr auto kLists =
+      static_cast<std::uint8_t>(maskOf(scene::DrawList::opaque) | maskOf(scene::DrawList::shadow_casters));
+  for (const Place& box : kBoxes)
+    made.put(made.addBox(box.half), {.name = "", .albedo = glm::vec3(0.6f), .metallic = 0, .roughness = 1},
+             box.at, kLists);
+  made.putSphere(glm::vec3(kBall), static_cast<float>(kBallRadius),
+                 {.name = "", .albedo = glm::vec3(0.6f), .metallic = 0, .roughness = 1});
+  made.scene.ground = scene::Ground{.albedo = glm::vec3(1), .radius = 1e5f};
+  made.scene.sun = sun;
+  return made.scene;
+}
+
+struct Hit {
+  double distance = 1e30;
+  glm::dvec3 normal{0};
+};
+
+// The nearest triangle, by Cramer's rule for its two edges and the ray.
+Hit meetTriangles(const scene::Scene& scene, glm::dvec3 from, glm::dvec3 way) {
+  Hit hit;
+  for (const scene::MeshInstance& instance : scene.meshInstances.rows()) {
+    const scene::Mesh& mesh = *scene.meshes.find(instance.mesh);
+    const glm::dvec3 moved(scene.nodes.find(instance.node)->local.translation);
+    const auto corner = [&](std::uint32_t i) {
+      return moved +
+             glm::dvec3(
+                 scene.meshData->vertices[mesh.firstVertex + scene.meshData->indices[mesh.firstIndex + i]]
+                     .position);
+    };
+    for (std::uint32_t i = 0; i < mesh.indexCount; i += 3) {
+      const glm::dvec3 a = corner(i), one = corner(i + 1) - a, two = corner(i + 2) - a;
+      const glm::dmat3 sides(one, two, -way);
+      if (std::abs(glm::determinant(sides)) < 1e-12) continue;
+      const glm::dvec3 met = glm::inverse(sides) * (from - a);
+      if (met.x < 0 || met.y < 0 || met.x + met.y > 1 || met.z <= 0 || met.z >= hit.distance) continue;
+      hit = {met.z, glm::normalize(glm::cross(one, two))};
+    }
+  }
+  return hit;
+}
+
+Hit meetBall(glm::dvec3 from, glm::dvec3 way) {
+  const glm::dvec3 to = kBall - from;
+  const double along = glm::dot(to, way),
+               under = kBallRadius * kBallRadius - glm::dot(to, to) + along * along;
+  if (under < 0 || along - std::sqrt(under) <= 0) return {};
+  const double distance = along - std::sqrt(under);
+  return {distance, glm::normalize(from + way * distance - kBall)};
+}
+
+// How far shares may be off on average: on the ground, on meshes, on the sphere.
+constexpr std::array<double, 3> kSmallSun = {2e-4, 1.7e-3, 7e-3}, kLargeSun = {1.2e-3, 1.5e-3, 0.0105},
+                                kSpot = {3e-3, 2.4e-3, 1.9e-3};
+
+enum Kind { kGround, kMesh, kSphere };
+struct Seen {
+  glm::dvec3 at, normal;
+  Kind kind = kGround;
+};
+
+// What a pixel's centre shows; empty at edges, where neighbours show something else, and in the sky.
+std::optional<Seen> seenAt(const scene::Scene& scene, double x, double y) {
+  const auto shown = [&](double px, double py) -> std::optional<Seen> {
+    const glm::dvec3 forward = glm::normalize(-kEye), right = glm::normalize(glm::cross(forward, {0, 1, 0}));
+    const double slope = std::tan(kFov / 720 * kTurn);
+    const double u = (2 * px / kWide - 1) * slope * kWide / kHigh, v = (2 * py / kHigh - 1) * slope;
+    const glm::dvec3 way = glm::normalize(forward + right * u + glm::cross(right, forward) * v);
+    const Hit mesh = meetTriangles(scene, kEye, way), ball = meetBall(kEye, way);
+    const double ground = way.y < 0 ? -kEye.y / way.y : 1e29;
+    const double nearest = std::min({mesh.distance, ball.distance, ground});
+    if (nearest > 1e20) return {};
+    if (nearest == ground) return Seen{kEye + way * ground, {0, 1, 0}, kGround};
+    return nearest == mesh.distance ? Seen{kEye + way * nearest, mesh.normal, kMesh}
+                                    : Seen{kEye + way * nearest, ball.normal, kSphere};
+  };
+  const std::optional<Seen> here = shown(x + 0.5, y + 0.5);
+  if (!here) return {};
+  for (const glm::dvec2 beside : {glm::dvec2(-1, 0), {2, 0}, {0, -1}, {0, 2}}) {
+    const std::optional<Seen> other = shown(x + beside.x, y + beside.y);
+    if (!other || other->kind != here->kind || glm::dot(other->normal, here->normal) < 0.9) return {};
+  }
+  return here;
+}
+
+bool isHidden(const scene::Scene& scene, const Seen& seen, glm::dvec3 way) {
+  return meetTriangles(scene, seen.at + seen.normal * 1e-5, way).distance < 1e20;
+}
+
+struct Errors {
+  std::array<std::vector<double>, 3> all;
+  std::array<int, 3> dark{};
+};
+
+// The share that shadows leave of the radiance without them, against the share of `rays` directions that meet nothing.
+Errors compare(const scene::Scene& scene, const std::vector<float>& with, const std::vector<float>& without,
+               glm::dvec3 axis, int rays, const std::function<glm::dvec3()>& direction) {
+  Errors errors;
+  for (std::uint32_t y = 1; y < kHigh - 1; ++y)
+    for (std::uint32_t x = 1; x < kWide - 1; ++x) {
+      const std::size_t texel = 4 * (std::size_t{y} * kWide + x);
+      const std::optional<Seen> seen = seenAt(scene, x, y);
+      if (!seen || glm::dot(seen->normal, axis) < 0.1) continue;
+      if (seen->kind == kGround && (x + y) % 4 != 0) continue;  // there is plenty of it
+      // On the ground, where the ray-traced sphere takes nothing by itself.
+      if (seen->kind == kGround && glm::length(glm::cross(kBall - seen->at, axis)) < kBallRadius + 0.15)
+        continue;
+      REQUIRE(without[texel] > 0);
+      int open = 0;
+      for (int i = 0; i < rays; ++i) open += !isHidden(scene, *seen, direction());
+      const double truth = double(open) / rays;
+      errors.dark[seen->kind] += truth < 0.1;
+      errors.all[seen->kind].push_back(std::abs(double(with[texel]) / double(without[texel]) - truth));
+    }
+  return errors;
+}
+
+glm::dvec3 inCone(glm::dvec3 axis, double angle, std::mt19937& random) {
+  std::uniform_real_distribution<double> share(0, 1);
+  const double cosine = 1 - share(random) * (1 - std::cos(angle)), turn = kTurn * share(random);
+  const glm::dvec3 side = glm::normalize(glm::cross(axis, {0.3, 0.1, 1})), up = glm::cross(axis, side);
+  return axis * cosine + (side * std::cos(turn) + up * std::sin(turn)) * std::sqrt(1 - cosine * cosine);
+}
+
+std::vector<float> radianceOf(const scene::Scene& scene, bool shadows,
+                              const std::shared_ptr<const assets::ImageF>& environment) {
+  runtime::test::Stage stage("graphs/studio.json", kWide, kHigh);
+  stage.world.setScene(scene);
+  stage.world.setEnvironment(environment);
+  stage.settings.sets = {{"mesh_shadows", shadows ? "true" : "false"}};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run();
+  return stage.read("hdr");
+}
+
+}  // namespace
+
+TEST_CASE("mesh shadows: what is left of the sun's disc on ground, meshes and spheres") {
+  const CleanScope clean;
+  std::mt19937 random(11);
+  for (const float degrees : {0.53f, 5.0f}) {
+    scene::Sun sun{.direction = glm::normalize(glm::vec3(-0.45f, 0.75f, 0.35f)), .angle = degrees};
+    sun.irradiance = glm::vec3(3);
+    const scene::Scene scene = furniture(sun);
+    const auto dark = constantEnvironment(0, 0, 0);
+    const glm::dvec3 axis(sun.direction);
+    Errors errors = compare(scene, radianceOf(scene, true, dark), radianceOf(scene, false, dark), axis, 64,
+                            [&] { return inCone(axis, double(degrees) / 720 * kTurn, random); });
+    for (const Kind kind : {kGround, kMesh, kSphere}) {
+      std::vector<double>& all = errors.all[kind];
+      const double mean = meanOf(all), high = percentileOf(all, 0.99);
+      MESSAGE(degrees, " degrees, ", int(kind), ": ", all.size(), " points, ", errors.dark[kind],
+              " dark, mean ", mean, ", 99 % below ", high);
+      CHECK(all.size() > 100);
+      CHECK(errors.dark[kind] > 15);
+      CHECK(mean < (degrees < 1 ? kSmallSun : kLargeSun)[kind]);
+    }
+  }
+}
+
+TEST_CASE("mesh shadows: what is left of the environment's brightest spot") {
+  const CleanScope clean;
+  std::mt19937 random(12);
+  // Three texels by three, 4.2 degrees, over the left of the eye.
+  constexpr int kLeft = 214, kTop = 36;
+  const auto lit = makeEnvironment([&](int x, int y) {
+    const double value = x >= kLeft && x < kLeft + 3 && y >= kTop && y < kTop + 3 ? 3000 : 0;
+    return std::array{value, value, value};
+  });
+  const auto towards = [&](double x, double y) {
+    const double turn = kTurn * (x / 256 - 0.5), down = kTurn / 2 * y / 128;
+    return glm::dvec3(std::sin(down) * std::cos(turn), std::cos(down), std::sin(down) * std::sin(turn));
+  };
+  std::uniform_real_distribution<double> share(0, 3);
+  const scene::Scene scene = furniture({});
+  Errors errors = compare(scene, radianceOf(scene, true, lit), radianceOf(scene, false, lit),
+                          towards(kLeft + 1.5, kTop + 1.5), 64,
+                          [&] { return towards(kLeft + share(random), kTop + share(random)); });
+  for (const Kind kind : {kGround, kMesh, kSphere}) {
+    std::vector<double>& all = errors.all[kind];
+    const double mean = meanOf(all), high = percentileOf(all, 0.99);
+    MESSAGE(int(kind), ": ", all.size(), " points, ", errors.dark[kind], " dark, mean ", mean,
+            ", 99 % below ", high);
+    CHECK(all.size() > 100);
+    CHECK(errors.dark[kind] > 1);
+    CHECK(mean < kSpot[kind]);
+  }
+}
+
+TEST_CASE("mesh shadows: what is left of the sky on the ground") {
+  const CleanScope clean;
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> share(0, 1);
+  const scene::Scene scene = furniture({});
+  const auto white = constantEnvironment(1, 1, 1);
+  Errors errors =
+      compare(scene, radianceOf(scene, true, white), radianceOf(scene, false, white), {0, 1, 0}, 400, [&] {
+        const double radius2 = share(random), turn = kTurn * share(random);
+        return glm::dvec3(std::sqrt(radius2) * std::cos(turn), std::sqrt(1 - radius2),
+                          std::sqrt(radius2) * std::sin(turn));
+      });
+  std::vector<double>& all = errors.all[kGround];
+  const double mean = meanOf(all), high = percentileOf(all, 0.99);
+  MESSAGE(all.size(), " points, mean ", mean, ", 99 % below ", high);
+  CHECK(all.size() > 400);
+  CHECK(mean < 0.014);
+  CHECK(high < 0.085);
+}
