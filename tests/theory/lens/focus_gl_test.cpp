@@ -131,9 +131,9 @@ TEST_CASE(
       const std::uint32_t x = kWidth / 4, y = kHeight / 4;
       const double found =
           0.9 * distance < lens.focus ? 2 * discs.at(x, y)[0] : 2 * discs.at(x, y)[1] / far.at(x, y)[3];
-      CHECK(found == doctest::Approx(expected).epsilon(0.005));
+      CHECK(found == doctest::Approx(expected).epsilon(0.004));
       CHECK(2 * discs.at(2, 2)[1] ==
-            doctest::Approx(std::min(discRadius(lens, INFINITY), 31.0)).epsilon(0.005));
+            doctest::Approx(std::min(discRadius(lens, INFINITY), 31.0)).epsilon(0.001));
     }
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("focus: what is in focus does not leak into the blurred sky around it,
                                         {.center = {4, 1, 0}, .radius = 1, .albedo = {0.9f, 0.1f, 0.1f}}},
                                        lens));
   MESSAGE("largest change: ", largestChange(panels));
-  CHECK(largestChange(panels) < 4e-3);
+  CHECK(largestChange(panels) < 2e-3);  // one step of a half float: 0.00098
 }
 
 TEST_CASE("focus: the near field covers the sharp sky as far as its disc reaches, and no farther") {
@@ -165,9 +165,9 @@ TEST_CASE("focus: the near field covers the sharp sky as far as its disc reaches
   while (edge < kWidth && panels.before(edge, row)[1] > 0.6) ++edge;
   REQUIRE(edge > 40);
   CAPTURE(radius);
-  CHECK(panels.after(edge - 1, row)[1] < 0.8);
-  CHECK(panels.after(edge + 1, row)[1] > 0.3);  // the sky shows inside the silhouette
-  CHECK(panels.after(edge - static_cast<std::uint32_t>(radius / 2), row)[1] < 0.98);
+  CHECK(panels.after(edge - 1, row)[1] < 0.73);
+  CHECK(panels.after(edge + 1, row)[1] > 0.45);  // the sky shows inside the silhouette
+  CHECK(panels.after(edge - static_cast<std::uint32_t>(radius / 2), row)[1] < 0.83);
   // A texel of the half size that the sphere touches counts by its share: so the disc may begin two pixels farther out.
   for (std::uint32_t x = 0; x + radius + 6 < edge; ++x) {
     CAPTURE(edge - x);
@@ -264,7 +264,7 @@ TEST_CASE(
     CHECK(least > 0.9 * mean);
     CHECK(greatest < 1.1 * mean);
   }
-  CHECK(radii[1] == doctest::Approx(radii[0]).epsilon(0.07));
+  CHECK(radii[1] == doctest::Approx(radii[0]).epsilon(0.024));
 }
 
 TEST_CASE(
@@ -280,7 +280,7 @@ TEST_CASE(
           worst = std::max<double>(worst, std::abs(panels.after(x, y)[1] - panels.before(x, y)[1]));
     CAPTURE(radius);
     MESSAGE("silhouette ", silhouette, ", largest change ", worst);
-    CHECK(worst < 0.02);
+    CHECK(worst < 5e-4);  // two steps of a half float; measured: 0.00024
   }
 }
 
@@ -294,7 +294,7 @@ TEST_CASE("focus: one colour stays that colour, at half size and at full size") 
                         lens);
     setup.sets.push_back({"full_size_bokeh", fullSize});
     CAPTURE(fullSize);
-    CHECK(largestChange(panelsOf(setup)) < 4e-3);
+    CHECK(largestChange(panelsOf(setup)) < 2e-3);  // one step of a half float: 0.00098
   }
 }
 
@@ -318,7 +318,7 @@ TEST_CASE(
     MESSAGE("light kept: ", blurred.mass / sharp.mass, ", variance ", blurred.variance - sharp.variance,
             " of ", expected);
     REQUIRE(expected > 4);
-    CHECK(blurred.mass == doctest::Approx(sharp.mass).epsilon(0.02));
+    CHECK(blurred.mass == doctest::Approx(sharp.mass).epsilon(0.014));
     // Wider, never narrower: measured 1.03 and 1.105.
     CHECK(blurred.variance - sharp.variance > expected);
     CHECK(blurred.variance - sharp.variance < 1.11 * expected);
@@ -330,7 +330,7 @@ TEST_CASE("focus: blades make a polygon of the disc, and the light stays") {
                       {.focalLength = 150, .focus = 40}, "4");
   setup.sets.push_back({"blades", "5"});
   const Panels panels = panelsOf(setup);
-  CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.03));
+  CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.007));
 }
 
 TEST_CASE("focus: without dof.reach there is still a blurred picture, and GL has nothing to say") {
@@ -338,6 +338,6 @@ TEST_CASE("focus: without dof.reach there is still a blurred picture, and GL has
                       {.focalLength = 150, .focus = 40}, "4");
   setup.disables = {"dof.reach"};
   const Panels panels = panelsOf(setup);
-  CHECK(darkOf(panels, true).variance > darkOf(panels, false).variance + 10);
-  CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.05));
+  CHECK(darkOf(panels, true).variance > darkOf(panels, false).variance + 17);
+  CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.039));
 }
