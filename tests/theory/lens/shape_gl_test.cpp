@@ -212,8 +212,8 @@ TEST_CASE(
     // Measured: a square from 0.98, a ball 0.92 at 6 pixels, from 0.95 above. With highlights left in the fields, as they are with many more texels of them:
     // 0.87 and 0.70.
     const double d = light.diameter;
-    CHECK(shape.overlap > (light.source == Source::kSquare ? 0.97 : d < 7 ? 0.91 : 0.94));
-    CHECK(std::abs(shape.light - 1) < 0.02);
+    CHECK(shape.overlap > (light.source == Source::kSquare ? 0.98 : d < 7 ? 0.91 : 0.94));
+    CHECK(std::abs(shape.light - 1) < 0.015);  // measured: 0.0113
   };
   for (const double diameter : {6.0, 9.0, 13.0, 20.0, 26.0, 33.0, 48.0, 64.0})
     for (const std::uint32_t odd : {0u, 1u, 3u}) {
@@ -259,9 +259,22 @@ TEST_CASE(
             // Measured, the least of all places and blades: 0.857 at 6 pixels, 0.917 at 9, 0.939 at 13, from 0.956 above; at full size not less.
             CHECK(shape.overlap > (d < 7 ? 0.85 : d < 10 ? 0.91 : d < 14 ? 0.93 : 0.95));
             CHECK(shape.low > 0.87);
-            if (blades && d > 7) CHECK(shape.corners > (!fullSize ? 0.9 : d < 10 ? 1.03 : 0.77));
+            if (blades && d > 7) {
+              // Measured: 0.92 to 1.39 at 9 pixels, 1.07 to 1.17 at 13, 1.02 to 1.07 at 20, 0.996 to 1.016 above; at full size 1.04 to 1.10 at 9
+              // and 0.78 to 0.90 above.
+              CHECK(shape.corners > (fullSize ? (d < 10 ? 1.03 : 0.77) : d < 10 ? 0.9 : 0.99));
+              CHECK(shape.corners < (fullSize ? (d < 10 ? 1.13 : 0.93)
+                                     : d < 10 ? 1.5
+                                     : d < 14 ? 1.22
+                                     : d < 30 ? 1.09
+                                              : 1.02));
+            }
             // At full size highlights stay in the fields, which lose 8 % of the light at 64 pixels before the focus.
-            CHECK(std::abs(shape.light - 1) < (!fullSize ? 0.01 : d < 40 ? 0.03 : d < 60 ? 0.06 : 0.085));
+            CHECK(std::abs(shape.light - 1) < (!fullSize ? (d < 7 ? 0.01 : 0.006)
+                                               : d < 30  ? 0.0125
+                                               : d < 40  ? 0.033
+                                               : d < 60  ? 0.06
+                                                         : 0.085));
           }
         }
 }
@@ -276,9 +289,9 @@ TEST_CASE("shape: a disc of a few pixels is as wide in all directions, and no cr
         CAPTURE(near);
         CAPTURE(shape.ideal.cross);
         CAPTURE(shape.found.least);
-        // Measured: 1.001 below 9 pixels, at 9 up to 1.05, for six blades. With texels by their areas and five blades: 1.08 at 5.7.
-        CHECK(shape.found.most < (diameter < 8 ? 1.005 : 1.06) * shape.found.least);
-        // Measured at 5.7: from -0.03 to 0.03, with texels by their areas 0.30 for five blades and 0.32 for six; from -0.18 to 0.09 above.
-        CHECK(std::abs(shape.found.cross) < (diameter < 6 ? 0.05 : 0.2));
+        // Measured: 1.00007 below 9 pixels, at 9 up to 1.039, for six blades. With texels by their areas and five blades: 1.08 at 5.7.
+        CHECK(shape.found.most < (diameter < 8 ? 1.0002 : 1.05) * shape.found.least);
+        // Measured at 5.7: 0.044, with texels by their areas 0.30 for five blades and 0.32 for six; above: 0.058.
+        CHECK(std::abs(shape.found.cross) < (diameter < 6 ? 0.055 : 0.075));
       }
 }
