@@ -1,5 +1,6 @@
 // Directional albedo of the GGX microfacet BRDF for the split sum (Karis, SIGGRAPH 2013): with Schlick's Fresnel,
 // albedo(F0) = F0 * r + g. x is N.V, y is perceptual roughness, both at texel centres (i + 1/2) / size.
+// threads: a work group of 8 x 16 makes 8 columns of 13 rows per 128 of the table's, [width, 16 * ceil(height / (13 * ceil(height / 128)))]
 // write  table  rgba16f, any size
 //          r, g  of the albedo
 //          b     how far the lobe leans from the mirror direction to the normal: its axis is mix(mirror, normal, b), not normalised
@@ -13,9 +14,12 @@
 // The lobe of a slanted surface is longer in the plane of incidence than across it, and rough ones lean to the normal. The prefiltered
 // map has the lobes of V = N; the one that is read instead has the mean direction of the true lobe, and for variance the geometric
 // mean of its variances in the plane and across it.
+//
+// Of four rows (where there are 512) one is integrated, and the others lie on the cubic through the four nearest of these (Catmull and Rom, 1974). All is
+// even in the roughness, and goes on beyond 1, so that the first and the last rows have neighbours, too.
 #include "roughness_level.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 8, local_size_y = 16) in;
 layout(rgba16f) uniform writeonly image2D table;
 
 const int kHeights = 12, kAzimuths = 16;
@@ -28,6 +32,8 @@ const float kWeight[12] = float[12](
 // Cosine and sine of the first midpoint, and of the angle from one to the next: in software an array costs more than a rotation.
 const vec2 kFirst = vec2(cos(0.03125 * 3.14159265), sin(0.03125 * 3.14159265));
 const vec2 kStep = vec2(cos(0.0625 * 3.14159265), sin(0.0625 * 3.14159265));
+
+shared vec4 integrated[16][8];
 
 // Variance along one axis of the lobe of V = N, weighted by N.L: (1 - m^2) / 2 with its mean cosine m, in closed form.
 // c = cos^2 of the half vector's angle has the density a2 / (1 + (a2 - 1) c)^2, and N.L = 2 c - 1.
@@ -48,11 +54,8 @@ float alphaOfVariance(float variance, int steps) {
   return exp2(range.x);
 }
 
-void main() {
-  ivec2 size = imageSize(table), at = ivec2(gl_GlobalInvocationID.xy);
-  if (at.x >= size.x || at.y >= size.y) return;
-  float nv = (float(at.x) + 0.5) / float(size.x);
-  float alpha = alphaOfRoughness((float(at.y) + 0.5) / float(size.y));
+vec4 integrate(float nv, float roughness, int quarters) {
+  float alpha = alphaOfRoughness(roughness);
   float a2 = alpha * alpha;
   float sv = sqrt(1.0 - nv * nv);
 
@@ -62,7 +65,6 @@ void main() {
   float cap = 1.0 - lowest;
   float masking = sqrt(1.0 + a2 * (sv * sv) / (nv * nv));  // 1 + 2 Lambda(V)
 
-  int quarters = size.x > 0 ? kAzimuths / 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
   vec2 sum = vec2(0.0);
   vec3 light = vec3(0.0);  // mean direction towards the light in the plane of incidence; mean square across it
   for (int i = 0; i < kHeights; ++i) {
@@ -97,5 +99,23 @@ void main() {
   float like = alphaOfVariance(sqrt(along * across), 3 * quarters);
   // Mirrors, whose variance is beyond the precision of floats: the lobe is nv times as wide across the plane.
   if (alpha < 0.005) like = alpha * sqrt(nv);
-  imageStore(table, at, vec4(sum * (cap / ((1.0 + w.y) * float(kAzimuths))), lean, placeOfAlpha(like) - placeOfAlpha(alpha)));
+  return vec4(sum * (cap / ((1.0 + w.y) * float(kAzimuths))), lean, placeOfAlpha(like) - placeOfAlpha(alpha));
+}
+
+void main() {
+  ivec2 size = imageSize(table), own = ivec2(gl_LocalInvocationID.xy);
+  int step = (size.y + 127) / 128, first = int(gl_WorkGroupID.y) * 13 * step, column = int(gl_GlobalInvocationID.x);
+  if (first >= size.y) return;
+  int quarters = size.x > 0 ? kAzimuths / 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
+  float nv = (float(min(column, size.x - 1)) + 0.5) / float(size.x);
+  integrated[own.y][own.x] = integrate(nv, abs(float(first + (own.y - 1) * step) + 0.5) / float(size.y), quarters);
+  barrier();
+  if (column >= size.x) return;
+  for (int row = own.y; row < 13 * step && first + row < size.y; row += 16) {
+    int node = row / step;
+    float t = float(row - node * step) / float(step);
+    vec4 a = integrated[node][own.x], b = integrated[node + 1][own.x], c = integrated[node + 2][own.x], d = integrated[node + 3][own.x];
+    vec4 value = b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
+    imageStore(table, ivec2(column, first + row), value);
+  }
 }
