@@ -24,7 +24,7 @@ const int kMaxSamples = 256;
 const float kSpread = -0.5;       // levels beyond a sample's share of the sphere, so that neighbours overlap
 shared vec4 table[kMaxSamples];  // u offset, v, level of the environment, weight
 
-float radicalInverse(uint bits) { return float(bitfieldReverse(bits)) * 2.3283064365386963e-10; }
+const float kGolden = 0.61803399;  // of a turn from sample to sample: any number of them is spread evenly
 
 void fillTable(float theta, int count) {
   float alpha = alphaOfRoughness(roughnessOfLevel(float(level), levels)), a2 = alpha * alpha;
@@ -33,7 +33,7 @@ void fillTable(float theta, int count) {
   float cos_n = cos(theta), sin_n = sin(theta);
   for (int i = int(gl_LocalInvocationID.x); i < count; i += 64) {
     float u = (float(i) + 0.5) / float(count);
-    float phi = 2.0 * kPi * radicalInverse(uint(i));
+    float phi = 2.0 * kPi * fract(kGolden * float(i));
     float cos2_h = (1.0 - u) / (1.0 + (a2 - 1.0) * u);
     float cos_l = 2.0 * cos2_h - 1.0;              // N.L of V = N reflected about the sampled normal
     float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
