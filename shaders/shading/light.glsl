@@ -53,7 +53,7 @@ flat in float sphere_radius;
 #elif defined HAS_LAMPS
 #include "scene/lamps.glsl"
 #endif
-#if defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_BALL
+#if defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_BALL && !defined HAS_SUN_MAP
 #define SEES_MESHES 1
 #include "shading/mesh_shadow.glsl"
 #else
@@ -188,7 +188,7 @@ void main() {
   if (dot(point.n, light.direction) > 0.0) {
     from_lights = throwFrom(point, response, light.direction) * light.irradiance;
 #ifdef HAS_SUN_MAP
-    from_lights *= seenOfSun(light, point.at, point.n);
+    from_lights *= seenInMap(shadowedSun(light), point.at, point.n);
 #endif
 #if SEES_NEIGHBOURS
     from_lights *= surround.sun_seen;

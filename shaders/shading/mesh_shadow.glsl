@@ -38,18 +38,12 @@ vec2 seenOfLights(vec3 position, vec3 n, float turn) {
   const int last = 0;
 #endif
   for (int i = first; i <= last; ++i) {
-    ShadowedLight self = ShadowedLight(vec3(0.0, 1.0, 0.0), 0.0, ball_row[0].texel, mat4(1.0));
+    vec3 spot = towardsBrightest(turn);
+    ShadowedLight self = ShadowedLight(spot, tan(min(spotAround().w, 0.5)), ball_row[0].texel, mapFrom(spot));
     light_layer = float(i);
-    if (i == 1) {
-      self.direction = towardsBrightest(turn);
-      self.spread = tan(min(spotAround().w, 0.5));
-      self.matrix = mapFrom(self.direction);
-    }
 #ifdef HAS_SUN
     if (i == 0) {
-      Sun light = sun_light[0];
-      self = ShadowedLight(light.direction, sqrt(max(1.0 - light.cos_angle * light.cos_angle, 0.0)) / max(light.cos_angle, 1e-3),
-                           light.texel, light.shadow_matrix);
+      self = shadowedSun(sun_light[0]);
     }
 #endif
     if (dot(n, self.direction) > 0.0) seen[i] = seenInMap(self, position, n);

@@ -13,12 +13,23 @@
 #define SOFT_SUN 0
 #endif
 
+#include "shadow/rows.glsl"
+
 struct ShadowedLight {
   vec3 direction;  // unit, towards it
   float spread;    // tangent of half the angle it is seen under
   float texel;     // world units
-  mat4 matrix;     // world to u, v and depth, 0 to 1; a rotation and a scale
+  MapRows map;
 };
+
+#ifdef HAS_SUN
+ShadowedLight shadowedSun(Sun self) {
+  float spread = sqrt(max(1.0 - self.cos_angle * self.cos_angle, 0.0)) / max(self.cos_angle, 1e-3);
+  vec4 x = self.shadow_matrix[0], y = self.shadow_matrix[1], z = self.shadow_matrix[2], origin = self.shadow_matrix[3];
+  MapRows map = MapRows(vec4(x.x, y.x, z.x, origin.x), vec4(x.y, y.y, z.y, origin.y), vec4(x.z, y.z, z.z, origin.z));
+  return ShadowedLight(self.direction, spread, self.texel, map);
+}
+#endif
 
 const int kBlockers = 16, kFilter = 32;  // samples of the search and of the filter
 const float kWidest = 0.1;               // share of the map that a penumbra may take
@@ -32,12 +43,11 @@ vec2 onDisc(int i, int count, float turn) {
 
 float seenInMap(ShadowedLight self, vec3 position, vec3 n) {
   float nl = dot(n, self.direction), slant = sqrt(max(1.0 - nl * nl, 0.0));
-  vec3 at = (self.matrix * vec4(position + n * (self.texel * (0.25 + 1.75 * slant)), 1.0)).xyz;
+  vec3 at = onMap(self.map, position + n * (self.texel * (0.25 + 1.75 * slant)));
   if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
 
   // Slope of the receiver's plane in the map: its normal there is that in the world times the inverse transpose.
-  mat3 rows = transpose(mat3(self.matrix));
-  vec3 u = rows[0], v = rows[1], z = rows[2];
+  vec3 u = self.map.u.xyz, v = self.map.v.xyz, z = self.map.depth.xyz;
   vec3 facing = vec3(dot(u, n) / dot(u, u), dot(v, n) / dot(v, v), dot(z, n) / dot(z, z));
   float per_depth = length(z);  // depth per world unit
   vec2 texel = 1.0 / shadowSize();

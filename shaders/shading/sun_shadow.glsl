@@ -20,9 +20,4 @@ vec2 shadowSize() { return vec2(textureSize(sun_map, 0)); }
 float shadowHides(vec3 at) { return hiddenBy(texture(sun_map, at)); }
 #include "shading/soft_shadow.glsl"
 
-float seenOfSun(Sun self, vec3 position, vec3 n) {
-  float spread = sqrt(max(1.0 - self.cos_angle * self.cos_angle, 0.0)) / max(self.cos_angle, 1e-3);
-  return seenInMap(ShadowedLight(self.direction, spread, self.texel, self.shadow_matrix), position, n);
-}
-
 #endif

@@ -12,7 +12,7 @@
 layout(std140) uniform Parameters { float sky_turn; };
 
 vec4 lightClip(vec3 at) {
-  vec3 map = (mapFrom(towardsBrightest(sky_turn)) * vec4(at, 1.0)).xyz;
+  vec3 map = onMap(mapFrom(towardsBrightest(sky_turn)), at);
   return vec4(map.xy * 2.0 - 1.0, map.z, 1.0);
 }
 #else

@@ -71,8 +71,14 @@ void findPoint(out Point point) {
   float vv = dot(v, v), cv = dot(c, v), per_length = inversesqrt(vv), per_vv = per_length * per_length;
   float q = dot(cw, cw) - r2 * vv;                  // the silhouette's conic: negative inside
 
-  vec2 outwards;
-  float outside = outsideOf(c, d2, r2, q, v, w, outwards);
+  // Signed distance in pixels along the conic's gradient.
+  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) * per_pixel.xy;
+  float steep = length(slope);
+  vec2 outwards = slope * (1.0 / max(steep, 1e-30));
+  vec3 across = vec3(outwards * per_pixel.xy, 0.0);
+  vec3 c_across = cross(c, across);
+  float curve = dot(c_across, c_across) - r2 * dot(across, across);
+  float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
   bool inside_sphere = d2 <= r2;
   coverage = inside_sphere ? 1.0 : halfPlane(-outside - edge.x, abs(outwards));
 #ifdef HAS_SILHOUETTES
@@ -100,8 +106,8 @@ void findPoint(out Point point) {
 #ifdef HAS_RADIANCE
   point.n = to_world * normal_view;
   point.v = to_world * (v * -per_length);
-  from_eye = to_world * (v * t);
-  point.mirror = to_world * (v * per_length + 2.0 * nv * normal_view);
+  from_eye = point.v * (-t / per_length);
+  point.mirror = 2.0 * nv * point.n - point.v;
   point.nv = nv;
   point.roughness = albedo_roughness.w;
   point.surface = Surface(albedo_roughness.rgb, metallic, albedo_roughness.w);

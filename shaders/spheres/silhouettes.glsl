@@ -1,21 +1,8 @@
-// Signed distances to silhouettes, and what of a sphere's share of a pixel the spheres before it leave.
+// What of a sphere's share of a pixel the spheres before it leave.
 // read    silhouettes?   uvec4(first, number, 0, 0) per instance, then per sphere before it the bits of vec4(centre from the eye, radius): the import
 //                        silhouettes. The vertex shader reads the former and says it in `before`.
 #ifndef SPHERES_SILHOUETTES_GLSL
 #define SPHERES_SILHOUETTES_GLSL
-
-// From the pixel's centre to the silhouette of a sphere, in pixels along the gradient of the silhouette's conic, negative inside; `outwards`: that
-// direction. c, d2, r2: centre in view space, its square, the radius' square; v: the ray; w: v, or what has the same cross product with c; q:
-// |c x v|^2 - r2 v.v
-float outsideOf(vec3 c, float d2, float r2, float q, vec3 v, vec3 w, out vec2 outwards) {
-  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) * per_pixel.xy;
-  float steep = length(slope);
-  outwards = slope * (1.0 / max(steep, 1e-30));
-  vec3 across = vec3(outwards * per_pixel.xy, 0.0);
-  vec3 c_across = cross(c, across);
-  float curve = dot(c_across, c_across) - r2 * dot(across, across);
-  return 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
-}
 
 #ifdef HAS_SILHOUETTES
 flat in uvec2 before;
@@ -29,11 +16,14 @@ float leftBehind(float inside, vec2 outwards, vec3 v, float vv) {
   float left = 1.0;
   for (uint i = 0u; i < before.y; ++i) {
     vec4 other = uintBitsToFloat(silhouette[before.x + i]);
-    vec3 c = other.xyz * to_world, cv = cross(c, v);  // to_world turns only: from the left it turns back
-    float r2 = other.w * other.w;
-    vec2 others;
-    float outside = outsideOf(c, dot(c, c), r2, dot(cv, cv) - r2 * vv, v, v, others);
-    if (abs(outside) > 0.70710678 || dot(c, v) <= 0.0) continue;
+    // to_world turns only: its columns are the view's axes.
+    vec3 c = vec3(dot(other.xyz, to_world[0]), dot(other.xyz, to_world[1]), dot(other.xyz, to_world[2])), cv = cross(c, v);
+    // The other silhouette is a conic, too: half its gradient, and the signed distance in pixels to first order.
+    float along_c = dot(c, v), r2 = other.w * other.w;
+    vec2 others = ((dot(c, c) - r2) * v.xy - along_c * c.xy) * per_pixel.xy;
+    float per_steep = 1.0 / max(length(others), 1e-30), outside = 0.5 * (dot(cv, cv) - r2 * vv) * per_steep;
+    others *= per_steep;
+    if (abs(outside) > 0.70710678 || along_c <= 0.0) continue;
     // Along the axis that the edges cross rather than follow.
     bool turned = abs(outwards.x) + abs(others.x) < abs(outwards.y) + abs(others.y);
     vec2 along = turned ? vec2(outwards.y, others.y) : vec2(outwards.x, others.x);

@@ -15,7 +15,7 @@ namespace {
 // Signs that are no operators of an expression.
 constexpr std::array<std::string_view, 9> kSeparators{"(", ")", "[", "]", "{", "}", ";", ",", ":"};
 
-constexpr std::uint64_t kMatrixTokens = 100;  // for each use of one
+constexpr std::uint64_t kMatrixTokens = 100;  // for each use of one, its columns aside
 
 bool isControl(const Token& token) {
   constexpr std::array<std::string_view, 6> kWords{"if", "else", "for", "while", "do", "switch"};
@@ -83,14 +83,18 @@ class StructureScan {
     statement_ = at_ + 1;
   }
 
-  // A product of matrices is one sign and a hundred operations.
+  // A product of matrices is one sign and a hundred operations. A column, `m[0]`, is a vector; an element of an array of matrices is not.
   void weighMatrix(const Token& token) {
     const Token* last = before();
     const bool named = last && (last->text.starts_with("mat") || last->text.starts_with("dmat"));
-    if (named && last->kind == TokenKind::word)
+    const bool indexed = next() && next()->is("[");
+    if (named && last->kind == TokenKind::word) {
       matrices_.insert(token.text);
-    else if (functions_.open() && matrices_.contains(token.text))
+      if (indexed) matrixArrays_.insert(token.text);
+    } else if (functions_.open() && matrices_.contains(token.text) &&
+               (!indexed || matrixArrays_.contains(token.text))) {
       functions_.addTokens(kMatrixTokens);
+    }
   }
 
   void takeWord(const Token& token) {
@@ -207,6 +211,7 @@ class StructureScan {
   CallCount functions_;
   std::vector<Level> levels_;
   std::unordered_set<std::string_view> matrices_;  // names declared as such
+  std::unordered_set<std::string_view> matrixArrays_;
   std::size_t at_ = 0, statement_ = 0;
   std::uint32_t depth_ = 0;
   bool switchHeader_ = false;

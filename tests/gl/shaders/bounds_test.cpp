@@ -264,6 +264,11 @@ TEST_CASE("every shader of the tree is a usual one") {
       CHECK_MESSAGE(share.share < mostOf(name),
                     name << ": " << share.share << " of " << weft::base::nameOf(share.limit));
       CHECK_MESSAGE((kLargest.contains(name) || !isUnusual(size)), name);
+      // Shadows of meshes stand in place of a shadow map of the sun.
+      std::erase_if(defines, [](const Define& define) { return define.name == "HAS_SUN_MAP"; });
+      CHECK_MESSAGE(
+          largestShare(measureShader(*source, defines)).share < (kLarge.contains(name) ? 0.2 : 1.0 / 16),
+          name);
       if (share.share > largest.share) {
         largest = share;
         which = name;

@@ -104,8 +104,8 @@ Found compare(const std::vector<float>& spheres, const std::vector<float>& meshe
 TEST_CASE("ray-traced spheres get the light of sun, lamp and spot that meshes of spheres get") {
   const CleanScope clean;
   const std::vector<std::pair<std::string, std::vector<graph::Setting>>> ways = {
-      {"graphs/studio.json", {}},
-      {"graphs/studio.json", {{"draw", "icosphere"}, {"subdivision", "5"}}},
+      {"graphs/studio.json", {{"mesh_shadows", "false"}}},
+      {"graphs/studio.json", {{"draw", "icosphere"}, {"subdivision", "5"}, {"mesh_shadows", "false"}}},
       {"graphs/deferred.json", {{"ao", "false"}, {"sun_shadow", "none"}, {"lamp_shadows", "0"}}},
       {"graphs/deferred.json", {{"ao", "false"}, {"sun_shadow", "filtered"}}},
       {"graphs/deferred.json", {{"ao", "false"}, {"sun_shadow", "soft"}}}};
