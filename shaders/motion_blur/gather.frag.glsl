@@ -11,7 +11,8 @@
 // texel that is depends on its own motion, so it is searched for along the motion of the pixel and along up to four motions around it (tiles
 // after McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012). Of the texels that do arrive at the pixel the nearest is
 // seen. With a picture of what is behind, its texels count too. What reaches the picture's side goes on beyond it. Where no texel arrives,
-// something comes into view that nobody has drawn: of the surface behind, the texel stands in that is nearest to the place which is hidden.
+// something comes into view that nobody has drawn: of the surface behind, the texel stands in that is nearest to the place which is hidden, and
+// what changes from the texel as far beyond goes on in most part.
 #include "blur.glsl"
 
 uniform sampler2D still, streaks, tiles;
@@ -29,6 +30,7 @@ layout(std140) uniform Parameters {
 out vec4 result;
 
 const float kBehind = 0.95;  // depth of what counts as behind a surface of depth 1
+const float kGoesOn = 0.7;   // share of a change of light that is taken to go on where something is hidden
 const float kMiss = 0.6;     // pixels: a texel that passes so close to the pixel's centre arrives
 
 void main() {
@@ -64,7 +66,8 @@ void main() {
   int tries = motions > 0 ? motions + 3 : 2;
   for (int i = 0; i < (alike ? 0 : n); ++i) {
     float t = (float(i) + noise) / float(n) * 2.0 - 1.0, seen = -1.0;
-    ivec2 seen_at = pixel;
+    ivec2 seen_at = pixel, beyond = pixel;
+    float goes_on = 0.0;
 #ifdef HAS_STREAKS_BEHIND
     bool seen_behind = false;
 #endif
@@ -102,13 +105,18 @@ void main() {
         ivec2 at = clamp(ivec2(floor(mix(hidden, beside, 0.25 * float(k)))), ivec2(0), last);
         seen_at = kBehind * texelFetch(streaks, at, 0).w <= back.w ? at : seen_at;
       }
+      beyond = clamp(2 * seen_at - ivec2(floor(hidden)), ivec2(0), last);
+      vec4 beside_it = texelFetch(streaks, seen_at, 0), beyond_it = texelFetch(streaks, beyond, 0);
+      bool same = distance(beside_it.xy, beyond_it.xy) < 0.5 && beside_it.w >= kBehind * beyond_it.w && beyond_it.w >= kBehind * beside_it.w;
+      goes_on = same ? kGoesOn : 0.0;
     }
 #ifdef HAS_STREAKS_BEHIND
     vec3 light = seen_behind ? texelFetch(still_behind, seen_at, 0).rgb : texelFetch(still, seen_at, 0).rgb;
 #else
     vec3 light = texelFetch(still, seen_at, 0).rgb;
 #endif
-    sum += light;
+    vec3 change = goes_on * (light - texelFetch(still, beyond, 0).rgb);
+    sum += clamp(light + change, 0.5 * light, 2.0 * light);
   }
   result = vec4(sum / float(n), texelFetch(still, pixel, 0).a);
 }

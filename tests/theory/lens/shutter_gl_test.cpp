@@ -187,13 +187,13 @@ TEST_CASE("shutter: where motions cross, the picture is the mean of 64 moments")
       double mean, most;
     } one, two;
     double share;
-  } cases[] = {{"crossing", crossing, 0, 180, {0.55, 8}, {0.4, 8}, 1},
-               {"crossing", crossing, 2, 180, {0.6, 8}, {0.5, 8}, 1.1},
-               {"scattered", scattered, 0, 180, {0.55, 8}, {0.5, 8}, 1},
-               {"crossing", crossing, 0, 360, {0.9, 10.5}, {0.6, 8}, 1.35},
-               {"scattered", scattered, 0, 360, {0.8, 10.5}, {0.6, 8}, 1.1},
-               {"emerging", emerging, 0, 180, {0.85, 12}, {0.55, 8}, 1},
-               {"emerging", emerging, 0, 360, {1.5, 26}, {0.9, 9.5}, 1.45}};
+  } cases[] = {{"crossing", crossing, 0, 180, {0.45, 6.3}, {0.4, 5.7}, 0.9},
+               {"crossing", crossing, 2, 180, {0.5, 6.6}, {0.46, 6}, 1},
+               {"scattered", scattered, 0, 180, {0.52, 8}, {0.49, 8}, 1},
+               {"crossing", crossing, 0, 360, {0.71, 8}, {0.52, 6.7}, 1},
+               {"scattered", scattered, 0, 360, {0.64, 8}, {0.53, 7.8}, 1},
+               {"emerging", emerging, 0, 180, {0.81, 12}, {0.53, 7.8}, 1},
+               {"emerging", emerging, 0, 360, {1.5, 26}, {0.79, 8}, 1.45}};
   for (const auto& each : cases) {
     const Panels one = byWeft(each.scene, each.turn, each.degrees, 1);
     const Panels two = byWeft(each.scene, each.turn, each.degrees, 2);
