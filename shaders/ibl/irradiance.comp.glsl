@@ -45,14 +45,18 @@ void main() {
   vec4 sum = vec4(0.0);
   for (int y = 0; y < kRows; ++y) {
     float v = (float(y) + 0.5) / float(kRows);
-    for (int k = 0; k < COLUMNS; ++k) {
-      float weight = weights[y * COLUMNS + k];
+    // To both sides, up to the first cell below the horizon; the nearest and the farthest column are the same on both.
+    for (int k = 0; k <= COLUMNS / 2; ++k) {
+      float weight = weights[y * COLUMNS + k] * (k == 0 || k == COLUMNS / 2 ? 0.5 : 1.0);
+      if (weight <= 0.0) break;
 #if EXACT
       vec3 radiance = texelFetch(environment, ivec2((x + k) & (COLUMNS - 1), y), level).rgb;
+      radiance += texelFetch(environment, ivec2((x - k) & (COLUMNS - 1), y), level).rgb;
 #else
       vec3 radiance = textureLod(environment, vec2(u + float(k) / float(COLUMNS), v), level).rgb;
+      radiance += textureLod(environment, vec2(u - float(k) / float(COLUMNS), v), level).rgb;
 #endif
-      sum += weight * vec4(radiance, 1.0);
+      sum += weight * vec4(radiance, 2.0);
     }
   }
   float spot = 0.0;
