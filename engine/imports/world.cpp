@@ -25,8 +25,9 @@ bool operator==(const WorldFacts& a, const WorldFacts& b) {
   return a.environment == b.environment && a.environmentWidth == b.environmentWidth &&
          a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same) &&
          a.materials == b.materials && a.maps == b.maps && a.skins == b.skins &&
-         a.coloredVertices == b.coloredVertices && a.sun == b.sun && a.ground == b.ground &&
-         a.lamps == b.lamps && a.castingLamps == b.castingLamps && a.cameras == b.cameras;
+         a.coloredVertices == b.coloredVertices && a.sun == b.sun && a.castingSun == b.castingSun &&
+         a.ground == b.ground && a.lamps == b.lamps && a.castingLamps == b.castingLamps &&
+         a.cameras == b.cameras;
 }
 
 World::World(scene::Scene scene) : scene_(std::move(scene)) {}
@@ -77,6 +78,7 @@ WorldFacts World::facts() const {
   facts.skins = scene_.skins.size();
   facts.coloredVertices = scene_.meshData ? scene_.meshData->colors.size() : 0;
   facts.sun = scene_.sun.has_value();
+  facts.castingSun = facts.sun && scene_.sun->shadow;
   facts.ground = scene_.ground.has_value();
   facts.lamps = static_cast<std::uint32_t>(scene_.lamps.size());
   facts.castingLamps =

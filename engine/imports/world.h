@@ -33,8 +33,9 @@ struct WorldFacts {
     friend bool operator==(const Maps&, const Maps&) = default;
   } maps;
   std::uint64_t skins = 0;
-  std::uint64_t coloredVertices = 0;  // vertices of the scene, where any has a colour of its own
-  bool sun = false, ground = false;
+  std::uint64_t coloredVertices = 0;     // vertices of the scene, where any has a colour of its own
+  bool sun = false, castingSun = false;  // any; one with a shadow
+  bool ground = false;
   std::uint32_t lamps = 0, castingLamps = 0;  // all; those with a shadow
   std::vector<std::string> cameras;
   double countOf(std::string_view list) const;  // spheres; 0 for a list that is not there

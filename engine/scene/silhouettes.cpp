@@ -79,10 +79,14 @@ void Silhouettes::findPairs(float near) {
   for (std::uint32_t i = 0; i < seen_.size(); ++i)
     for (std::uint32_t k = i + 1; k < seen_.size() && seen_[k].low <= seen_[i].high; ++k) {
       const Seen &a = seen_[i], &b = seen_[k];
-      const float apart = 2 * std::asin(std::min(0.5f * glm::length(a.towards - b.towards), 1.0f));
-      if (apart > a.angle + b.angle + near || apart < std::abs(a.angle - b.angle) - near) continue;
+      const float square = glm::dot(a.towards - b.towards, a.towards - b.towards),
+                  reach = a.angle + b.angle + near;
+      if (square > reach * reach) continue;  // a chord is shorter than its arc
+      const float apart = 2 * std::asin(std::min(0.5f * std::sqrt(square), 1.0f));
+      if (apart > reach || apart < std::abs(a.angle - b.angle) - near) continue;
       const bool first = isBehind(a.power, a.index, b.power, b.index);
       pairs_.emplace_back(first ? i : k, first ? k : i);
+      if (pairs_.size() > kMostPairs) return pairs_.clear();
     }
 }
 

@@ -12,7 +12,7 @@
 // after McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012). Of the texels that do arrive at the pixel the nearest is
 // seen. With a picture of what is behind, its texels count too. What reaches the picture's side goes on beyond it. Where no texel arrives,
 // something comes into view that nobody has drawn: of the surface behind, the texel stands in that is nearest to the place which is hidden, and
-// what changes from the texel as far beyond goes on in most part.
+// most of the change between it and the texel as far beyond is taken to go on.
 #include "blur.glsl"
 
 uniform sampler2D still, streaks, tiles;

@@ -170,7 +170,7 @@ void main() {
   around = aroundSeen(surround, point.n, lobe, around, mapped.a, listed.below, open_ground);
 #elif SEES_MESHES && defined HAS_BRIGHTEST
   // The map has the spot's light in it.
-  around = max(around - spotAround().rgb * (max(dot(point.n, towardsBrightest(sky_turn)), 0.0) * (1.0 - past_meshes.y)), vec3(0.0));
+  around = max(around - spotAround().rgb * (mapped.a * (1.0 - past_meshes.y)), vec3(0.0));
 #endif
 #ifdef HAS_PROBES
   vec3 coefficients[9];

@@ -46,7 +46,8 @@ vec2 seenOfLights(vec3 position, vec3 n, float turn) {
       self = shadowedSun(sun_light[0]);
     }
 #endif
-    if (dot(n, self.direction) > 0.0) seen[i] = seenInMap(self, position, n);
+    bool shines = i == 0 || brightest_light.r + brightest_light.g + brightest_light.b > 0.0;
+    if (shines && dot(n, self.direction) > 0.0) seen[i] = seenInMap(self, position, n);
   }
   return seen;
 }

@@ -61,14 +61,16 @@ float seenInMap(ShadowedLight self, vec3 position, vec3 n) {
   vec2 search = clamp(self.spread * (1.0 - at.z) / per_depth * per_unit, 2.0 * texel, vec2(kWidest));
   float blockers = 0.0, depths = 0.0;
   for (int i = 0; i < kBlockers; ++i) {
-    vec2 offset = onDisc(i, kBlockers, turn) * search;
+    // Denser towards the middle: what is small and near must be met, too.
+    vec2 offset = onDisc(i, kBlockers, turn) * search * ((float(i) + 0.5) / float(kBlockers));
     float there = shadowDepth(at.xy + offset), plane = at.z + dot(slope, offset);
     if (there <= 0.0 || there <= plane + bias + 0.5 * dot(abs(slope), texel)) continue;
     blockers += 1.0;
     depths += there - plane;
   }
-  if (blockers == 0.0) return 1.0;
-  vec2 width = clamp(self.spread * depths / blockers / per_depth * per_unit, texel, vec2(kWidest));
+  // Where the search met nothing, what hides the point itself is so small that its penumbra is.
+  if (blockers == 0.0 && shadowHides(vec3(at.xy, max(at.z + bias, kNothing))) == 0.0) return 1.0;
+  vec2 width = clamp(self.spread * depths / max(blockers, 1.0) / per_depth * per_unit, texel, vec2(kWidest));
   float hidden = 0.0;
   for (int i = 0; i < kFilter; ++i) {
     vec2 offset = onDisc(i, kFilter, turn) * width;

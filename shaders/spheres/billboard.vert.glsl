@@ -85,7 +85,10 @@ void main() {
   sphere_radius = self.radius;
 #endif
 #ifdef HAS_SILHOUETTES
-  before = silhouette[row].xy;
+  // Of another list than that which is drawn the rows would be others.
+  uint rows = uint(silhouette.length());
+  before = silhouette[min(row, rows - 1u)].xy;
+  if (before.x >= rows || before.y > min(rows - before.x, 32u)) before.y = 0u;
 #endif
   vec3 c = (view * vec4(self.center, 1.0)).xyz;
   float r = self.radius, z = -c.z;

@@ -127,6 +127,21 @@ TEST_CASE(
   CHECK(facts.bytes == 0);
 }
 
+TEST_CASE("a sun is there if the scene has one, if it casts, or if the graph says where it stands") {
+  const auto is = [](std::string_view argument, graph::Value value, const WorldFacts& world) {
+    graph::ImportRequest request = requestOf("sun");
+    for (auto& [name, given] : request.arguments)
+      if (name == argument) given = value;
+    return factsOf(request, world).exists;
+  };
+  const graph::Value yes = graph::Value::boolean(true), up{graph::Value::Type::list, 3, {0, 1, 0}, {}};
+  CHECK(is("casting", yes, {.sun = true, .castingSun = true}));
+  CHECK_FALSE(is("casting", yes, {.sun = true, .castingSun = false}));
+  CHECK(is("casting", graph::Value::boolean(false), {.sun = true, .castingSun = false}));
+  CHECK_FALSE(is("casting", graph::Value::boolean(false), {}));
+  CHECK(is("direction", up, {}));
+}
+
 TEST_CASE("the camera is the one view of every pass; a lens and a jitter are its arguments") {
   const graph::ImportType type = importOf("camera").reflect();
   CHECK(type.kind == ImportKind::view);

@@ -118,3 +118,15 @@ TEST_CASE("silhouettes: of a crowd those that are drawn last, and none of too ma
   CHECK(found.rows().size() == Silhouettes::kMostSpheres + 1);
   CHECK(std::ranges::all_of(found.rows(), [](glm::uvec4 row) { return row.y == 0; }));
 }
+
+TEST_CASE("silhouettes: where nearly all meet, none are found, rather than millions of pairs") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> place(-1, 1);
+  std::vector<Instance> instances(2000);
+  for (Instance& one : instances)
+    one = {.center = {place(random), place(random), place(random) - 8}, .radius = 0.5f};
+  Silhouettes found;
+  found.find(instances, glm::vec3(0), 0.01f);
+  CHECK(found.rows().size() == instances.size());
+  CHECK(std::ranges::all_of(found.rows(), [](glm::uvec4 row) { return row.y == 0; }));
+}

@@ -14,12 +14,14 @@ namespace {
 
 using graph::Value;
 
+constexpr double kHighest = 65536;  // pixels
+
 // In the order of reflect().
 const std::string& listOf(const graph::ImportRequest& request) {
   return request.arguments[0].second.symbol;
 }
 double heightOf(const graph::ImportRequest& request) {
-  return std::clamp(request.arguments[1].second.v[0], 1.0, 65536.0);
+  return std::clamp(request.arguments[1].second.v[0], 1.0, kHighest);
 }
 
 // Pixels that two silhouettes may be apart and still meet: the diagonal of one, and what a lens wider than the scene's makes of it.
@@ -45,7 +47,10 @@ class SilhouettesProvider : public Provider {
       // Half as much again, so that spheres which move do not make it anew in every frame.
       auto buffer = gl::Buffer::create(bytes.size() + bytes.size() / 2, GL_DYNAMIC_STORAGE_BIT, "silhouettes",
                                        diagnostics);
-      if (!buffer) return {};
+      if (!buffer) {
+        buffer_ = {};  // one that is too small must not be given out
+        return {};
+      }
       buffer_ = std::move(*buffer);
     }
     gl::uploadBuffer(buffer_.id(), 0, bytes);
@@ -76,7 +81,7 @@ graph::ImportType Silhouettes::reflect() const {
           "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
           "uvec4(first, number, 0, 0) per "
           "instance, then per such sphere the bits of vec4(centre from the eye, radius); empty with more "
-          "than 4096.",
+          "than 4096, or 131072 pairs that meet.",
       .arguments = {
           {.name = "list",
            .initial = Value::text(scene::drawListNames().front()),
@@ -88,7 +93,17 @@ graph::ImportType Silhouettes::reflect() const {
 
 graph::ImportFacts Silhouettes::facts(const graph::ImportRequest& request, const WorldFacts& world,
                                       Files&) const {
-  return {.exists = true, .count = world.countOf(listOf(request))};
+  graph::ImportFacts facts{.exists = true, .count = world.countOf(listOf(request))};
+  const double height = request.arguments[1].second.v[0];
+  if (height >= 1 && height <= kHighest) return facts;
+  base::Diagnostics said;
+  base::Diagnostic& d =
+      said.error(base::Code::badImportArgument, {}, "import 'silhouettes': argument 'height' does not fit");
+  d.expected = "the height of the picture, 1 to 65536 pixels";
+  d.found = graph::toText(request.arguments[1].second);
+  d.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";
+  facts.problems = said.items();
+  return facts;
 }
 
 std::unique_ptr<Provider> Silhouettes::provide(const graph::ImportRequest& request) const {

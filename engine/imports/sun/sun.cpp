@@ -57,7 +57,7 @@ class SunProvider : public Provider {
     frame_ = frame.number;
     const std::uint64_t changed = frame.world.sceneGeneration();
     const scene::Box bounds = frame.tables.bounds();
-    scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{});
+    scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{.irradiance = glm::vec3(0)});
     sun.direction = direction_.value_or(sun.direction);
     if (scene_ == changed && sun.direction == sun_.direction && bounds.low == bounds_.low &&
         bounds.high == bounds_.high)
@@ -85,27 +85,35 @@ class SunProvider : public Provider {
 }  // namespace
 
 graph::ImportType Sun::reflect() const {
-  return {.name = "sun",
-          .kind = graph::ImportKind::buffer,
-          .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
-          .arguments = {{.name = "texels",
-                         .initial = graph::Value::number(2048),
-                         .choices = {},
-                         .doc = "a side of the map that its shadow is drawn into"},
-                        {.name = "direction",
-                         .initial = graph::Value{graph::Value::Type::list, 3, {}, {}},
-                         .choices = {},
-                         .doc = "towards it, in place of the scene's; then it is there without a sun, too"}},
-          .columns = {{"direction", "vec3", "unit, towards it, world"},
-                      {"cos_angle", "float", "of half its diameter in the sky"},
-                      {"irradiance", "vec3", "linear RGB on what faces it, scene-referred"},
-                      {"texel", "float", "world units across a texel of its map"},
-                      {"shadow_matrix", "mat4", "world to u, v and reversed-Z depth of its map, 0 to 1"}},
-          .views = true};
+  return {
+      .name = "sun",
+      .kind = graph::ImportKind::buffer,
+      .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
+      .arguments =
+          {{.name = "texels",
+            .initial = graph::Value::number(2048),
+            .choices = {},
+            .doc = "a side of the map that its shadow is drawn into"},
+           {.name = "direction",
+            .initial = graph::Value{graph::Value::Type::list, 3, {}, {}},
+            .choices = {},
+            .doc = "towards it, in place of the scene's; then it is there without a sun, too, and gives no "
+                   "light then. [0, 0, 0]: the scene's"},
+           {.name = "casting",
+            .initial = graph::Value::boolean(false),
+            .choices = {},
+            .doc = "true: there only if the scene's sun casts shadows"}},
+      .columns = {{"direction", "vec3", "unit, towards it, world"},
+                  {"cos_angle", "float", "of half its diameter in the sky"},
+                  {"irradiance", "vec3", "linear RGB on what faces it, scene-referred"},
+                  {"texel", "float", "world units across a texel of its map"},
+                  {"shadow_matrix", "mat4", "world to u, v and reversed-Z depth of its map, 0 to 1"}},
+      .views = true};
 }
 
 graph::ImportFacts Sun::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {
-  const bool exists = world.sun || directionOf(request);
+  const bool casting = request.arguments[2].second.truth();
+  const bool exists = directionOf(request) || (casting ? world.castingSun : world.sun);
   return {.exists = exists, .count = exists ? 1.0 : 0.0};
 }
 
