@@ -1,26 +1,21 @@
 #!/usr/bin/env python3
 """The gallery: each effect of gallery.json off and on, under one environment. Makes ../gallery.md, a page per family beside this file, and
-../images/gallery/*.png.
+../images/gallery/*.webp. Pictures are written by cwebp (Debian's package `webp`).
 
-    docs/gallery/gallery.py                 render everything anew with ./run and write the pages
+    docs/gallery/gallery.py                 render everything with ./run, keep each picture that looks as before, and write the pages
     docs/gallery/gallery.py NAME ...        only the pictures of these entries or families, then the pages
     docs/gallery/gallery.py --pages         no pictures, only the pages
-    docs/gallery/gallery.py --references FOLDER ...
-                                            as above; only with the reference files in FOLDER is the front view made anew
     docs/gallery/gallery.py --weft WEFT ... as above, by the program WEFT in place of ./run
-    docs/gallery/gallery.py --old           render everything anew in a temporary folder and name the pictures that are no longer what is drawn
+    docs/gallery/gallery.py --old           render everything in a temporary folder and name the pictures that look different now
     docs/gallery/gallery.py --check WEFT    write nothing: the pages must be those that gallery.json makes, every picture must be there and made by
-                                            the command beside it, every property must be a test, and every command, with a smaller size,
-                                            must change the picture; the same for the page of defects.py
+                                            its command, and every command, with a smaller size, must change the picture
 
 An entry: `name`; `graph`, where it is not the one of `all`; `effect`, its title; `off` and `on`, arguments for `weft render`; `both`, arguments of both;
-`says`, what to see; `crop`, [x, y, width, height], where it is too fine to be seen in the whole picture: this part alone, enlarged to the whole size;
-`property`, [test file, beginning of the name of a test case]. Pictures made by equal arguments are made once, and those that
-must be equal are one file. Each picture holds, in a text chunk, the command that made it, and its crop.
+`says`, what to see; `crop`, [x, y, width, height], where it is too fine to be seen in the whole picture: this part alone, enlarged to the whole size.
+Pictures made by equal arguments are made once, and those that must be equal are one file. Each picture holds the command that made it, and its crop.
 """
 import hashlib
 import json
-import os
 import pathlib
 import re
 import shlex
@@ -28,16 +23,17 @@ import subprocess
 import sys
 import tempfile
 
-import defects
-from png import read_png, read_size, read_text, write_png
+from png import read_png, read_size as size_of_png, write_png
+from webp import read_size, read_webp, read_words, write_webp
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
 PICTURES = TOP / "docs/images/gallery"
 GALLERY = json.loads((HERE / "gallery.json").read_text())
-FAMILIES, FRONT = GALLERY["families"], GALLERY["front"]
+FAMILIES = GALLERY["families"]
 ENTRIES = [entry for family in FAMILIES for entry in family["entries"]]
 SIDES = ("off", "on")
+SEEN = 6  # of 255: a picture looks different where the mean of a block of 8 x 8 pixels differs by more
 
 
 def arguments(entry, side):
@@ -54,14 +50,14 @@ def named():
     names = {}
     for entry in ENTRIES:
         if entry.get("on") and not entry.get("equal"):
-            names.setdefault(key_of(entry, "on"), f"{entry['name']}.png")
+            names.setdefault(key_of(entry, "on"), f"{entry['name']}.webp")
     for entry in ENTRIES:
         line = key_of(entry, "off")
-        names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.png")
+        names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.webp")
         if entry.get("equal"):
             names[key_of(entry, "on")] = names[line]
         line = key_of(entry, "on")
-        names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.png")
+        names.setdefault(line, f"from_{hashlib.sha256(line.encode()).hexdigest()[:8]}.webp")
     return names
 
 
@@ -75,7 +71,7 @@ def picture_of(entry, side):
 
 def command_of(entry, side):
     return (f"./run render {arguments(entry, side)} --environment {GALLERY['environment']} --size {GALLERY['size']} "
-            f"-o {'out' if entry.get('crop') else 'docs/images/gallery'}/{picture_of(entry, side)}")
+            f"-o out/{picture_of(entry, side).removesuffix('.webp')}.png")
 
 
 def commands():
@@ -91,14 +87,9 @@ def scale_of(crop):
     return int(GALLERY["size"].split("x")[0]) // crop[2]
 
 
-def command_of_front():
-    return (f"./run render {GALLERY['all']} " + "".join(f'--{key} "$references/{FRONT[key]}" ' for key in ("materials", "environment"))
-            + f"--size {FRONT['size']} -o docs/images/gallery/{FRONT['name']}.png")
-
-
 def run(weft, command, options):
-    """The command by the program `weft`, with other values of some of its options; `$references` is a folder."""
-    words = [weft, *(os.path.expandvars(word) for word in shlex.split(command)[1:])]
+    """The command by the program `weft`, with other values of some of its options."""
+    words = [weft, *shlex.split(command)[1:]]
     for option, value in options.items():
         words[words.index(option) + 1] = str(value)
     done = subprocess.run([*words, "--quiet"], cwd=TOP, capture_output=True, text=True)
@@ -107,28 +98,45 @@ def run(weft, command, options):
 
 
 def enlarged(channels, texels, width, crop):
-    scale, rows = scale_of(crop), []
-    for row in defects.crop_of(channels, texels, width, crop):
-        rows += [b"".join(texel * scale for texel in row)] * scale
+    """The part as RGB, each texel a square."""
+    (x, y, wide, high), scale, rows = crop, scale_of(crop), []
+    for row in range(y, y + high):
+        part = texels[(row * width + x) * channels:(row * width + x + wide) * channels]
+        rows += [b"".join(part[at:at + 3] * scale for at in range(0, len(part), channels))] * scale
     return b"".join(rows)
 
 
+def blocks(picture, width):
+    """Means of blocks of 8 x 8 pixels, channel by channel."""
+    channels, texels = picture
+    stride, sums = width * channels, {}
+    for at in range(0, len(texels) // 8 * 8, channels):
+        y, x = at // stride // 8, at % stride // channels // 8
+        for channel in range(3):
+            sums[y, x, channel] = sums.get((y, x, channel), 0) + texels[at + channel]
+    return {key: total / 64 for key, total in sums.items()}
+
+
+def difference(old, new):
+    """The largest difference of two blocks at one place, of 255; 255 where there is no old picture or it has another size."""
+    if not old.exists() or read_size(old) != read_size(new):
+        return 255
+    pair = [blocks(read_webp(path), read_size(path)[0]) for path in (old, new)]
+    return max(abs(value - pair[1][key]) for key, value in pair[0].items())
+
+
 def render(weft, command, picture, crop=None):
-    """As small as a PNG can be made without loss, with its command in it."""
     with tempfile.TemporaryDirectory() as folder:
         drawn = pathlib.Path(folder) / "drawn.png"
         run(weft, command, {"-o": drawn})
-        (channels, texels), width, said = read_png(drawn), read_size(drawn)[0], [("Command", command)]
         if crop:
-            channels, texels, width, said = 3, enlarged(channels, texels, width, crop), crop[2] * scale_of(crop), [*said, ("Crop", str(crop))]
-        write_png(picture, width, channels, texels, said)
+            (channels, texels), width = read_png(drawn), size_of_png(drawn)[0]
+            write_png(drawn, crop[2] * scale_of(crop), 3, enlarged(channels, texels, width, crop))
+        write_webp(picture, drawn, words_of(command, crop))
 
 
-def case_of(entry):
-    file, beginning = entry["property"]
-    if file.endswith(".py"):  # words of what the script says it does
-        return beginning if beginning in " ".join((TOP / file).read_text().split()) else None
-    return next((case for case in defects.cases(file) if case.startswith(beginning)), None)
+def words_of(command, crop):
+    return {"command": command, **({"crop": crop} if crop else {})}
 
 
 def page(family):
@@ -144,10 +152,7 @@ def page(family):
         shown = [f"Shown: {crop[2]} x {crop[3]} pixels from ({crop[0]}, {crop[1]}), {scale_of(crop)} times as large.", ""] if crop else []
         out += [f"{'###' if chapter else '##'} {entry['effect']}", "", entry["says"], "",
                 "| " + " | ".join(f"`{entry.get(side) or 'as it is'}`" for side in SIDES) + " |", "|---|---|", f"| {pictures} |", "", *shown,
-                "```text", *(command_of(entry, side) for side in SIDES), "```", "", f"Held by `{entry['property'][0]}`: {case_of(entry)}.", ""]
-    if family["name"] == FRONT["family"]:
-        out += [f"## {FRONT['effect']}", "", FRONT["says"], "", f"![front view](../images/gallery/{FRONT['name']}.png)", "",
-                "```text", command_of_front(), "```"]
+                "```text", command_of(entry, "on"), "```", ""]
     return "\n".join(out).rstrip() + "\n"
 
 
@@ -156,8 +161,8 @@ def index():
     for family in FAMILIES:
         entry, side = next(entry for entry in family["entries"] if entry["name"] == family["cover"]), family.get("side", "on")
         names = ", ".join(entry["effect"] for entry in family["entries"])
-        out += [f"## [{family['title']}](gallery/{family['name']}.md)", "", family["about"].replace("](../", "]("), "", f"Shown: {names}.", "",
-                f"![{entry['effect']}](images/gallery/{picture_of(entry, side)})", "", "```text", command_of(entry, side), "```", ""]
+        out += [f"## [{family['title']}](gallery/{family['name']}.md)", "", f"{family['about'].replace('](../', '](')} Shown: {names}.", "",
+                f"![{entry['effect']}](images/gallery/{picture_of(entry, side)})", ""]
     return "\n".join(out).rstrip() + "\n"
 
 
@@ -171,20 +176,17 @@ def check_files():
     problems += [f"{path.relative_to(TOP)} is not what docs/gallery/gallery.json makes; run docs/gallery/gallery.py --pages"
                  for path, text in made.items() if not path.exists() or path.read_text() != text]
     problems += [f"{path.relative_to(TOP)} belongs to no family; delete it" for path in sorted(there - set(made))]
-    wanted = {**commands(), f"{FRONT['name']}.png": (command_of_front(), None)}
-    found = {path.name for path in PICTURES.glob("*.png")}
+    wanted = commands()
+    found = {path.name for path in PICTURES.glob("*.webp")}
     problems += [f"{PICTURES.name}/{name} is not there; run docs/gallery/gallery.py" for name in sorted(set(wanted) - found)]
     problems += [f"{PICTURES.name}/{name} belongs to no entry; delete it" for name in sorted(found - set(wanted))]
     for name in sorted(found & set(wanted)):
         command, crop = wanted[name]
-        if (said := read_text(PICTURES / name, "Command")) != command:
-            problems.append(f"{PICTURES.name}/{name} was made by another command; expected {command}, found {said}; run docs/gallery/gallery.py")
-        if (said := read_text(PICTURES / name, "Crop")) != (str(crop) if crop else None):
-            problems.append(f"{PICTURES.name}/{name} shows another part; expected {crop}, found {said}; run docs/gallery/gallery.py")
+        if (found_words := read_words(PICTURES / name)) != words_of(command, crop):
+            problems.append(f"{PICTURES.name}/{name} was made otherwise; expected {words_of(command, crop)}, found {found_words}; run docs/gallery/gallery.py")
         size = re.search(r"--size (\S+)", command)[1]
         if "{}x{}".format(*read_size(PICTURES / name)) != size:
             problems.append(f"{PICTURES.name}/{name} is not {size}; run docs/gallery/gallery.py")
-    problems += [f"{entry['name']}: there is no test case {entry['property']}" for entry in ENTRIES if not case_of(entry)]
     return problems
 
 
@@ -211,65 +213,56 @@ def check_effects(weft):
 
 
 def check(weft):
-    problems = check_files() + check_effects(weft) + defects.check(weft)
+    problems = check_files() + check_effects(weft)
     for problem in problems:
         print(problem)
-    print(f"{len(ENTRIES)} entries, {len(defects.ENTRIES)} defects, {len(problems)} problems")
+    print(f"{len(ENTRIES)} entries, {len(problems)} problems")
     return 1 if problems else 0
 
 
 def name_old(weft):
-    """Rendered on the same machine, a picture is the same to the bit; on another one, a value may be rounded otherwise."""
     old = 0
     with tempfile.TemporaryDirectory() as folder:
-        new = pathlib.Path(folder) / "new.png"
+        new = pathlib.Path(folder) / "new.webp"
         for name, (command, crop) in commands().items():
             render(weft, command, new, crop)
-            pair = [read_png(path)[1] for path in (PICTURES / name, new)]
-            differences = [abs(a - b) for a, b in zip(*pair)]
-            if len(pair[0]) != len(pair[1]) or max(differences):
+            if (seen := difference(PICTURES / name, new)) > SEEN:
                 old += 1
-                print(f"{name}: {sum(map(bool, differences)) / len(differences):.2%} of the values differ, by {max(differences)} of 255 at most", flush=True)
-    print(f"{old} of {len(commands())} pictures are no longer what is drawn")
+                print(f"{name}: a block of 8 x 8 pixels differs by {seen:.0f} of 255", flush=True)
+    print(f"{old} of {len(commands())} pictures look different now")
     return 1 if old else 0
 
 
-def make(weft, wanted, references):
+def make(weft, wanted):
+    """A picture that looks as it did keeps its bytes, unless its command is another one."""
     PICTURES.mkdir(parents=True, exist_ok=True)
-    known = {family["name"]: family["entries"] for family in FAMILIES} | {entry["name"]: [entry] for entry in ENTRIES} | {FRONT["name"]: []}
+    known = {family["name"]: family["entries"] for family in FAMILIES} | {entry["name"]: [entry] for entry in ENTRIES}
     if unknown := set(wanted) - set(known):
         sys.exit(f"no entry and no family is called {', '.join(sorted(unknown))}")
     names = {picture_of(entry, side) for name in wanted or known for entry in known[name] for side in SIDES}
-    for name, (command, crop) in commands().items():
-        if name in names:
-            render(weft, command, PICTURES / name, crop)
-            print(f"docs/images/gallery/{name}", flush=True)
-    if not wanted or FRONT["name"] in wanted:
-        if references:
-            os.environ["references"] = str(references)
-            render(weft, command_of_front(), PICTURES / f"{FRONT['name']}.png")
-            print(f"docs/images/gallery/{FRONT['name']}.png")
-        else:
-            print(f"skipped: {FRONT['name']} (its picture stays as it is: name its reference files with --references FOLDER)")
+    with tempfile.TemporaryDirectory() as folder:
+        new = pathlib.Path(folder) / "new.webp"
+        for name, (command, crop) in commands().items():
+            if name in names:
+                render(weft, command, new, crop)
+                old = PICTURES / name
+                if not old.exists() or read_words(old) != read_words(new) or difference(old, new) > SEEN:
+                    old.write_bytes(new.read_bytes())
+                    print(f"docs/images/gallery/{name}", flush=True)
 
 
 def main():
     if sys.argv[1:2] == ["--check"]:
         sys.exit(check(sys.argv[2]))
-    wanted, references, weft = sys.argv[1:], None, str(TOP / "run")
+    wanted, weft = sys.argv[1:], str(TOP / "run")
     if wanted[:1] == ["--weft"] and len(wanted) > 1:
         weft, wanted = str(pathlib.Path(wanted[1]).resolve()), wanted[2:]
     if wanted == ["--old"]:
         sys.exit(name_old(weft))
-    if wanted[:1] == ["--references"]:
-        if len(wanted) < 2 or not pathlib.Path(wanted[1]).is_dir():
-            sys.exit("--references needs a folder that exists")
-        references, wanted = pathlib.Path(wanted[1]).resolve(), wanted[2:]
     if wanted != ["--pages"]:
-        make(weft, wanted, references)
-    names = {*commands(), f"{FRONT['name']}.png"}
-    for path in PICTURES.glob("*.png"):
-        if path.name not in names:
+        make(weft, wanted)
+    for path in PICTURES.glob("*.webp"):
+        if path.name not in commands():
             path.unlink()
     for path, text in pages().items():
         path.write_text(text)

@@ -1,22 +1,21 @@
 #!/usr/bin/env python3
 """Holds README.md, CONTRIBUTING.md, docs/*.md, docs/tutorials/*.md and docs/gallery/*.md against the program: every fenced snippet is executed or compared.
 
-Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [--references FOLDER] [PAGE...]
+Usage: docs_test.py SOURCE_DIR BINARY_DIR [--part PART...] [--clone] [PAGE...]
 
 A fence says its language, then, where needed, what it is: ```json fragment or ```glsl shaders/x/y.frag.glsl.
   sh            part run: run with `bash -eu` in a copy of the tree. `./run X` is the built weft there, `view` under xvfb-run with
                 --max-frames 3. Not run, and only these: `./run` alone, `./run --setup-only` and `--install-only`, git, cmake, ctest and ninja,
                 whose presets must be there; `./test ARGS` must select at least one test. `--frames 0:59` is shortened to 0:2.
                 Part view instead where a line is `./run view`.
-  sh references part references: the same, with FOLDER in the variable `references`
   LANGUAGE PATH the block stands, line by line, in that file (leading spaces apart); a .cpp is the whole file
   json          must parse. Part run: with "passes" it is a graph, for `weft check`; with "cameras", "grid" or "spheres" a scene,
                 checked with graphs/glow.json
   json fragment must parse inside { } or [ ]
   glsl          part glsl: compiles as a fragment shader
   text          shown, not checked here
-Part pages is all that needs neither programs nor references; links between pages, and files named in `inline code`, must be there. Without
---part: all parts but references. A part that lacks what it needs is skipped as a whole (exit code 77), so each that may be is a
+Part pages is all that needs no programs; links between pages, and files named in `inline code`, must be there. Without
+--part: all parts. A part that lacks what it needs is skipped as a whole (exit code 77), so each that may be is a
 ctest of its own. With --clone the checks are made in a clone of HEAD with nothing beside it, over which changes of tracked files are laid
 that are not committed yet; the weft of BINARY_DIR runs there on the data of the clone.
 """
@@ -31,17 +30,16 @@ import subprocess
 import sys
 import tempfile
 
-PARTS = ("pages", "glsl", "run", "view", "references")
+PARTS = ("pages", "glsl", "run", "view")
 parser = argparse.ArgumentParser()
 parser.add_argument("source", type=pathlib.Path)
 parser.add_argument("binary", type=pathlib.Path)
 parser.add_argument("pages", nargs="*")
 parser.add_argument("--part", action="append", choices=PARTS)
 parser.add_argument("--clone", action="store_true")
-parser.add_argument("--references", type=pathlib.Path, default=pathlib.Path("/nowhere"))
 OPTIONS = parser.parse_args()
 TOP, BINARY = OPTIONS.source.resolve(), OPTIONS.binary.absolute()
-WANTED = OPTIONS.part or ["pages", "glsl", "run", "view"]
+WANTED = OPTIONS.part or list(PARTS)
 CTEST = "ctest"  # comes with cmake
 WEFT = BINARY / "app/weft"
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```[ ]*$", re.M | re.S)
@@ -86,7 +84,7 @@ class Sandbox:
         tools.mkdir()
         for name in ("git", "cmake", "ctest", "ninja"):
             write_program(tools / name, SHIM)
-        self.env = {**os.environ, "WEFT_DATA": str(self.root), "references": str(OPTIONS.references.absolute()), "PATH": f"{tools}:{os.environ['PATH']}"}
+        self.env = {**os.environ, "WEFT_DATA": str(self.root), "PATH": f"{tools}:{os.environ['PATH']}"}
         self.env.pop("DISPLAY", None)
 
     def shell(self, script):
@@ -156,7 +154,7 @@ def parts_of(language, info, body):
         return {"pages", "run"}
     if language == "glsl":
         return {"glsl"}
-    return {"references" if info == "references" else "view" if re.search(r"^\./run view", body, re.M) else "run"}
+    return {"view" if re.search(r"^\./run view", body, re.M) else "run"}
 
 
 def check_block(language, info, body, sandbox, folder, number):
@@ -218,14 +216,12 @@ def skip(why):
 
 
 def skip_what_cannot_run():
-    if {"run", "view", "references"} & set(WANTED) and not WEFT.exists():
+    if {"run", "view"} & set(WANTED) and not WEFT.exists():
         skip("no weft is built here: configured with WEFT_GL=OFF")
     if "glsl" in WANTED and not shutil.which("glslangValidator"):
         skip("glslangValidator is not installed")
     if "view" in WANTED and not shutil.which("xvfb-run"):
         skip("xvfb-run is not installed")
-    if "references" in WANTED and not (OPTIONS.references / "seed_materials.json").exists():
-        skip("no references: configure with -DWEFT_REFERENCES=FOLDER")
 
 
 def try_git(*words):
@@ -283,7 +279,7 @@ def main():
                 problems += [f"{name}: {p}" for p in check_references(page, text)]
             here = folder / str(pages.index(page))
             here.mkdir()
-            sandbox = Sandbox(here) if {"run", "view", "references"} & set(WANTED) else None
+            sandbox = Sandbox(here) if {"run", "view"} & set(WANTED) else None
             for number, match in enumerate(FENCE.finditer(text)):
                 language, _, info = match.group(1).strip().partition(" ")
                 if not parts_of(language, info.strip(), match.group(2)) & set(WANTED):

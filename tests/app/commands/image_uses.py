@@ -12,7 +12,7 @@ from pictures import png, read_png
 from program import TOP, Report, run, temporary_folder
 
 FOLDER = TOP / "docs/tutorials"
-SIZE = (1280, 720)  # of the background, so that its texels are the pixels
+SIZE = (320, 180)  # of the background, so that its texels are the pixels
 
 
 def ramp_row():
@@ -83,7 +83,7 @@ def main():
         if "--write" in sys.argv:
             path.write_bytes(png(rows))
         report.check(read_png(path.read_bytes()) == rows, f"{path} is not what this file makes")
-    background = read_png((TOP / "docs/images/evening.png").read_bytes())
+    background = read_png((TOP / "docs/tutorials/images/background.png").read_bytes())
     report.check((len(background[0]), len(background)) == SIZE, f"the background is {len(background[0])}x{len(background)}")
     with temporary_folder() as folder:
         for grain in (0.04, 0.2):

@@ -1,4 +1,4 @@
-// For docs/reflections.md, and no test: metals that reflect one another as Weft draws them, and by paths, as PNGs in the folder out.
+// A tool, and no test (docs/figures.md): metals that reflect one another as Weft draws them, and by paths, as PNGs in the folder out.
 #include <doctest/doctest.h>
 
 #include <cmath>

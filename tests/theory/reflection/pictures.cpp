@@ -1,4 +1,4 @@
-// For docs/reflections.md, and no test: what Weft draws, and what brute force says, as PNGs in the folder out.
+// A tool, and no test (docs/figures.md): what Weft draws, and what brute force says, as PNGs in the folder out.
 #include <doctest/doctest.h>
 
 #include <cmath>
