@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -111,11 +112,16 @@ int runDump(const Options& options) {
     opened->session->context->debugLog().drain(diagnostics);
   }
   capture.stop(execution);
-  for (std::size_t i = 0; i < items.size() && !options.quiet; ++i)
+  for (std::size_t i = 0; i < items.size() && !options.quiet; ++i) {
+    const auto& [resource, pass] = std::tie(items[i].target.resource, items[i].target.pass);
+    const bool last = i + 1 == items.size() || items[i + 1].step != items[i].step;
     if (!names[i].empty())
-      print(base::printable(
-                fmt::format("{}  {} after {}", names[i], items[i].target.resource, items[i].target.pass)) +
+      print(base::printable(fmt::format("{}  {} after {}", names[i], resource, pass)) + "\n");
+    else if (last && !execution.steps().hasResults(items[i].step))
+      print(base::printable(fmt::format("'{}' did not run in frame {}: nothing of it is written", pass,
+                                        options.lastFrame)) +
             "\n");
+  }
   return report(diagnostics, !options.quiet);
 }
 

@@ -93,7 +93,7 @@ bool PickOutputs::finish(base::Diagnostics& diagnostics) {
     diagnostics
         .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(each.file)},
                fmt::format("nothing was in '{}' to write", each.pick.text))
-        .hint = "an import that is not there has no picture";
+        .hint = "an import that is not there has no picture, nor has a pass that did not run";
   }
   std::ranges::fill(saved_, 0);
   return all;

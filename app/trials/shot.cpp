@@ -116,8 +116,9 @@ std::optional<Shot> takeShot(gl::Context& context, const Options& options, const
     const bool keeps = !wish.keep.first.empty() && number == wish.keepFrame;
     runtime::StepWatch watch;
     if (poison) watch.before = [&](std::uint32_t step) { poison->fill(step); };
-    if ((wish.records && (shown || frame == first)) || keeps)
-      watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };
+    const bool recorded = (wish.records && (shown || frame == first)) || keeps;
+    if (recorded && !poison) watch.before = [&](std::uint32_t step) { recorder.prepare(execution, step); };
+    if (recorded) watch.after = [&](std::uint32_t step) { recorder.look(execution, step); };
     execution.watch(std::move(watch));
     renderer.frame(world, runtime::headlessFrame(world, number, options.fps, options.pointer), diagnostics);
     context.debugLog().drain(diagnostics);

@@ -251,7 +251,8 @@ struct FlatGraph {
   std::vector<FlatPass> passes;  // declared order
   std::vector<FlatUse> uses;     // grouped by pass, in slot order
   std::vector<FlatResource> resources;
-  FlatUse present;               // resource kNone: nothing is presented
+  FlatUse
+      present;  // resource kNone: nothing. Kind sampled: a stand-in for an import, which other plans read; else copy
   std::vector<FlatUse> outputs;  // read-backs; keep nothing alive
   VersionLinks links;
   // names and places, parallel to passes and resources

@@ -67,9 +67,12 @@ inline std::uint16_t clearBit(const ClearOp& clear, bool buffer) {
                                    : kBarrierTextureUpdate;
 }
 
-// The present blit and glReadPixels; a buffer is copied out.
-inline std::uint16_t readBackBit(bool buffer) {
-  return buffer ? kBarrierBufferUpdate : kBarrierFramebuffer;
+// What follows the last step: the present blit and glReadPixels, and a buffer is copied out. Where `present` says sampled, the
+// picture goes to other plans instead, which may do with it all that may be done with an import: sample, load and copy it.
+inline std::uint16_t endBits(const FlatUse& use, bool buffer) {
+  if (buffer) return kBarrierBufferUpdate;
+  if (use.kind != Kind::sampled) return kBarrierFramebuffer;
+  return kBarrierTexture | kBarrierImage | kBarrierFramebuffer | kBarrierTextureUpdate;
 }
 
 }  // namespace weft::graph

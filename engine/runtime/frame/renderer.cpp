@@ -154,10 +154,12 @@ const Renderer::StandIn* Renderer::prepareStandIn(const std::string& name, const
           : nullptr;
   StandIn made{.path = path, .device = nullptr, .execution = nullptr};
   if (flat && !said.hasErrors()) {
+    auto given = std::make_shared<graph::FlatGraph>(*flat);
+    given->present.kind = graph::Kind::sampled;
     made.device = std::make_unique<Device>(device_.context, shaderRootsOf(desc->files, options_.dataFolder),
                                            options_.cacheFolder, options_.trial, options_.plugIns);
     made.execution =
-        Execution::create(*made.device, std::make_shared<const graph::Plan>(graph::compile(flat)), nullptr,
+        Execution::create(*made.device, std::make_shared<const graph::Plan>(graph::compile(given)), nullptr,
                           ShaderFiles::read, said);
   }
   if (made.execution) made.execution->frame(world, headlessFrame(world, 0, 60), said);

@@ -45,6 +45,12 @@ class StepChoice {
   // Whether it ran in this frame, in whatever round.
   bool ran(std::size_t step) const { return ran_[step] != 0; }
 
+  // Whether what the step writes is there, right after it or after it was skipped: it ran in this frame, or it ran earlier and
+  // keeps its results. The storage of any other step holds nothing, or what another resource left in it.
+  bool hasResults(std::size_t step) const {
+    return ran(step) || (!isAlways(step) && cadence_.memories()[step].ran);
+  }
+
   // To be called after the steps of a round, with the generations before and after it.
   void endRound(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after);
 

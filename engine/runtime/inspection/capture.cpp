@@ -27,6 +27,25 @@ bool isWanted(std::string_view resource, std::span<const std::string> patterns) 
   });
 }
 
+// Whether the item has its content: its pass has results; or, where it names none, any pass that writes the resource.
+bool isThere(const Execution& execution, const CaptureItem& item) {
+  if (!item.target.pass.empty()) return execution.steps().hasResults(item.step);
+  const graph::Plan& plan = execution.plan();
+  bool written = false;
+  for (std::uint32_t step = 0; step <= item.step; ++step) {
+    const graph::FlatPass& pass = plan.graph->passes[plan.steps[step].pass];
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      const graph::FlatUse& use = plan.graph->uses[u];
+      if (use.access == graph::Access::read || !plan.attached[u] ||
+          plan.graph->resourceNames[use.resource] != item.target.resource)
+        continue;
+      if (execution.steps().hasResults(step)) return true;
+      written = true;
+    }
+  }
+  return !written;
+}
+
 std::uint32_t slicesOf(const graph::FlatResource& resource, std::uint32_t mip) {
   return resource.target == graph::Target::texture_3d ? std::max(1u, resource.depth >> mip) : resource.layers;
 }
@@ -118,7 +137,8 @@ void Capture::start(Execution& execution, std::vector<CaptureItem> items, Visit 
   std::ranges::stable_sort(byStep_, {}, stepOf);
   execution.watch({.after = [this, stepOf, &execution](std::uint32_t step) {
     for (const std::size_t i : std::ranges::equal_range(byStep_, step, {}, stepOf))
-      if (inspector_.look(execution, items_[i].target)) visit_(i, inspector_);
+      if (isThere(execution, items_[i]) && inspector_.look(execution, items_[i].target))
+        visit_(i, inspector_);
   }});
 }
 

@@ -8,6 +8,7 @@
 #include "engine/base/hash.h"
 #include "engine/runtime/frame/gl_state.h"
 #include "engine/runtime/storage/formats.h"
+#include "engine/runtime/storage/resource_pool.h"
 
 namespace weft::runtime {
 
@@ -174,8 +175,28 @@ void StepRecorder::add(Execution& execution, const graph::FlatUse& use, Sum& sum
   }
 }
 
+void StepRecorder::prepare(Execution& execution, std::uint32_t step) {
+  const graph::FlatGraph& graph = *execution.plan().graph;
+  const graph::FlatPass& pass = graph.passes[execution.plan().steps[step].pass];
+  bool filled = false;
+  for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+    const graph::FlatUse& use = graph.uses[u];
+    if (use.access != graph::Access::write || !execution.plan().attached[u] ||
+        graph.resources[use.resource].kind != graph::ResourceKind::buffer)
+      continue;
+    std::uint64_t offset = 0;
+    const BufferRef buffer = execution.buffer(use.resource, offset);
+    if (buffer.id == 0) continue;
+    if (!filled) glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    filled = true;
+    clearBuffer(buffer.id, offset, buffer.bytes, graph::Value::number(0));
+  }
+  if (filled) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 // What shaders stored must be visible to the read-back. The plan knows nothing of it, so it issues a barrier of its own.
 void StepRecorder::look(Execution& execution, std::uint32_t step) {
+  if (!execution.steps().hasResults(step)) return;
   const graph::Plan& plan = execution.plan();
   const graph::FlatGraph& graph = *plan.graph;
   const std::uint32_t index = plan.steps[step].pass;

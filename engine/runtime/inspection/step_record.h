@@ -40,7 +40,10 @@ struct WrittenTexels {
 
 class StepRecorder {
  public:
-  // To be called in StepWatch::after.
+  // To be called in StepWatch::before. Zeroes the buffers that the step writes anew: what it leaves out, padding and the end
+  // behind the last element, is undefined, and must not be in a hash.
+  void prepare(Execution& execution, std::uint32_t step);
+  // To be called in StepWatch::after. No record is made of a step that has no results (StepChoice::hasResults).
   void look(Execution& execution, std::uint32_t step);
   // Keeps the texels that this pass writes to this resource (names as in StepRecord), too.
   void keep(std::string pass, std::string resource);

@@ -74,6 +74,47 @@ TEST_CASE("each step has a record of what it wrote, the same in every frame") {
   CHECK(recordOf(records, "numbers", "ids").signature->channels[0] > 1000);
 }
 
+TEST_CASE("a pass that did not run has no record, and one that keeps its results has") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/timed.json", 8, 8);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  StepRecorder recorder;
+  const auto passesAt = [&](double time) {
+    stage.execution().watch({.after = [&](std::uint32_t step) { recorder.look(stage.execution(), step); }});
+    FrameInput input = headlessFrame(stage.world, 0, 60);
+    input.headless = false;
+    input.time = time;
+    stage.run(input);
+    stage.execution().watch({});
+    std::string passes;
+    for (const StepRecord& record : recorder.take()) passes += record.pass + " ";
+    return passes;
+  };
+  CHECK(passesAt(0) == "pulse start take add ");
+  CHECK(passesAt(5) == "pulse start ");  // `take` and `add` are idle, `pulse` ran at time 0
+}
+
+TEST_CASE("a hash does not depend on what a pass leaves out of a buffer") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/tail.json", 8, 8);
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  StepRecorder recorder;
+  const auto hashOver = [&](PoisonPattern pattern, bool prepared) {
+    const Poison poison(stage.execution(), pattern);
+    stage.execution().watch({.before =
+                                 [&](std::uint32_t step) {
+                                   poison.fill(step);
+                                   if (prepared) recorder.prepare(stage.execution(), step);
+                                 },
+                             .after = [&](std::uint32_t step) { recorder.look(stage.execution(), step); }});
+    stage.run();
+    stage.execution().watch({});
+    return recordOf(recorder.take(), "fill", "table").hash;
+  };
+  CHECK(hashOver(PoisonPattern::nan, false) != hashOver(PoisonPattern::large, false));
+  CHECK(hashOver(PoisonPattern::nan, true) == hashOver(PoisonPattern::large, true));
+}
+
 TEST_CASE("poison is what a pass finds, and no pass of a sound graph shows it") {
   const CleanScope clean;
   for (const char* graph : {kRecorded, "graphs/glow.json"}) {
