@@ -151,7 +151,7 @@ struct ResourceDesc {
 
 struct SlotDesc {
   std::string name;
-  Place place;
+  Place place;  // of its key; of "like" where a pass with another shader takes it over
   JsonPointer pointer;
   Access access = Access::read;
   RefDesc ref;
@@ -184,6 +184,7 @@ struct PassDesc {
   std::string name;  // for an include: its prefix
   Place place;       // of the stanza's opening brace
   Place namePlace;
+  Place likePlace;  // of what "like" says
   JsonPointer pointer;
   std::optional<IncludeDesc> include;
   std::string type;

@@ -131,6 +131,7 @@ struct SlotSpec {
   Sampler sampler;
   bool array : 1 = false;  // true when the resource was declared with "array", even of one element
   bool optional : 1 = false;
+  bool inherited : 1 = false;  // by "like", and the pass has another shader: `place` is that of "like"
 };
 static_assert(sizeof(void*) != 8 || sizeof(SlotSpec) <= 80, "the limit graph_bytes counts slots");
 

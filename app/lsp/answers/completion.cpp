@@ -228,7 +228,8 @@ class Completer {
     } else if (group == "like" || group == "before" || group == "after") {
       for (const std::string& path : context_.project.closure(text_.path()))
         if (const auto file = context_.project.index(path); file && (group != "like" || path == text_.path()))
-          for (const auto& [name, range] : file->passes) add(name, ItemKind::function);
+          for (const auto& [name, range] : file->passes)
+            add(context_.project.prefixIn(text_.path(), path).value_or("") + name, ItemKind::function);
     } else if (group == "group") {
       for (const Node* other : file_->stanzas)
         if (const std::string_view name = other->textOf("group"); !name.empty() && other != node.parent)

@@ -14,7 +14,16 @@ namespace weft::base {
 
 namespace {
 
+constexpr const char* kThreads =
+    "\"threads\" counts invocations, not groups: [8, 8, 1] groups of 16 x 16 are [128, 128, 1]";
 constexpr ForeignWord kPassKeys[] = {
+    {"group_count", kThreads},
+    {"groupcount", kThreads},
+    {"workgroup_count", kThreads},
+    {"dispatch_size", kThreads},
+    {"threadgroups", kThreads},
+    {"thread_groups", kThreads},
+    {"numthreads", kThreads},
     {"inputs", "slots that are read stand in \"read\""},
     {"input", "slots that are read stand in \"read\""},
     {"reads", "slots that are read stand in \"read\""},
@@ -45,9 +54,9 @@ constexpr ForeignWord kPassKeys[] = {
     {"disabled", "say \"enabled\": false"},
     {"loop", "write \"repeat\": { \"i\": [first, last] }"},
     {"count", "write \"repeat\": { \"i\": [first, last] }"},
-    {"dispatch", "compute invocations stand in \"threads\""},
-    {"groups", "compute invocations stand in \"threads\""},
-    {"workgroups", "compute invocations stand in \"threads\""},
+    {"dispatch", kThreads},
+    {"groups", kThreads},
+    {"workgroups", kThreads},
     {"clear", "a texture says with what it begins: \"clear\" in \"resources\""},
     {"size", "a texture says its size, in \"resources\""},
     {"depthtest", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},

@@ -173,7 +173,7 @@ class Planner {
     const auto good = [&](const FlatGraph& made) {
       return samePasses(made, *before) && sameParameters(made, *before);
     };
-    for (const TextEdit& edit : editsOfPass(*now_, presets_, texts_, pass, declared))
+    for (const TextEdit& edit : editsOfPass(*now_, presets_, texts_, pass))
       if (take(edit, good)) {
         out_.passes.push_back(pass);
         return true;

@@ -199,14 +199,12 @@ std::vector<std::string> declaredPasses(const GraphDesc& desc) {
 }
 
 std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::string> presets,
-                                  const FileTexts& texts, const std::string& name,
-                                  std::span<const std::string> declared) {
+                                  const FileTexts& texts, const std::string& name) {
   Edits edits(texts);
   if (const auto overlay = overlayOf(desc, presets, texts))
     edits.add(*overlay, [&](const std::string& text) -> std::optional<std::string> {
       const auto root = parse(text);
-      const std::string stanza =
-          fmt::format("{{ \"name\": {}, \"enabled\": false }}", base::quoteJson(shortest(name, declared)));
+      const std::string stanza = fmt::format("{{ \"name\": {}, \"enabled\": false }}", base::quoteJson(name));
       if (root && root->find("passes")) return base::appendItem(text, "/passes", stanza);
       return base::insertMember(text, "", "passes", "[" + stanza + "]");
     });

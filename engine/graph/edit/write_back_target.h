@@ -21,10 +21,9 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
                                        const FileTexts& texts, const ParameterSpec& wanted,
                                        std::span<const std::string> paths);
 
-// "enabled": false for the pass or include of this declared name, one of `declared`.
+// "enabled": false for the pass or include of this declared name.
 std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::string> presets,
-                                  const FileTexts& texts, const std::string& pass,
-                                  std::span<const std::string> declared);
+                                  const FileTexts& texts, const std::string& pass);
 
 // Full names of all passes, without indices, and of all includes, in order.
 std::vector<std::string> declaredPasses(const GraphDesc& desc);

@@ -203,12 +203,7 @@ class PassWalk {
     graph_.disabled.push_back({name, why});
     for (const SlotWork& work : slots)
       if (work.state == State::connected && work.slot->access != Access::read)
-        model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
-                                 kNone, index, work.whole,
-                                 std::ranges::any_of(slots, [&](const SlotWork& other) {
-                                   return other.state == State::connected &&
-                                          other.slot->access != Access::write && other.entity == work.entity;
-                                 })});
+        record(slots, work, kNone, index);
     if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
     values_.clear();
@@ -216,6 +211,13 @@ class PassWalk {
   }
 
   // ---- what goes into the graph ----
+
+  void record(const std::vector<SlotWork>& slots, const SlotWork& work, std::uint32_t pass,
+              std::uint32_t disabled) {
+    model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
+                             pass, disabled, work.whole,
+                             std::ranges::any_of(slots, [&](const auto& o) { return needs(o, work); })});
+  }
 
   std::uint32_t groupOf() {
     std::string name = desc_->group.empty() ? std::string() : scope_->prefix + desc_->group;
@@ -261,15 +263,15 @@ class PassWalk {
     }
   }
 
-  void emitWrites(const SlotWork& work, const SlotSpec& spec, std::uint32_t pass) {
+  void emitWrites(const std::vector<SlotWork>& slots, const SlotWork& work, const SlotSpec& spec,
+                  std::uint32_t pass) {
     for (std::uint32_t i = 0; i < work.elementCount; ++i) {
       const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
       FlatUse& use = graph_.uses[index];
       if (use.access == Access::write) use.resource = resourceToWrite(model_, work.entity, e, work.whole);
       model_.versions.write(index);
     }
-    model_.writes.push_back({work.entity, work.firstElement, work.elementCount, work.use, model_.position,
-                             pass, kNone, work.whole});
+    record(slots, work, pass, kNone);
   }
 
   void emit(const SlotContext& context, const std::vector<SlotWork>& slots, Names& names) {
@@ -302,6 +304,7 @@ class PassWalk {
       slot.array = work.array;
       slot.optional = work.slot->ref.optional;
       slot.place = work.slot->place;
+      slot.inherited = base::isSamePlace(slot.place, desc_->likePlace);
       const bool used =
           work.state == State::connected ||
           (work.state == State::missing && work.entity != kNone && work.slot->access != Access::write);
@@ -325,7 +328,7 @@ class PassWalk {
       if (slot.useCount == 0 || slot.access == Access::read) continue;
       if (slot.access == Access::modify && flat.cadence == Cadence::always)
         checkAccumulation(context, slots[i], slot.firstUse);
-      if (mayMake(context, slots[i])) emitWrites(slots[i], slot, pass);
+      if (mayMake(context, slots[i])) emitWrites(slots, slots[i], slot, pass);
     }
     for (const DeferredValue& value : values_) deferred_.push_back({pass, value, scope_, names.indices});
     if (timing_ != 0) addTiming(pass, spec);

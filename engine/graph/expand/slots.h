@@ -52,6 +52,14 @@ struct SlotWork {
   BorderColor border{};
 };
 
+// Whether a slot needs what another slot of the pass writes: some pass must have written it before.
+inline bool needs(const SlotWork& slot, const SlotWork& written) {
+  return slot.slot->access != Access::write && slot.entity == written.entity &&
+         slot.firstElement < written.firstElement + written.elementCount &&
+         written.firstElement < slot.firstElement + slot.elementCount && slot.use.history == 0 &&
+         overlap(slot.use, written.use);
+}
+
 struct SlotContext {
   Model& model;
   Names& names;              // of the pass instance

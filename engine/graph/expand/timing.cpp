@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/graph/expand/judge/remedy.h"
+
 namespace weft::graph::expansion {
 
 namespace {
@@ -75,7 +77,13 @@ void reportMadeAtTimes(const SlotContext& context, const SlotDesc& slot, const S
     const DisabledPass& disabled = context.model.graph.disabled[off->disabled];
     d.found += fmt::format(", and pass '{}' that writes it in every frame is disabled ({})", disabled.name,
                            disabled.why);
-    d.hint = fmt::format("enable '{}', or disable what makes it at times too", disabled.name);
+    if (!isSwitchedOff(context.model, disabled)) d.hint = fmt::format("enable '{}', or ", disabled.name);
+    std::vector<std::string> makers;
+    for (const WriteRecord& write : context.model.writes)
+      if (write.pass != kNone && write.entity == work.entity)
+        makers.push_back(context.model.graph.specs[write.pass].declared);
+    const std::string names = namesToDisable(makers, disabled.name);
+    d.hint += fmt::format("disable {} too", names.empty() ? "what makes it at times" : names);
     return;
   }
   d.hint = "give it the same \"enabled\" as those that write it, or have them modify what is always made";

@@ -117,15 +117,16 @@ class KeyMender {
     std::vector<std::string> known;
     for (const std::span<const KeySpec> keys : lists)
       for (const KeySpec& spec : keys) known.emplace_back(spec.key);
-    std::string nearest = base::nearestName(key, known);
-    if (!nearest.empty() && base::editDistance(key, nearest, 2) <= 1) {
-      std::string hint = fmt::format("did you mean \"{}\"?", nearest);
-      return {std::move(nearest), std::move(hint)};
+    // A word of another program first: "groups" is no slip of "group".
+    if (std::string said = foreign ? base::hintForForeign(*foreign, key) : std::string(); !said.empty()) {
+      for (std::string& each : known)
+        if (said == fmt::format("write \"{}\"", each)) return {std::move(each), std::move(said)};
+      return {};
     }
-    const std::string said = foreign ? base::hintForForeign(*foreign, key) : std::string();
-    for (std::string& each : known)
-      if (said == fmt::format("write \"{}\"", each)) return {std::move(each), said};
-    return {};
+    std::string nearest = base::nearestName(key, known);
+    if (nearest.empty() || base::editDistance(key, nearest, 2) > 1) return {};
+    std::string hint = fmt::format("did you mean \"{}\"?", nearest);
+    return {std::move(nearest), std::move(hint)};
   }
 
   static constexpr std::array<KeySpec, 4> kKinds{

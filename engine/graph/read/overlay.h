@@ -1,6 +1,6 @@
 // Lays overlays over graph files, as JSON, before they are read as graphs: a file over the one that it `extends`, and
 // presets over the result. Every value keeps the file, line and column at which it was written. An overlay may change an
-// included file, which it names by a suffix; the changed copy is kept beside the include. Does not: know what values mean,
+// included file, whose names it gives whole; the changed copy is kept beside the include. Does not: know what values mean,
 // or read files that nothing refers to.
 #pragma once
 

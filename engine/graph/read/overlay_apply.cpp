@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include "engine/base/limit_report.h"
 #include "engine/base/nearest.h"
@@ -64,13 +66,6 @@ class Applier {
 
   bool stopped() const { return tooMuch_ || enoughErrors(diagnostics_); }
 
-  // Everything an entry may mean. Each looks through all names, so a large overlay over many of them ends in W201.
-  std::vector<Found> findIn(const std::string& section, const base::Place& place) {
-    std::vector<Found> all = findAll(loader_, target_, section);
-    lookThrough(all.size(), place);
-    return all;
-  }
-
   // False after the report.
   bool lookThrough(std::size_t names, const base::Place& place) {
     looked_ += names;
@@ -128,14 +123,7 @@ class Applier {
   void edit(Source& source, std::span<const std::string> below, const base::Place& place,
             const Change& change) {
     if (below.empty()) return change(source);
-    std::shared_ptr<const Source> child;
-    if (const auto known = source.changed.find(below[0]); known != source.changed.end()) {
-      child = known->second;
-    } else {
-      for (const JsonValue& stanza : source.root.find("passes")->items)
-        if (const JsonValue* include = stanza.find("include"); include && includePrefix(stanza) == below[0])
-          child = loader_.file(pathBeside(*include), include->place);
-    }
+    std::shared_ptr<const Source> child = includeOf(loader_, source, below[0] + ".").source;
     // A copy that nobody else has seen is changed as it is.
     std::shared_ptr<const Source>& kept = source.changed[below[0]];
     std::shared_ptr<Source> copy;
@@ -152,26 +140,11 @@ class Applier {
     edit(*copy, below.subspan(1), place, change);
   }
 
-  // The one thing `wanted` means; null when there is none, or several, which is reported.
-  const Found* resolve(const std::vector<Found>& all, std::string_view wanted, const std::string& noun,
-                       const base::Place& place, const JsonValue& value, bool& ambiguous) {
-    std::vector<std::string> names;
-    for (const Found& found : all) names.push_back(found.name);
-    const std::vector<std::size_t> matches = suffixMatches(names, wanted);
-    ambiguous = matches.size() > 1;
-    if (ambiguous) {
-      Diagnostic& d =
-          error(Code::ambiguousName, place, value, fmt::format("{} '{}' may mean several", noun, wanted));
-      d.found = namesOf(all, matches);
-      d.hint = fmt::format("write more of the name, such as '{}'", all[matches[0]].name);
-    }
-    return matches.size() == 1 ? &all[matches[0]] : nullptr;
-  }
-
-  std::string hintOf(const std::vector<Found>& all, std::string_view wanted) {
-    std::vector<std::string> names;
-    for (const Found& found : all) names.push_back(found.name);
-    return suffixHint(wanted, names);
+  // What `name` names; nothing when nothing has that name, or stopped().
+  std::optional<Found> find(const std::string& section, std::string_view name, const base::Place& place) {
+    std::uint64_t names = 0;
+    std::optional<Found> found = findWhole(loader_, target_, section, name, names);
+    return lookThrough(names, place) ? found : std::nullopt;
   }
 
   // ---- parameters, lets, resources ----
@@ -179,23 +152,27 @@ class Applier {
   void applyEntry(const JsonMember& section, const JsonMember& entry) {
     const std::string noun = nounOf(section.key);
     resource_ = section.key == "resources" ? entry.key : "";
-    const std::vector<Found> all = findIn(section.key, entry.place);
+    const std::optional<Found> found = find(section.key, entry.key, entry.place);
     if (tooMuch_) return;
-    bool ambiguous = false;
-    const Found* found = resolve(all, entry.key, noun, entry.place, entry.value, ambiguous);
+    const std::vector<std::string> below = found ? found->below : includesOf(loader_, target_, entry.key);
+    const std::string own(nameBelow(entry.key, below));
     if (found) {
-      edit(target_, found->below, entry.place, [&](Source& source) {
+      edit(target_, below, entry.place, [&](Source& source) {
         mergeEntry(section.key, *memberOf(source.root, section.key), found->index, entry);
       });
-    } else if (!ambiguous && isWhole(section.key, entry)) {
-      JsonMember* own = memberOf(target_.root, section.key);
-      if (!own) {
-        own = &target_.root.members.emplace_back(section);
-        own->value.members.clear();
-      }
-      if (own->value.is(Type::object)) own->value.members.push_back(entry);
-    } else if (!ambiguous) {
-      const std::string hint = hintOf(all, entry.key);
+    } else if (declares(section.key, entry) && own.find('.') == std::string::npos) {
+      edit(target_, below, entry.place, [&](Source& source) {
+        JsonMember* there = memberOf(source.root, section.key);
+        if (!there) {
+          there = &source.root.members.emplace_back(section);
+          there->value.members.clear();
+        }
+        if (!there->value.is(Type::object)) return;
+        there->value.members.push_back(entry);
+        there->value.members.back().key = own;
+      });
+    } else {
+      const std::string hint = wholeHint(entry.key, allNames(loader_, target_, section.key));
       error(Code::nothingToChange, entry.place, entry.value,
             fmt::format("{} '{}' is not there to be {}", noun, entry.key,
                         entry.value.is(Type::null) ? "taken away" : "changed"))
@@ -256,78 +233,101 @@ class Applier {
   void putAt(const JsonValue& stanza, const JsonValue& anchor, bool after) {
     if (!expect(anchor, Type::string, after ? "\"after\"" : "\"before\"", "the name of a pass or include"))
       return;
-    const std::vector<Found> all = findIn("passes", anchor.place);
+    std::optional<Found> beside = find("passes", anchor.text, anchor.place);
     if (tooMuch_) return;
-    bool ambiguous = false;
-    const Found* found = resolve(all, anchor.text, "anchor", anchor.place, anchor, ambiguous);
-    if (!found) {
-      if (!ambiguous) {
-        Diagnostic& d = error(Code::passWithoutPlace, anchor.place, anchor,
-                              fmt::format("pass '{}' stands {} '{}', which is not there", pass_,
-                                          after ? "after" : "before", anchor.text));
-        d.expected = "the name of a pass, or the prefix of an include";
-        d.hint = hintOf(all, anchor.text);
-      }
+    if (!beside) {
+      const std::vector<std::string> names = allNames(loader_, target_, "passes");
+      Diagnostic& d = error(Code::passWithoutPlace, anchor.place, anchor,
+                            fmt::format("pass '{}' stands {} '{}', which is not there", pass_,
+                                        after ? "after" : "before", anchor.text));
+      d.expected = "the name of a pass, or the prefix of an include";
+      d.hint = wholeHint(anchor.text, names);
       // Where it was probably meant, else at the end, so that what stands beside it is no second mistake.
-      std::vector<std::string> names;
-      for (const Found& candidate : all) names.push_back(candidate.name);
-      const std::string near = ambiguous ? "" : base::nearestName(anchor.text, names);
-      const auto meant = std::ranges::find(all, near, &Found::name);
-      if (meant == all.end()) {
-        passesOf(target_)->items.push_back(withoutPlace(stanza, true));
-        return;
-      }
-      found = &*meant;
+      const std::vector<std::string> whole = wholeOf(anchor.text, names);
+      beside = find("passes", whole.empty() ? base::nearestName(anchor.text, names) : whole[0], anchor.place);
+      if (tooMuch_) return;
     }
-    edit(target_, found->below, anchor.place, [&](Source& source) {
+    const std::optional<Found> moved = find("passes", pass_, stanza.place);
+    std::string own(beside ? nameBelow(pass_, beside->below) : "");
+    if (own.empty()) own = pass_;
+    if (tooMuch_ || !mayStand(stanza, anchor, beside, moved, own)) return;
+    if (!beside) {
+      passesOf(target_)->items.push_back(withoutPlace(stanza, pass_));
+      return;
+    }
+    edit(target_, beside->below, anchor.place, [&](Source& source) {
       std::vector<JsonValue>& items = passesOf(source)->items;
-      std::size_t at = found->index;
-      JsonValue placed = withoutPlace(stanza, true);
-      const auto there = std::find_if(items.begin(), items.end(), [&](const JsonValue& item) {
-        return !pass_.empty() && stanzaName(item) == pass_;
-      });
-      if (there != items.end()) {
-        const auto old = static_cast<std::size_t>(there - items.begin());
-        if (old == at) {
-          error(Code::passWithoutPlace, anchor.place, anchor,
-                fmt::format("pass '{}' stands beside itself", pass_))
-              .hint = "name another pass";
-          return;
-        }
-        if (!mergeStanza(source, *there, stanza)) return;
+      std::size_t at = beside->index;
+      JsonValue placed = withLike(withoutPlace(stanza, own), beside->below);
+      if (moved) {
+        const auto there = items.begin() + static_cast<std::ptrdiff_t>(moved->index);
+        if (!mergeStanza(source, *there, stanza, beside->below)) return;
         placed = std::move(*there);
         items.erase(there);
-        if (old < at) --at;
+        if (moved->index < at) --at;
       }
       items.insert(items.begin() + static_cast<std::ptrdiff_t>(at + (after ? 1 : 0)), std::move(placed));
     });
+  }
+
+  // Whether the pass can stand beside the anchor, in whose file it is then called `own`; false after a report.
+  bool mayStand(const JsonValue& stanza, const JsonValue& anchor, const std::optional<Found>& beside,
+                const std::optional<Found>& moved, std::string_view own) {
+    const JsonValue* named = stanza.find("name");
+    const JsonValue& culprit = named ? *named : stanza;
+    if (beside && moved && beside->below == moved->below) {
+      if (beside->index != moved->index) return true;
+      error(Code::passWithoutPlace, anchor.place, anchor,
+            fmt::format("pass '{}' stands beside itself", pass_))
+          .hint = "name another pass";
+    } else if (beside && (moved || own.find('.') != std::string_view::npos)) {
+      std::string whole;
+      for (const std::string& prefix : beside->below) whole += prefix + ".";
+      error(Code::passWithoutPlace, culprit.place, culprit,
+            fmt::format("pass '{}' cannot stand beside '{}', which is in another file", pass_, anchor.text))
+          .hint = moved ? "name a pass of its own file, or remove it and write a new one here"
+                        : fmt::format("call it '{}{}'", whole, pass_.substr(pass_.rfind('.') + 1));
+    } else if (stanza.find("type") || stanza.find("include") || stanza.find("like")) {
+      return true;
+    } else {
+      error(Code::passWithoutPlace, culprit.place, culprit,
+            fmt::format("pass '{}' is not there to be moved", pass_))
+          .hint = wholeHint(pass_, allNames(loader_, target_, "passes"));
+    }
+    return false;
+  }
+
+  // "like" names a pass of the same file, which an overlay calls by its whole name or as that file does.
+  static JsonValue withLike(JsonValue stanza, const std::vector<std::string>& below) {
+    if (JsonMember* like = memberOf(stanza, "like"))
+      if (const std::string_view own = nameBelow(like->value.text, below); !own.empty())
+        like->value.text = std::string(own);
+    return stanza;
   }
 
   void change(const JsonValue& stanza, bool remove) {
     const JsonValue* named = stanza.find("name");
     if (!named) named = stanza.find("as") ? stanza.find("as") : stanza.find("include");
     const base::Place place = named ? named->place : stanza.place;
-    const std::vector<Found> all = findIn("passes", place);
+    const std::optional<Found> found = find("passes", pass_, place);
     if (tooMuch_) return;
-    bool ambiguous = false;
-    const Found* found = resolve(all, pass_, "pass", place, stanza, ambiguous);
-    if (ambiguous) return;
     if (!found && remove) {
       error(Code::nothingToChange, place, stanza, fmt::format("pass '{}' is not there to be removed", pass_))
-          .hint = hintOf(all, pass_);
+          .hint = wholeHint(pass_, allNames(loader_, target_, "passes"));
     } else if (!found) {
+      const std::vector<std::string> names = allNames(loader_, target_, "passes");
       Diagnostic& d =
           error(Code::passWithoutPlace, place, stanza,
                 fmt::format("pass '{}' is not there to be changed, and a new one needs a place", pass_));
       d.expected = "the name of a pass, or \"before\" or \"after\" one";
-      d.hint = hintOf(all, pass_);
-      if (stanza.find("type") || stanza.find("include"))
-        passesOf(target_)->items.push_back(withoutPlace(stanza, true));
+      d.hint = wholeHint(pass_, names);
+      if ((stanza.find("type") || stanza.find("include")) && wholeOf(pass_, names).empty())
+        passesOf(target_)->items.push_back(withoutPlace(stanza, pass_));
     } else {
       edit(target_, found->below, place, [&](Source& source) {
         std::vector<JsonValue>& items = passesOf(source)->items;
         if (!remove) {
-          mergeStanza(source, items[found->index], stanza);
+          mergeStanza(source, items[found->index], stanza, found->below);
           return;
         }
         const JsonValue& gone = items[found->index];
@@ -339,7 +339,8 @@ class Applier {
   }
 
   // False after a report.
-  bool mergeStanza(Source& source, JsonValue& there, const JsonValue& stanza) {
+  bool mergeStanza(Source& source, JsonValue& there, const JsonValue& stanza,
+                   const std::vector<std::string>& below) {
     const bool include = there.find("include") != nullptr;
     if (include ? stanza.find("type") != nullptr : stanza.find("include") != nullptr) {
       const JsonValue& culprit = *stanza.find(include ? "type" : "include");
@@ -359,7 +360,7 @@ class Applier {
         there.members.push_back(std::move(as));
       }
     }
-    const JsonValue over = withoutPlace(stanza, false);
+    const JsonValue over = withLike(withoutPlace(stanza, ""), below);
     keepsNull_ = there.find("like") != nullptr;
     for (const JsonMember& member : over.members) mergeMember(there, member);
     keepsNull_ = false;

@@ -65,8 +65,9 @@ std::string hintForUnknown(std::string_view key, std::span<const std::string> kn
   if (foreign == base::Foreign::pass_key)
     for (const KeySpec& state : kStateKeys)
       if (state.key == key) return fmt::format("it belongs into \"state\": {{ \"{}\": … }}", key);
-  const std::string meant = foreign ? base::hintForForeign(*foreign, key) : std::string();
-  if (!meant.empty() && base::editDistance(key, nearest) > 1) return meant;
+  // A word of another program first: "groups" is no slip of "group".
+  if (std::string meant = foreign ? base::hintForForeign(*foreign, key) : std::string(); !meant.empty())
+    return meant;
   return nearest.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
                          : fmt::format("did you mean \"{}\"?", nearest);
 }

@@ -38,6 +38,14 @@ void takeParametersOf(JsonValue& stanza, std::string_view name, const JsonValue&
   }
 }
 
+// With another shader, what the other names is no mistake of the other: a slot, parameter or define that does not fit is one of
+// this pass, at its "like".
+void placeAtLike(JsonValue& made, const JsonValue& like) {
+  for (const char* group : {"read", "write", "modify", "parameters", "defines"})
+    if (JsonMember* names = memberOf(made, group))
+      for (JsonMember& member : names->value.members) member.place = like.place;
+}
+
 class Merger {
  public:
   Merger(ReadContext& context, const Place& own) : context_(context), own_(own) {}
@@ -123,6 +131,7 @@ const JsonValue* LikePasses::at(std::size_t index) {
   made.place = stanza.place;
   made.pointer = stanza.pointer;
   takeParametersOf(made, like->text, *like);
+  if (stanza.find("shader")) placeAtLike(made, *like);
   Merger merger(context_, stanza.place);
   for (const JsonMember& member : stanza.members) merger.merge(made, member);
   return keep(&made);

@@ -110,6 +110,7 @@ class PassReader {
 
   std::optional<PassDesc> readPass() {
     context_.checkKeys(value_, kPassKeys, "a pass", base::Foreign::pass_key);
+    if (const JsonValue* like = value_.find("like")) out_.likePlace = like->place;
     if (const JsonValue* name = value_.find("name")) {
       out_.namePlace = name->place;
       out_.name = context_.text(name, "\"name\"");

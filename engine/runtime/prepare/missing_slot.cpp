@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/subresource.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/shader_advice.h"
 
@@ -46,7 +47,9 @@ void sayMissingSlot(const graph::FlatGraph& graph, const graph::PassSpec& spec, 
   if (what.empty()) {
     d.message = fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders);
     d.hint = base::nearestHint(slot.name, declared);
-    if (!d.hint.starts_with("did you mean"))
+    if (slot.inherited)
+      d.hint = fmt::format("take it away: \"{}\": {{ \"{}\": null }}", graph::nameOf(slot.access), slot.name);
+    else if (!d.hint.starts_with("did you mean"))
       d.hint = fmt::format("declare `{}`{}{}", declaration, d.hint.empty() ? "" : "; ", d.hint);
     return;
   }
@@ -94,7 +97,7 @@ void sayBlockName(const std::string& block, const std::string& shaders, base::Di
 void sayUnset(const std::string& member, const std::string& type, const graph::PassSpec& spec,
               const std::string& shaders, base::Diagnostic& d) {
   d.message = fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders,
-                          member, spec.name);
+                          member, spec.declared);
   if (type.ends_with(']')) {
     d.message = fmt::format("the shader '{}' reads the parameter '{}', an array, which no graph can set",
                             shaders, member);

@@ -273,7 +273,7 @@ class Checker : PassErrors {
     const std::string nearest = base::nearestName(name, names);
     auto& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
                    fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what,
-                               name, spec_.name));
+                               name, spec_.declared));
     d.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name);
     if (!instance.empty() && isSlot(instance)) {
       d.hint = fmt::format("a slot has the name of the block, not of its instance: call '{}' '{}'", instance,

@@ -147,3 +147,52 @@ TEST_CASE("a name that an expression asks of and that nothing has is one mistake
                   said.text());
   }
 }
+
+TEST_CASE("what nothing wrote first is one mistake and no cycle, whoever modifies it after") {
+  const auto hint = [](const std::string& passes, const char* code) {
+    const base::Diagnostics said = diagnoseText(fmt::format(
+        R"J({{ "resources": {{ "hdr": {{ "texture": "rgba16f", "size": 8 }}, "ldr": {{ "texture": "rgba8", "size": 8 }},
+          "jagged": {{ "texture": "rgba8", "size": 8 }} }}, "passes": [ {} ], "present": "ldr" }})J",
+        passes));
+    REQUIRE_MESSAGE(said.size() == 1, said.text());
+    CHECK(base::nameOf(said.items()[0].code) == code);
+    return said.items()[0].hint;
+  };
+  const auto pass = [](const char* name, const char* slots) {
+    return fmt::format(R"J({{ "name": "{}", "type": "fullscreen", "shader": "a.frag.glsl", {} }})J", name,
+                       slots);
+  };
+  const std::string sky = pass("sky", R"J("write": { "result": "hdr" })J") + ", ";
+  const std::string shown = R"("present": "hdr" at followers.json:2:)";
+  CHECK(hint(pass("one", R"J("modify": { "result": "ldr" })J") + ", " +
+                 pass("two", R"J("modify": { "result": "ldr" })J"),
+             "W059") == "use \"write\" if the pass covers everything, or give 'ldr' a \"clear\"");
+  CHECK(hint(sky + pass("copy", R"J("read": { "source": "ldr" }, "write": { "result": "jagged" })J") + ", " +
+                 pass("smooth", R"J("read": { "source": "jagged" }, "modify": { "result": "ldr" })J"),
+             "W062")
+            .starts_with(shown));
+  // A chain of effects without a first.
+  CHECK(hint(sky + pass("one", R"J("read": { "source": "ldr" }, "write": { "result": "ldr" })J") + ", " +
+                 pass("two", R"J("read": { "source": "ldr" }, "write": { "result": "ldr" })J"),
+             "W059")
+            .starts_with(shown));
+}
+
+TEST_CASE("no fix asks for what a switch has taken out, and following them ends at a picture") {
+  const auto said = [](const std::vector<Disable>& disables) {
+    base::Diagnostics diagnostics;
+    const auto desc = readGraph(WEFT_SOURCE_DIR "/graphs/studio.json", diagnostics);
+    REQUIRE(desc);
+    expandGraph(*desc, testRegistry(), with({}, disables), diagnostics);
+    REQUIRE_MESSAGE(diagnostics.errorCount() == 1, diagnostics.text());
+    return diagnostics.items()[0].hint;
+  };
+  const std::string present = "\"present\": \"hdr\" at ", too = "disable 'post.fxaa' too";
+  for (const std::string& hint : {said({{"composite"}}), said({{"post.display"}})}) {
+    CHECK(hint.starts_with(present));
+    CHECK(hint.find(too) != std::string::npos);
+    CHECK(hint.find("enable '") == std::string::npos);
+  }
+  CHECK(said({{"composite"}, {"fxaa"}}).starts_with(present));
+  CHECK(said({{"post"}, {"lit"}}).starts_with(present));
+}

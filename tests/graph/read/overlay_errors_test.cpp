@@ -1,4 +1,6 @@
 // Mistakes in overlays and presets, each with its place.
+#include <fmt/format.h>
+
 #include "tests/graph/read/overlay_files.h"
 
 using namespace weft;
@@ -70,16 +72,53 @@ TEST_CASE(
   CHECK(names == std::vector<std::string>{"fill", "post", "nw", "show"});
 }
 
-TEST_CASE("a name that several includes have must be longer") {
+TEST_CASE("a name that is not whole is one error, whose fix is the whole name") {
   const Folder folder;
+  const auto hint = [&](const std::string& keys) {
+    base::Diagnostics diagnostics;
+    const auto desc = readGraph(folder.over(keys), diagnostics);
+    if (desc) expandGraph(*desc, testRegistry(), {}, diagnostics);
+    REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
+    return base::nameOf(diagnostics.items()[0].code) + " " + diagnostics.items()[0].hint;
+  };
+  const std::string fresh =
+      R"("type": "fullscreen", "shader": "e.frag.glsl", "read": { "source": "out" }, "write": { "result": "out" })";
+  CHECK(hint(R"("resources": { "glow": { "size": 8 } })") == "W017 write the whole name, 'post.bloom.glow'");
+  CHECK(hint(R"("resources": { "glow": null })") == "W017 write the whole name, 'post.bloom.glow'");
+  CHECK(hint(R"("parameters": { "curve": { "default": "linear" } })") ==
+        "W017 write the whole name, 'post.curve'");
+  CHECK(hint(R"("passes": [ { "name": "spread", "enabled": true } ])") ==
+        "W016 write the whole name, 'post.bloom.spread'");
+  CHECK(hint(R"("passes": [ { "name": "bloom", "remove": true } ])") ==
+        "W017 write the whole name, 'post.bloom'");
+  CHECK(hint(R"("passes": [ { "name": "composite", "before": "post.bloom" } ])") ==
+        "W016 write the whole name, 'post.composite'");
+  CHECK(hint(R"("passes": [ { "name": "more", "after": "composite", )" + fresh + " } ]") ==
+        "W016 write the whole name, 'post.composite'");
+  CHECK(hint(R"("passes": [ { "name": "bloom.more", "after": "post.composite", )" + fresh + " } ]") ==
+        "W016 call it 'post.more'");
+  CHECK(hint(R"("passes": [ { "name": "post.composite", "after": "show" } ])") ==
+        "W016 name a pass of its own file, or remove it and write a new one here");
   const std::string twin =
       R"("passes": [ { "before": "post", "include": "parts/glow.json", "as": "twin", "bind": { "source": "hdr" } })";
-  base::Diagnostics diagnostics;
-  readGraph(folder.over(twin + R"(, { "name": "spread", "enabled": false } ])"), diagnostics);
-  REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
-  CHECK(diagnostics.items()[0].code == Code::ambiguousName);
-  CHECK(diagnostics.items()[0].found == "twin.spread, post.bloom.spread");
-  CHECK(fine(folder.over(twin + R"(, { "name": "bloom.spread", "enabled": true } ])")).graph);
+  CHECK(hint(twin + R"(, { "name": "spread", "enabled": true } ])") ==
+        "W016 write the whole name, 'twin.spread' or 'post.bloom.spread'");
+  CHECK(fine(folder.over(twin + R"(, { "name": "post.bloom.spread", "enabled": true } ])")).graph);
+}
+
+TEST_CASE("a pass that stands in an included file uses the names of that file, and the message says them") {
+  const Folder folder;
+  const auto hint = [&](const char* written) {
+    const Expanded e = expandFile(
+        folder.over(fmt::format(R"J("resources": {{ "spare": {{ "texture": "r8", "size": 4 }} }}, "passes": [
+      {{ "name": "more", "after": "post.composite", "type": "fullscreen", "shader": "e.frag.glsl", "read": {{ "source": "out" }},
+         "write": {{ "result": "{}" }} }} ])J",
+                                written)));
+    REQUIRE_MESSAGE(e.diagnostics.errorCount() == 1, e.text());
+    return e.diagnostics.items()[0].hint;
+  };
+  CHECK(hint("post.out") == "write 'out', as the file of the pass calls it");
+  CHECK(hint("spare") == "declare it as 'post.spare': the pass stands in the file of 'post'");
 }
 
 TEST_CASE("circles of extends and include end") {

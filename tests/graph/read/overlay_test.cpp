@@ -72,14 +72,14 @@ TEST_CASE("passes are added beside others, moved and removed") {
   CHECK(std::ranges::find(less.graph->files, folder.file("parts/post.json")) == less.graph->files.end());
 }
 
-TEST_CASE("suffixes reach into included files, and only there") {
+TEST_CASE("whole names reach into included files, and only there") {
   const Folder folder;
   folder.write("base2.json", R"({ "extends": "base.json" })");
   const Expanded e = fine(folder.over(R"(
-    "parameters": { "curve": { "default": "linear" } },
-    "resources": { "bloom.glow": { "size": 32 }, "out": { "texture": "rgba16f" } },
-    "passes": [ { "name": "spread", "parameters": { "wide": 2 } },
-                { "after": "composite", "name": "sharpen", "type": "fullscreen", "shader": "s.frag.glsl",
+    "parameters": { "post.curve": { "default": "linear" } },
+    "resources": { "post.bloom.glow": { "size": 32 }, "post.out": { "texture": "rgba16f" } },
+    "passes": [ { "name": "post.bloom.spread", "parameters": { "wide": 2 } },
+                { "after": "post.composite", "name": "sharpen", "type": "fullscreen", "shader": "s.frag.glsl",
                   "read": { "source": "out" }, "write": { "result": "out" } } ])"));
   CHECK(e.names() == "fill post.bloom.spread post.composite post.sharpen show");
   CHECK(e.resource("post.bloom.glow").width == 32);
@@ -95,6 +95,31 @@ TEST_CASE("suffixes reach into included files, and only there") {
   CHECK(twice.resource("post.bloom.glow").width == 64);
   // What the overlay itself includes can be reached, whatever stands first in it.
   CHECK(twice.resource("twin.glow").width == 16);
+}
+
+TEST_CASE("what is new is new, whatever it is the end of, and stands in the file that its name says") {
+  const Folder folder;
+  const std::string pass = R"("type": "fullscreen", "shader": "e.frag.glsl", "read": { "source": "out" })";
+  const Expanded e = fine(folder.over(R"J(
+    "resources": { "glow": { "texture": "r8", "size": "size(hdr)/2" }, "post.half": { "texture": "r8", "size": "size(out)/2" } },
+    "passes": [ { "after": "fill", "name": "mark", "type": "fullscreen", "shader": "e.frag.glsl", "write": { "result": "glow" } },
+                { "after": "post.composite", "name": "halve", )J" +
+                                      pass + R"J(, "write": { "result": "half" } },
+                { "after": "post.halve", "name": "post.whole", "type": "fullscreen", "shader": "e.frag.glsl",
+                  "read": { "source": "half" }, "write": { "result": "out" } },
+                { "name": "show", "read": { "mark": "glow" } } ])J"));
+  CHECK(e.names() == "fill mark post.bloom.spread post.composite post.halve post.whole show");
+  CHECK(e.resource("glow").format == Format::r8);
+  CHECK(e.resource("post.bloom.glow").format == Format::rgba16f);
+  CHECK(e.resource("post.half").format == Format::r8);
+  // Within its own file a pass moves, and is like another, by the whole name or by that file's own.
+  for (const char* like : {"post.bloom.spread", "spread"}) {
+    const Expanded moved = fine(folder.over(
+        R"("passes": [ { "after": "post.bloom.spread", "name": "again", "like": ")" + std::string(like) +
+        R"(", "write": { "result": null }, "modify": { "more": "glow" } }, { "name": "post.composite", "after": "post.bloom" } ])"));
+    CHECK(moved.graph->passNames.size() == 5);
+    CHECK(moved.spec("post.bloom.again").shader == "g.frag.glsl");
+  }
 }
 
 TEST_CASE("overlays of overlays, and overlays that are included") {
@@ -151,7 +176,7 @@ TEST_CASE("values: presets in order, then the command line; included files first
   // a preset is an overlay: it may say more
   const std::string c = folder.write(
       "c.json",
-      R"({ "resources": { "glow": { "size": 8 } }, "passes": [ { "name": "show", "enabled": true } ] })");
+      R"({ "resources": { "post.bloom.glow": { "size": 8 } }, "passes": [ { "name": "show", "enabled": true } ] })");
   CHECK(fine(base, {c}).resource("post.bloom.glow").width == 8);
   // "set" of an included file stays in it and yields to that of the including file
   folder.write("parts/post2.json",

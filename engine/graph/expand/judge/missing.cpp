@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
+#include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/versions/live.h"
@@ -45,8 +47,8 @@ class Judge {
   void run() {
     for (std::size_t i = 0; i < model_.missing.size() && !isOver(model_); ++i)
       judge(model_.missing[i], found_[i]);
-    for (const auto& [thing, reads] : unwritten_)
-      if (!isOver(model_)) sayNobodyWrites(thing, reads);
+    for (const Group& group : groups_)
+      if (!isOver(model_)) sayOf(group);
     for (const EmptyRepeat& empty : model_.emptied)
       if (empty.written && !isOver(model_) && blamed_.insert(empty.pass).second) warnOfEmpty(empty);
   }
@@ -70,7 +72,8 @@ class Judge {
               write.passesOn && writers.disabledEarlier ? writers.disabledEarlier : &write;
         else if (write.disabled != kNone && !writers.disabledLater)
           writers.disabledLater = &write;
-        else if (write.pass != kNone && write.position > missing.position && !writers.enabledLater)
+        else if (write.pass != kNone && write.position > missing.position && !writers.enabledLater &&
+                 !write.passesOn)
           writers.enabledLater = &write;
       }
     }
@@ -146,9 +149,9 @@ class Judge {
         d->hint =
             "provide it, or end the reference with '?', or read a resource that is a list of alternatives";
     } else if (const RemovedPass* removed = removedWriter(missing)) {
-      judgeRemoved(missing, *removed, thing, subject);
+      groupOf(thing, kNone, removed).reads.push_back(&missing);
     } else if (writers.disabledEarlier) {
-      judgeDisabled(missing, *writers.disabledEarlier, thing, subject);
+      groupOf(thing, writers.disabledEarlier->disabled).reads.push_back(&missing);
     } else if (const EmptyRepeat* empty = emptyWriter(missing)) {
       judgeEmpty(missing, *empty, thing, subject);
     } else if (writers.incomplete) {
@@ -157,28 +160,24 @@ class Judge {
       judgeLater(missing, *writers.enabledLater, thing, subject);
     } else if (writers.self && !writers.self->whole && missing.access == Access::read) {
       judgeOwnLevel(missing, thing, subject);
-    } else if (writers.self) {
-      if (auto* d =
-              report(missing, Code::readBeforeWrite,
-                     fmt::format("{} {} {}, which nothing wrote before", subject, verb(missing), thing)))
-        d->hint = missing.access == Access::modify
-                      ? fmt::format("use \"write\" if the pass covers everything, or give '{}' a \"clear\"",
-                                    d->resource)
-                      : fmt::format("give '{}' a \"clear\"{}", d->resource, orBefore(missing, "before"));
-    } else if (writers.disabledLater) {
-      judgeDisabled(missing, *writers.disabledLater, thing, subject);
-    } else if (missing.slot == "present" && !slot) {
-      if (auto* d = report(missing, Code::presentsUnwritten,
-                           fmt::format("present shows {}, which no pass writes", thing)))
-        d->hint = "name a texture that the last pass writes";
-    } else if (missing.access == Access::modify) {
-      if (auto* d = report(missing, Code::readBeforeWrite,
-                           fmt::format("{} modifies {}, which nothing wrote before", subject, thing)))
-        d->hint =
-            fmt::format("use \"write\" if the pass covers everything, or give '{}' a \"clear\"", d->resource);
+    } else if (writers.disabledLater && !writers.self) {
+      groupOf(thing, writers.disabledLater->disabled).reads.push_back(&missing);
     } else {
-      unwritten_[thing].push_back(&missing);
+      groupOf(thing, kNone).reads.push_back(&missing);
     }
+  }
+
+  // Reads that miss the same thing, because a pass is disabled or removed, or because none writes it.
+  struct Group {
+    std::string thing;
+    std::uint32_t disabled = kNone;
+    const RemovedPass* removed = nullptr;
+    std::vector<const MissingRead*> reads;
+  };
+
+  Group& groupOf(const std::string& thing, std::uint32_t disabled, const RemovedPass* removed = nullptr) {
+    const auto [at, fresh] = groupAt_.try_emplace({thing, disabled, removed}, groups_.size());
+    return fresh ? groups_.emplace_back(Group{thing, disabled, removed, {}}) : groups_[at->second];
   }
 
   bool isLive(const MissingRead& missing) const {
@@ -186,39 +185,77 @@ class Judge {
   }
 
   // However many passes read it, one that writes it is missing: said at the first that lives.
-  void sayNobodyWrites(const std::string& thing, const std::vector<const MissingRead*>& reads) {
+  void sayOf(const Group& group) {
+    const auto& reads = group.reads;
     const auto live = std::ranges::find_if(reads, [&](const MissingRead* read) { return isLive(*read); });
     const MissingRead& first = live == reads.end() ? *reads.front() : **live;
-    std::set<std::string> others;
-    for (const MissingRead* read : reads)
-      if (read->pass == kNone || first.pass == kNone ||
-          graph_.specs[read->pass].declared != graph_.specs[first.pass].declared)
-        if (read != &first)
-          others.insert(read->pass == kNone ? who(*read) : graph_.specs[read->pass].declared);
-    auto* d = report(first, Code::nobodyWrites,
-                     fmt::format("{}{} {}, which no pass writes", who(first),
-                                 others.empty()       ? " reads"
-                                 : others.size() == 1 ? " and one more read"
-                                                      : fmt::format(" and {} more read", others.size()),
-                                 thing));
-    if (d) d->hint = fmt::format("let a pass before it write it, or give '{}' a \"clear\"", d->resource);
+    std::vector<std::string> passes;  // that need it
+    std::size_t all = 0;
+    for (const MissingRead* read : reads) {
+      if (isLive(*read) != isLive(first)) continue;
+      const std::string name = read->pass == kNone ? who(*read) : graph_.specs[read->pass].declared;
+      if (!said_.insert(fmt::format("{} needs {}", name, group.thing)).second) continue;
+      ++all;
+      if (read->pass != kNone) passes.push_back(name);
+    }
+    const bool reading =
+        std::ranges::all_of(reads, [](const MissingRead* read) { return read->access == Access::read; });
+    const std::string more = all < 2
+                                 ? fmt::format(" {}", verb(first))
+                                 : fmt::format(" and {} more {}", all == 2 ? "one" : fmt::to_string(all - 1),
+                                               reading ? "read" : "need");
+    const std::string head = fmt::format("{}{} {}", who(first), more, group.thing);
+    const std::string resource =
+        first.wanted.empty() ? first.ref->name : model_.entities[first.wanted.front().entity].name;
+    std::vector<std::string> fixes;
+    if (const std::string shown =
+            first.wanted.empty() ? "" : otherPresent(model_, first.wanted.front().entity, first.position);
+        !shown.empty())
+      fixes.push_back(fmt::format("{} shows what is there", shown));
+    base::Diagnostic* d = nullptr;
+    if (group.disabled != kNone) {
+      const DisabledPass& disabled = graph_.disabled[group.disabled];
+      d = report(first, Code::disabledWriter,
+                 fmt::format("{}, but pass '{}' that would write it is disabled ({})", head, disabled.name,
+                             disabled.why));
+      if (!isSwitchedOff(model_, disabled))
+        fixes.insert(fixes.begin(), fmt::format("enable '{}'", disabled.name));
+      if (const std::string names = namesToDisable(passes, disabled.name); !names.empty())
+        fixes.push_back(fmt::format("disable {} too", names));
+      if (first.access == Access::read && first.pass != kNone)
+        fixes.push_back(
+            "end the reference with '?' if the shader can do without, or read a resource that is a list of "
+            "alternatives");
+    } else if (group.removed) {
+      d = report(first, Code::disabledWriter,
+                 fmt::format("{}, but pass '{}' that would write it is removed", head, group.removed->name));
+      if (const Place& place = group.removed->place; d && place.file)
+        d->found = fmt::format("\"remove\" at {}:{}:{}", *place.file, place.line, place.column);
+      fixes.push_back(fmt::format("let another pass write '{}' before it", resource));
+    } else if (first.pass == kNone && first.slot == "present") {
+      d = report(first, Code::presentsUnwritten,
+                 fmt::format("present shows {}, which no pass writes", group.thing));
+      if (fixes.empty()) fixes.emplace_back("name a texture that the last pass writes");
+    } else if (first.access == Access::modify || readsOwn(first)) {
+      d = report(first, Code::readBeforeWrite, head + ", which nothing wrote before");
+      if (first.access == Access::modify) fixes.emplace_back("use \"write\" if the pass covers everything");
+    } else {
+      d = report(first, Code::nobodyWrites, head + ", which no pass writes");
+      fixes.emplace_back("let a pass before it write it");
+    }
+    if (!d) return;
+    if (d->code != Code::presentsUnwritten) fixes.push_back(fmt::format("give '{}' a \"clear\"", resource));
+    if (d->code == Code::readBeforeWrite && first.access == Access::read)
+      fixes.push_back(orBefore(first, "before").substr(5));
+    for (const std::string& fix : fixes) d->hint += (d->hint.empty() ? "" : ", or ") + fix;
   }
 
-  void judgeDisabled(const MissingRead& missing, const WriteRecord& writer, const std::string& thing,
-                     const std::string& subject) {
-    const DisabledPass& disabled = graph_.disabled[writer.disabled];
-    auto* d = report(missing, Code::disabledWriter,
-                     fmt::format("{} {} {}, but pass '{}' that would write it is disabled ({})", subject,
-                                 verb(missing), thing, disabled.name, disabled.why));
-    if (!d) return;
-    d->hint = fmt::format("enable '{}'", disabled.name);
-    if (missing.pass == kNone) return;
-    if (missing.access == Access::read)
-      d->hint += fmt::format(
-          ", or disable '{}' too, or end the reference with '?' if the shader can do without, or read a "
-          "resource that is a list of alternatives",
-          graph_.specs[missing.pass].declared);
-    d->hint += fmt::format(", or give '{}' a \"clear\"", d->resource);
+  // Whether the pass of a read writes the same resource.
+  bool readsOwn(const MissingRead& missing) const {
+    const auto records = byEntity_.find(missing.wanted.empty() ? kNone : missing.wanted.front().entity);
+    return records != byEntity_.end() && missing.pass != kNone &&
+           std::ranges::any_of(records->second,
+                               [&](std::uint32_t i) { return model_.writes[i].pass == missing.pass; });
   }
 
   // A pass that an overlay took out and that would write what is missing, or null.
@@ -230,19 +267,6 @@ class Judge {
         if (std::ranges::find(removed.writes, entity.desc->name) != removed.writes.end()) return &removed;
     }
     return nullptr;
-  }
-
-  void judgeRemoved(const MissingRead& missing, const RemovedPass& removed, const std::string& thing,
-                    const std::string& subject) {
-    auto* d = report(missing, Code::disabledWriter,
-                     fmt::format("{} {} {}, but pass '{}' that would write it is removed", subject,
-                                 verb(missing), thing, removed.name));
-    if (!d) return;
-    if (removed.place.file)
-      d->found = fmt::format("\"remove\" at {}:{}:{}", *removed.place.file, removed.place.line,
-                             removed.place.column);
-    d->hint = fmt::format("keep '{}', let another pass write '{}' before it, or give '{}' a \"clear\"",
-                          removed.name, d->resource, d->resource);
   }
 
   // A pass that does not repeat even once and that would write what is missing, or null.
@@ -350,7 +374,8 @@ class Judge {
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> byEntity_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> wouldRead_;
   std::vector<Writers> found_;
-  std::map<std::string, std::vector<const MissingRead*>> unwritten_;  // what no pass writes, and who reads it
+  std::vector<Group> groups_;
+  std::map<std::tuple<std::string, std::uint32_t, const RemovedPass*>, std::size_t> groupAt_;
   std::set<std::string> said_;
   std::set<std::string> blamed_;  // passes with an empty "repeat" that an error names
   int searches_ = 0;

@@ -187,8 +187,7 @@ struct WriteRecord {
   std::uint32_t pass = kNone;      // of FlatGraph::passes when enabled
   std::uint32_t disabled = kNone;  // of FlatGraph::disabled otherwise
   bool whole = false;
-  bool passesOn =
-      false;  // of a disabled one: it reads the resource too, and enabling it alone would not help
+  bool passesOn = false;  // the pass reads or modifies the same: it needs another to have written it before
 };
 
 // A pass whose "repeat" leaves nothing of it.

@@ -186,7 +186,7 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
                                     fmt::format("{} unknown resource '{}'", user.text(), name));
   d.resource = std::string(name);
   d.pass = pass;
-  d.hint = hintForResource(model, scope, name, slot, orPass);
+  d.hint = hintForResource(model, scope, name, slot, orPass, place);
   return kNone;
 }
 

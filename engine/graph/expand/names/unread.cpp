@@ -33,6 +33,10 @@ std::string hintFor(Model& model, const Unincluded& group) {
     if (const std::string near = base::nearestName(group.uses[0].resource, resourceNames(model, scope));
         !near.empty())
       return fmt::format("did you mean '{}'?", near);
+  // A whole name in its own file.
+  const std::string& resource = group.uses[0].resource;
+  if (resource.starts_with(scope.prefix) && scope.resources.contains(resource.substr(scope.prefix.size())))
+    return fmt::format("write '{}', as the file of the pass calls it", resource.substr(scope.prefix.size()));
   for (const Scope* outer = scope.parent; outer; outer = outer->parent)
     if (outer->includes.contains(group.name))
       return fmt::format(
@@ -106,7 +110,7 @@ std::string hintForPart(std::string_view name, std::string_view part, std::strin
 }  // namespace
 
 std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
-                            bool orPass) {
+                            bool orPass, const Place& place) {
   if (isPicturePath(name)) {
     const std::string_view file = name.substr(name.rfind('/') + 1);
     return fmt::format(
@@ -136,9 +140,14 @@ std::string hintForResource(Model& model, const Scope& scope, std::string_view n
   if (findImportType(model.registry, name)) hint = fmt::format("did you mean the import '@{}'?", name);
   for (Scope* outer = scope.parent; outer; outer = outer->parent)
     if (outer->resources.contains(name)) {
-      hint = fmt::format(
-          "the including file has it: declare it here as an input, \"{}\": {{ \"input\": \"texture\" }}",
-          name);
+      // The pass of an overlay stands in the file of the pass beside it.
+      const bool laidOver = place.file && *place.file != scope.desc->path;
+      hint = laidOver ? fmt::format("declare it as '{0}{1}': the pass stands in the file of '{2}'",
+                                    scope.prefix, name, scope.prefix.substr(0, scope.prefix.size() - 1))
+                      : fmt::format(
+                            "the including file has it: declare it here as an input, \"{}\": {{ \"input\": "
+                            "\"texture\" }}",
+                            name);
       break;
     }
   return hint;

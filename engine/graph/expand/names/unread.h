@@ -19,7 +19,7 @@ bool mayBeUnread(const Scope& from, std::string_view name);
 bool isPicturePath(std::string_view name);
 // The fix for a resource that is not there; the arguments are those of findEntityOrReport().
 std::string hintForResource(Model& model, const Scope& scope, std::string_view name, std::string_view slot,
-                            bool orPass);
+                            bool orPass, const Place& place);
 // True when `name` is dotted and this file includes nothing under its first part: kept for reportUnincluded.
 bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place& place,
                   std::string_view user, const std::string& pass = {});
