@@ -62,8 +62,7 @@ struct Sampler {
   bool linear = false;      // else nearest; with more than one level the levels are filtered the same way
   Wrap wrap = Wrap::clamp;  // in s, t and r
   bool compare = false;     // depth comparison; implies linear
-  std::optional<Compare>
-      function;  // of the comparison; absent: that of the pass's depth test, else less_equal
+  std::optional<Compare> function;  // of the comparison; absent: that of the depth test that made the map
   friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 
@@ -83,12 +82,14 @@ struct RefDesc {
   std::optional<SpanDesc> mip, layer, face;
   std::optional<Expr> element;  // [k]
   bool stencil = false;
-  int history = 0;           // n of @-n
-  std::optional<Kind> kind;  // `as depth`
-  Sampler sampler;           // `as linear wrap`
-  BorderColor border{};      // `as border(…)`
-  Expr condition;            // `if …`; absent means true
-  bool optional = false;     // trailing ?
+  int history = 0;                           // n of @-n
+  std::optional<Kind> kind;                  // `as depth`
+  Sampler sampler;                           // `as linear wrap`
+  BorderColor border{};                      // `as border(…)`
+  Expr condition;                            // `if …`; absent means true
+  bool optional = false;                     // trailing ?
+  std::uint32_t wordsAt = 0, wordsSize = 0;  // of "as linear wrap", in `text`
+  std::string_view words() const { return std::string_view(text).substr(wordsAt, wordsSize); }
 };
 
 struct ParameterDesc {

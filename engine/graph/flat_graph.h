@@ -65,7 +65,7 @@ struct FlatPass {
   bool sideEffect = false;
   std::uint16_t touches = 0;  // as PassType::touches
   std::uint32_t group =
-      kNone;  // the "group" it names, into groupNames; which groups there are: expand/groups.h
+      kNone;  // the "group" it names, into groupNames; which groups there are: versions/groups.h
   std::uint32_t slices = 1;
 };
 
@@ -165,10 +165,9 @@ struct StateSpec {
   std::vector<std::pair<std::string, Blend>> blend;  // per colour slot; absent slots do not blend
   bool depthTest = false;
   Compare depthCompare = Compare::always;
-  bool depthWrite = true;  // only with a writable depth attachment
+  bool depthWrite = true;  // only with a depth test and a writable depth attachment
   Cull cull = Cull::none;
   bool lines = false;  // polygon: line
-  bool scissor = false;
   double offsetFactor = 0, offsetUnits = 0;
 };
 

@@ -114,7 +114,12 @@ struct GeometryType {
 struct Registry {
   std::vector<PassType> passTypes;
   std::vector<ImportType> imports;
-  std::vector<std::string> drawLists;    // "spheres", "opaque", …
+  std::vector<std::string> drawLists;  // "spheres", "opaque", …
+  struct Things {
+    std::vector<std::string> lists;  // in which they stand
+    std::uint64_t count = 0;
+  };
+  std::vector<Things> things;            // of the scene, where it says another list than is usual for them
   std::vector<GeometryType> geometries;  // "quad", "icosphere", "mesh", "triangle"
   std::function<ImportFacts(const ImportRequest&)> factsOf;
 };

@@ -24,7 +24,7 @@ bool operator==(const WorldFacts& a, const WorldFacts& b) {
   };
   return a.environment == b.environment && a.environmentWidth == b.environmentWidth &&
          a.environmentHeight == b.environmentHeight && std::ranges::equal(a.lists, b.lists, same) &&
-         a.materials == b.materials && a.maps == b.maps && a.skins == b.skins &&
+         a.unusual == b.unusual && a.materials == b.materials && a.maps == b.maps && a.skins == b.skins &&
          a.coloredVertices == b.coloredVertices && a.sun == b.sun && a.castingSun == b.castingSun &&
          a.ground == b.ground && a.lamps == b.lamps && a.castingLamps == b.castingLamps &&
          a.cameras == b.cameras;
@@ -66,6 +66,10 @@ WorldFacts World::facts() const {
     facts.lists.push_back({scene::drawListNames()[static_cast<std::size_t>(i)],
                            scene::countInstances(scene_, list), scene::countMeshInstances(scene_, list)});
   }
+  for (const scene::Sphere& sphere : scene_.spheres.rows())
+    if (sphere.lists != 0 && sphere.lists != scene::Sphere{}.lists) ++facts.unusual[sphere.lists];
+  for (const scene::MeshInstance& mesh : scene_.meshInstances.rows())
+    if (mesh.lists != 0 && mesh.lists != scene::MeshInstance{}.lists) ++facts.unusual[mesh.lists];
   facts.materials = scene_.materials.size();
   for (const MaterialArray& array : batchTextures(scene_)) {
     WorldFacts::Maps& maps = facts.maps;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ struct WorldFacts {
     std::uint64_t meshes = 0;
   };
   std::vector<List> lists;
+  // How many things stand in each combination of lists (maskOf) that is not the usual one for their kind.
+  std::map<std::uint8_t, std::uint64_t> unusual;
   std::uint64_t materials = 0;
   struct Maps {  // the arrays that materials' textures are batched in: how many, and the greatest of each
     std::uint32_t arrays = 0, width = 1, height = 1, layers = 1, mips = 1;

@@ -15,7 +15,6 @@
 #if defined HAS_RADIANCE && defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_BALL
 #define SEES_MESHES 1
 layout(std140) uniform Parameters { float sky_turn; };
-#define LIT_IS_GREATER 1
 #include "shading/mesh_shadow.glsl"
 #else
 #define SEES_MESHES 0

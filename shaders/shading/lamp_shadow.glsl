@@ -1,11 +1,10 @@
 // How much of a lamp a point sees, from a cube of reversed-Z depth per lamp: near_plane / distance along the face's axis.
-// Slot: lamp_maps `as compare`, a cube array, see shading/compare.glsl.
+// Slot: lamp_maps `as compare`, a cube array, by which 1 is lit.
 // Five linear lookups, one texel apart, each compared with where the receiver's plane is in its direction.
 #ifndef SHADING_LAMP_SHADOW_GLSL
 #define SHADING_LAMP_SHADOW_GLSL
 
 #include "scene/lamps.glsl"
-#include "shading/compare.glsl"
 
 uniform samplerCubeArrayShadow lamp_maps;
 
@@ -24,7 +23,7 @@ float seenOfLamp(Lamp self, vec3 position, vec3 n) {
     vec3 beside = (i & 1) == 0 ? side : up;  // side, up, and opposite to them
     vec3 to = from + (i == 4 ? vec3(0.0) : axisOf(from) * texel * (i < 2 ? beside : -beside));
     float plane = dot(to, n), reach = plane * along > 0.0 ? clamp(along / plane, 0.5, 2.0) : 1.0;  // to the receiver's plane
-    hidden += hiddenBy(texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / (reach * axisOf(to)) * (1.0 + 1e-4)));
+    hidden += 1.0 - texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / (reach * axisOf(to)) * (1.0 + 1e-4));
   }
   return 1.0 - 0.2 * hidden;
 }

@@ -19,7 +19,6 @@
 // params  lamp_count    with lamps
 //         sky_turn?     see shading/ibl.glsl
 // defines SOFT_SUN         see shading/sun_shadow.glsl
-//         LIT_IS_GREATER   see shading/compare.glsl
 //         LOBE_IS_FLAT     the vertex shader has called lobeOf (shading/lobe.glsl), with the curvature: `flat out Lobe lobe`
 // A variant without sun and lamps is as if there was no code for them. All is one function: drivers put each function into those that call
 // it, and every level of calls costs them that again.

@@ -1,6 +1,6 @@
 // How much of the sun and of the environment's brightest spot a point sees past what graphs/mesh_shadows.json has drawn, see
 // shading/soft_shadow.glsl.
-// read    light_maps    `as compare`, an array: layer 0 of the sun, 1 of the spot; LIT_IS_GREATER is defined
+// read    light_maps    `as compare`, an array: layer 0 of the sun, 1 of the spot
 //         light_depths  the same as numbers
 //         ball          see shadow/ball.glsl
 //         sun?, brightest?   see scene/sun.glsl, ibl/brightest.glsl; included before, as is sky_turn
@@ -9,7 +9,6 @@
 
 #define SOFT_SUN 1
 #include "ibl/brightest.glsl"
-#include "shading/compare.glsl"
 #include "shadow/ball.glsl"
 #ifdef HAS_SUN
 #include "scene/sun.glsl"
@@ -20,7 +19,7 @@ uniform sampler2DArray light_depths;
 
 float light_layer = 0.0;
 vec2 shadowSize() { return vec2(textureSize(light_maps, 0).xy); }
-float shadowHides(vec3 at) { return hiddenBy(texture(light_maps, vec4(at.xy, light_layer, at.z))); }
+float shadowHides(vec3 at) { return 1.0 - texture(light_maps, vec4(at.xy, light_layer, at.z)); }
 float shadowDepth(vec2 at) { return textureLod(light_depths, vec3(at, light_layer), 0.0).r; }
 #include "shading/soft_shadow.glsl"
 

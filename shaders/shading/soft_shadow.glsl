@@ -1,7 +1,7 @@
 // How much of a light far away a point sees, from a shadow map of reversed-Z depth, larger nearer to the light. The includer says how its map
 // is read, before:
 //   vec2 shadowSize()             of the map, texels
-//   float shadowHides(vec3 at)    u, v and depth: 1 in the shadow, 0 in the light, and between; see shading/compare.glsl
+//   float shadowHides(vec3 at)    u, v and depth: 1 in the shadow, 0 in the light, and between
 //   float shadowDepth(vec2 at)    with SOFT_SUN
 // SOFT_SUN: penumbrae grow with the distance from what casts them: percentage-closer soft shadows, Fernando, SIGGRAPH 2005 sketches.
 // A sample beside the point is compared with where the receiver's plane is there, so planes do not shadow themselves. A point may lie

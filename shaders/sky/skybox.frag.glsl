@@ -1,4 +1,4 @@
-// The environment behind everything. A draw of one "triangle".
+// The environment behind everything. Of a "fullscreen" pass, or a draw of one "triangle".
 // read    sky        equirectangular with mips, `as linear wrap`
 //         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from roughness 0.1 on instead of it
 //         brightest? the spot that `blurred` lacks, see ibl/brightest.glsl

@@ -224,7 +224,8 @@ class IsfGraphWriter {
     shown_ = !last.target.empty() && !plain;
     for (const auto& [name, target] : targets_) addTarget(name, target);
     if (last.target.empty() || shown_)
-      resources_.add(picture_, R"({"texture": "rgba8", "size": "screen"})");
+      resources_.add(picture_, fmt::format(R"({{"texture": "rgba8", "size": "screen"{}}})",
+                                           shader_.vertex.empty() ? "" : R"(, "clear": [0, 0, 0, 0])"));
     else
       picture_ = names_.of(last.target);
   }
@@ -238,7 +239,7 @@ class IsfGraphWriter {
     JsonObjectText texture;
     texture.addText("texture", target.floats ? "rgba32f" : "rgba8");
     texture.add("size", sizeOf(target.size));
-    if (target.cleared) texture.add("clear", "[0, 0, 0, 0]");
+    if (target.cleared || !shader_.vertex.empty()) texture.add("clear", "[0, 0, 0, 0]");
     if (target.persistent && shader_.read.contains(name)) texture.add("history", "1");
     resources_.add(names_.of(name), texture.text());
   }

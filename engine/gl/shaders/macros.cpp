@@ -352,4 +352,29 @@ std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::sp
   return unknown;
 }
 
+std::vector<Token> onlyTested(std::string_view text) {
+  std::vector<Token> tested;
+  std::unordered_set<std::string_view> valued;
+  const std::vector<Token> all = splitTokens(text);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].first || !all[i].is("#") || i + 1 == all.size()) {
+      if (all[i].kind == TokenKind::word) valued.insert(all[i].text);
+      continue;
+    }
+    const Token& directive = all[++i];
+    const bool asks = directive.is("ifdef") || directive.is("ifndef");
+    for (; i + 1 < all.size() && !all[i + 1].first; ++i) {
+      const Token& word = all[i + 1];
+      if (word.kind != TokenKind::word || word.is("defined")) continue;
+      const bool asked = asks || all[i].is("defined") || (all[i].is("(") && all[i - 1].is("defined"));
+      if (asked)
+        tested.push_back(word);
+      else
+        valued.insert(word.text);  // also of #define and #undef: it has a meaning of its own here
+    }
+  }
+  std::erase_if(tested, [&](const Token& word) { return !valued.insert(word.text).second; });
+  return tested;
+}
+
 }  // namespace weft::gl

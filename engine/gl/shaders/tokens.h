@@ -55,6 +55,10 @@ struct UnknownCondition {
 };
 std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::span<const Define> defines);
 
+// The words of which #ifdef, #ifndef and defined() alone take notice, where they do: nothing asks for their value, in any branch.
+// One that is given a value behind its own #ifndef is a default, and none of them.
+std::vector<Token> onlyTested(std::string_view text);
+
 // The tokens of a text as it stands, directives included.
 std::vector<Token> splitTokens(std::string_view text);
 

@@ -8,7 +8,7 @@
 #include "engine/graph/compile/order.h"
 #include "engine/graph/compile/scratch.h"
 #include "engine/graph/compile/storage.h"
-#include "engine/graph/expand/groups.h"
+#include "engine/graph/versions/groups.h"
 #include "engine/graph/versions/live.h"
 
 namespace weft::graph {

@@ -16,14 +16,14 @@ bool isTexture(const FlatResource& shape) {
   return shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
 }
 
-namespace {
+bool coversAPart(const PassType& type, const SlotWork& work) {
+  return type.shader == ShaderShape::draw && (work.use.kind == Kind::color || work.use.kind == Kind::depth);
+}
 
 bool isInteger(Format format) {
   const TexelKind kind = infoOf(format).kind;
   return kind == TexelKind::unsigned_integer || kind == TexelKind::signed_integer;
 }
-
-}  // namespace
 
 const PassType* findPassType(const Registry& registry, std::string_view name) {
   for (const PassType& type : registry.passTypes)

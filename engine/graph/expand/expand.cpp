@@ -6,6 +6,8 @@
 #include "engine/graph/expand/judge/cadence.h"
 #include "engine/graph/expand/judge/culled.h"
 #include "engine/graph/expand/judge/missing.h"
+#include "engine/graph/expand/judge/slices.h"
+#include "engine/graph/expand/judge/unnamed.h"
 #include "engine/graph/expand/judge/unused.h"
 #include "engine/graph/expand/names/apply_settings.h"
 #include "engine/graph/expand/names/limits.h"
@@ -13,7 +15,6 @@
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/passes.h"
-#include "engine/graph/expand/slices.h"
 #include "engine/graph/pick/find_pick.h"
 
 namespace weft::graph {
@@ -46,6 +47,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
   if (!own.hasErrors() && !diagnostics.hasErrors()) {
     warnUnread(model);
     warnUnused(model);
+    warnUnnamed(model);
     warnCadence(model);
   }
   own.sortByPlace();

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/judge/comparison.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/subresource.h"
 
@@ -23,6 +24,13 @@ std::optional<FlatUse> resolveFinal(Model& model, Scope& scope, const RefDesc& r
   slot.place = ref.place;
   slot.ref = ref;
   const SlotContext context{model, names, nullptr, user, {}};
+  if (ref.wordsSize > 0) {
+    auto& d = model.diagnostics.error(Code::badKind, ref.place,
+                                      fmt::format("{} reads '{}', and no shader samples it", user, ref.text));
+    d.found = ref.text;
+    d.hint = fmt::format("leave '{}' out", ref.words());
+    return std::nullopt;
+  }
   SlotWork work = resolveSlot(context, slot, kNone);
   // resolveSlot mentions the copy of the reference; keep the original for messages.
   if (!model.missing.empty() && model.missing.back().ref == &slot.ref) model.missing.back().ref = &ref;
@@ -107,6 +115,16 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
   }
   for (const RefDesc& ref : entity.desc->resetRefs) {
     markStructural(model, *entity.scope, ref);
+    if (ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history || ref.wordsSize > 0 ||
+        ref.optional) {
+      auto& d = model.diagnostics.error(Code::badSelector, ref.place,
+                                        fmt::format("the reset of '{}' names '{}'", entity.name, ref.text));
+      d.resource = entity.name;
+      d.pointer = ref.pointer;
+      d.expected = "the name of a whole resource or import, perhaps with 'if'";
+      d.found = ref.text;
+      d.hint = fmt::format("write '{}{}'", ref.import ? "@" : "", ref.name);
+    }
     const auto holds = evaluateCondition(names, ref.condition, true, {"a reset of '{}'", entity.name});
     const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
                                                    {"the reset of '{}' names the", entity.name});
@@ -262,6 +280,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   resolveHistories(model);
   settleCopies(model.graph);
   model.versions.finish();
+  settleComparisons(model);
   nameStandIns(model);
   nameAliases(model);
   if (!model.diagnostics.hasErrors()) {

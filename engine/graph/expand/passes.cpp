@@ -110,9 +110,10 @@ class PassWalk {
     // Counted before the innermost range runs; outer ranges around empty ones count as well.
     const std::int64_t steps = (*last - *first) / *step + 1;
     if (steps <= 0)
-      noteEmptyRepeat(model_, *scope_, *desc_,
-                      {declared_, range.index, *first, *last, *step, range.place,
-                       range.first.isConstant() && range.last.isConstant()});
+      noteEmptyRepeat(
+          model_, *scope_, *desc_,
+          {declared_, range.index, *first, *last, *step, range.place,
+           scopeWhy_.empty() && isEmptyByMistake(model_, *scope_, *desc_, range, *first, *last, *step)});
     if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
     walked_ += std::max<std::int64_t>(steps, 1);
     if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
@@ -251,8 +252,7 @@ class PassWalk {
     d.hint = "0 slices go with a \"group\": the pass runs with its predecessor";
   }
 
-  // Uses of one slot, in element order. Reads and modifies take the current resource, writes perhaps a new
-  // one.
+  // Uses of one slot, in element order. Reads and modifies take the current resource.
   void emitUses(const SlotWork& work, std::uint32_t pass) {
     for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
       FlatUse use = work.use;
@@ -268,7 +268,9 @@ class PassWalk {
     for (std::uint32_t i = 0; i < work.elementCount; ++i) {
       const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
       FlatUse& use = graph_.uses[index];
-      if (use.access == Access::write) use.resource = resourceToWrite(model_, work.entity, e, work.whole);
+      if (use.access == Access::write)
+        use.resource =
+            resourceToWrite(model_, work.entity, e, work.whole, !type_ || !coversAPart(*type_, work));
       model_.versions.write(index);
     }
     record(slots, work, pass, kNone);

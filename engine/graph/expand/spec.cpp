@@ -8,8 +8,8 @@
 
 #include "engine/base/chars.h"
 #include "engine/base/nearest.h"
-#include "engine/base/words/foreign_words.h"
 #include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/state.h"
 #include "engine/graph/expand/view.h"
 #include "engine/graph/language/expr_node.h"
 
@@ -28,15 +28,6 @@ std::string upper(std::string_view name) {
   return out;
 }
 
-// `said`, in small letters, is none of the words of this state.
-std::string hintForState(bool test, std::string said, const std::vector<std::string>& words) {
-  const bool off = said == "off" || said == "false" || said == "disabled";
-  if (test && off) return "leave \"depth_test\" out: then nothing is tested";
-  if (test && said == "true") return "write 'greater', by which the nearer surface wins: depth is reversed";
-  const std::string foreign = base::hintForForeign(base::Foreign::state_word, said);
-  return foreign.empty() || off ? base::nearestHint(off ? "none" : said, words) : foreign;
-}
-
 class SpecFiller {
  public:
   SpecFiller(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots,
@@ -52,8 +43,7 @@ class SpecFiller {
     const std::size_t before = model_.diagnostics.errorCount();
     spec_.uniforms.reserve(desc_.parameters.size());
     spec_.defines.reserve(desc_.defines.size());
-    for (const NamedExpr& state : desc_.state) addState(state);
-    checkDepthState();
+    fillState(context_, desc_, slots_, spec_.state);
     for (const NamedExpr& define : desc_.defines) addDefine(define, deferred);
     for (const PassParameterDesc& parameter : desc_.parameters) addParameter(parameter, deferred);
     checkDefineNames();
@@ -68,116 +58,6 @@ class SpecFiller {
     base::Diagnostic& d = model_.diagnostics.error(code, place, fmt::format("{} {}", context_.user, message));
     d.pass = context_.pass;
     return d;
-  }
-
-  // ---- state ----
-
-  // Index of the word in `words`, or -1 after a report.
-  int word(const NamedExpr& state, const std::vector<std::string>& words) {
-    const Value value = state.expr.evaluate(names_, model_.diagnostics);
-    if (value.type == Value::Type::none) return -1;
-    if (value.type == Value::Type::symbol)
-      for (std::size_t i = 0; i < words.size(); ++i)
-        if (words[i] == value.symbol) return static_cast<int>(i);
-    std::string all;
-    for (const std::string& w : words) all += (all.empty() ? "" : ", ") + w;
-    auto& d = error(Code::badState, state.expr.place(),
-                    fmt::format("has an unknown value for the state '{}'", state.name));
-    d.expected = all;
-    d.found = toText(value);
-    d.hint = hintForState(state.name == "depth_test", base::lowered(d.found), words);
-    return -1;
-  }
-
-  bool flag(const NamedExpr& state, bool absent) {
-    return evaluateCondition(names_, state.expr, absent, {"the state '{}'", state.name}).value_or(absent);
-  }
-
-  bool isColorSlot(const std::string& name) const {
-    for (const SlotWork& work : slots_)
-      if (work.slot->name == name && work.slot->access != Access::read)
-        return work.entity == kNone || work.use.kind == Kind::color;
-    return false;
-  }
-
-  void addBlend(const NamedExpr& state) {
-    static const std::vector<std::string> kWords = {"none",     "add", "alpha", "premultiplied",
-                                                    "multiply", "min", "max"};
-    const int found = word(state, kWords);
-    if (found < 0) return;
-    const auto blend = static_cast<Blend>(found);
-    if (state.name == "blend") {
-      for (const SlotWork& work : slots_)
-        if (isColorSlot(work.slot->name)) setBlend(work.slot->name, blend);
-      return;
-    }
-    const std::string slot = state.name.substr(6);
-    if (isColorSlot(slot)) {
-      setBlend(slot, blend);
-      return;
-    }
-    std::vector<std::string> colors;
-    for (const SlotWork& work : slots_)
-      if (isColorSlot(work.slot->name)) colors.push_back(work.slot->name);
-    error(Code::badState, state.place, fmt::format("blends '{}', which is no colour slot of it", slot)).hint =
-        base::nearestHint(slot, colors);
-  }
-
-  void setBlend(const std::string& slot, Blend blend) {
-    for (auto& [name, old] : spec_.state.blend)
-      if (name == slot) {
-        old = blend;
-        return;
-      }
-    spec_.state.blend.emplace_back(slot, blend);
-  }
-
-  void addState(const NamedExpr& state) {
-    static const std::vector<std::string> kCompare(kCompareNames.begin(), kCompareNames.end());
-    StateSpec& s = spec_.state;
-    if (state.name == "blend" || state.name.starts_with("blend.")) {
-      addBlend(state);
-    } else if (state.name == "depth_test") {
-      if (const int found = word(state, kCompare); found >= 0) {
-        s.depthTest = true;
-        s.depthCompare = static_cast<Compare>(found);
-        depthTestPlace_ = state.place;
-      }
-    } else if (state.name == "depth_write") {
-      s.depthWrite = flag(state, true);
-    } else if (state.name == "cull") {
-      if (const int found = word(state, {"none", "front", "back"}); found >= 0)
-        s.cull = static_cast<Cull>(found);
-    } else if (state.name == "polygon") {
-      s.lines = word(state, {"fill", "line"}) == 1;
-    } else if (state.name == "scissor") {
-      s.scissor = flag(state, false);
-    } else if (state.name == "offset") {
-      const Value value = state.expr.evaluate(names_, model_.diagnostics);
-      if (value.type == Value::Type::list && value.count == 2) {
-        s.offsetFactor = value.v[0];
-        s.offsetUnits = value.v[1];
-      } else if (value.type != Value::Type::none) {
-        auto& d = error(Code::badState, state.expr.place(), "has an unknown value for the state 'offset'");
-        d.expected = "[factor, units]";
-        d.found = toText(value);
-      }
-    } else {
-      static const std::vector<std::string> kKeys = {"blend",   "depth_test", "depth_write", "cull",
-                                                     "polygon", "scissor",    "offset"};
-      error(Code::badState, state.place, fmt::format("has the unknown state '{}'", state.name)).hint =
-          base::nearestHint(state.name, kKeys);
-    }
-  }
-
-  void checkDepthState() {
-    if (!spec_.state.depthTest || spec_.state.depthCompare == Compare::always) return;
-    for (const SlotWork& work : slots_)
-      if (work.entity == kNone || work.use.kind == Kind::depth) return;
-    auto& d = error(Code::badState, depthTestPlace_, "tests depth but has no depth attachment");
-    d.hint =
-        "add a slot such as \"modify\": { \"depth\": \"depth\" } or \"read\": { \"test\": \"depth as depth\" "
-        "}";
   }
 
   // ---- defines and uniforms ----
@@ -386,7 +266,6 @@ class SpecFiller {
   const PassDesc& desc_;
   const std::vector<SlotWork>& slots_;
   PassSpec& spec_;
-  Place depthTestPlace_;
 };
 
 }  // namespace

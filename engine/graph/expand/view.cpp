@@ -49,7 +49,10 @@ std::optional<std::uint32_t> resolveView(const SlotContext& context, const PassD
     return fail(Code::notAView, fmt::format("is seen from '{}', which is no view", ref.text),
                 "a view: " + views, "");
   }
-  if (ref.mip || ref.layer || ref.stencil || ref.history || ref.kind)
+  if (ref.optional || ref.condition.present())
+    return fail(Code::notAView, fmt::format("is seen from '{}'", ref.text), "a view without '?' and 'if'",
+                fmt::format("\"enabled\": \"has({})\" leaves the pass out where there is none", ref.name));
+  if (ref.mip || ref.layer || ref.stencil || ref.history || ref.wordsSize > 0)
     return fail(Code::notAView, fmt::format("is seen from '{}'", ref.text),
                 "a view, perhaps with [element] and .face", "");
   if (context.versions && !entity.exists)

@@ -140,7 +140,6 @@ constexpr KeySpec kState[] = {
     {"depth_write", "@value", "true when absent"},
     {"cull", R"({"type":"string"})", "none, front, back"},
     {"polygon", R"({"type":"string"})", "fill, line"},
-    {"scissor", "@value", "clip to the rectangle of each draw"},
     {"offset", "@value", "[factor, units] of the depth offset"},
 };
 

@@ -310,7 +310,6 @@ class FileWriter {
     if (!state.depthWrite) out["depth_write"] = false;
     if (state.cull != Cull::none) out["cull"] = kCulls[static_cast<std::size_t>(state.cull)];
     if (state.lines) out["polygon"] = "line";
-    if (state.scissor) out["scissor"] = true;
     if (state.offsetFactor != 0 || state.offsetUnits != 0)
       out["offset"] = {state.offsetFactor, state.offsetUnits};
     if (!out.is_null()) json["state"] = std::move(out);

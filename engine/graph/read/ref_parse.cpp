@@ -237,8 +237,11 @@ class RefParser {
   bool parseWords() {
     skipSpace();
     if (peekWord(at_) != "as") return true;
+    const std::size_t start = at_;
     at_ += 2;
     const auto mistake = parseAsWords(text_, at_, ref_);
+    ref_.wordsAt = static_cast<std::uint32_t>(start);
+    ref_.wordsSize = static_cast<std::uint32_t>(text_.find_last_not_of(" \t\r\n", at_ - 1) + 1 - start);
     return !mistake || fail(mistake->at, mistake->message, mistake->hint);
   }
 

@@ -80,11 +80,9 @@ void applyState(const PreparedPass& pass, gl::StateCache& states) {
   }
   states.enable(GL_FRAMEBUFFER_SRGB, pass.encodesSrgb);
   states.viewport(static_cast<GLsizei>(pass.width), static_cast<GLsizei>(pass.height));
-  // OpenGL writes depth only while the test is enabled. So for a pass that writes depth and asks for no test, the test
-  // always passes.
-  const bool depthTest = depthAttached && (state.depthTest || depthWritable);
+  const bool depthTest = depthAttached && state.depthTest;
   states.enable(GL_DEPTH_TEST, depthTest);
-  if (depthTest) states.depthFunc(state.depthTest ? glCompareOf(state.depthCompare) : GL_ALWAYS);
+  if (depthTest) states.depthFunc(glCompareOf(state.depthCompare));
   states.depthMask(depthTest && depthWritable && state.depthWrite);
   states.colorMask(true);
   states.enable(GL_CULL_FACE, state.cull != graph::Cull::none);

@@ -47,7 +47,7 @@ bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
 
 bool sameState(const graph::StateSpec& a, const graph::StateSpec& b) {
   return a.blend == b.blend && a.depthTest == b.depthTest && a.depthCompare == b.depthCompare &&
-         a.depthWrite == b.depthWrite && a.cull == b.cull && a.lines == b.lines && a.scissor == b.scissor &&
+         a.depthWrite == b.depthWrite && a.cull == b.cull && a.lines == b.lines &&
          a.offsetFactor == b.offsetFactor && a.offsetUnits == b.offsetUnits;
 }
 

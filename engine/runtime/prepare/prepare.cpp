@@ -173,8 +173,7 @@ class Preparer {
             .unit = sampler->unit + element, .resource = use.resource, .history = use.history, .views = {}};
         const graph::TexelKind texels =
             use.planes == 2 ? graph::TexelKind::unsigned_integer : graph::infoOf(resource.format).kind;
-        binding.sampler = c_.samplers.get(slot.sampler, graph_.borderOf(slot), use.mips > 1,
-                                          spec_.state.depthCompare, texels);
+        binding.sampler = c_.samplers.get(slot.sampler, graph_.borderOf(slot), use.mips > 1, texels);
         binding.views = viewsOf(use, opaqueTypeOf(sampler->type).target);
         binding.part = importPartOf(use, opaqueTypeOf(sampler->type).target);
         out_.textures.push_back(std::move(binding));

@@ -56,6 +56,7 @@ class Checker : PassErrors {
     checkRest();
     checkSlices(graph_.passes[pass_]);
     checkGroups();
+    warnUnwritten(plan_, pass_, words_, diagnostics_);
     if (reflection_.findUniformBlock("View")) warnTimeless(graph_, pass_, words_, diagnostics_);
     return parametersFit && !any();
   }

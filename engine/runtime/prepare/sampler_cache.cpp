@@ -25,17 +25,14 @@ void SamplerCache::setBorder(GLuint sampler, const Border& border) {
 }
 
 GLuint SamplerCache::get(const graph::Sampler& sampler, const graph::BorderColor& color, bool mipmapped,
-                         graph::Compare compare, graph::TexelKind texels) {
+                         graph::TexelKind texels) {
   gl::SamplerDesc desc;
   const bool linear = sampler.linear || sampler.compare;
   desc.magFilter = linear ? GL_LINEAR : GL_NEAREST;
   desc.minFilter = !mipmapped ? desc.magFilter : linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST;
   constexpr GLenum kWraps[] = {GL_CLAMP_TO_EDGE, GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_BORDER};
   desc.wrap = kWraps[static_cast<std::size_t>(sampler.wrap)];
-  if (sampler.compare)
-    desc.compare = sampler.function                    ? glCompareOf(*sampler.function)
-                   : compare == graph::Compare::always ? GL_LEQUAL
-                                                       : glCompareOf(compare);
+  if (sampler.compare) desc.compare = glCompareOf(sampler.function.value_or(graph::Compare::greater));
   Border border;
   if (sampler.wrap == graph::Wrap::border) border = {color, texels};
   for (const Entry& each : entries_)

@@ -10,10 +10,10 @@ namespace weft::runtime {
 
 class SamplerCache {
  public:
-  // The GL name of the sampler. `mipmapped`: the view has more than one level. `compare` is for a shadow sampler that names
-  // no comparison; `always` means "less or equal". `texels` is the kind of the texture's texels, and of `color`.
+  // The GL name of the sampler. `mipmapped`: the view has more than one level. `texels` is the kind of the texture's texels,
+  // and of `color`. One that compares says how: expansion has settled it.
   GLuint get(const graph::Sampler& sampler, const graph::BorderColor& color, bool mipmapped,
-             graph::Compare compare, graph::TexelKind texels);
+             graph::TexelKind texels);
 
  private:
   // The border's colour, as numbers of the texture's kind.

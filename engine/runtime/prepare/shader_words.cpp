@@ -85,6 +85,12 @@ bool ShaderWords::hasOutput(std::string_view name) const {
          variantOf(stages_.back()).is(name, Role::output);
 }
 
+bool ShaderWords::mayWrite(std::string_view name) const {
+  if (stages_.empty()) return true;
+  const ShaderRoles& roles = variantOf(stages_.back());
+  return roles.unsure || roles.reachable.contains(name);
+}
+
 std::string ShaderWords::whatIs(std::string_view name) const {
   std::uint16_t roles = 0;
   bool mentioned = false;

@@ -47,6 +47,8 @@ class ShaderWords {
   bool declaresParameter(std::string_view name) const;
   // Whether the fragment shader of this variant has an output of that name.
   bool hasOutput(std::string_view name) const;
+  // Whether main() of the fragment shader reaches the output of that name, or may do so.
+  bool mayWrite(std::string_view name) const;
   // "an input", "a built-in function", "a word that declares nothing"; "" when no text has the name.
   std::string whatIs(std::string_view name) const;
   // The names that a slot of this kind could have.

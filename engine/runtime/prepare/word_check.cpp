@@ -47,6 +47,7 @@ class WordChecker : PassErrors {
                           fail(Code::parameterNotInShader, uniform.place, ""));
     }
     warnTimeless(graph_, pass_, words_, diagnostics_);
+    warnUnwritten(plan_, pass_, words_, diagnostics_);
     // One misspelling is one mistake.
     if (any()) return;
     for (const auto& [type, name] : words_.parameters())
@@ -136,10 +137,61 @@ void warnTimeless(const graph::FlatGraph& graph, std::uint32_t pass, const Shade
   }
 }
 
+void warnUnwritten(const graph::Plan& plan, std::uint32_t pass, const ShaderWords& words,
+                   base::Diagnostics& diagnostics) {
+  const graph::FlatGraph& graph = *plan.graph;
+  const graph::PassSpec& spec = graph.specs[pass];
+  for (std::uint32_t i = 0; i < spec.slotCount; ++i) {
+    const graph::SlotSpec& slot = graph.slots[spec.firstSlot + i];
+    if (slot.useCount == 0 || slot.kind != Kind::color || !plan.attached[slot.firstUse]) continue;
+    if (!words.hasOutput(slot.name) || words.mayWrite(slot.name)) continue;
+    const std::string message =
+        fmt::format("pass '{}': the shader '{}' declares its output '{}' and never writes it", spec.declared,
+                    spec.shader, slot.name);
+    const auto isSaid = [&](const base::Diagnostic& d) {
+      return d.code == Code::slotNotInShader && d.message == message;
+    };
+    if (std::ranges::any_of(diagnostics.items(), isSaid)) continue;  // of another repeat
+    base::Diagnostic& d = diagnostics.warning(Code::slotNotInShader, slot.place, message);
+    d.pass = spec.name;
+    d.resource = graph.resourceNames[graph.uses[slot.firstUse].resource];
+    d.hint = fmt::format("assign '{}' in main(), or take the slot out: what is in '{}' is undefined",
+                         slot.name, d.resource);
+  }
+}
+
+namespace {
+
+// A define that is 0, and "#ifdef" of it: it is defined, whatever it is.
+void warnOfTests(const std::string& pass, const gl::StageSource& stage, std::span<const gl::Define> defines,
+                 base::Diagnostics& diagnostics) {
+  const auto isOff = [](const gl::Define& define) { return define.value == "0"; };
+  if (std::ranges::none_of(defines, isOff)) return;
+  for (const gl::Token& word : gl::onlyTested(stage.source->text)) {
+    const auto off = std::ranges::find_if(
+        defines, [&](const gl::Define& define) { return isOff(define) && define.name == word.text; });
+    if (off == defines.end()) continue;
+    const base::Place place = stage.source->placeOf(word.line, word.column);
+    const auto isSaid = [&](const base::Diagnostic& d) {
+      return d.code == Code::undeclaredShaderInput && base::isSamePlace(d.place.inFile(), place);
+    };
+    if (std::ranges::any_of(diagnostics.items(), isSaid)) continue;
+    base::Diagnostic& d = diagnostics.warning(
+        Code::undeclaredShaderInput, place,
+        fmt::format("'{}' is 0 here, and the shader asks only whether it is defined, which it always is",
+                    off->name));
+    d.pass = pass;
+    d.hint = fmt::format("write '#if {}' for '#ifdef', '#if !{}' for '#ifndef'", off->name, off->name);
+  }
+}
+
+}  // namespace
+
 void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
                       std::span<const gl::Define> defines, base::Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const gl::Define& define : defines) names.push_back(define.name);
+  for (const gl::StageSource& stage : stages) warnOfTests(pass, stage, defines, diagnostics);
   for (const gl::StageSource& stage : stages)
     for (const gl::UnknownCondition& unknown : gl::unknownInConditions(stage.source->text, defines)) {
       const auto likeIt = [&](const std::string& name) {

@@ -21,8 +21,13 @@ void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl:
 void warnTimeless(const graph::FlatGraph& graph, std::uint32_t pass, const ShaderWords& words,
                   base::Diagnostics& diagnostics);
 
+// W181 for each attached output that the fragment shader declares and never writes: its texels are undefined.
+void warnUnwritten(const graph::Plan& plan, std::uint32_t pass, const ShaderWords& words,
+                   base::Diagnostics& diagnostics);
+
 // Warns (W187) of words in conditionals of the shaders that nothing defines and that look like a misspelt define of the pass:
-// to a compiler they are 0, whatever the graph says. Once for each place, however many passes have the shader.
+// to a compiler they are 0, whatever the graph says. And of a define that is 0 and of which the shaders ask only whether it
+// is defined. Once for each place, however many passes have the shader.
 void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
                       std::span<const gl::Define> defines, base::Diagnostics& diagnostics);
 

@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/graph/expand/groups.h"
+#include "engine/graph/versions/groups.h"
 
 namespace weft::graph {
 

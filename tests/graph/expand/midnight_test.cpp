@@ -32,7 +32,7 @@ constexpr const char* kNightGraph = R"({
       "read": { "source": "glow.mip[i-1]" }, "write": { "result": "glow.mip[i]" }, "state": { "blend": "none" } },
     { "name": "follow", "type": "fullscreen", "shader": "a.frag.glsl",
       "read": { "now": "scene", "before": "trail@-1" }, "write": { "result": "trail" }, "parameters": { "keep": "$keep" } },
-    { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "color": "trail", "glow": "glow ?", "sums": "sums" },
+    { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl", "read": { "color": "trail", "glow": "glow ?", "sums": "sums", "depth": "depth" },
       "write": { "result": "ldr" }, "defines": { "TONE": "$tone" } }
   ],
   "present": "ldr" })";

@@ -12,9 +12,12 @@ using base::Code;
 
 namespace {
 
+// Without resources that nobody names: of these is unnamed_test.cpp.
 std::size_t countOf(const Expanded& expanded) {
   std::size_t count = 0;
-  for (const base::Diagnostic& d : expanded.diagnostics.items()) count += d.code == Code::unusedDeclaration;
+  for (const base::Diagnostic& d : expanded.diagnostics.items())
+    count += d.code == Code::unusedDeclaration && !d.message.starts_with("the resource") &&
+             d.message.find("keeps what") == std::string::npos;
   return count;
 }
 
@@ -44,7 +47,7 @@ TEST_CASE("a parameter is read wherever an expression may stand, also where it d
       {"", "", R"J(, "parameters": { "gain": "$p" })J"},
       {"", "", R"J(, "defines": { "GAIN": "$p" })J"},
       {"", "", R"J(, "repeat": { "i": [0, "$p - $p"] })J"},
-      {"", "", R"J(, "state": { "offset": "[$p, 0]" })J"},
+      {"", "", R"J(, "state": { "polygon": "$p > 9 ? line : fill" })J"},
       {"", R"J(, "tex": { "texture": "rgba8", "size": 8, "clear": 0 })J",
        R"J(, "read": { "s": "tex if $p > 8 ?" })J"},
       {R"J("q": "$p")J", "", R"J(, "parameters": { "gain": "$q" })J"},

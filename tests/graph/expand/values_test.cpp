@@ -246,13 +246,13 @@ TEST_CASE("state words, flags and per-slot blending") {
   const Expanded e = expandText(
       R"J({ "parameters": { "wire": { "default": true } }, "resources": { "out": { "texture": "rgba8", "size": 8, "clear": 0 }, "v": { "texture": "rg16f", "size": 8, "clear": 0 }, "d": { "texture": "depth32f", "size": 8, "clear": 0 } },
     "passes": [ { "name": "p", "type": "draw", "shader": "a", "list": "spheres", "geometry": "icosphere(2 + 1)", "modify": { "radiance": "out", "velocity": "v", "depth": "d" },
-      "state": { "blend": { "radiance": "premultiplied" }, "depth_test": "greater_equal", "depth_write": false, "cull": "back", "polygon": "$wire ? line : fill", "scissor": true, "offset": [2, 4] } } ], "present": "out" })J");
+      "state": { "blend": { "radiance": "premultiplied" }, "depth_test": "greater_equal", "depth_write": false, "cull": "back", "polygon": "$wire ? line : fill", "offset": [2, 4] } } ], "present": "out" })J");
   CHECK(e.text() == "");
   const StateSpec& s = e.spec("p").state;
   REQUIRE(s.blend.size() == 1);
   CHECK(s.blend[0] == std::pair<std::string, Blend>("radiance", Blend::premultiplied));
   CHECK((s.depthTest && s.depthCompare == Compare::greater_equal && !s.depthWrite && s.cull == Cull::back &&
-         s.lines && s.scissor));
+         s.lines));
   CHECK(s.offsetFactor == 2);
   CHECK(s.offsetUnits == 4);
   CHECK(e.spec("p").geometry == "icosphere");

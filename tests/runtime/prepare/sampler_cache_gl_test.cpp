@@ -25,7 +25,7 @@ TEST_CASE("filters: nearest unless the slot says linear, between levels only whe
   const CleanScope clean;
   runtime::SamplerCache cache;
   const auto filtersOf = [&](bool linear, bool mipmapped) {
-    const GLuint id = cache.get({.linear = linear}, {}, mipmapped, Compare::always, TexelKind::floating);
+    const GLuint id = cache.get({.linear = linear}, {}, mipmapped, TexelKind::floating);
     return std::array<GLenum, 2>{asked(id, GL_TEXTURE_MIN_FILTER), asked(id, GL_TEXTURE_MAG_FILTER)};
   };
   CHECK(filtersOf(false, false) == std::array<GLenum, 2>{GL_NEAREST, GL_NEAREST});
@@ -34,21 +34,19 @@ TEST_CASE("filters: nearest unless the slot says linear, between levels only whe
   CHECK(filtersOf(true, true) == std::array<GLenum, 2>{GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR});
 }
 
-TEST_CASE(
-    "a comparison: the slot's own, else that of the depth test, and less or equal where it compares "
-    "nothing") {
+TEST_CASE("a comparison is that of the slot, and filters") {
   const CleanScope clean;
   runtime::SamplerCache cache;
-  const auto comparedBy = [&](const Sampler& sampler, Compare depthTest) {
-    const GLuint id = cache.get(sampler, {}, false, depthTest, TexelKind::depth);
+  const auto comparedBy = [&](Compare function) {
+    const GLuint id = cache.get({.compare = true, .function = function}, {}, false, TexelKind::depth);
     CHECK(asked(id, GL_TEXTURE_COMPARE_MODE) == GL_COMPARE_REF_TO_TEXTURE);
     CHECK(asked(id, GL_TEXTURE_MAG_FILTER) == GL_LINEAR);
     return asked(id, GL_TEXTURE_COMPARE_FUNC);
   };
-  CHECK(comparedBy({.compare = true}, Compare::greater) == GL_GREATER);
-  CHECK(comparedBy({.compare = true}, Compare::always) == GL_LEQUAL);
-  CHECK(comparedBy({.compare = true, .function = Compare::always}, Compare::greater) == GL_ALWAYS);
-  const GLuint plain = cache.get({.linear = true}, {}, false, Compare::greater, TexelKind::depth);
+  CHECK(comparedBy(Compare::greater) == GL_GREATER);
+  CHECK(comparedBy(Compare::less_equal) == GL_LEQUAL);
+  CHECK(comparedBy(Compare::always) == GL_ALWAYS);
+  const GLuint plain = cache.get({.linear = true}, {}, false, TexelKind::depth);
   CHECK(asked(plain, GL_TEXTURE_COMPARE_MODE) == GL_NONE);
 }
 
@@ -58,7 +56,7 @@ TEST_CASE(
   runtime::SamplerCache cache;
   const auto get = [&](const Sampler& sampler, const graph::BorderColor& color = {},
                        TexelKind texels = TexelKind::floating) {
-    return cache.get(sampler, color, false, Compare::always, texels);
+    return cache.get(sampler, color, false, texels);
   };
   using graph::Wrap;
   std::set<GLuint> samplers;

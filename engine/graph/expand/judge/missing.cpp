@@ -50,7 +50,7 @@ class Judge {
     for (const Group& group : groups_)
       if (!isOver(model_)) sayOf(group);
     for (const EmptyRepeat& empty : model_.emptied)
-      if (empty.written && !isOver(model_) && blamed_.insert(empty.pass).second) warnOfEmpty(empty);
+      if (empty.mistake && !isOver(model_) && blamed_.insert(empty.pass).second) warnOfEmpty(empty);
   }
 
  private:
@@ -238,7 +238,9 @@ class Judge {
       if (fixes.empty()) fixes.emplace_back("name a texture that the last pass writes");
     } else if (first.access == Access::modify || readsOwn(first)) {
       d = report(first, Code::readBeforeWrite, head + ", which nothing wrote before");
-      if (first.access == Access::modify) fixes.emplace_back("use \"write\" if the pass covers everything");
+      if (first.access == Access::modify &&
+          graph_.specs[first.pass].geometry.empty())  // a draw covers a part
+        fixes.emplace_back("use \"write\" if the pass covers everything");
     } else {
       d = report(first, Code::nobodyWrites, head + ", which no pass writes");
       fixes.emplace_back("let a pass before it write it");
@@ -384,7 +386,7 @@ class Judge {
 }  // namespace
 
 void judgeMissing(Model& model) {
-  if (!model.missing.empty() || std::ranges::any_of(model.emptied, &EmptyRepeat::written)) Judge(model).run();
+  if (!model.missing.empty() || std::ranges::any_of(model.emptied, &EmptyRepeat::mistake)) Judge(model).run();
 }
 
 }  // namespace weft::graph::expansion

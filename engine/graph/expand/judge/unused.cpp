@@ -125,13 +125,6 @@ class Uses {
   std::unordered_map<const ResourceDesc*, Parts> parts_;
 };
 
-// Whether nothing may have been laid over the file since this was written there.
-bool isOnTop(const Scope& scope, const Place& place) {
-  for (const Scope* outer = scope.parent; outer; outer = outer->parent)
-    if (!outer->desc->top.empty()) return false;
-  return scope.desc->top.empty() || (place.file && *place.file == scope.desc->top);
-}
-
 // What the author of a parameter that nothing reads has probably meant.
 std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc& unread) {
   const std::string& name = unread.name;
@@ -201,6 +194,12 @@ void warnParts(Model& model, const Entity& entity, const Parts& parts) {
 }
 
 }  // namespace
+
+bool isOnTop(const Scope& scope, const Place& place) {
+  for (const Scope* outer = scope.parent; outer; outer = outer->parent)
+    if (!outer->desc->top.empty()) return false;
+  return scope.desc->top.empty() || (place.file && *place.file == scope.desc->top);
+}
 
 void warnUnused(Model& model) {
   const Uses uses(model);

@@ -6,6 +6,9 @@
 
 namespace weft::graph::expansion {
 
+// Whether nothing may have been laid over the file since this was written there.
+bool isOnTop(const Scope& scope, const Place& place);
+
 // W089 for each parameter and each `let` of the opened file that no expression names, for each parameter of an included
 // file, and for each texture or buffer of which all references select the same one level, layer or element. What lies under
 // an overlay or a preset is not judged: they may have taken away what used it.

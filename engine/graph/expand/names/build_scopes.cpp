@@ -61,14 +61,15 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
   for (const ResourceDesc& resource : child.desc->resources)
     if (resource.kind == ResourceDesc::Kind::input) inputs.push_back(resource.name);
   for (const auto& [name, ref] : include.binds) {
+    const bool part = ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history ||
+                      ref.condition.present() || ref.optional;
     if (std::find(inputs.begin(), inputs.end(), name) == inputs.end()) {
       auto& d = model.diagnostics.error(
           Code::badBind, ref.place,
           fmt::format("include '{}' binds '{}', which is no input of '{}'", include.as, name, include.file));
       d.hint = base::nearestHint(name, inputs);
     }
-    if (ref.mip || ref.layer || ref.face || ref.element || ref.stencil || ref.history || ref.kind ||
-        ref.condition.present() || ref.optional) {
+    if (part) {
       auto& d = model.diagnostics.error(
           Code::badBind, ref.place,
           fmt::format("include '{}' binds '{}' to a part of a resource", include.as, name));
@@ -77,6 +78,15 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
       d.hint =
           fmt::format("give the part a name with a resource that is a list, \"{}\": [\"{}\"], and bind that",
                       name, ref.text);
+    } else if (const std::string_view words = ref.words(); !words.empty()) {
+      auto& d = model.diagnostics.error(
+          Code::badBind, ref.place,
+          fmt::format("include '{}' binds '{}' {}, which only a slot can say", include.as, name, words));
+      d.pointer = ref.pointer;
+      d.expected = "the name of a whole resource";
+      d.found = ref.text;
+      d.hint = fmt::format("write \"{}\" here, and '{} {}' in the slots of '{}' that read it", ref.name, name,
+                           words, include.file);
     }
   }
 }

@@ -1,8 +1,11 @@
 // What expressions depend on through lets: age(), live parameters, and parameters that structure depends on. Walks without
-// recursion, because lets may stand in long rows.
+// recursion, because lets may stand in long rows. Declared in scope.h.
+#include <algorithm>
+#include <functional>
 #include <set>
 #include <utility>
 
+#include "engine/graph/expand/names/names.h"
 #include "engine/graph/expand/names/scope.h"
 #include "engine/graph/language/expr_node.h"
 
@@ -102,21 +105,77 @@ bool isDynamic(Model& model, Scope& scope, const Expr& expr) {
   return false;
 }
 
-bool countsElements(Model& model, Scope& scope, const Expr& expr) {
+namespace {
+
+// Calls `see` with the expression and those of all lets that it reads, and the scope of each, until that returns true.
+bool anyThroughLets(Model& model, Scope& scope, const Expr& expr,
+                    const std::function<bool(Scope&, const Expr&)>& see) {
   std::vector<std::pair<Scope*, const Expr*>> open{{&scope, &expr}};
   std::set<std::uint32_t> seen;  // lets
   while (!open.empty()) {
     const auto [from, each] = open.back();
     open.pop_back();
     if (!each->present() || each->isConstant()) continue;
-    for (const auto& [fact, name] : each->facts())
-      if (fact == Fact::count || fact == Fact::has) return true;
+    if (see(*from, *each)) return true;
     for (const std::string& name : variablesOf(*each))
       if (const Variable variable = findVariable(model, *from, name);
           variable.kind == Variable::Kind::let && seen.insert(variable.index).second)
         open.emplace_back(model.lets[variable.index].scope, &model.lets[variable.index].desc->expr);
   }
   return false;
+}
+
+// What differs with the settings, the size or the scene.
+bool isVariable(Model& model, Scope& scope, const Expr& expr) {
+  return anyThroughLets(model, scope, expr, [&](Scope& from, const Expr& each) {
+    const std::vector<std::string> names = variablesOf(each);
+    const auto isLet = [&](const std::string& name) {
+      return findVariable(model, from, name).kind == Variable::Kind::let;
+    };
+    const std::string text = each.text();
+    return !each.facts().empty() || names.empty() || !std::ranges::all_of(names, isLet) ||
+           text.find("screen") != std::string::npos || text.find("device.") != std::string::npos;
+  });
+}
+
+// Whether it may be small only for now: a list is empty, or the size took levels away.
+bool mayBeShort(Model& model, Scope& scope, const Expr& expr) {
+  return countsElements(model, scope, expr) ||
+         anyThroughLets(model, scope, expr, [&](Scope& from, const Expr& each) {
+           for (const auto& [fact, name] : each.facts()) {
+             const std::uint32_t found = fact == Fact::mips ? findEntity(model, from, name, false) : kNone;
+             if (found != kNone && model.entities[found].shape.mips < model.entities[found].writtenMips)
+               return true;
+           }
+           return false;
+         });
+}
+
+}  // namespace
+
+bool countsElements(Model& model, Scope& scope, const Expr& expr) {
+  return anyThroughLets(model, scope, expr, [](Scope&, const Expr& each) {
+    return std::ranges::any_of(each.facts(), [](const auto& asked) {
+      return asked.first == Fact::count || asked.first == Fact::has;
+    });
+  });
+}
+
+bool isEmptyByMistake(Model& model, Scope& scope, const PassDesc& desc, const RangeDesc& range,
+                      std::int64_t first, std::int64_t last, std::int64_t step) {
+  for (const RangeDesc& outer : desc.repeat)
+    if (range.first.says(outer.index) || range.last.says(outer.index))
+      return false;  // empty for some of them
+  if (desc.enabled.present() && !isDynamic(model, scope, desc.enabled)) {
+    Names names(model, scope);
+    base::Diagnostics ignored;
+    const Value enabled = desc.enabled.evaluate(names, ignored);
+    if (enabled.type != Value::Type::none && !enabled.truth()) return false;
+  }
+  // The bound that makes the range longer as it grows, or as it falls.
+  const Expr &far = step > 0 ? range.last : range.first, &near = step > 0 ? range.first : range.last;
+  if (!isVariable(model, scope, far)) return true;
+  return (last - first) / step < -1 && isVariable(model, scope, near) && !mayBeShort(model, scope, far);
 }
 
 }  // namespace weft::graph::expansion

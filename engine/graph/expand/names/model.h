@@ -195,7 +195,7 @@ struct EmptyRepeat {
   std::string pass, index;
   std::int64_t first = 0, last = 0, step = 1;
   Place place;
-  bool written = false;  // its bounds are numbers, not computed: a mistake, whoever needs it
+  bool mistake = false;  // whoever needs it
 };
 
 // A slot that found no version. Only when it is known which passes live, it is known whether that is an error or a warning.

@@ -60,6 +60,10 @@ void markStructural(Model& model, Scope& scope, const RefDesc& ref);
 bool isDynamic(Model& model, Scope& scope, const Expr& expr);
 // True when the expression asks count() or has(), perhaps through a let: it may be 0 where a list is empty.
 bool countsElements(Model& model, Scope& scope, const Expr& expr);
+// True when a range that is empty now can hardly be meant to be: it counts down without a negative step, or up with one, and
+// neither an empty list nor levels that the size took away, nor an outer index, makes it so.
+bool isEmptyByMistake(Model& model, Scope& scope, const PassDesc& desc, const RangeDesc& range,
+                      std::int64_t first, std::int64_t last, std::int64_t step);
 // Finds for every let whether it reads a live parameter, perhaps through another let. To be called when everything
 // structural is known.
 void findLiveLets(Model& model);

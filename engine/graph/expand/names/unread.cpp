@@ -185,7 +185,10 @@ void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref) {
     model.entities[found].incomplete = true;
 }
 
-void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, EmptyRepeat empty) {
+void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, const RangeDesc& range,
+                     EmptyRepeat empty) {
+  empty.mistake =
+      empty.mistake && isEmptyByMistake(model, scope, desc, range, empty.first, empty.last, empty.step);
   for (const SlotDesc& slot : desc.slots) {
     const std::uint32_t found =
         slot.access == Access::read ? kNone : findEntity(model, scope, slot.ref.name, slot.ref.import);

@@ -25,8 +25,9 @@ bool isUnincluded(Model& model, Scope& scope, std::string_view name, const Place
                   std::string_view user, const std::string& pass = {});
 // A pass that writes by this slot was left out for its mistakes: what is missing of the resource is no second mistake.
 void leaveOutWrite(Model& model, Scope& scope, const RefDesc& ref);
-// The "repeat" of a pass is empty: what it would write says so when it is missing.
-void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, EmptyRepeat empty);
+// The "repeat" of a pass is empty, by `range`: what it would write says so when it is missing.
+void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, const RangeDesc& range,
+                     EmptyRepeat empty);
 // Reports them, each name once: W040, or a note when it is because of an include that could not be read.
 void reportUnincluded(Model& model);
 }  // namespace weft::graph::expansion

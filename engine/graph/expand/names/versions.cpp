@@ -15,7 +15,7 @@ std::string flatName(const Entity& entity, std::uint32_t element, std::uint32_t 
   return name;
 }
 
-std::uint32_t addResource(Model& model, std::uint32_t index, std::uint32_t element) {
+std::uint32_t addResource(Model& model, std::uint32_t index, std::uint32_t element, bool covers = true) {
   Entity& entity = model.entities[index];
   Element& e = entity.elements[element];
   const auto resource = static_cast<std::uint32_t>(model.graph.resources.size());
@@ -23,8 +23,8 @@ std::uint32_t addResource(Model& model, std::uint32_t index, std::uint32_t eleme
   model.graph.resources.push_back(entity.shape);
   model.graph.resourceNames.push_back(flatName(entity, element, e.count));
   model.graph.resourcePlaces.push_back(entity.desc ? entity.desc->place : Place{});
-  // Only the first FlatResource has a version zero; the others begin with a write that covers them.
-  if (e.count > 1) model.graph.resources.back().hasClear = false;
+  // Only the first FlatResource has a version zero; the others begin with a write, which mostly covers them.
+  if (e.count > 1 && covers) model.graph.resources.back().hasClear = false;
   if (model.graph.resources.back().hasClear) model.graph.clears.push_back({resource, entity.clear});
   e.resource = resource;
   return resource;
@@ -90,11 +90,12 @@ void addUse(Model& model, std::uint32_t index, std::uint32_t element, const Flat
   });
 }
 
-std::uint32_t resourceToWrite(Model& model, std::uint32_t index, std::uint32_t element, bool whole) {
+std::uint32_t resourceToWrite(Model& model, std::uint32_t index, std::uint32_t element, bool whole,
+                              bool covers) {
   Element& e = model.entities[index].elements[element];
   const bool used = e.zeroUsed || (e.resource != kNone && model.versions.isWritten(e.resource));
   if (!whole || !used) return currentResource(model, index, element);
-  const std::uint32_t last = e.resource, next = addResource(model, index, element);
+  const std::uint32_t last = e.resource, next = addResource(model, index, element, covers);
   e.zeroUsed = false;
   if (last != kNone) model.versions.replace(last, next);
   return next;

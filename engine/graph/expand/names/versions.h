@@ -22,7 +22,9 @@ VersionCheck checkVersion(const Model& model, std::uint32_t entity, std::uint32_
 void addUse(Model& model, std::uint32_t entity, std::uint32_t element, const FlatUse& use,
             std::uint32_t pass);
 
-// For a whole write: another FlatResource when the current one has been written or its version zero used.
-std::uint32_t resourceToWrite(Model& model, std::uint32_t entity, std::uint32_t element, bool whole);
+// For a whole write: another FlatResource when the current one has been written or its version zero used. One that `covers`
+// less than all of it begins with its "clear".
+std::uint32_t resourceToWrite(Model& model, std::uint32_t entity, std::uint32_t element, bool whole,
+                              bool covers);
 
 }  // namespace weft::graph::expansion

@@ -1,4 +1,4 @@
-#include "engine/graph/expand/groups.h"
+#include "engine/graph/versions/groups.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,12 +1,12 @@
 // What cannot be time-sliced, reported once all passes are known: W077.
-#include "engine/graph/expand/slices.h"
+#include "engine/graph/expand/judge/slices.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "engine/graph/expand/groups.h"
 #include "engine/graph/expand/names/limits.h"
+#include "engine/graph/versions/groups.h"
 
 namespace weft::graph::expansion {
 

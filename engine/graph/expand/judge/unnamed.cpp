@@ -1,0 +1,242 @@
+#include "engine/graph/expand/judge/unnamed.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "engine/graph/expand/judge/unused.h"
+#include "engine/graph/expand/names/resources.h"
+#include "engine/graph/expand/names/scope.h"
+
+namespace weft::graph::expansion {
+
+namespace {
+
+// The declarations that the files name, whatever the conditions say now.
+class Named {
+ public:
+  explicit Named(Model& model) : model_(model) {
+    for (Scope& scope : model_.scopes) addFile(scope);
+  }
+
+  bool has(const ResourceDesc& resource) const { return named_.contains(&resource); }
+  bool looksBack(const ResourceDesc& resource) const { return looksBack_.contains(&resource); }
+
+ private:
+  void addFile(Scope& scope) {
+    const GraphDesc& desc = *scope.desc;
+    for (const NamedExpr& let : desc.lets) add(scope, let.expr);
+    for (const ResourceDesc& resource : desc.resources) {
+      for (const Expr* expr :
+           {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
+            &resource.bytes, &resource.clear, &resource.history, &resource.first})
+        add(scope, *expr);
+      for (const Expr& value : resource.resetValues) add(scope, value);
+      for (const NamedExpr& argument : resource.import.arguments) add(scope, argument.expr);
+      if (resource.firstRef) add(scope, *resource.firstRef);
+      for (const RefDesc& ref : resource.resetRefs) add(scope, ref);
+      for (const RefDesc& ref : resource.alternatives) add(scope, ref);
+    }
+    for (const PassDesc& pass : desc.passes) addPass(scope, pass);
+    if (desc.present) add(scope, *desc.present);
+    for (const OutputDesc& output : desc.outputs) add(scope, output.ref);
+  }
+
+  void addPass(Scope& scope, const PassDesc& pass) {
+    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) add(scope, *expr);
+    for (const RangeDesc& range : pass.repeat)
+      for (const Expr* expr : {&range.first, &range.last, &range.step}) add(scope, *expr);
+    for (const SlotDesc& slot : pass.slots) add(scope, slot.ref);
+    for (const PassParameterDesc& parameter : pass.parameters) add(scope, parameter.value);
+    for (const NamedExpr& define : pass.defines) add(scope, define.expr);
+    for (const NamedExpr& state : pass.state) add(scope, state.expr);
+    if (pass.view) add(scope, *pass.view);
+    if (pass.include)
+      for (const auto& [input, ref] : pass.include->binds) add(scope, ref);
+  }
+
+  void add(Scope& scope, const Expr& expr) {
+    if (!expr.present() || expr.isConstant()) return;
+    for (const auto& [fact, name] : expr.facts()) nameOne(scope, name, false, false);
+  }
+
+  void add(Scope& scope, const RefDesc& ref) {
+    add(scope, ref.condition);
+    if (ref.element) add(scope, *ref.element);
+    for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
+      if (*span) {
+        add(scope, (*span)->first);
+        add(scope, (*span)->last);
+      }
+    nameOne(scope, ref.name, ref.import, ref.history > 0);
+  }
+
+  // As findEntity() does, but with everything on the way: an input, and what is bound to it.
+  void nameOne(Scope& scope, std::string_view name, bool import, bool back) {
+    if (!name.empty() && name[0] == '@') return nameOne(scope, name.substr(1), true, back);
+    for (Scope* at = &scope; at; at = import ? at->parent : nullptr)
+      if (const auto found = at->resources.find(name); found != at->resources.end()) {
+        const Entity& entity = model_.entities[found->second];
+        if (!import || entity.kind == ResourceDesc::Kind::import) return take(*at, *entity.desc, back);
+      }
+    const std::size_t dot = name.find('.');
+    if (dot == std::string_view::npos) return;
+    if (const auto child = scope.includes.find(name.substr(0, dot)); child != scope.includes.end())
+      nameOne(*child->second, name.substr(dot + 1), false, back);
+  }
+
+  void take(Scope& scope, const ResourceDesc& resource, bool back) {
+    named_.insert(&resource);
+    if (back) looksBack_.insert(&resource);
+    if (!walked_.emplace(&scope, &resource, back).second) return;
+    if (back)
+      for (const RefDesc& ref : resource.alternatives) nameOne(scope, ref.name, ref.import, true);
+    if (resource.kind != ResourceDesc::Kind::input || !scope.parent) return;
+    const auto& binds = scope.stanza->include->binds;
+    const auto bound = std::ranges::find(binds, resource.name, &std::pair<std::string, RefDesc>::first);
+    if (bound == binds.end())
+      nameOne(*scope.parent, resource.name, false, back);
+    else
+      nameOne(*scope.parent, bound->second.name, bound->second.import, back);
+  }
+
+  Model& model_;
+  std::set<const ResourceDesc*> named_, looksBack_;
+  std::set<std::tuple<const Scope*, const ResourceDesc*, bool>> walked_;  // a file may be included twice
+};
+
+// A view that is declared under the name of its type is that of all passes.
+bool servesAll(const Model& model, const ResourceDesc& resource) {
+  const ImportType* type = resource.kind == ResourceDesc::Kind::import
+                               ? findImportType(model.registry, resource.import.type)
+                               : nullptr;
+  return type && type->everyPass && type->name == resource.name;
+}
+
+// Files that include this one may read what it keeps: it presents nothing, or just that.
+bool mayBeReadAbove(const Scope& scope, const ResourceDesc& resource) {
+  return scope.parent || !scope.desc->present || scope.desc->present->name == resource.name;
+}
+
+void warnOfResource(Model& model, const Scope& scope, const ResourceDesc& resource, const Named& named) {
+  const bool input = resource.kind == ResourceDesc::Kind::input;
+  if (!named.has(resource) && !servesAll(model, resource)) {
+    auto& d = model.diagnostics.warning(
+        Code::unusedDeclaration, resource.place,
+        fmt::format("the {} '{}' is not used: no pass, list or expression of {} names it",
+                    input ? "input" : "resource", resource.name, input ? "this file" : "the graph"));
+    d.resource = resource.name;
+    d.pointer = resource.pointer;
+    d.hint = fmt::format("name '{}' where it is meant, or take it out", resource.name);
+  } else if (resource.history.present() && !named.looksBack(resource) && !mayBeReadAbove(scope, resource)) {
+    auto& d =
+        model.diagnostics.warning(Code::unusedDeclaration, resource.history.place(),
+                                  fmt::format("'{}' keeps what it was before, and no pass reads '{}@-1'",
+                                              resource.name, resource.name));
+    d.resource = resource.name;
+    d.hint = fmt::format("read '{}@-1' where that is meant, or leave \"history\" out", resource.name);
+  }
+}
+
+// The stanza of a pass that is always there, or null: nothing in the files leaves it out.
+const PassDesc* findUnconditional(const Model& model, const std::string& declared) {
+  for (const Scope& scope : model.scopes) {
+    if (!declared.starts_with(scope.prefix)) continue;
+    const auto found = scope.passes.find(std::string_view(declared).substr(scope.prefix.size()));
+    if (found == scope.passes.end()) continue;
+    if (found->second->enabled.present() || !found->second->repeat.empty()) return nullptr;
+    for (const Scope* outer = &scope; outer->stanza; outer = outer->parent)
+      if (outer->stanza->enabled.present()) return nullptr;
+    return found->second;
+  }
+  return nullptr;
+}
+
+// The pass that always writes all of it before anybody reads the list, or null.
+const PassDesc* alwaysWrites(const Model& model, std::uint32_t candidate, const Entity& list) {
+  if (list.mentions.empty()) return nullptr;
+  const std::uint32_t first = std::ranges::min(list.mentions, {}, &Mention::position).position;
+  for (const WriteRecord& write : model.writes) {
+    if (write.entity != candidate || write.pass == kNone || !write.whole || write.position >= first) continue;
+    const PassDesc* pass = findUnconditional(model, model.graph.specs[write.pass].declared);
+    const auto conditional = [](const SlotDesc& slot) {
+      return slot.access != Access::read && slot.ref.condition.present();
+    };
+    if (pass && std::ranges::none_of(pass->slots, conditional)) return pass;
+  }
+  return nullptr;
+}
+
+// An alternative with a condition, behind one that always holds. One without is there for when a pass is switched off.
+void warnOfList(Model& model, const Entity& list) {
+  const std::vector<RefDesc>& refs = list.desc->alternatives;
+  for (std::size_t i = 0; i + 1 < refs.size() && i < list.candidates.size(); ++i) {
+    if (refs[i].condition.present() || refs[i].history > 0 || list.candidates[i] == kNone) continue;
+    const auto later = std::find_if(refs.begin() + static_cast<std::ptrdiff_t>(i) + 1, refs.end(),
+                                    [](const RefDesc& ref) { return ref.condition.present(); });
+    if (later == refs.end()) return;
+    const PassDesc* pass = alwaysWrites(model, list.candidates[i], list);
+    if (!pass) continue;
+    auto& d = model.diagnostics.warning(
+        Code::unusedDeclaration, later->place,
+        fmt::format("'{}' never means '{}': '{}' stands before it, and pass '{}' always writes that",
+                    list.desc->name, later->text, refs[i].text, pass->name));
+    d.resource = list.name;
+    d.pointer = later->pointer;
+    d.hint = fmt::format("put '{}' before '{}', or take it out", later->text, refs[i].text);
+    return;
+  }
+}
+
+// Things of the scene whose author put them into lists, of which the graph draws others only.
+void warnOfLists(Model& model) {
+  if (!model.desc.top.empty()) return;
+  std::set<std::string> drawn;
+  for (const Scope& scope : model.scopes)
+    for (const PassDesc& pass : scope.desc->passes)
+      if (!pass.list.empty()) drawn.insert(pass.list);
+  if (drawn.empty()) return;  // it shows no things
+  for (const ImportSpec& import : model.graph.imports) {
+    const ImportType* type = findImportType(model.registry, import.request.type);
+    for (std::size_t i = 0; type && i < import.request.arguments.size() && i < type->arguments.size(); ++i)
+      if (type->arguments[i].drawList) drawn.insert(import.request.arguments[i].second.symbol);
+  }
+  for (const Registry::Things& things : model.registry.things) {
+    const auto isDrawn = [&](const std::string& list) { return drawn.contains(list); };
+    if (std::ranges::any_of(things.lists, isDrawn)) continue;
+    auto& d = model.diagnostics.warning(
+        Code::unusedDeclaration, model.desc.place,
+        fmt::format("the scene has {} in the list{} '{}', which no pass of '{}' draws",
+                    things.count == 1 ? "a thing" : fmt::format("{} things", things.count),
+                    things.lists.size() == 1 ? "" : "s", fmt::join(things.lists, "', '"), model.desc.name));
+    d.hint = fmt::format("add a pass with \"list\": \"{}\", or put them into a list that is drawn: {}",
+                         things.lists[0], fmt::join(drawn, ", "));
+  }
+}
+
+}  // namespace
+
+void warnUnnamed(Model& model) {
+  warnOfLists(model);
+  const Named named(model);
+  std::set<const GraphDesc*> said;  // a file that is included twice says it once
+  for (const Scope& scope : model.scopes) {
+    if (!said.insert(scope.desc).second) continue;
+    for (const ResourceDesc& resource : scope.desc->resources)
+      if (isOnTop(scope, resource.place)) warnOfResource(model, scope, resource, named);
+  }
+  std::set<const ResourceDesc*> judged;
+  for (std::size_t i = 0; i < model.entities.size(); ++i) {
+    const Entity& entity = model.entities[i];
+    if (entity.kind == ResourceDesc::Kind::alternatives && entity.desc && !entity.candidates.empty() &&
+        isOnTop(*entity.scope, entity.desc->place) && judged.insert(entity.desc).second)
+      warnOfList(model, entity);
+  }
+}
+
+}  // namespace weft::graph::expansion
