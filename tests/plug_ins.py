@@ -28,6 +28,7 @@ OTHER_MEANINGS = {
     ("engine/scene/files/ground.cpp", "ground"): "a key of scene files",
     ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
+    ("engine/gl/programs/needs.cpp", "image"): "a part of names of GLSL's types",
     ("engine/convert/isf/graph.cpp", "draw"): "a word of the graph that it writes",
     ("engine/convert/isf/graph.cpp", "fullscreen"): "a word of the graph that it writes",
     ("engine/convert/isf/graph.cpp", "quad"): "a word of the graph that it writes",

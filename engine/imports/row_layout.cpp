@@ -13,12 +13,17 @@ bool rowLayoutOf(const gl::Block& block, std::span<const graph::TableColumn> col
   layout.offsets.assign(columns.size(), -1);
   for (const gl::BlockMember& member : block.members) {
     const std::size_t dot = member.name.rfind('.');
-    if (dot == std::string::npos || member.topLevelArrayStride == 0) {
+    const bool row = dot != std::string::npos && dot > 0 && member.name[dot - 1] == ']';
+    if (!row || (block.storage && member.topLevelArrayStride == 0)) {
       problem = fmt::format("'{}' is no field of an array of structs", member.name);
       return false;
     }
+    if (!block.storage && !member.name.substr(0, dot).ends_with("[0]")) {
+      problem = "a uniform block holds one row of a table: declare [1]";
+      return false;
+    }
     const std::string field = member.name.substr(dot + 1);
-    layout.stride = member.topLevelArrayStride;
+    layout.stride = block.storage ? member.topLevelArrayStride : block.bytes;
     const auto column = std::ranges::find(columns, field, &graph::TableColumn::name);
     if (column == columns.end()) {
       std::vector<std::string> names;

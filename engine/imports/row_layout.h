@@ -1,4 +1,4 @@
-// Tables that shaders read as an array of structs in a storage block. Introspection tells which fields of a row a shader
+// Tables that shaders read as an array of structs in a storage block, or their first row in a uniform block. Introspection tells which fields of a row a shader
 // declares, and where; so no struct is written twice. A shader may leave fields out and put them in any order.
 #pragma once
 

@@ -1,7 +1,7 @@
 // Reads a grid of light probes (gi/grid.glsl) at a point: irradiance in units of an environment of radiance 1.
 // probes   buffer: of the import `probes`, or of gi/bake.comp.glsl
-// sh?      seven 3D textures that gi/textures.comp.glsl makes of it, `as linear`: channel c of texture i has number 4 i + c of the
-//          27 (coefficient * 3 + channel); the last channel is zero
+// sh?      a 3D texture that gi/textures.comp.glsl makes of it, `as linear`: seven parts along z, of which channel c of part i has number
+//          4 i + c of the 27 (coefficient * 3 + channel); the last channel is zero. No lookup reaches from one part into another
 #ifndef GI_PROBES_GLSL
 #define GI_PROBES_GLSL
 
@@ -9,7 +9,7 @@
 #include "gi/sh.glsl"
 
 #ifdef HAS_SH
-uniform sampler3D sh[7];
+uniform sampler3D sh;
 #endif
 
 // The nine coefficients at a place, rgb; outside the box those of its nearest point, and what the result is to be multiplied by, as
@@ -19,9 +19,9 @@ float probeAt(vec3 position, out vec3 c[9]) {
   vec3 nearest = clamp(position, probes_low.xyz, probes_high.xyz) - probes_low.xyz;
   vec3 at = nearest / max(extent, vec3(1e-20)) * (count - 1.0);
 #ifdef HAS_SH
-  vec3 uvw = (at + 0.5) / count;
-  vec4 t0 = textureLod(sh[0], uvw, 0.0), t1 = textureLod(sh[1], uvw, 0.0), t2 = textureLod(sh[2], uvw, 0.0);
-  vec4 t3 = textureLod(sh[3], uvw, 0.0), t4 = textureLod(sh[4], uvw, 0.0), t5 = textureLod(sh[5], uvw, 0.0);
+  vec3 uvw = (at + 0.5) / (count * vec3(1.0, 1.0, 7.0)), on = vec3(0.0, 0.0, 1.0 / 7.0);
+  vec4 t0 = textureLod(sh, uvw, 0.0), t1 = textureLod(sh, uvw + on, 0.0), t2 = textureLod(sh, uvw + 2.0 * on, 0.0);
+  vec4 t3 = textureLod(sh, uvw + 3.0 * on, 0.0), t4 = textureLod(sh, uvw + 4.0 * on, 0.0), t5 = textureLod(sh, uvw + 5.0 * on, 0.0);
   c[0] = t0.xyz;
   c[1] = vec3(t0.w, t1.xy);
   c[2] = vec3(t1.zw, t2.x);
@@ -30,7 +30,7 @@ float probeAt(vec3 position, out vec3 c[9]) {
   c[5] = vec3(t3.w, t4.xy);
   c[6] = vec3(t4.zw, t5.x);
   c[7] = t5.yzw;
-  c[8] = textureLod(sh[6], uvw, 0.0).xyz;
+  c[8] = textureLod(sh, uvw + 6.0 * on, 0.0).xyz;
 #else
   for (int i = 0; i < 9; ++i) c[i] = vec3(0.0);
   uvec3 last = probes_count.xyz - 1u, low = min(uvec3(at), last), high = min(low + 1u, last);

@@ -36,8 +36,7 @@ noperspective in vec2 uv;
 flat in vec4 lens;
 flat in mat3 turn;
 flat in vec3 from;
-flat in float near;
-flat in float height;
+flat in vec2 near_height;
 flat in vec4 albedo_radius;
 #ifdef HAS_RADIANCE
 flat in vec3 from_sky;
@@ -58,7 +57,7 @@ void main() {
   vec2 slope = (uv * 2.0 - 1.0 + lens.xy) / lens.zw;
   vec3 x = turn[0], y = turn[1], z = turn[2];  // as viewRay has it
   vec3 ray = vec3(slope.x * x.x + slope.y * x.y - x.z, slope.x * y.x + slope.y * y.y - y.z, slope.x * z.x + slope.y * z.y - z.z);
-  float t = (height - from.y) / ray.y;
+  float near = near_height.x, height = near_height.y, t = (height - from.y) / ray.y;
   if (from.y <= height || ray.y >= 0.0 || t < near) discard;
   vec3 at = from + ray * t;
 #ifdef HAS_RADIANCE

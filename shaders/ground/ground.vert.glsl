@@ -17,9 +17,8 @@ noperspective out vec2 uv;
 flat out vec4 lens;         // a ray's slope is (ndc + xy) / zw
 flat out mat3 turn;         // from world to view space
 flat out vec3 from;         // the eye
-flat out float near;
-flat out float height;      // of the ground, and of its surface
-flat out vec4 albedo_radius;
+flat out vec2 near_height;  // the near plane, the ground's height
+flat out vec4 albedo_radius;  // of its surface
 #ifdef HAS_RADIANCE
 flat out vec3 from_sky;     // irradiance over pi, of each light
 #ifdef HAS_SUN
@@ -36,8 +35,7 @@ void main() {
   lens = vec4(projection[2].xy, projection[0].x, projection[1].y);
   turn = mat3(view);
   from = eye;
-  near = near_plane;
-  height = self.height;
+  near_height = vec2(near_plane, self.height);
   albedo_radius = vec4(self.albedo, self.radius);
 #ifdef HAS_RADIANCE
   from_sky = from_spot = vec3(0.0);

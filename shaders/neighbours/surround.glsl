@@ -13,7 +13,7 @@
 #endif
 
 #ifdef HAS_BRIGHTEST
-flat in vec4 spot_around;  // spotAround() of ibl/brightest.glsl
+vec4 spot_around = spotAround();
 #endif
 
 // The ground, as the lists say it.

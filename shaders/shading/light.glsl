@@ -8,9 +8,8 @@
 //   void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried)   how many lamps it went through
 // read    brdf, irradiance?, specular?, environment?, brightest?   see shading/ibl.glsl; without one its light is missing
 //         probes?, sh?  light that other things throw back, see gi/bounce.glsl
-//         neighbours?   what spheres hide of each other, see neighbours/surround.glsl; the vertex shader says what its
-//                       sphere has listed, and its radius: `flat out Listed listed` (neighbours/row.glsl), `flat out float sphere_radius`,
-//                       and with `brightest` `flat out vec4 spot_around`
+//         neighbours?   with LOBE_IS_FLAT: what spheres hide of each other, see neighbours/surround.glsl; it says which sphere it is:
+//   vec2 sphereOf()
 //         sun?          see scene/sun.glsl; sun_map?, sun_depth?: shading/sun_shadow.glsl
 //         light_maps?, light_depths?, ball?   see shading/mesh_shadow.glsl; in place of sun_map
 //         lamps?        see scene/lamps.glsl; lamp_maps?: shading/lamp_shadow.glsl
@@ -19,7 +18,7 @@
 // params  lamp_count    with lamps
 //         sky_turn?     see shading/ibl.glsl
 // defines SOFT_SUN         see shading/sun_shadow.glsl
-//         LOBE_IS_FLAT     the vertex shader has called lobeOf (shading/lobe.glsl), with the curvature: `flat out Lobe lobe`
+//         LOBE_IS_FLAT     the vertex shader has called lobeOf, with the curvature, and hands it on: shading/handed.glsl
 // A variant without sun and lamps is as if there was no code for them. All is one function: drivers put each function into those that call
 // it, and every level of calls costs them that again.
 #ifndef SHADING_LIGHT_GLSL
@@ -37,8 +36,6 @@
 #if defined HAS_NEIGHBOURS && LOBE_IS_FLAT
 #define SEES_NEIGHBOURS 1
 #include "neighbours/surround.glsl"
-flat in Listed listed;
-flat in float sphere_radius;
 #else
 #define SEES_NEIGHBOURS 0
 #endif
@@ -69,7 +66,7 @@ layout(std430) readonly buffer slices { uint slice_word[]; };
 #endif
 
 #if LOBE_IS_FLAT
-flat in Lobe lobe;
+#include "shading/handed.glsl"
 #endif
 
 struct Point {
@@ -84,6 +81,9 @@ void finishResponse(inout Response response);
 vec3 throwAround(Point point, Response response, vec3 reflected, vec3 around);
 vec3 throwFrom(Point point, Response response, vec3 l);
 void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried);
+#if SEES_NEIGHBOURS
+vec2 sphereOf();  // row in the draw list, radius
+#endif
 
 float coverage = 1.0;  // of the pixel, for the spot's reflection; findPoint may set it
 
@@ -94,14 +94,18 @@ void main() {
   Response response = responseOf(point.surface, point.nv);
   finishResponse(response);
 
-#if !LOBE_IS_FLAT
+#if LOBE_IS_FLAT
+  Lobe lobe = handedLobe();
+#else
   Lobe lobe = lobeOf(point.roughness, 0.0);
 #endif
 #if SEES_NEIGHBOURS
+  float sphere_radius = sphereOf().y;
+  Listed listed = listedOf(uint(sphereOf().x));
   Surround surround = surroundOf(listed, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, point.surface.albedo, lobe);
   // Light of the ground where nothing stands, and what is in its place in the environment.
-  GroundLight on_ground = groundLight(lobe, listed.above);
-  vec3 open_ground = mix(listed.below, surround.soil.albedo * (on_ground.sky + on_ground.spot + on_ground.sun), surfaceOf(surround.soil, point.at));
+  GroundLight on_ground = groundLight(lobe, around_above.rgb);
+  vec3 open_ground = mix(around_below.rgb, surround.soil.albedo * (on_ground.sky + on_ground.spot + on_ground.sun), surfaceOf(surround.soil, point.at));
 #endif
 #if SEES_MESHES
   vec2 past_meshes = seenOfLights(point.at, point.n, sky_turn);
@@ -126,7 +130,7 @@ void main() {
   vec3 sharp = sampleEquirect(environment, axis, vec2(lobe.maps.x, lobe.poles.x)).rgb;
 #ifdef HAS_BRIGHTEST
   // The spot is not to be seen twice.
-  sharp -= (near_spot > kNearCosine ? lobe.cut.y : 0.0) * max(sharp - lobe.cut.x, 0.0);
+  sharp -= (near_spot > kNearCosine ? lobe.cut : 0.0) * max(sharp - brightest_at.w, 0.0);
 #endif
   reflected = mix(sharp, reflected, lobe.maps.z);
 #endif
@@ -152,7 +156,7 @@ void main() {
 #elif SEES_MESHES
   strength *= past_meshes.y;
 #endif
-  reflected += (response.f0 + (1.0 - response.f0) * (m2 * m2 * m)) * lobe.light * strength;
+  reflected += (response.f0 + (1.0 - response.f0) * (m2 * m2 * m)) * brightest_light.rgb * (lobe.share * strength);
 #endif
 #endif
 
@@ -166,7 +170,7 @@ void main() {
   vec4 mapped = sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), lookup);
   around = mapped.rgb;
 #if SEES_NEIGHBOURS
-  around = aroundSeen(surround, point.n, lobe, around, mapped.a, listed.below, open_ground);
+  around = aroundSeen(surround, point.n, lobe, around, mapped.a, around_below.rgb, open_ground);
 #elif SEES_MESHES && defined HAS_BRIGHTEST
   // The map has the spot's light in it.
   around = max(around - spotAround().rgb * (mapped.a * (1.0 - past_meshes.y)), vec3(0.0));

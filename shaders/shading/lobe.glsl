@@ -41,8 +41,8 @@ struct Lobe {
   vec4 poles;    // how close v may come to the poles: x of the environment, y of the specular map's level 0, z of the irradiance; w the specular map's last level
   vec3 spot;     // towards it, in the world
   vec4 widths;   // of its reflection, see ibl/brightest.glsl
-  vec3 light;    // of it, as far as it is reflected in closed form, over 2 pi
-  vec2 cut;      // what is above x near the spot is cut out of what is read of the environment, by the share y
+  float share;   // of its light that is reflected in closed form, over 2 pi
+  float cut;     // the share by which what is too bright near the spot (brightest_at.w) is cut out of what is read of the environment
   vec2 glint;    // of a small sphere: where the spot is seen, in pixels; see spheres/glint.glsl
   vec3 shares;   // its share of a pixel at the distance d: z g.x g.y / ((1 + y g.x + g.x^2) (1 + y g.y + g.y^2)), g = exp2(-x |d|)
 };
@@ -54,7 +54,7 @@ struct Lobe {
 #if !defined LOBE_IS_FLAT || LOBE_IS_FLAT == 0
 #ifdef HAS_SPECULAR
 Lobe lobeOf(float roughness, float bend) {
-  Lobe lobe = Lobe(vec4(0.0), vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0));
+  Lobe lobe = Lobe(vec4(0.0), vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), 0.0, 0.0, vec2(0.0), vec3(0.0, 1.0, 0.0));
   int levels = textureQueryLevels(specular);
   float alpha = alphaOfRoughness(roughness);
   // Variance along each axis: 2 alpha^2 of the lobe, (2 bend)^2 / 12 of the pixel (a box).
@@ -93,16 +93,16 @@ Lobe lobeOf(float roughness, float bend) {
   // Cutting it out of the environment takes texels that are small beside the window.
   float fine = clamp(2.0 - 25.0 * exp2(lobe.maps.x) * 2.0 * kPi / size.x, 0.0, 1.0);
   share = max(lobe.maps.z, fine * min(2.0 * blurred / kSharpest, 1.0));
-  lobe.cut = vec2(brightest_at.w, lobe.maps.z < 1.0 ? (share - lobe.maps.z) / (1.0 - lobe.maps.z) : 0.0);
+  lobe.cut = lobe.maps.z < 1.0 ? (share - lobe.maps.z) / (1.0 - lobe.maps.z) : 0.0;
 #endif
-  lobe.light = brightest_light.rgb * (share / (2.0 * kPi));
+  lobe.share = share / (2.0 * kPi);
   lobe.widths = spotWidths(max(alpha, 0.001), min(0.25 * brightest_light.w + bend * bend / 12.0, 0.25));
 #endif
   return lobe;
 }
 #else
 Lobe lobeOf(float roughness, float bend) {
-  Lobe lobe = Lobe(vec4(0.0), vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0, 1.0, 0.0));
+  Lobe lobe = Lobe(vec4(0.0), vec4(0.0), vec3(0.0, 1.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), 0.0, 0.0, vec2(0.0), vec3(0.0, 1.0, 0.0));
 #ifdef HAS_IRRADIANCE
   lobe.poles.z = 0.5 / float(textureSize(irradiance, 0).y);
 #endif

@@ -1,5 +1,5 @@
 // A ball around everything in the scene, as a sun at the zenith would see it: the import `sun` with the direction [0, 1, 0].
-// read  ball
+// read  ball  `as uniform`
 #ifndef SHADOW_BALL_GLSL
 #define SHADOW_BALL_GLSL
 
@@ -9,7 +9,7 @@ struct Ball {
   float texel;         // world units, of a map of this ball from any side
   mat4 shadow_matrix;  // world to u, v and depth, 0 to 1: seen from above
 };
-layout(std430) readonly buffer ball { Ball ball_row[]; };
+layout(std140) uniform ball { Ball ball_row[1]; };
 
 // Its middle and radius.
 vec4 ballAround() {

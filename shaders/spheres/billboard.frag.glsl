@@ -11,6 +11,7 @@
 // Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
 // its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
 // the test and the write of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
+#include "common/view.glsl"
 #include "fog/fog.glsl"
 #define LOBE_IS_FLAT 1
 #include "shading.glsl"
@@ -21,21 +22,11 @@
 #include "shading/show_lamps.glsl"
 #endif
 
-flat in vec4 sphere;
-flat in vec3 anchor;
-flat in vec2 anchor_pixel;
-flat in vec2 edge;
-flat in vec4 albedo_roughness;
-flat in float metallic;
-flat in vec4 per_pixel;
-flat in float near_distance;
-flat in mat3 to_world;
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
-flat in vec3 world_eye;
-#endif
+#include "spheres/handed.glsl"
+mat3 to_world = mat3(right_eye.xyz, up_eye.xyz, cross(right_eye.xyz, up_eye.xyz));
 #ifdef HAS_VELOCITY
-flat in mat3 before_turn;
-flat in vec3 before_eye;
+// x, y and w in last frame's clip space of a direction in the world.
+mat3 before_turn = mat3(previous_view_projection[0].xyw, previous_view_projection[1].xyw, previous_view_projection[2].xyw);
 #endif
 
 #ifdef HAS_NEARER
@@ -61,12 +52,17 @@ float halfPlane(float inside, vec2 normal) {
 }
 
 vec3 from_eye = vec3(0.0);
+#if SEES_NEIGHBOURS
+vec2 sphereOf() { return vec2(anchor_row.w, sphere.w); }
+#endif
 void findPoint(out Point point) {
   vec3 c = sphere.xyz;
+  vec2 edge = edge_metallic.xy, anchor = edge_metallic.z > 0.0 ? c.xy / -c.z : vec2(0.0);
+  float near_distance = anchor_row.z;
   float r = sphere.w, r2 = r * r, d2 = dot(c, c);
-  vec2 pixels = gl_FragCoord.xy - anchor_pixel, offset = pixels * per_pixel.xy;
-  vec3 v = vec3(anchor.xy + offset, -1.0);          // the ray; its parameter is the distance along the view axis
-  vec3 w = anchor.z > 0.0 ? vec3(offset, 0.0) : v;  // c x w = c x v, without cancellation for distant spheres
+  vec2 pixels = gl_FragCoord.xy - anchor_row.xy, offset = pixels * per_pixel.xy;
+  vec3 v = vec3(anchor + offset, -1.0);          // the ray; its parameter is the distance along the view axis
+  vec3 w = edge_metallic.z > 0.0 ? vec3(offset, 0.0) : v;  // c x w = c x v, without cancellation for distant spheres
   vec3 cw = cross(c, w);
   float vv = dot(v, v), cv = dot(c, v), per_length = inversesqrt(vv), per_vv = per_length * per_length;
   float q = dot(cw, cw) - r2 * vv;                  // the silhouette's conic: negative inside
@@ -110,15 +106,18 @@ void findPoint(out Point point) {
   point.mirror = 2.0 * nv * point.n - point.v;
   point.nv = nv;
   point.roughness = albedo_roughness.w;
-  point.surface = Surface(albedo_roughness.rgb, metallic, albedo_roughness.w);
+  point.surface = Surface(albedo_roughness.rgb, edge_metallic.w, albedo_roughness.w);
 #if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
-  point.at = from_eye + world_eye;
+  point.at = from_eye + vec3(right_eye.w, up_eye.w, before_eye.w);
 #else
   point.at = vec3(0.0);
 #endif
 #endif
 #ifdef HAS_VELOCITY
-  vec3 before = before_turn * (v * t) + before_eye;
+#ifndef HAS_RADIANCE
+  from_eye = to_world * (v * t);
+#endif
+  vec3 before = before_turn * from_eye + before_eye.xyz;
   velocity = gl_FragCoord.xy * per_pixel.zw - (before.xy / max(before.z, 1e-3) * 0.5 + 0.5);
 #endif
 #ifdef HAS_DEPTH

@@ -2,14 +2,10 @@
 // McGuire, JCGT 2013), one pixel wider for the soft edge. Handles the eye outside, inside and beside, and spheres behind.
 // OCTAGON: with the diagonal planes as well, for geometry "octagon"; a sixth fewer pixels that the sphere does not cover.
 // read    order?        uvec2(key, index) per instance: the instance to draw i-th is element i's index
-//         silhouettes?  see spheres/silhouettes.glsl
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
 #include "shading/lobe.glsl"
-#ifdef HAS_NEIGHBOURS
-#include "neighbours/row.glsl"
-#endif
 #include "glint.glsl"
 
 #ifndef OCTAGON
@@ -20,36 +16,7 @@
 layout(std430) readonly buffer order { uvec2 order_element[]; };
 #endif
 
-#ifdef HAS_SILHOUETTES
-layout(std430) readonly buffer silhouettes { uvec4 silhouette[]; };
-flat out uvec2 before;      // first and number of the spheres before it whose silhouettes meet its own
-#endif
-
-flat out vec4 sphere;       // centre in view space, radius
-flat out vec3 anchor;       // slope that pixel offsets count from; z is 1 when it is the centre's, 0 when it is the axis
-flat out vec2 anchor_pixel;
-flat out vec2 edge;         // shift of the silhouette in pixels; side of the square for a small sphere, else 0: see below
-flat out vec4 albedo_roughness;
-flat out float metallic;
-flat out Lobe lobe;             // see shading/lobe.glsl
-// What the fragments need of the view: in software an input costs less than a member of a block.
-flat out vec4 per_pixel;        // slope, screen UV
-flat out float near_distance;
-flat out mat3 to_world;
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
-flat out vec3 world_eye;
-#endif
-#ifdef HAS_NEIGHBOURS
-flat out Listed listed;
-#ifdef HAS_BRIGHTEST
-flat out vec4 spot_around;
-#endif
-flat out float sphere_radius;
-#endif
-#ifdef HAS_VELOCITY
-flat out mat3 before_turn;      // x, y and w in last frame's clip space of a direction in view space,
-flat out vec3 before_eye;       // and of the eye as the moving sphere saw it
-#endif
+#include "spheres/handed.glsl"
 
 // Slopes x / -z between the two tangents from the eye to the circle at (x, z = distance in front).
 vec2 slopeBounds(float x, float z, float r) {
@@ -77,50 +44,35 @@ void main() {
   uint row = uint(gl_InstanceID);
 #endif
   Instance self = instance[row];
-#ifdef HAS_NEIGHBOURS
-  listed = listedOf(row);
-#ifdef HAS_BRIGHTEST
-  spot_around = spotAround();
-#endif
-  sphere_radius = self.radius;
-#endif
-#ifdef HAS_SILHOUETTES
-  // Of another list than that which is drawn the rows would be others.
-  uint rows = uint(silhouette.length());
-  before = silhouette[min(row, rows - 1u)].xy;
-  if (before.x >= rows || before.y > min(rows - before.x, 32u)) before.y = 0u;
-#endif
   vec3 c = (view * vec4(self.center, 1.0)).xyz;
   float r = self.radius, z = -c.z;
-  sphere = vec4(c, r);
-  albedo_roughness = vec4(self.albedo, self.roughness);
-  metallic = self.metallic;
-
   float bend = max(z, 0.0) / r;
-  lobe = lobeOf(self.roughness, lookupAngle() * bend);
+  Lobe lobe = lobeOf(self.roughness, lookupAngle() * bend);
   addGlint(lobe, self.center, r, pixelAngle() * bend);
+  handOn(lobe);
 
   vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
-  per_pixel = vec4(1.0 / focal, 1.0 / viewport);
-  near_distance = near_plane;
-  to_world = transpose(mat3(view));
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
-  world_eye = eye;
-#endif
-#ifdef HAS_VELOCITY
-  mat4 before = previous_view_projection;
-  before_turn = mat3(before[0].xyw, before[1].xyw, before[2].xyw) * to_world;
-  before_eye = (before * vec4(eye - (self.center - self.previous_center), 1.0)).xyw;
-#endif
   bool in_front = z > r * 1.0001;
-  anchor = in_front ? vec3(c.xy / z, 1.0) : vec3(0.0);
-  anchor_pixel = ((anchor.xy * vec2(projection[0].x, projection[1].y) - projection[2].xy) * 0.5 + 0.5) * viewport;
-  edge = vec2(0.0);
+  // Slope that pixel offsets count from: the centre's, or the axis.
+  vec2 anchor = in_front ? c.xy / z : vec2(0.0), edge = vec2(0.0);
   float d2 = dot(c, c), r2 = r * r;
   if (in_front) {
     float f = sqrt(focal.x * focal.y), depth2 = z * z - r2;
     edge = edgeOf(f * r * sqrt(d2 - r2) / depth2, f * r * inversesqrt(depth2));
   }
+
+  sphere = vec4(c, r);
+  albedo_roughness = vec4(self.albedo, self.roughness);
+  edge_metallic = vec4(edge, in_front ? 1.0 : 0.0, self.metallic);
+  anchor_row = vec4(((anchor * vec2(projection[0].x, projection[1].y) - projection[2].xy) * 0.5 + 0.5) * viewport, near_plane, float(row));
+  per_pixel = vec4(1.0 / focal, 1.0 / viewport);
+  mat3 to_world = transpose(mat3(view));
+  right_eye = vec4(to_world[0], eye.x);
+  up_eye = vec4(to_world[1], eye.y);
+  before_eye = vec4(0.0, 0.0, 0.0, eye.z);
+#ifdef HAS_VELOCITY
+  before_eye.xyz = (previous_view_projection * vec4(eye - (self.center - self.previous_center), 1.0)).xyw;
+#endif
 
   // Slopes between the tangent planes along x and y, a pixel wider on each side.
   vec2 pixel = 1.0 / focal;

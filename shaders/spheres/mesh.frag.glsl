@@ -13,6 +13,10 @@ in vec3 from_eye;
 in vec3 outwards;
 flat in vec4 albedo_roughness;
 flat in vec4 motion_metallic;
+#if SEES_NEIGHBOURS
+flat in vec2 row_radius;
+vec2 sphereOf() { return row_radius; }
+#endif
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;

@@ -3,10 +3,7 @@
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
-#include "shading/lobe.glsl"
-#ifdef HAS_NEIGHBOURS
-#include "neighbours/row.glsl"
-#endif
+#include "shading/handed.glsl"
 #include "glint.glsl"
 
 in vec3 position;
@@ -16,24 +13,15 @@ out vec3 from_eye;          // world, eye to surface
 out vec3 outwards;          // world, not normalised
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
-flat out Lobe lobe;             // see shading/lobe.glsl
 #ifdef HAS_NEIGHBOURS
-flat out Listed listed;
-#ifdef HAS_BRIGHTEST
-flat out vec4 spot_around;
-#endif
-flat out float sphere_radius;
+flat out vec2 row_radius;       // row in the draw list
 #endif
 out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
 void main() {
   Instance self = instance[gl_InstanceID];
 #ifdef HAS_NEIGHBOURS
-  listed = listedOf(uint(gl_InstanceID));
-#ifdef HAS_BRIGHTEST
-  spot_around = spotAround();
-#endif
-  sphere_radius = self.radius;
+  row_radius = vec2(gl_InstanceID, self.radius);
 #endif
   from_eye = self.center - eye + self.radius * position;
   outwards = normal;
@@ -41,8 +29,9 @@ void main() {
   motion_metallic = vec4(self.center - self.previous_center, self.metallic);
   float depth = -(view * vec4(self.center, 1.0)).z;
   float bend = max(depth, 0.0) / self.radius;
-  lobe = lobeOf(self.roughness, lookupAngle() * bend);
+  Lobe lobe = lobeOf(self.roughness, lookupAngle() * bend);
   addGlint(lobe, self.center, self.radius, pixelAngle() * bend);
+  handOn(lobe);
   // The inside of a sphere is seen when the eye is in it, or the near plane cuts it. Of all others no triangle that faces away is drawn.
   float near_corner = near_plane * length(vec3(1.0 / projection[0].x, 1.0 / projection[1].y, 1.0));
   bool open = length(self.center - eye) < self.radius + near_corner;

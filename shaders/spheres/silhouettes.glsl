@@ -1,11 +1,10 @@
 // What of a sphere's share of a pixel the spheres before it leave.
 // read    silhouettes?   uvec4(first, number, 0, 0) per instance, then per sphere before it the bits of vec4(centre from the eye, radius): the import
-//                        silhouettes. The vertex shader reads the former and says it in `before`.
+//                        silhouettes.
 #ifndef SPHERES_SILHOUETTES_GLSL
 #define SPHERES_SILHOUETTES_GLSL
 
 #ifdef HAS_SILHOUETTES
-flat in uvec2 before;
 layout(std430) readonly buffer silhouettes { uvec4 silhouette[]; };
 
 // Spheres are blended back to front, so that of a share `a` of the pixel that lies behind another share `b` the part a (1 - b) is left, as if
@@ -14,6 +13,10 @@ layout(std430) readonly buffer silhouettes { uvec4 silhouette[]; };
 // are before it, each takes its part of what the others leave.
 float leftBehind(float inside, vec2 outwards, vec3 v, float vv) {
   float left = 1.0;
+  // First and number of the spheres before it. Of another list than that which is drawn the rows would be others.
+  uint rows = uint(silhouette.length());
+  uvec2 before = silhouette[min(uint(anchor_row.w), rows - 1u)].xy;
+  if (before.x >= rows || before.y > min(rows - before.x, 32u)) before.y = 0u;
   for (uint i = 0u; i < before.y; ++i) {
     vec4 other = uintBitsToFloat(silhouette[before.x + i]);
     // to_world turns only: its columns are the view's axes.

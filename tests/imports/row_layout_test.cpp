@@ -58,6 +58,19 @@ TEST_CASE("rows follow the layout that introspection reports, whatever the shade
   CHECK(at(bytes, 0) == 0.0f);
 }
 
+TEST_CASE("a uniform block has the first row of a table, and no more") {
+  gl::Block block{
+      .name = "one", .bytes = 48, .members = {{.name = "rows[0].radius", .type = GL_FLOAT, .offset = 16}}};
+  imports::RowLayout layout;
+  std::string problem;
+  REQUIRE(imports::rowLayoutOf(block, kColumns, layout, problem));
+  CHECK(layout.stride == 48);
+  CHECK(layout.offsets == std::vector<std::int32_t>{-1, 16, -1, -1, -1});
+  block.members.push_back({.name = "rows[1].radius", .type = GL_FLOAT, .offset = 64});
+  CHECK_FALSE(imports::rowLayoutOf(block, kColumns, layout, problem));
+  CHECK(problem == "a uniform block holds one row of a table: declare [1]");
+}
+
 TEST_CASE("a table without rows has room for one, of zeros") {
   std::vector<std::byte> bytes(3, std::byte{1});
   imports::RowWriter writer({.stride = 48, .offsets = {}}, 0, bytes);

@@ -7,6 +7,7 @@
 
 #include "engine/gl/context/debug.h"
 #include "engine/gl/messages/log.h"
+#include "engine/gl/programs/needs.h"
 
 namespace weft::gl {
 
@@ -83,6 +84,20 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
   return compiled != 0;
 }
 
+// Of a program that does not link: whether it needs more than the device has.
+bool reportExcess(std::span<const StageSource> stages, std::span<const Define> defines,
+                  std::string_view label, Diagnostics& diagnostics) {
+  const std::optional<Excess> excess = excessOf(needsOf(stages, defines), limitsOfDevice());
+  if (!excess) return false;
+  base::Diagnostic& d =
+      diagnostics.error(Code::programNeedsMore, {stages.back().source->file, 0, 0},
+                        fmt::format("program '{}' needs more {} than this device has", label, excess->what));
+  d.expected = fmt::format("at most {}", excess->allowed);
+  d.found = fmt::format("{}", excess->needed);
+  d.hint = excess->hint;
+  return true;
+}
+
 }  // namespace
 
 std::optional<Program> Program::compile(std::span<const StageSource> stages, std::span<const Define> defines,
@@ -113,8 +128,9 @@ std::optional<Program> Program::compile(std::span<const StageSource> stages, std
   const std::string log = textOf(logLength, program.id_, [](GLuint i, GLsizei n, GLsizei* w, GLchar* t) {
     glGetProgramInfoLog(i, n, w, t);
   });
-  reportLog(log, *stages.back().source, Code::programDoesNotLink, linked != 0,
-            fmt::format("program '{}' does not link, and the driver does not say why", label), diagnostics);
+  if (linked || !reportExcess(stages, defines, label, diagnostics))
+    reportLog(log, *stages.back().source, Code::programDoesNotLink, linked != 0,
+              fmt::format("program '{}' does not link, and the driver does not say why", label), diagnostics);
   if (!linked) return std::nullopt;
   program.reflection_ = reflectProgram(program.id_, stages.front().stage == GL_COMPUTE_SHADER);
   return program;

@@ -124,7 +124,9 @@ class Checker : PassErrors {
       case Kind::image:
         return checkImage(slot, use);
       case Kind::uniform:
-        return checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block", use);
+        checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block", use);
+        checkTable(reflection_.findUniformBlock(slot.name), columnsOf(graph_, use), slot.place);
+        return;
       case Kind::storage:
         checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block", use);
         checkTable(reflection_.findStorageBlock(slot.name), columnsOf(graph_, use), slot.place);

@@ -211,6 +211,9 @@ Diagnostics compileBroken() {
   const StageSource unlike[] = {{GL_VERTEX_SHADER, loader.load("w105_interface.vert.glsl", diagnostics)},
                                 {GL_FRAGMENT_SHADER, loader.load("w105_interface.frag.glsl", diagnostics)}};
   CHECK_FALSE(Program::compile(unlike, {}, {}, "unlike", diagnostics));
+  const StageSource large[] = {{GL_VERTEX_SHADER, loader.load("w107_varyings.vert.glsl", diagnostics)},
+                               {GL_FRAGMENT_SHADER, loader.load("w107_varyings.frag.glsl", diagnostics)}};
+  CHECK_FALSE(Program::compile(large, {}, {}, "large", diagnostics));
   return diagnostics;
 }
 
@@ -221,6 +224,7 @@ TEST_CASE("broken shaders give their codes") {
   const Diagnostics diagnostics = compileBroken();
   CHECK(diagnostics.contains(Code::shaderDoesNotCompile));
   CHECK(diagnostics.contains(Code::programDoesNotLink));
+  CHECK(diagnostics.contains(Code::programNeedsMore));
 }
 
 TEST_CASE("broken shaders give the messages of docs/errors.md" * doctest::test_suite("mesa_messages")) {
@@ -231,6 +235,7 @@ TEST_CASE("broken shaders give the messages of docs/errors.md" * doctest::test_s
   const Diagnostics diagnostics = compileBroken();
   weft::gl::test::checkDocumented(diagnostics, Code::shaderDoesNotCompile);
   weft::gl::test::checkDocumented(diagnostics, Code::programDoesNotLink);
+  weft::gl::test::checkDocumented(diagnostics, Code::programNeedsMore);
 }
 
 TEST_CASE("defines select code") {

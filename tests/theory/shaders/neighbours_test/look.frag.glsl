@@ -7,7 +7,6 @@ layout(std140) uniform Parameters {
   int row;
   float roughness;
 };
-#include "neighbours/row.glsl"
 #include "neighbours/surround.glsl"
 
 struct Instance {
