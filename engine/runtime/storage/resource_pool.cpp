@@ -184,6 +184,8 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
     const auto clear = clearOf.find(r);
     pool->fill(plan, r, clear == clearOf.end() ? graph::Value::number(0) : *clear->second, diagnostics);
   }
+  // A plan does not know these clears; its first steps may store to the same memory.
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   return pool;
 }
 
