@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/chars.h"
 #include "engine/base/nearest.h"
@@ -101,26 +102,25 @@ class SpecFiller {
   }
 
   void addBlend(const NamedExpr& state) {
-    static const std::vector<std::string> kWords = {"none",     "add", "alpha", "premultiplied",
-                                                    "multiply", "min", "max"};
+    const std::vector<std::string> kWords{"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
+    const std::string slot = state.name == "blend" ? "" : state.name.substr(6);
+    if (!slot.empty() && !isColorSlot(slot)) {
+      if (std::exchange(blendTold_, true)) return;
+      std::vector<std::string> colors;
+      for (const SlotWork& work : slots_)
+        if (isColorSlot(work.slot->name)) colors.push_back(work.slot->name);
+      auto& d =
+          error(Code::badState, state.place, fmt::format("blends '{}', which is no colour slot of it", slot));
+      d.expected = "one word, \"blend\": \"alpha\", or one for each colour slot";
+      d.hint = base::hintForForeign(base::Foreign::state_key, slot);
+      if (d.hint.empty()) d.hint = base::nearestHint(slot, colors);
+      return;
+    }
     const int found = word(state, kWords);
     if (found < 0) return;
-    const auto blend = static_cast<Blend>(found);
-    if (state.name == "blend") {
-      for (const SlotWork& work : slots_)
-        if (isColorSlot(work.slot->name)) setBlend(work.slot->name, blend);
-      return;
-    }
-    const std::string slot = state.name.substr(6);
-    if (isColorSlot(slot)) {
-      setBlend(slot, blend);
-      return;
-    }
-    std::vector<std::string> colors;
+    if (!slot.empty()) return setBlend(slot, static_cast<Blend>(found));
     for (const SlotWork& work : slots_)
-      if (isColorSlot(work.slot->name)) colors.push_back(work.slot->name);
-    error(Code::badState, state.place, fmt::format("blends '{}', which is no colour slot of it", slot)).hint =
-        base::nearestHint(slot, colors);
+      if (isColorSlot(work.slot->name)) setBlend(work.slot->name, static_cast<Blend>(found));
   }
 
   void setBlend(const std::string& slot, Blend blend) {
@@ -387,6 +387,7 @@ class SpecFiller {
   const std::vector<SlotWork>& slots_;
   PassSpec& spec_;
   Place depthTestPlace_;
+  bool blendTold_ = false;
 };
 
 }  // namespace
