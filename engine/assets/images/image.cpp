@@ -228,6 +228,9 @@ void sanitizeRadiance(ImageF& image, const std::string& name, Diagnostics& diagn
         }
   }
 
+  // Light that was only spread is nothing to tell of.
+  constexpr double kNoLoss = 5e-4;
+  if (undefined + negative + infinite == 0 && lost < kNoLoss * whole) return;
   const std::size_t colours = image.texels.size() / channels * 3;
   base::Diagnostic& d =
       diagnostics.add({.severity = undefined + negative > 0 ? base::Severity::warning : base::Severity::note,

@@ -8,101 +8,13 @@
 #include <utility>
 
 #include "engine/base/chars.h"
+#include "engine/base/words/foreign_keys.h"
 #include "engine/base/words/foreign_shader_names.h"
 
 namespace weft::base {
 
 namespace {
 
-constexpr const char* kThreads =
-    "\"threads\" counts invocations, not groups: [8, 8, 1] groups of 16 x 16 are [128, 128, 1]";
-constexpr ForeignWord kPassKeys[] = {
-    {"group_count", kThreads},
-    {"groupcount", kThreads},
-    {"workgroup_count", kThreads},
-    {"dispatch_size", kThreads},
-    {"threadgroups", kThreads},
-    {"thread_groups", kThreads},
-    {"numthreads", kThreads},
-    {"inputs", "slots that are read stand in \"read\""},
-    {"input", "slots that are read stand in \"read\""},
-    {"reads", "slots that are read stand in \"read\""},
-    {"textures", "slots that are read stand in \"read\""},
-    {"samplers", "slots that are read stand in \"read\""},
-    {"outputs", "slots that are written stand in \"write\""},
-    {"output", "slots that are written stand in \"write\""},
-    {"writes", "slots that are written stand in \"write\""},
-    {"target", "slots that are written stand in \"write\""},
-    {"targets", "slots that are written stand in \"write\""},
-    {"attachments", "slots that are written stand in \"write\""},
-    {"color", "slots that are written stand in \"write\""},
-    {"depth", "slots that are written stand in \"write\" or, with a depth test, in \"modify\""},
-    {"uniforms", "uniforms stand in \"parameters\""},
-    {"constants", "uniforms stand in \"parameters\""},
-    {"params", "uniforms stand in \"parameters\""},
-    {"macros", "preprocessor names stand in \"defines\""},
-    {"definitions", "preprocessor names stand in \"defines\""},
-    {"fragment", "the shader's path stands in \"shader\""},
-    {"frag", "the shader's path stands in \"shader\""},
-    {"program", "the shader's path stands in \"shader\""},
-    {"material", "the shader's path stands in \"shader\""},
-    {"vertex", "of a draw: \"shader\": { \"vertex\": …, \"fragment\": … }"},
-    {"if", "a condition stands in \"enabled\""},
-    {"when", "a condition stands in \"enabled\""},
-    {"condition", "a condition stands in \"enabled\""},
-    {"active", "a condition stands in \"enabled\""},
-    {"disabled", "say \"enabled\": false"},
-    {"loop", "write \"repeat\": { \"i\": [first, last] }"},
-    {"count", "write \"repeat\": { \"i\": [first, last] }"},
-    {"dispatch", kThreads},
-    {"groups", kThreads},
-    {"workgroups", kThreads},
-    {"clear", "a texture says with what it begins: \"clear\" in \"resources\""},
-    {"size", "a texture says its size, in \"resources\""},
-    {"depthtest", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
-    {"depthwrite", "it belongs into \"state\": { \"depth_write\": false }"},
-    {"depthmask", "it belongs into \"state\": { \"depth_write\": false }"},
-    {"depthfunc", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
-    {"depthcompare", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
-    {"depth_compare", "it belongs into \"state\": { \"depth_test\": \"greater\" }"},
-    {"blending", "it belongs into \"state\": { \"blend\": \"add\" }"},
-    {"blendmode", "it belongs into \"state\": { \"blend\": \"add\" }"},
-    {"blend_mode", "it belongs into \"state\": { \"blend\": \"add\" }"},
-    {"fragmentshader", "the shader's path stands in \"shader\""},
-    {"vertexshader", "of a draw: \"shader\": { \"vertex\": …, \"fragment\": … }"},
-    {"rendertoscreen", "what is shown stands in \"present\" of the graph"},
-    {"needsswap", "leave it out: what a pass reads and writes says all"},
-    {"culling", "it belongs into \"state\": { \"cull\": \"back\" }"},
-    {"cullmode", "it belongs into \"state\": { \"cull\": \"back\" }"},
-    {"cull_mode", "it belongs into \"state\": { \"cull\": \"back\" }"},
-    {"wireframe", "it belongs into \"state\": { \"polygon\": \"line\" }"},
-    {"fill_mode", "it belongs into \"state\": { \"polygon\": \"line\" }"},
-    {"viewport", "a texture says its size, in \"resources\""},
-    {"format", "a texture says its format, in \"resources\""},
-    {"depends", "order follows from what passes read and write, and from their place in the list"},
-    {"dependencies", "order follows from what passes read and write, and from their place in the list"},
-};
-constexpr ForeignWord kTextureKeys[] = {
-    {"format", "the format is the value of \"texture\""},
-    {"width", "write \"size\": [width, height]"},
-    {"height", "write \"size\": [width, height]"},
-    {"scale", "write \"size\": \"screen/2\""},
-    {"resolution", "write \"size\": \"screen\" or [width, height]"},
-    {"levels", "the number of levels is \"mips\""},
-    {"mipmaps", "the number of levels is \"mips\""},
-    {"mip_levels", "the number of levels is \"mips\""},
-    {"msaa", "the number of samples is \"samples\""},
-    {"array_size", "an array texture has \"layers\", an array of textures \"array\""},
-    {"slices", "an array texture has \"layers\""},
-    {"type", "\"view\" says 2d_array, cube, cube_array or 3d"},
-    {"dimension", "\"view\" says 2d_array, cube, cube_array or 3d"},
-    {"filter", "a reference says how it is sampled: \"map as linear\""},
-    {"wrap", "a reference says how it is sampled: \"map as linear wrap\""},
-    {"sampler", "a reference says how it is sampled: \"map as linear\""},
-    {"persistent", "earlier frames are kept with \"history\": 1 and read as x@-1"},
-    {"usage", "leave it out: how passes use a texture says all"},
-    {"clear_value", "write \"clear\""},
-};
 constexpr ForeignWord kGraphKeys[] = {
     {"textures", "textures and buffers stand in \"resources\""},
     {"buffers", "textures and buffers stand in \"resources\""},
@@ -183,7 +95,27 @@ constexpr ForeignWord kStateWords[] = {
     {"premultipliedalpha", "write 'premultiplied'"},
     {"solid", "write 'fill'"},
 };
+constexpr const char* kFactors =
+    "factors of OpenGL are words here: 'alpha' is src_alpha, one_minus_src_alpha; "
+    "'premultiplied' is one, one_minus_src_alpha; 'add' is one, one";
 constexpr ForeignWord kStateKeys[] = {
+    {"src", kFactors},
+    {"dst", kFactors},
+    {"source", kFactors},
+    {"destination", kFactors},
+    {"src_color", kFactors},
+    {"dst_color", kFactors},
+    {"src_alpha", kFactors},
+    {"dst_alpha", kFactors},
+    {"srccolor", kFactors},
+    {"dstcolor", kFactors},
+    {"src_factor", kFactors},
+    {"dst_factor", kFactors},
+    {"srcfactor", kFactors},
+    {"dstfactor", kFactors},
+    {"func", kFactors},
+    {"factors", kFactors},
+
     {"transparent", "write \"blend\": \"alpha\""},
     {"blending", "write \"blend\": \"add\""},
     {"blendmode", "write \"blend\": \"add\""},
@@ -206,6 +138,19 @@ constexpr ForeignWord kStateKeys[] = {
     {"colormask", "there is none: write fewer outputs, or combine them in the shader"},
     {"color_mask", "there is none: write fewer outputs, or combine them in the shader"},
     {"stencil", "there is no stencil test: a shader can read 'depth.stencil' and discard"},
+    {"clear", "a texture says with what it begins: \"clear\" in \"resources\""},
+    {"color_write", "there is none: write fewer outputs, or combine them in the shader"},
+    {"depth", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"depth_compare", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"depthtest", "write \"depth_test\": \"greater\": depth is reversed, the near plane is 1"},
+    {"depth_stencil", "write \"depth_test\": \"greater\", \"depth_write\": false"},
+    {"depthwrite", "write \"depth_write\": false"},
+    {"depth_mask", "write \"depth_write\": false"},
+    {"fill_mode", "write \"polygon\": \"line\""},
+    {"depth_bias", "write \"offset\": [factor, units]"},
+    {"polygon_offset", "write \"offset\": [factor, units]"},
+    {"blend_mode", "write \"blend\": \"add\""},
+    {"blend_func", "write \"blend\": \"add\""},
 };
 constexpr ForeignWord kValueTypes[] = {
     {"float1", "write \"float\""},
@@ -329,6 +274,13 @@ constexpr ForeignWord kForeignValues[] = {
     {"width", "write 'screen.x', or 'size(name).x' of a texture"},
     {"height", "write 'screen.y', or 'size(name).y' of a texture"},
     {"keyboard", "there is none: make it a parameter"},
+    {"camera.position", "a shader has it: #include \"common/view.glsl\" has 'camera_position'"},
+    {"camera.view", "a shader has it: #include \"common/view.glsl\" has 'view'"},
+    {"camera.projection", "a shader has it: #include \"common/view.glsl\" has 'projection'"},
+    {"camera.near", "a shader has the view: #include \"common/view.glsl\""},
+    {"camera.far", "depth is reversed and has no far plane: #include \"common/view.glsl\" has the view"},
+    {"camera.fov", "a shader has the view: #include \"common/view.glsl\""},
+    {"camera.direction", "a shader has the view: #include \"common/view.glsl\""},
     {"webcam", "there is none: \"import\": \"image\" reads a picture or a numbered sequence"},
     {"video", "there is none: \"import\": \"image\" reads a picture or a numbered sequence"},
     {"audio", "there is none: give a picture of the sound to \"import\": \"image\""},
@@ -350,9 +302,9 @@ constexpr ForeignWord kImportTypes[] = {
 std::span<const ForeignWord> wordsOf(Foreign where) {
   switch (where) {
     case Foreign::pass_key:
-      return kPassKeys;
+      return foreignPassKeys();
     case Foreign::texture_key:
-      return kTextureKeys;
+      return foreignTextureKeys();
     case Foreign::graph_key:
       return kGraphKeys;
     case Foreign::state_word:

@@ -15,7 +15,6 @@ namespace {
 
 using base::Code;
 using base::Diagnostics;
-using base::Severity;
 
 // Deleted when it goes out of scope; a linked program does not need it.
 class Shader {
@@ -52,17 +51,15 @@ std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsize
   return text;
 }
 
-// The log as diagnostics. What succeeded has no errors, whatever the driver's wording; what failed has at
-// least one.
+// The log as diagnostics, at least one error. Of what succeeded a driver says what it likes, and only while its caches are cold:
+// that is not passed on.
 void reportLog(const std::string& log, const ShaderSource& source, Code code, bool succeeded,
                const std::string& failure, Diagnostics& diagnostics, std::span<const Define> defines = {}) {
+  if (succeeded) return;
   Diagnostics found;
   mapLog(log, source, code, found, defines);
-  for (base::Diagnostic d : found.items()) {
-    if (succeeded && d.severity == Severity::error) d.severity = Severity::note;
-    diagnostics.add(std::move(d));
-  }
-  if (!succeeded && !found.hasErrors()) diagnostics.error(code, {source.file, 0, 0}, failure);
+  diagnostics.append(found);
+  if (!found.hasErrors()) diagnostics.error(code, {source.file, 0, 0}, failure);
 }
 
 bool compileStage(const Shader& shader, const StageSource& stage, std::span<const Define> defines,

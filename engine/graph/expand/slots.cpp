@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/graph/expand/checks.h"
+#include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/expand/timing.h"
@@ -162,8 +163,7 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
   if (!texture && (selection.mip || selection.layer || selection.face || selection.stencil))
     return misfit("is no texture, it has no levels, layers or planes");
   if (selection.element && entity.arrayCount == 0)
-    return misfit("is no array",
-                  texture && shape.mips > 1 ? fmt::format("a level is '{}.mip[…]'", entity.name) : "");
+    return misfit("is no array", hintForElement(entity.name, *selection.element, texture && shape.mips > 1));
   if (selection.layer && shape.target == Target::texture_3d)
     return misfit("is a 3d texture, it has no layers");
   if (selection.face && !cube) return misfit("is no cube, it has no faces");

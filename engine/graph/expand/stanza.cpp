@@ -287,6 +287,38 @@ void checkCadence(const Stanza& stanza) {
     }
 }
 
+std::string hintForType(const std::string& type, const std::vector<std::string>& known) {
+  constexpr std::pair<std::string_view, const char*> kTheirs[] = {
+      {"raster", "write 'draw', or 'fullscreen' for a picture"},
+      {"graphics", "write 'draw', or 'fullscreen' for a picture"},
+      {"render", "write 'draw', or 'fullscreen' for a picture"},
+      {"geometry", "write 'draw'"},
+      {"mesh", "write 'draw'"},
+      {"scene", "write 'draw'"},
+      {"quad", "write 'fullscreen'"},
+      {"screen", "write 'fullscreen'"},
+      {"post", "write 'fullscreen'"},
+      {"postprocess", "write 'fullscreen'"},
+      {"post_process", "write 'fullscreen'"},
+      {"postprocessing", "write 'fullscreen'"},
+      {"fragment", "write 'fullscreen'"},
+      {"pixel", "write 'fullscreen'"},
+      {"image", "write 'fullscreen'"},
+      {"shader", "write 'fullscreen'"},
+      {"copy", "write 'blit'"},
+      {"resolve", "write 'blit'"},
+      {"transfer", "write 'blit'"},
+      {"dispatch", "write 'compute'"},
+      {"cs", "write 'compute'"},
+      {"mips", "write 'mipmap'"},
+      {"generate_mips", "write 'mipmap'"},
+      {"mipmaps", "write 'mipmap'"},
+      {"clear", "a texture says with what it begins: \"clear\" in \"resources\""}};
+  for (const auto& [theirs, hint] : kTheirs)
+    if (type == theirs && std::ranges::find(known, type) == known.end()) return hint;
+  return base::nearestHint(type, known);
+}
+
 }  // namespace
 
 bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassType* type,
@@ -301,7 +333,7 @@ bool checkStanza(Model& model, Scope& scope, const PassDesc& desc, const PassTyp
     std::vector<std::string> types;
     for (const PassType& known : model.registry.passTypes) types.push_back(known.name);
     stanza.error(Code::unknownPassType, desc.typePlace, fmt::format("is of the unknown type '{}'", desc.type))
-        .hint = base::nearestHint(desc.type, types);
+        .hint = hintForType(desc.type, types);
   }
   checkExpressions(stanza);
   checkCadence(stanza);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/chars.h"
 #include "engine/base/nearest.h"
@@ -78,26 +79,27 @@ class StateFiller {
   void addBlend(const NamedExpr& said) {
     static const std::vector<std::string> kWords = {"none",     "add", "alpha", "premultiplied",
                                                     "multiply", "min", "max"};
-    const int found = word(said, kWords);
-    if (found < 0) return;
-    const auto blend = static_cast<Blend>(found);
     std::vector<std::string> colors;
     for (const SlotWork& work : slots_)
       if (isColorSlot(work.slot->name)) colors.push_back(work.slot->name);
-    if (said.name == "blend") {
-      for (const std::string& color : colors) setBlend(color, blend);
-      if (colors.empty() && blend != Blend::none)
-        error(Code::badState, said.place, "blends, and has no colour slot").hint =
-            "leave \"blend\" out, or say \"modify\": { \"result\": … } with a colour texture";
+    const std::string slot = said.name == "blend" ? "" : said.name.substr(6);
+    if (!slot.empty() && !isColorSlot(slot)) {
+      if (std::exchange(blendTold_, true)) return;
+      auto& d =
+          error(Code::badState, said.place, fmt::format("blends '{}', which is no colour slot of it", slot));
+      d.expected = "one word, \"blend\": \"alpha\", or one for each colour slot";
+      d.hint = base::hintForForeign(base::Foreign::state_key, slot);
+      if (d.hint.empty()) d.hint = base::nearestHint(slot, colors);
       return;
     }
-    const std::string slot = said.name.substr(6);
-    if (isColorSlot(slot)) {
-      setBlend(slot, blend);
-      return;
-    }
-    error(Code::badState, said.place, fmt::format("blends '{}', which is no colour slot of it", slot)).hint =
-        base::nearestHint(slot, colors);
+    const int found = word(said, kWords);
+    if (found < 0) return;
+    const auto blend = static_cast<Blend>(found);
+    if (!slot.empty()) return setBlend(slot, blend);
+    for (const std::string& color : colors) setBlend(color, blend);
+    if (colors.empty() && blend != Blend::none)
+      error(Code::badState, said.place, "blends, and has no colour slot").hint =
+          "leave \"blend\" out, or say \"modify\": { \"result\": … } with a colour texture";
   }
 
   void setBlend(const std::string& slot, Blend blend) {
@@ -265,7 +267,7 @@ class StateFiller {
   const PassDesc& desc_;
   const std::vector<SlotWork>& slots_;
   StateSpec& state_;
-  bool failed_ = false;
+  bool failed_ = false, blendTold_ = false;
 };
 
 }  // namespace

@@ -94,6 +94,10 @@ class Parser {
     if (text_.substr(0, token_.begin).ends_with("not ")) hint = "write '!' for 'not'";
     if (token_.text == "'") hint = "words of a choice stand without quotes";
     if (token_.text == "=") hint = "write '==' to compare";
+    if (token_.text == "^" || (token_.text == "*" && text_.substr(0, token_.begin).ends_with("*")))
+      hint = "there is no power: write 'a * a', or compute it in the shader";
+    if (token_.text == "if") hint = "write 'condition ? a : b'";
+    if (token_.text == "{") hint = "write '$name' for a parameter, without braces";
     if (token_.text == ":") hint = "a ':' belongs to 'condition ? a : b'";
     return fail(token_, fmt::format("unexpected '{}' where {} is expected", token_.text, expected), hint,
                 expected);
@@ -253,7 +257,8 @@ class Parser {
     const Token dollar = token_;
     advance();
     if (token_.kind != Token::Kind::identifier || token_.begin != dollar.begin + 1)
-      return fail(dollar, "'$' stands without a name", "write '$name', as in \"parameters\" or \"let\"");
+      return fail(dollar, "'$' stands without a name",
+                  "write '$name', as in \"parameters\" or \"let\", without braces");
     std::string name;
     if (!parseDotted(name, true)) return nullptr;
     auto node = std::make_shared<ExprNode>();
@@ -276,7 +281,8 @@ class Parser {
                false;
       }
       if (isReservedWord(next.text))
-        return fail(next, fmt::format("'.{}' selects a sub-resource, where a name is expected", next.text)),
+        return fail(next, fmt::format("'.{}' selects a sub-resource, where a name is expected", next.text),
+                    hintForPart(name)),
                false;
       advance();
       name += '.';

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/language/names.h"
 
 namespace weft::graph {
@@ -165,7 +166,16 @@ std::string hintForMember(std::string_view name, std::string_view member) {
       {"levels", "mips(", ")"}, {"count", "count(", ")"},  {"length", "count(", ")"}};
   for (const Theirs& theirs : kTheirs)
     if (member == theirs.member) return fmt::format("write '{}{}{}'", theirs.before, name, theirs.after);
-  return {};
+  if (isReservedWord(member)) return hintForPart(name);
+  return base::hintForForeign(base::Foreign::value, fmt::format("{}.{}", name, member));
+}
+
+std::string hintForPart(std::string_view name) {
+  return fmt::format(
+      "values know the whole: size({0}) is that of level 0, count({0}) and mips({0}) say how many; "
+      "\"threads\" left "
+      "out is the size of the level that the pass writes, and a shader asks textureSize() or imageSize()",
+      name);
 }
 
 }  // namespace weft::graph

@@ -27,5 +27,7 @@ Token scanToken(std::string_view text, std::size_t from);
 std::string hintForSize(std::string_view text);
 // What "scene.width" and the like of other languages is called here, or "".
 std::string hintForMember(std::string_view name, std::string_view member);
+// What there is in place of a value of "x.mip[i]" and the like.
+std::string hintForPart(std::string_view name);
 
 }  // namespace weft::graph

@@ -184,6 +184,12 @@ std::optional<std::string> ReadContext::word(const JsonValue* value, std::span<c
   d.expected = fmt::format("{}", fmt::join(words, ", "));
   if (std::ranges::find(words, "vec4") != words.end())  // types of parameters
     d.hint = base::hintForForeign(base::Foreign::value_type, value->text);
+  for (const auto& [theirs, ours] :
+       {std::pair("every_frame", "always"), std::pair("each_frame", "always"),
+        std::pair("per_frame", "always"), std::pair("realtime", "always"), std::pair("changed", "on_change"),
+        std::pair("on_demand", "on_change"), std::pair("static", "once"), std::pair("init", "once")})
+    if (value->text == theirs && std::ranges::find(words, ours) != words.end())
+      d.hint = fmt::format("write \"{}\"", ours);
   if (!d.hint.empty()) return std::nullopt;
   const std::vector<std::string> known(words.begin(), words.end());
   if (const std::string nearest = base::nearestName(value->text, known); !nearest.empty())

@@ -56,6 +56,10 @@ class ParameterReader {
         d.hint = fmt::format("write {{ \"default\": {} }}", object_.is(JsonValue::Type::boolean)
                                                                 ? describe(object_)
                                                                 : fmt::format("{}", object_.number));
+      else if (object_.is(JsonValue::Type::array))
+        d.hint = "write { \"default\": […] }";
+      else if (object_.text.starts_with('#'))
+        d.hint = "a colour is three numbers: { \"default\": [1.0, 0.5, 0.0] }";
       return std::nullopt;
     }
     context_.checkKeys(object_, kParameterKeys, what_, base::Foreign::value_key);

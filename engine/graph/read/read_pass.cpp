@@ -345,11 +345,7 @@ class PassReader {
       auto& d = context_.error(Code::badState, member.value,
                                fmt::format("the state '{}' is a list of words", name));
       d.expected = "one word";
-      if (member.key == "blend")
-        d.hint =
-            "factors of OpenGL are words here: 'alpha' is src_alpha, one_minus_src_alpha; 'premultiplied' is "
-            "one, "
-            "one_minus_src_alpha; 'add' is one, one";
+      if (member.key == "blend") d.hint = base::hintForForeign(base::Foreign::state_key, "factors");
       return;
     }
     Expr expr = context_.expr(&member.value, fmt::format("\"{}\"", member.key));

@@ -224,7 +224,8 @@ class RefParser {
       if (error != std::errc()) depth = 0;
     }
     if (depth < 1)
-      return fail(start, "history is written '@-1', '@-2', …", "'@-n' is the n-th previous publication");
+      return fail(start, "history is written '@-1', '@-2', …",
+                  fmt::format("write '{}@-1' for what it was in the frame before", ref_.name));
     ref_.history = depth;
     return true;
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/base/nearest.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/gl/objects/objects.h"
 #include "engine/imports/row_layout.h"
 #include "engine/passes/compute/work_groups.h"
@@ -34,6 +35,14 @@ using graph::ShaderShape;
 using graph::SlotSpec;
 
 namespace {
+
+// What a uniform of this name has in its place.
+std::string hintForLoose(const std::string& name) {
+  if (isViewMember(name)) return fmt::format("take it away: #include \"common/view.glsl\" has '{}'", name);
+  if (std::string theirs = base::hintForForeign(base::Foreign::shader_name, name); !theirs.empty())
+    return theirs;
+  return "move it into `layout(std140) uniform Parameters { … };`";
+}
 
 class Checker : PassErrors {
  public:
@@ -320,7 +329,7 @@ class Checker : PassErrors {
     for (const auto& loose : reflection_.looseUniforms)
       failOnce(graph_, Code::parameterNotInShader, spec_.shaderPlace,
                fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name),
-               "move it into `layout(std140) uniform Parameters { … };`");
+               hintForLoose(loose.name));
   }
 
   // Reports a sliced compute pass whose shader does not read Slice: every slice would do the whole work.

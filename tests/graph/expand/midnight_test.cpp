@@ -83,6 +83,22 @@ TEST_CASE("a mistake at midnight: expressions in the words of other languages") 
   checkOne(enabled, "\"enabled\": \"$tone == 'hard'\"", badExpression, "unexpected '''", "without quotes");
   checkOne("\"blend\": \"none\"", "\"blend\": [\"src_alpha\", \"one\"]", badState, "a list of words",
            "'alpha' is src_alpha");
+  checkOne("\"blend\": \"none\"", "\"blend\": { \"src\": \"one\", \"dst\": \"one\" }", badState,
+           "blends 'src'", "'alpha' is src_alpha");
+  checkOne(bytes, "\"4 * 2^8\"", badExpression, "unexpected '^'", "there is no power");
+  checkOne(bytes, "\"size(scene.mip[0])\"", badExpression, "'.mip' selects",
+           "size(scene) is that of level 0");
+  checkOne(bytes, "\"scene.mip[0]\"", badExpression, "'scene.mip' is no value",
+           "size(scene) is that of level 0");
+  checkOne(bytes, "\"camera.position.x\"", badExpression, "is no value", "has 'camera_position'");
+  checkOne(enabled, "\"enabled\": \"on\"", wrongValueType, "is no condition", "write true");
+  checkOne(enabled, "\"enabled\": \"${bloom}\"", badExpression, "'$' stands without a name",
+           "without braces");
+  checkOne(enabled, "\"groups\": [8, 8, 1]", unknownKey, "\"groups\"", "\"threads\" counts invocations");
+  checkOne(enabled, "\"clear_color\": [0, 0, 0]", unknownKey, "\"clear_color\"",
+           "\"clear\" in \"resources\"");
+  checkOne(enabled, "\"update\": \"every_frame\"", unknownWord, "every_frame", "write \"always\"");
+  checkOne("\"fullscreen\"", "\"postprocess\"", unknownPassType, "unknown type", "write 'fullscreen'");
 }
 
 TEST_CASE("a mistake at midnight: references") {
@@ -93,6 +109,8 @@ TEST_CASE("a mistake at midnight: references") {
            "write 'as linear'");
   checkOne("\"now\": \"scene\"", "\"now\": \"trail.previous\"", unknownResource, "'trail.previous'",
            "'trail@-1'");
+  checkOne("\"now\": \"scene\"", "\"now\": \"trail@prev\"", badReference, "history is written", "write 'trail@-1'");
+  checkOne("\"now\": \"scene\"", "\"now\": \"trail[-1]\"", badSelector, "is no array", "write 'trail@-1'");
   checkOne("\"glow.mip[0]\"", "\"glow.lod[0]\"", unknownResource, "'glow.lod'", "'glow.mip[…]'");
   checkOne("\"glow.mip[0]\"", "\"glow[0]\"", badSelector, "is no array", "'glow.mip[…]'");
   checkOne("\"now\": \"scene\"", "\"now\": \"depth.stencil\"", badSelector, "has no stencil",

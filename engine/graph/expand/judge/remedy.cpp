@@ -51,4 +51,9 @@ std::string namesToDisable(const std::vector<std::string>& readers, std::string_
   return names;
 }
 
+std::string hintForElement(const std::string& name, std::int64_t element, bool levels) {
+  if (element < 0) return fmt::format("write '{}@{}' for an earlier frame", name, element);
+  return levels ? fmt::format("a level is '{}.mip[…]'", name) : std::string();
+}
+
 }  // namespace weft::graph::expansion

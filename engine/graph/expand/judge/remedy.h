@@ -20,4 +20,7 @@ std::string otherPresent(Model& model, std::uint32_t missing, std::uint32_t posi
 // and not the writer stands for them. "" for more than four.
 std::string namesToDisable(const std::vector<std::string>& readers, std::string_view writer);
 
+// For "x[k]" of what is no array.
+std::string hintForElement(const std::string& name, std::int64_t element, bool levels);
+
 }  // namespace weft::graph::expansion

@@ -154,6 +154,9 @@ std::string hintFor(const Model& model, const Scope& scope, const ParameterDesc&
 }
 
 void warnVariables(Model& model, Scope& scope, const Uses& uses) {
+  // What a stanza that is switched off for now reads is not unread.
+  for (const PassDesc& pass : scope.desc->passes)
+    if (pass.enabled.present() && pass.enabled.isConstant() && pass.enabled.text() == "false") return;
   for (const ParameterDesc& parameter : scope.desc->parameters) {
     if (uses.reads(parameter) || !isOnTop(scope, parameter.place)) continue;
     auto& d =

@@ -312,7 +312,9 @@ std::optional<bool> evaluateCondition(Names& names, const Expr& expr, bool absen
                                             fmt::format("{} is no condition", what.text()));
   d.expected = "true, false or a number";
   d.found = toText(value);
-  d.hint = hintForWord(names, value);
+  const bool on = d.found == "on" || d.found == "yes";
+  d.hint = on || d.found == "off" || d.found == "no" ? fmt::format("write {}", on ? "true" : "false")
+                                                     : hintForWord(names, value);
   return std::nullopt;
 }
 

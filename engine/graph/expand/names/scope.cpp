@@ -177,7 +177,9 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
     for (const ImportType& type : model.registry.imports) types.push_back(type.name);
     d.resource = "@" + std::string(name);
     d.pass = pass;
-    d.hint = scope.resources.contains(name)
+    d.hint = slot == "view"
+                 ? fmt::format("declare it: \"resources\": {{ \"{}\": {{ \"import\": \"camera\" }} }}", name)
+             : scope.resources.contains(name)
                  ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
                  : hintForImport(name, types);
     return kNone;
@@ -186,7 +188,12 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
                                     fmt::format("{} unknown resource '{}'", user.text(), name));
   d.resource = std::string(name);
   d.pass = pass;
-  d.hint = hintForResource(model, scope, name, slot, orPass, place);
+  d.hint =
+      slot == "view"
+          ? fmt::format(
+                "write '@camera', or declare it: \"resources\": {{ \"{}\": {{ \"import\": \"camera\" }} }}",
+                name)
+          : hintForResource(model, scope, name, slot, orPass, place);
   return kNone;
 }
 
