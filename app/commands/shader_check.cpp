@@ -85,16 +85,12 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
     const graph::PassSpec& spec = plan.graph->specs[step.pass];
     const graph::PassType type = device.passTypes.find(spec.type)->reflect();
     if (type.shader == graph::ShaderShape::none) continue;
-    const std::uint32_t combinations = 1u << runtime::conditionCount(spec);
-    for (std::uint32_t conditions = 0; conditions < combinations; ++conditions) {
-      const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
-      if (!known_.insert(keyOf(request)).second) continue;
-      const auto variant = device.programs.get(request, said);
-      if (!variant || !runtime::checkProgram(plan, step.pass, *variant, session_->context->device().limits,
-                                             device.roles, said))
-        break;
+    const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
+    if (!known_.insert(keyOf(request)).second) continue;
+    const auto variant = device.programs.get(request, said);
+    if (variant && runtime::checkProgram(plan, step.pass, *variant, session_->context->device().limits,
+                                         device.roles, said))
       runtime::warnOfConditions(spec.name, variant->stages, variant->defines, said);
-    }
   }
   tell(said, with, diagnostics);
   read_.insert(device.sources.touched().begin(), device.sources.touched().end());
@@ -114,24 +110,19 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
     last = &spec;
     const graph::PassType type = types.find(spec.type)->reflect();
     if (type.shader == graph::ShaderShape::none) continue;
-    const std::uint32_t combinations = 1u << runtime::conditionCount(spec);
-    for (std::uint32_t conditions = 0; conditions < combinations; ++conditions) {
-      const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type, conditions);
-      if (!known_.insert(keyOf(request)).second) continue;
-      std::vector<gl::StageSource> stages;
-      bool whole = true;
-      for (const gl::ProgramRequest::Stage& stage : request.stages) {
-        if (!stage.text.empty()) continue;
-        const auto [known, fresh] = loaded_.try_emplace(stage.file);
-        if (fresh) known->second = sources_->load(stage.file, unread_, request.place);
-        stages.push_back({stage.stage, known->second});
-        whole = whole && known->second;
-      }
-      const std::size_t before = said.errorCount();
-      if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, said);
-      if (whole) runtime::warnOfConditions(spec.name, stages, request.defines, said);
-      if (!whole || said.errorCount() > before) break;
+    const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
+    if (!known_.insert(keyOf(request)).second) continue;
+    std::vector<gl::StageSource> stages;
+    bool whole = true;
+    for (const gl::ProgramRequest::Stage& stage : request.stages) {
+      if (!stage.text.empty()) continue;
+      const auto [known, fresh] = loaded_.try_emplace(stage.file);
+      if (fresh) known->second = sources_->load(stage.file, unread_, request.place);
+      stages.push_back({stage.stage, known->second});
+      whole = whole && known->second;
     }
+    if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, said);
+    if (whole) runtime::warnOfConditions(spec.name, stages, request.defines, said);
   }
   tell(said, with, diagnostics);
   read_.insert(sources_->touched().begin(), sources_->touched().end());

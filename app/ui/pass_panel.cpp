@@ -71,11 +71,10 @@ void Panels::drawPasses(base::Diagnostics& diagnostics) {
                        : "") +
                 "\n" + (slice.empty() ? "" : "slice " + slice + " of its work in this frame\n") +
                 explainer_->whyPass(index) + "\n" + explainer_->whyHere(index) +
-                (ran ? "" : "\n" + whyIdle(graph.specs[index])));
+                (ran ? "" : "\nkept: nothing it depends on has changed since it ran"));
         if (!narrow) {
           ImGui::TableNextColumn();
-          ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str())
-              : ImGui::TextDisabled("%s", idleWord(graph.specs[index]));
+          ran ? ImGui::TextUnformatted(slice.empty() ? "ran" : slice.c_str()) : ImGui::TextDisabled("kept");
         }
         if (timed) {
           ImGui::TableNextColumn();

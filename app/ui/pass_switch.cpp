@@ -18,13 +18,4 @@ std::string disabledBy(const graph::DisabledPass& pass, const graph::Settings& s
   return {};
 }
 
-std::string whyIdle(const graph::PassSpec& spec) {
-  return spec.runsWhile.empty() ? "kept: nothing it depends on has changed since it ran"
-                                : "idle: it runs while " + spec.runsWhile;
-}
-
-const char* idleWord(const graph::PassSpec& spec) {
-  return spec.runsWhile.empty() ? "kept" : "idle";
-}
-
 }  // namespace weft::app::ui

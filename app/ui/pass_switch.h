@@ -1,4 +1,4 @@
-// What the boxes of the panel of passes turn on and off, and why a pass did not run. Does not: draw
+// What the boxes of the panel of passes turn on and off. Does not: draw
 // (app/ui/pass_panel.cpp), change anything.
 #pragma once
 
@@ -16,9 +16,5 @@ std::string switchNameOf(const graph::FlatGraph& graph, std::uint32_t pass);
 
 // What --disable or a box named, so that the pass can be turned on again; "" when something else turned it off.
 std::string disabledBy(const graph::DisabledPass& pass, const graph::Settings& settings);
-
-// Why a pass of the plan did not run in a frame, as a sentence and as a word.
-std::string whyIdle(const graph::PassSpec& spec);
-const char* idleWord(const graph::PassSpec& spec);
 
 }  // namespace weft::app::ui

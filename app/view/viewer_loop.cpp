@@ -205,7 +205,7 @@ void Viewer::frame(gl::Size size) {
   if (!readsMouse() || report_.passesRun + report_.passesSkipped > 0) input_.pointerShown();
   live_.dropUploaded();
   if (report_.slowRun > 0) clock_.worked();
-  previousPose_ = in.pose;
+  if (report_.whole) previousPose_ = in.pose;
   ++frame_;
   dropped_ = !report_.whole || (mayDrop && live_.wantsLoad(glfwGetTime()));
   if (!dropped_) {

@@ -136,12 +136,6 @@ struct SlotSpec {
 static_assert(sizeof(void*) != 8 || sizeof(SlotSpec) <= 80, "the limit graph_bytes counts slots");
 
 struct UniformSpec {
-  // The last two are no uniforms: they choose the variant of each frame.
-  enum class Role : std::uint8_t {
-    uniform,
-    define,   // #define name 0 or 1
-    enabled,  // whether a timed pass runs; without a name
-  };
   std::string name;
   Value value;  // with the present parameters; age() counts as 0
   Expr
@@ -149,9 +143,7 @@ struct UniformSpec {
                 // (by FlatResource index) and live parameters (by index into FlatGraph::parameters) are left
   std::string path;  // full name of the parameter behind it ("post.dof.aperture"), or empty
   Place place;
-  Role role = Role::uniform;
   bool constant = false;  // written as a number or a list
-  bool choosesVariant() const { return role != Role::uniform; }
 };
 
 struct DefineSpec {
@@ -177,7 +169,6 @@ struct PassSpec {
   std::string type;
   std::string shader;  // a path; of a draw the stem of two, or the fragment shader beside `vertexShader`
   std::string vertexShader;  // of a draw that names both
-  std::string runsWhile;     // of a timed pass: the condition of the frames in which it runs, as written
   Place place, shaderPlace;
   std::uint32_t firstSlot = 0, slotCount = 0;
   std::vector<DefineSpec> defines;
@@ -186,6 +177,7 @@ struct PassSpec {
   std::uint32_t threads[3] = {1, 1, 1};
   Place threadsPlace;           // of "threads", else of the pass
   std::uint32_t instances = 1;  // of a draw without a list
+  Expr timedInstances;          // the same, folded, when it contains age(); else absent
   std::string list;             // draw list or ""
   std::string geometry;
   std::vector<double> geometryArguments;
@@ -200,7 +192,6 @@ struct ImportSpec {
   ImportKind kind = ImportKind::texture;
   std::string name;                   // resource name in the graph, or "@environment"
   std::vector<TableColumn> columns;   // as ImportType::columns
-  bool before = false;                // as ImportType::before
   std::vector<std::string> standIns;  // names of own textures that a list of alternatives offers in its place
   double count = 0;                   // rows of a list or buffer, as ImportFacts::count
   bool changing = false;              // as ImportFacts::changing

@@ -66,7 +66,6 @@ struct ImportType {
   std::vector<TableColumn> columns{};  // of buffers: rows, laid out as the reading shader's block says
   std::uint32_t array = 0;  // of textures: this many in one slot, as resources with "array"; see elementOf()
   bool views = false;       // of buffers: its elements are views as well: @lamps[l].face[f]
-  bool before = false;      // of textures: name@-1 is there, what was shown before
   bool everyPass =
       false;  // of views: declared under the type's name, it is the view of every pass that names none
 };

@@ -52,18 +52,13 @@ class Provider {
   virtual bool followsPointer() const { return false; }
 
   // For a texture that appears together with what a graph makes of it, and so later than it changes. shown() is the texture
-  // that was the newest one at the last publish(), before() the one shown before that. Types that appear at once do not
-  // override these functions.
+  // that was the newest one at the last publish(). Types that appear at once do not override these functions.
   virtual gl::TextureRef shown(const Frame& frame, base::Diagnostics& said) { return texture(frame, said); }
-  virtual gl::TextureRef before(const Frame& frame, base::Diagnostics& said) { return texture(frame, said); }
   virtual void publish(const Frame&) {}
   virtual bool isPublished(const Frame&) const { return true; }
   virtual std::uint64_t publications(const Frame&) const { return 0; }
-  // No pass reads before() any more.
-  virtual void releaseBefore(const Frame&) {}
-  // Takes textures that the graph itself made and used in place of this import. Until publish() they are shown() and
-  // before(). Either may be empty.
-  virtual void adopt(gl::Texture, gl::Texture) {}
+  // Takes a texture that the graph itself made and used in place of this import. Until publish() it is shown().
+  virtual void adopt(gl::Texture) {}
 
   // Whether it is still being loaded: pictures of graphs that read it are black until it is there.
   virtual bool isPending(const World&) const { return false; }

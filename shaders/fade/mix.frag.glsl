@@ -1,14 +1,16 @@
-// The picture that the lighting of now makes, over the one that the lighting before made. Scene-referred, linear in radiance.
-// read    now      radiance, nearest: own texel of what `result` modifies, with "feedback"
-//         before   radiance, the same size, nearest
-// modify  result   radiance; alpha stays
-// params  share    of `now`, 0..1
-uniform sampler2D now, before;
-layout(std140) uniform Parameters { float share; };
+// The last picture over the one that new light makes. Scene-referred, linear in radiance.
+// read    before   radiance, the size of `result`, nearest; alpha 0 where there is no last picture
+// modify  result   radiance, blended "premultiplied"; alpha stays where it is 1
+// params  left     seconds until only the new light is seen
+// Frame by frame left / (left + delta_time) of the last picture remain: the product of these shares falls to 0 in a straight line.
+#include "common/view.glsl"
+
+uniform sampler2D before;
+layout(std140) uniform Parameters { float left; };
 out vec4 result;
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 own = texelFetch(now, at, 0);
-  result = vec4(mix(texelFetch(before, at, 0).rgb, own.rgb, share), own.a);
+  vec4 last = texelFetch(before, ivec2(gl_FragCoord.xy), 0);
+  float share = left / (left + delta_time) * last.a;
+  result = vec4(last.rgb * share, share);
 }

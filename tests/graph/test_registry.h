@@ -65,7 +65,7 @@ inline std::vector<ImportType> testImports() {
   grid.count = 3;
   grid.v = {21, 21, 3, 0};
   return {
-      {.name = "environment", .kind = ImportKind::texture, .doc = "", .arguments = {}, .before = true},
+      {.name = "environment", .kind = ImportKind::texture, .doc = "", .arguments = {}},
       {.name = "camera",
        .kind = ImportKind::view,
        .doc = "",

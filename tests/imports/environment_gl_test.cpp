@@ -89,31 +89,21 @@ TEST_CASE("the environment in use stays as it is while another is sent, dropped,
   REQUIRE(textures.use(c, diagnostics));
   CHECK(textures.current().desc.width == 32);
   CHECK(alive() == 2);
-  // Nothing was published: black, now and before.
+  // Nothing was published: black.
   CHECK_FALSE(textures.isPublished());
   CHECK(levelsOf(textures.shown()) == std::vector<std::vector<float>>{{0, 0, 0, 1}});
   textures.publish();
   CHECK(textures.isPublished());
   CHECK(textures.shown().desc.width == 32);
-  CHECK(textures.before().desc.width == 1);
   // Taken before all of it was sent: uploaded at once. What is shown stays until it is published.
   textures.send(b, diagnostics);
   REQUIRE(textures.use(b, diagnostics));
   CHECK(textures.shown().desc.width == 32);
-  CHECK(textures.before().desc.width == 1);
   CHECK(alive() == 3);
   REQUIRE(textures.use(a, diagnostics));  // instead of b, which nobody ever sees
   CHECK(alive() == 3);
   textures.publish();
   CHECK(textures.shown().desc.width == 64);
-  CHECK(textures.before().desc.width == 32);
-  textures.publish();  // the same again, with other lighting
-  CHECK(textures.before().id == textures.shown().id);
-  CHECK(alive() == 2);
-  REQUIRE(textures.use(c, diagnostics));
-  textures.publish();
-  CHECK(alive() == 3);
-  textures.releaseBefore();
   CHECK(alive() == 2);
 }
 

@@ -75,11 +75,9 @@ TEST_CASE(
   CHECK_FALSE(registry().find("clouds"));
 }
 
-TEST_CASE(
-    "the environment is a texture with levels, an earlier publication, and a graph that stands in for it") {
+TEST_CASE("the environment is a texture with levels, and a graph that stands in for it") {
   const graph::ImportType type = importOf("environment").reflect();
   CHECK(type.kind == ImportKind::texture);
-  CHECK(type.before);
   CHECK(importOf("environment").standInGraph() == "graphs/daylight.json");
   WorldFacts world{.environment = true, .environmentWidth = 512, .environmentHeight = 256, .lists = {}};
   const graph::ImportFacts facts = factsOf(requestOf("environment"), world);

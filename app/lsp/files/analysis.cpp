@@ -139,7 +139,7 @@ std::shared_ptr<const gl::ShaderSource> Analysis::source(Graph& graph, const std
   return known->second;
 }
 
-// Checks the shaders by their words, in the variant that runs once everything was published long ago.
+// Checks the shaders by their words.
 void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
   for (const graph::Step& step : plan.steps) {
@@ -147,8 +147,7 @@ void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
     const graph::PassSpec& spec = flat.specs[step.pass];
     const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
-    const gl::ProgramRequest request =
-        runtime::programRequestOf(flat, plan, step.pass, *type, runtime::settledConditionsOf(spec));
+    const gl::ProgramRequest request = runtime::programRequestOf(flat, plan, step.pass, *type);
     std::vector<gl::StageSource> stages;
     bool whole = true;
     for (const gl::ProgramRequest::Stage& stage : request.stages) {

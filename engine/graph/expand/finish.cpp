@@ -147,11 +147,14 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
 
 void resolveHistories(Model& model) {
   FlatGraph& graph = model.graph;
-  for (const Model::HistoryUse& use : model.historyUses)
+  std::vector<std::uint8_t> read(model.entities.size(), 0);  // a history that nobody reads is none
+  for (const Model::HistoryUse& use : model.historyUses) {
     graph.uses[use.use].resource = currentResource(model, use.entity, use.element);
+    read[use.entity] = 1;
+  }
   for (std::uint32_t index = 0; index < model.entities.size(); ++index) {
     Entity& entity = model.entities[index];
-    if (entity.depth == 0 || entity.state != Progress::done) continue;
+    if (entity.depth == 0 || !read[index] || entity.state != Progress::done) continue;
     HistorySpec spec;
     spec.first = entity.first.type == Value::Type::none ? Value::number(0) : entity.first;
     spec.firstUse = entity.firstUse;
@@ -166,12 +169,12 @@ void resolveHistories(Model& model) {
   }
 }
 
-// What is in the place of an import that is not there: whoever fades to the import later fades from that.
+// What is in the place of an import that is not there: it is shown until the import, once it is there, is published.
 void nameStandIns(Model& model) {
   for (const Entity& list : model.entities)
     for (const std::uint32_t candidate : list.candidates) {
       const std::uint32_t import = candidate == kNone ? kNone : model.entities[candidate].import;
-      if (import == kNone || !model.graph.imports[import].before) continue;
+      if (import == kNone || model.graph.imports[import].kind != ImportKind::texture) continue;
       for (const std::uint32_t other : list.candidates)
         if (other != kNone && model.entities[other].kind == ResourceDesc::Kind::texture)
           model.graph.imports[import].standIns.push_back(model.entities[other].name);
@@ -206,7 +209,12 @@ void foldTimed(Model& model, const std::vector<DeferredUniform>& deferred) {
     if (!each.value.expr || !isDynamic(model, *each.scope, *each.value.expr)) continue;
     Names names(model, *each.scope);
     names.indices = each.indices;
-    UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.value.uniform];
+    PassSpec& spec = model.graph.specs[each.pass];
+    if (each.value.uniform == kNone) {
+      spec.timedInstances = each.value.expr->fold(names, model.diagnostics);
+      continue;
+    }
+    UniformSpec& uniform = spec.uniforms[each.value.uniform];
     uniform.dynamic = each.value.expr->fold(names, model.diagnostics);
     uniform.value = uniform.dynamic.evaluateFolded(ageless);
   }
@@ -222,6 +230,7 @@ void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
   findLiveLets(model);
   const auto trialAge = [](std::uint32_t) { return kTrialAge; };
   for (const DeferredUniform& each : deferred) {
+    if (each.value.uniform == kNone) continue;
     UniformSpec& uniform = model.graph.specs[each.pass].uniforms[each.value.uniform];
     if (!each.value.expr) {
       if (!model.parameters[each.value.parameter].structural)
@@ -229,7 +238,7 @@ void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
       continue;
     }
     const Expr& expr = *each.value.expr;
-    if (uniform.choosesVariant() || !isLive(model, *each.scope, expr)) continue;
+    if (!isLive(model, *each.scope, expr)) continue;
     Names names(model, *each.scope);
     names.indices = each.indices;
     names.live = true;

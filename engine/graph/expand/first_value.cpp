@@ -77,9 +77,8 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
   slot = {work.slot->name, ref.place, ref.pointer, Access::read, ref};
   slot.ref.kind = work.use.kind;
   Names names(model, *entity.firstScope);
-  const SlotContext inside{model,          names,          context.type,
-                           context.user,   context.pass,   context.versions,
-                           context.ranges, context.timing, context.room};
+  const SlotContext inside{
+      model, names, context.type, context.user, context.pass, context.versions, context.ranges, context.room};
   SlotWork first = resolveSlot(inside, slot, pass);
   // The copy that was mentioned does not last.
   if (!model.missing.empty() && model.missing.back().ref == &slot.ref) {

@@ -14,7 +14,6 @@
 #include "engine/graph/expand/names/versions.h"
 #include "engine/graph/expand/spec.h"
 #include "engine/graph/expand/stanza.h"
-#include "engine/graph/expand/timing.h"
 
 namespace weft::graph::expansion {
 
@@ -27,34 +26,27 @@ class PassWalk {
   PassWalk(Model& model, std::vector<DeferredUniform>& deferred)
       : model_(model), graph_(model.graph), deferred_(deferred) {}
 
-  // `timing`: of the includes around it.
-  void walk(Scope& scope, const std::string& outerWhy, std::uint32_t timing) {
+  void walk(Scope& scope, const std::string& outerWhy) {
     const std::string& why = outerWhy.empty() ? scope.disabledBy : outerWhy;
     for (const PassDesc& desc : scope.desc->passes) {
       if (tooMany_ || isOver(model_)) return;
       if (desc.include)
-        walkInclude(scope, desc, why, timing);
+        walkInclude(scope, desc, why);
       else if (scope.passes.find(desc.name)->second == &desc)
-        walkStanza(scope, desc, why, timing);
+        walkStanza(scope, desc, why);
     }
   }
 
  private:
-  void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why, std::uint32_t outer) {
+  void walkInclude(Scope& scope, const PassDesc& desc, const std::string& why) {
     const auto child = scope.includes.find(desc.include->as);
     if (child == scope.includes.end() || child->second->stanza != &desc) return;
-    checkExpr(model_, scope, desc.enabled, true);
+    checkExpr(model_, scope, desc.enabled);
     markStructural(model_, scope, desc.enabled);
-    const std::uint32_t timing = timingOf(model_, scope, desc, outer);
     Names names(model_, scope);
-    const auto enabled = holds(names, desc.enabled, {"'enabled' of include '{}'", desc.include->as});
-    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why, timing);
-  }
-
-  // One that contains age() decides in each frame, not here.
-  std::optional<bool> holds(Names& names, const Expr& enabled, const Called& what) {
-    if (isDynamic(model_, names.scope(), enabled)) return true;
-    return evaluateCondition(names, enabled, true, what);
+    const auto enabled =
+        evaluateCondition(names, desc.enabled, true, {"'enabled' of include '{}'", desc.include->as});
+    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why);
   }
 
   // Kept for each instance, so a long expression is cut.
@@ -67,7 +59,7 @@ class PassWalk {
 
   // ---- one stanza: its repeats ----
 
-  void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why, std::uint32_t outer) {
+  void walkStanza(Scope& scope, const PassDesc& desc, const std::string& why) {
     scope_ = &scope;
     desc_ = &desc;
     declared_ = scope.prefix + desc.name;
@@ -77,7 +69,6 @@ class PassWalk {
     rules_ = rules == model_.disables.end() ? nullptr : &rules->second;
     failed_ = false;
     cost_ = costOf(desc, declared_);
-    timing_ = timingOf(model_, scope, desc, outer);
     stanzaGood_ = checkStanza(model_, scope, desc, type_, declared_);
     Names names(model_, scope);
     repeat(names, 0);
@@ -148,7 +139,7 @@ class PassWalk {
 
   // Why it is disabled; empty: it is not. nullopt after a report.
   std::optional<std::string> whyDisabled(Names& names, const std::string& name, bool& byItself) {
-    const auto enabled = holds(names, desc_->enabled, {"'enabled' of pass '{}'", name});
+    const auto enabled = evaluateCondition(names, desc_->enabled, true, {"'enabled' of pass '{}'", name});
     if (!enabled) return std::nullopt;
     byItself = !*enabled;
     if (rules_)
@@ -170,7 +161,7 @@ class PassWalk {
       return;
     }
     const bool enabled = why->empty();
-    const SlotContext context{model_, names, type_, user_, name_, enabled, !byItself, timing_, &leaves_};
+    const SlotContext context{model_, names, type_, user_, name_, enabled, !byItself, &leaves_};
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
 
     std::vector<SlotWork>& slots = slots_;
@@ -330,26 +321,13 @@ class PassWalk {
       if (slot.useCount == 0 || slot.access == Access::read) continue;
       if (slot.access == Access::modify && flat.cadence == Cadence::always)
         checkAccumulation(context, slots[i], slot.firstUse);
-      if (mayMake(context, slots[i])) emitWrites(slots, slots[i], slot, pass);
+      emitWrites(slots, slots[i], slot, pass);
     }
     for (const DeferredValue& value : values_) deferred_.push_back({pass, value, scope_, names.indices});
-    if (timing_ != 0) addTiming(pass, spec);
     graph_.passes.push_back(flat);
     graph_.passNames.push_back(context.pass);
     graph_.specs.push_back(std::move(spec));
     model_.positionOf.push_back(model_.position);
-  }
-
-  void addTiming(std::uint32_t pass, PassSpec& spec) {
-    const Timing& condition = model_.timings[timing_ - 1];
-    spec.runsWhile = condition.expr->text();
-    DeferredValue value;
-    value.uniform = static_cast<std::uint32_t>(spec.uniforms.size());
-    value.expr = condition.expr;
-    deferred_.push_back({pass, value, condition.scope, {}});
-    UniformSpec& uniform = spec.uniforms.emplace_back();
-    uniform.place = condition.expr->place();
-    uniform.role = UniformSpec::Role::enabled;
   }
 
   Model& model_;
@@ -365,7 +343,6 @@ class PassWalk {
   const std::vector<DisableRule>* rules_ = nullptr;
   std::string declared_, scopeWhy_;
   StanzaCost cost_;
-  std::uint32_t timing_ = 0;
   bool failed_ = false, stanzaGood_ = true;
   // of the instance; kept from one to the next for their memory
   std::string name_, user_;  // "glow_down[3]", "pass 'glow_down[3]'"
@@ -396,7 +373,7 @@ void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
   model.graph.passNames.reserve(passes);
   model.graph.specs.reserve(std::min<std::size_t>(passes, 4096));  // there may be a million that are disabled
   deferred.reserve(values);
-  PassWalk(model, deferred).walk(model.scopes[0], {}, 0);
+  PassWalk(model, deferred).walk(model.scopes[0], {});
 }
 
 }  // namespace weft::graph::expansion

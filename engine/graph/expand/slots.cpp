@@ -8,7 +8,6 @@
 #include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/versions.h"
-#include "engine/graph/expand/timing.h"
 
 namespace weft::graph::expansion {
 
@@ -254,8 +253,7 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
 bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, const Entity& entity) {
   const auto depth = static_cast<int>(entity.depth);
   const bool import = entity.kind == ResourceDesc::Kind::import;
-  const bool before = import && context.model.graph.imports[entity.import].before;
-  if (import ? history == 1 && before : history <= depth) return true;
+  if (!import && history <= depth) return true;
   const auto own = context.names.scope().resources.find(ref.name);
   if (own != context.names.scope().resources.end() && context.model.entities[own->second].badHistory)
     return false;  // the input that asks for it was reported
@@ -263,14 +261,13 @@ bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, c
       context, Code::noHistory, ref.place,
       fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name),
       entity.name);
-  if (before) d.expected = "@-1, what was shown before";
   if (depth > 0) d.expected = fmt::format("@-1 to @-{}", depth);
   if (d.expected.empty()) d.found = import ? "an import, which has no history" : "no history is declared";
   const bool input = entity.scope != &context.names.scope() && ref.name.find('.') == std::string::npos;
   if (!import)
     d.hint = fmt::format("declare \"history\": {} on '{}'{}", history, entity.name,
                          input ? ", or on this file's input" : "");
-  else if (!before)
+  else
     d.hint = "let a pass write it into a texture or buffer with \"history\", and read that";
   return false;
 }
@@ -345,10 +342,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
       narrowed.lastMip = candidate.use.mip + candidate.use.mips - 1u;
     }
     const Entity& entity = model.entities[candidate.entity];
-    // An import that is not there has shown nothing before either: one of the other alternatives has.
-    const bool last = &leaf == &leaves.back();
     const bool earlier = leaf.history > 0;
-    if (earlier && !last && entity.kind == ResourceDesc::Kind::import && !entity.exists) continue;
     if (earlier && !checkHistory(context, ref, leaf.history, entity)) return work;
     if (!*holds) {
       candidate.state = slot.access == Access::read && !ref.optional ? State::missing : State::absent;
@@ -371,11 +365,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
       if (complete && !check.complete) wanted.push_back({candidate.entity, e, check.missing, candidate.use});
       complete = complete && check.complete;
     }
-    if (complete && real) {
-      if (entity.timing == 0 || entity.timing == context.timing) return candidate;
-      reportMadeAtTimes(context, slot, candidate);
-      return work;
-    }
+    if (complete && real) return candidate;
     onlyImports = onlyImports && entity.kind == ResourceDesc::Kind::import;
     if (complete && !zero) zero = candidate;
     if (work.entity == kNone) work = std::move(candidate);

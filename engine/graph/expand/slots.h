@@ -62,13 +62,12 @@ inline bool needs(const SlotWork& slot, const SlotWork& written) {
 
 struct SlotContext {
   Model& model;
-  Names& names;              // of the pass instance
-  const PassType* type;      // null: present, outputs, resets
-  const std::string& user;   // "pass 'glow_down[3]'"
-  const std::string& pass;   // "glow_down[3]"
-  bool versions = true;      // false: a disabled pass; the first candidate is validated
-  bool ranges = true;        // false: sub-resource ranges are not held against sizes
-  std::uint32_t timing = 0;  // of a timed pass, as Entity::timing
+  Names& names;             // of the pass instance
+  const PassType* type;     // null: present, outputs, resets
+  const std::string& user;  // "pass 'glow_down[3]'"
+  const std::string& pass;  // "glow_down[3]"
+  bool versions = true;     // false: a disabled pass; the first candidate is validated
+  bool ranges = true;       // false: sub-resource ranges are not held against sizes
   std::vector<Leaf>* room =
       nullptr;  // for candidates, so that not every slot takes memory of its own for them
 };

@@ -17,8 +17,6 @@ namespace weft::graph::expansion {
 
 namespace {
 
-constexpr int kMaxConditions = 4;  // 16 variants
-
 std::string upper(std::string_view name) {
   std::string out;
   for (const char c : name)
@@ -44,11 +42,11 @@ class SpecFiller {
     spec_.uniforms.reserve(desc_.parameters.size());
     spec_.defines.reserve(desc_.defines.size());
     fillState(context_, desc_, slots_, spec_.state);
-    for (const NamedExpr& define : desc_.defines) addDefine(define, deferred);
+    for (const NamedExpr& define : desc_.defines) addDefine(define);
     for (const PassParameterDesc& parameter : desc_.parameters) addParameter(parameter, deferred);
     checkDefineNames();
     if (context_.type->shader == ShaderShape::compute) addThreads();
-    if (context_.type->shader == ShaderShape::draw) addGeometry();
+    if (context_.type->shader == ShaderShape::draw) addGeometry(deferred);
     if (desc_.view || context_.type->shader != ShaderShape::none) resolveView(context_, desc_, spec_);
     return model_.diagnostics.errorCount() == before;
   }
@@ -100,24 +98,9 @@ class SpecFiller {
     d.hint = hintForWord(names_, value);
   }
 
-  void addDefine(const NamedExpr& define, std::vector<DeferredValue>& deferred) {
+  void addDefine(const NamedExpr& define) {
     const std::string& name = define.name;
     const Expr& expr = define.expr;
-    if (isDynamic(model_, names_.scope(), expr)) {
-      const auto conditions = std::ranges::count_if(spec_.uniforms, &UniformSpec::choosesVariant);
-      if (conditions == kMaxConditions) {
-        error(Code::badTime, define.place, fmt::format("has more than {} defines with age()", kMaxConditions))
-            .hint = "each doubles the number of its shader variants";
-        return;
-      }
-      deferred.push_back({static_cast<std::uint32_t>(spec_.uniforms.size()), &expr});
-      UniformSpec condition;
-      condition.name = name;
-      condition.place = expr.place();
-      condition.role = UniformSpec::Role::define;
-      spec_.uniforms.push_back(std::move(condition));
-      return;
-    }
     const std::size_t before = model_.diagnostics.errorCount();
     const Value value = expr.evaluate(names_, model_.diagnostics);
     if (model_.diagnostics.errorCount() > before) return;
@@ -180,8 +163,6 @@ class SpecFiller {
   void checkDefineNames() {
     std::vector<std::string_view> all;
     for (const DefineSpec& define : spec_.defines) all.push_back(define.name);
-    for (const UniformSpec& uniform : spec_.uniforms)
-      if (uniform.role == UniformSpec::Role::define) all.push_back(uniform.name);
     std::sort(all.begin(), all.end());
     if (const auto twice = std::adjacent_find(all.begin(), all.end()); twice != all.end())
       error(Code::nameUsedTwice, desc_.namePlace, fmt::format("defines '{}' twice", *twice)).hint =
@@ -240,11 +221,13 @@ class SpecFiller {
     d.expected = "\"threads\": a number or a list, since no texture is written whose size could be meant";
   }
 
-  void addGeometry() {
+  void addGeometry(std::vector<DeferredValue>& deferred) {
     spec_.list = desc_.list;
     spec_.geometry = desc_.geometry;
-    if (const auto instances =
-            evaluateWhole(names_, desc_.instances, 1, 0, 2147483647, "the number of instances", true))
+    if (isDynamic(model_, names_.scope(), desc_.instances))
+      deferred.push_back({kNone, &desc_.instances});
+    else if (const auto instances =
+                 evaluateWhole(names_, desc_.instances, 1, 0, 2147483647, "the number of instances", true))
       spec_.instances = static_cast<std::uint32_t>(*instances);
     const auto& types = model_.registry.geometries;
     const auto type = std::ranges::find(types, desc_.geometry, &GeometryType::name);

@@ -241,18 +241,20 @@ void checkExpressions(const Stanza& stanza) {
     stanza.check(expr);
     markStructural(model, scope, expr);
   };
-  stanza.check(desc.enabled, true);
+  stanza.check(desc.enabled);
   markStructural(model, scope, desc.enabled);
   for (const RangeDesc& range : desc.repeat)
     for (const Expr* expr : {&range.first, &range.last, &range.step}) structural(*expr);
   for (const SlotDesc& slot : desc.slots) checkReference(stanza, slot.ref);
   if (desc.view) checkReference(stanza, *desc.view);
   for (const NamedExpr& define : desc.defines) {
-    stanza.check(define.expr, true);
+    stanza.check(define.expr);
     markStructural(model, scope, define.expr);
   }
   for (const NamedExpr& state : desc.state) structural(state.expr);
-  for (const Expr* expr : {&desc.slices, &desc.threads, &desc.instances}) structural(*expr);
+  for (const Expr* expr : {&desc.slices, &desc.threads}) structural(*expr);
+  stanza.check(desc.instances, true);
+  markStructural(model, scope, desc.instances);
   for (const Expr& argument : desc.geometryArguments) structural(argument);
   for (const PassParameterDesc& parameter : desc.parameters) {
     if (!parameter.declared) stanza.check(parameter.value, true);
@@ -277,14 +279,12 @@ void checkCadence(const Stanza& stanza) {
       d.found = parameter.value.text();
       d.hint = "age() belongs into passes that are \"update\": \"always\"";
     }
-  for (const NamedExpr& define : desc.defines)
-    if (isDynamic(stanza.model, stanza.scope, define.expr)) {
-      auto& d =
-          stanza.error(Code::badTime, define.expr.place(),
-                       fmt::format("sees time in define '{}', but does not run in every frame", define.name));
-      d.found = define.expr.text();
-      d.hint = "age() belongs into passes that are \"update\": \"always\"";
-    }
+  if (isDynamic(stanza.model, stanza.scope, desc.instances)) {
+    auto& d = stanza.error(Code::badTime, desc.instances.place(),
+                           "sees time in \"instances\", but does not run in every frame");
+    d.found = desc.instances.text();
+    d.hint = "age() belongs into passes that are \"update\": \"always\"";
+  }
 }
 
 std::string hintForType(const std::string& type, const std::vector<std::string>& known) {

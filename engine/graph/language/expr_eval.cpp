@@ -149,8 +149,8 @@ class Evaluator {
       if (base::Diagnostic* d = error(Code::operandsDoNotFit, node,
                                       fmt::format("age({}) is not known before the frame runs", node.name)))
         d->hint =
-            "age() may stand in parameters of passes and in \"let\" used by them, not in sizes, conditions, "
-            "repeats or defines";
+            "age() may stand in parameters and \"instances\" of passes and in \"let\" used by them, not in "
+            "sizes, conditions, repeats or defines";
       return {};
     }
     return unknown(node, fmt::format("{}() of unknown resource '{}'", nameOf(node.fact), node.name),

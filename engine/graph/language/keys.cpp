@@ -93,7 +93,7 @@ constexpr KeySpec kPass[] = {
      "a pass above in this file whose keys this one takes over, with its own laid over them"},
     {"shader", R"({"anyOf":[{"type":"string"},{"$ref":"#/$defs/shaders"}]})",
      "path from shaders/; for draw passes a folder and stem, or two paths; two paths for fullscreen, too"},
-    {"enabled", "@value", "false removes the pass; true when absent; with age() it decides in every frame"},
+    {"enabled", "@value", "false removes the pass; true when absent"},
     {"repeat",
      R"({"anyOf":[{"$ref":"#/$defs/ranges"},{"type":"array","items":{"$ref":"#/$defs/ranges"},"minItems":1}]})",
      "one instance per index: {\"i\": [first, last, step]}"},
@@ -110,7 +110,8 @@ constexpr KeySpec kPass[] = {
     {"group", R"({"type":"string"})", "passes of one group publish together"},
     {"slices", "@value", "frames that one run takes (time-sliced); 0 rides with its predecessor"},
     {"threads", "@value", "compute invocations, rounded up to the local size"},
-    {"instances", "@value", "instances of a draw without a list"},
+    {"instances", "@value",
+     "instances of a draw without a list; with age() as many as it says in each frame"},
     {"list", R"({"type":"string"})", "draw list"},
     {"geometry", R"({"type":"string"})", "quad, octagon, mesh, triangle, icosphere(n)"},
     {"view", "@reference", "camera, light or cube face; @camera when absent"},
@@ -123,8 +124,7 @@ constexpr KeySpec kInclude[] = {
     {"as", "@name", "prefix of its names; the file's name when absent"},
     {"bind", "@slots", "its inputs; those absent take the resource of the same name"},
     {"group", R"({"type":"string"})", "group of its passes that are not always and name none"},
-    {"enabled", "@value",
-     "false removes all its passes; true when absent; with age() it decides in every frame"},
+    {"enabled", "@value", "false removes all its passes; true when absent"},
 };
 
 constexpr KeySpec kShader[] = {

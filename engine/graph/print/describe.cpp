@@ -153,7 +153,6 @@ class Describer {
     line(1, explainer_.whyPass(pass));
     if (const std::string here = explainer_.whyHere(pass); !here.empty()) line(1, here);
     if (flat.cadence != Cadence::always) line(1, fmt::format("update {}", nameOf(flat.cadence)));
-    if (!spec.runsWhile.empty()) line(1, fmt::format("runs while {}", spec.runsWhile));
     if (flat.slices != 1) line(1, fmt::format("slices {}", flat.slices));
     if (!spec.vertexShader.empty()) line(1, "vertex shader " + spec.vertexShader);
     if (!spec.shader.empty()) line(1, "shader " + spec.shader);
@@ -165,11 +164,9 @@ class Describer {
   }
 
   void addUniform(const UniformSpec& uniform) {
-    if (uniform.role == UniformSpec::Role::enabled) return;
-    const char* const what = uniform.role == UniformSpec::Role::define ? "define" : "parameter";
     const std::string from = uniform.path.empty() ? "" : fmt::format(" ({})", uniform.path);
     const bool timed = uniform.dynamic.present() && uniform.dynamic.dynamic();
-    line(1, fmt::format("{} {} = {}{}{}", what, uniform.name, toText(uniform.value), from,
+    line(1, fmt::format("parameter {} = {}{}{}", uniform.name, toText(uniform.value), from,
                         timed ? ", changes with time" : ""));
   }
 

@@ -37,8 +37,6 @@ std::string passLine(const Plan& plan, std::uint32_t p) {
     label = std::to_string(plan.stepOf[p]) + " " + label;
     if (graph.passes[p].cadence != Cadence::always)
       label += std::string("\\n") + nameOf(graph.passes[p].cadence);
-    if (p < graph.specs.size() && !graph.specs[p].runsWhile.empty())
-      label += "\\nwhile " + escaped(graph.specs[p].runsWhile);
     if (const int mask = step.barriers | step.barriersAfterClears; mask != 0)
       label += "\\nbarrier: " + barrierText(static_cast<std::uint16_t>(mask));
     style = graph.passes[p].sideEffect ? ", style=\"filled,bold\", fillcolor=\"moccasin\""

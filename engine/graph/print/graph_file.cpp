@@ -252,10 +252,7 @@ class FileWriter {
     for (const UniformSpec& uniform : spec.uniforms) {
       const bool timed = uniform.dynamic.present() && uniform.dynamic.dynamic();
       Json value = timed ? Json(expressionText(uniform.dynamic)) : jsonOf(uniform.value);
-      if (uniform.role == UniformSpec::Role::enabled)
-        json["enabled"] = std::move(value);
-      else
-        (uniform.role == UniformSpec::Role::define ? defines : parameters)[uniform.name] = std::move(value);
+      parameters[uniform.name] = std::move(value);
     }
     if (!parameters.is_null()) json["parameters"] = std::move(parameters);
     if (!defines.is_null()) json["defines"] = std::move(defines);
@@ -290,7 +287,9 @@ class FileWriter {
       for (const double argument : spec.geometryArguments)
         arguments += fmt::format("{}{}", arguments.empty() ? "" : ", ", argument);
       json["geometry"] = arguments.empty() ? spec.geometry : fmt::format("{}({})", spec.geometry, arguments);
-      if (spec.list.empty()) json["instances"] = spec.instances;
+      if (spec.list.empty())
+        json["instances"] =
+            spec.timedInstances.present() ? Json(expressionText(spec.timedInstances)) : Json(spec.instances);
     }
     if (spec.view == kNone) return;
     std::string view = importName(spec.view);

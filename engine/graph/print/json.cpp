@@ -73,8 +73,6 @@ std::string dumpJson(const Plan& plan, bool explain) {
     if (pass.group != kNone && pass.group < graph.groupNames.size())
       s["group"] = graph.groupNames[pass.group];
     if (pass.slices != 1) s["slices"] = pass.slices;
-    if (step.pass < graph.specs.size() && !graph.specs[step.pass].runsWhile.empty())
-      s["while"] = graph.specs[step.pass].runsWhile;
     s["barriers"] = bitsJson(step.barriers);
     s["clears"] = ordered_json::array();
     for (std::uint32_t c = step.firstClear; c < step.firstClear + step.clearCount; ++c)

@@ -61,8 +61,6 @@ class Writer {
     if (pass.group != kNone && pass.group < graph_.groupNames.size())
       head += " group " + graph_.groupNames[pass.group];
     if (pass.slices != 1) head += " slices " + std::to_string(pass.slices);
-    if (step.pass < graph_.specs.size() && !graph_.specs[step.pass].runsWhile.empty())
-      head += " while " + graph_.specs[step.pass].runsWhile;
     if (pass.sideEffect) head += " side_effect";
     line(1, head);
     if (explainer_) {

@@ -17,8 +17,8 @@ using base::Code;
 
 // Codes by which a read says that what it needs was switched off, with its name and the ways out.
 bool namesDisabled(const base::Diagnostic& d) {
-  return d.code == Code::disabledWriter || d.code == Code::madeAtTimes ||
-         d.code == Code::conditionLeavesSlotEmpty || d.code == Code::nothingPresented;
+  return d.code == Code::disabledWriter || d.code == Code::conditionLeavesSlotEmpty ||
+         d.code == Code::nothingPresented;
 }
 
 class Trial {

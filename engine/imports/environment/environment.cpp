@@ -5,12 +5,8 @@ namespace weft::imports {
 graph::ImportType Environment::reflect() const {
   return {.name = "environment",
           .kind = graph::ImportKind::texture,
-          .doc =
-              "The loaded environment, equirectangular RGBA16F with a full mip chain, row 0 at +Y. `@-1`: "
-              "the one "
-              "shown before.",
-          .arguments = {},
-          .before = true};
+          .doc = "The loaded environment, equirectangular RGBA16F with a full mip chain, row 0 at +Y.",
+          .arguments = {}};
 }
 
 graph::ImportFacts Environment::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
@@ -41,10 +37,6 @@ gl::TextureRef EnvironmentProvider::shown(const Frame& frame, base::Diagnostics&
   return frame.world.environment() ? textures_.shown() : texture(frame, diagnostics);
 }
 
-gl::TextureRef EnvironmentProvider::before(const Frame& frame, base::Diagnostics& diagnostics) {
-  return frame.world.environment() ? textures_.before() : texture(frame, diagnostics);
-}
-
 void EnvironmentProvider::publish(const Frame& frame) {
   if (frame.world.environment()) textures_.publish();
 }
@@ -57,12 +49,8 @@ std::uint64_t EnvironmentProvider::publications(const Frame& frame) const {
   return frame.world.environment() ? textures_.publications() : 0;
 }
 
-void EnvironmentProvider::releaseBefore(const Frame& frame) {
-  if (frame.world.environment()) textures_.releaseBefore();
-}
-
-void EnvironmentProvider::adopt(gl::Texture shown, gl::Texture before) {
-  textures_.adopt(std::move(shown), std::move(before));
+void EnvironmentProvider::adopt(gl::Texture shown) {
+  textures_.adopt(std::move(shown));
 }
 
 std::uint64_t EnvironmentProvider::generation(const Frame& frame) {

@@ -23,12 +23,10 @@ class EnvironmentProvider : public Provider {
   std::uint64_t generation(const Frame& frame) override;
   bool isStill(const World&) const override { return true; }
   gl::TextureRef shown(const Frame& frame, base::Diagnostics& diagnostics) override;
-  gl::TextureRef before(const Frame& frame, base::Diagnostics& diagnostics) override;
   void publish(const Frame& frame) override;
   bool isPublished(const Frame& frame) const override;
   std::uint64_t publications(const Frame& frame) const override;
-  void releaseBefore(const Frame& frame) override;
-  void adopt(gl::Texture shown, gl::Texture before) override;
+  void adopt(gl::Texture shown) override;
   bool isPending(const World& world) const override { return world.environmentPending(); }
   bool needsStandIn(const World& world) const override;
   void setStandIn(gl::TextureRef texture) override { standIn_ = texture; }

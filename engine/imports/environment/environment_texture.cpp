@@ -90,10 +90,4 @@ bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
   return true;
 }
 
-void EnvironmentTextures::publish() {
-  before_ = std::move(shown_);
-  shown_ = current_;
-  ++publications_;
-}
-
 }  // namespace weft::imports

@@ -1,5 +1,5 @@
 // The environment on the GPU: the newest, which lighting is made of; the one shown, which is the newest of
-// the last publish(); the one shown before, while somebody fades from it; and one being sent beside them. A
+// the last publish(); and one being sent beside them. A
 // new one is sent in portions, one per frame, and taken into use whole: with all its levels, and when the GPU
 // has them. Does not: decode files (assets::Loader does), or decide when to switch or to publish.
 #pragma once
@@ -41,19 +41,17 @@ class EnvironmentTextures {
   bool use(const Map& map, base::Diagnostics& diagnostics);
   gl::TextureRef current() const { return current_ ? current_->ref() : gl::TextureRef{}; }
 
-  // The newest is shown from now on, and what was shown is before(); they may be the same.
-  void publish();
-  // Until publish(), something else is shown(), and before(): black when empty.
-  void adopt(gl::Texture shown, gl::Texture before) {
-    shown_ = std::make_shared<const gl::Texture>(std::move(shown));
-    before_ = before ? std::make_shared<const gl::Texture>(std::move(before)) : nullptr;
+  // The newest is shown from now on.
+  void publish() {
+    shown_ = current_;
+    ++publications_;
   }
+  // Until publish(), something else is shown().
+  void adopt(gl::Texture shown) { shown_ = std::make_shared<const gl::Texture>(std::move(shown)); }
   bool isPublished() const { return current_ == shown_; }
   std::uint64_t publications() const { return publications_; }
   // Black, one texel, when there is none.
   gl::TextureRef shown() const { return shown_ ? shown_->ref() : black(); }
-  gl::TextureRef before() const { return before_ ? before_->ref() : black(); }
-  void releaseBefore() { before_ = nullptr; }
 
  private:
   struct Incoming {
@@ -67,7 +65,7 @@ class EnvironmentTextures {
   gl::TextureRef black() const { return black_ ? black_.ref() : gl::TextureRef{}; }
 
   std::uint64_t currentId_ = 0;
-  std::shared_ptr<const gl::Texture> current_, shown_, before_;
+  std::shared_ptr<const gl::Texture> current_, shown_;
   gl::Texture black_;
   std::uint64_t publications_ = 0;
 };

@@ -40,7 +40,6 @@ FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
   slices_.resize(steps);
   run_.assign(steps, 0);
   wants_.assign(steps, 0);
-  held_.assign(steps, 0);
   written_.assign(resources, 0);
   blocked_.assign(resources, 0);
   alwaysWritten_.assign(resources, 0);
@@ -53,10 +52,6 @@ FrameCadence::FrameCadence(const graph::Plan& plan) : plan_(plan) {
     if (groupOf_[s] != kNone) groups_[groupOf_[s]].steps.push_back(s);
   }
   for (std::size_t j = 0; j < groups_.size(); ++j) groups_[j].sliced = plan.groups.sliced[j] != 0;
-}
-
-bool FrameCadence::isHeld(std::uint32_t group) const {
-  return std::ranges::any_of(groups_[group].steps, [this](std::uint32_t step) { return held_[step] != 0; });
 }
 
 // A use of what the step's own time-sliced group writes.
@@ -107,7 +102,7 @@ bool FrameCadence::sweep(bool ahead) {
       continue;
     }
     Group* group = groupOf_[s] == kNone ? nullptr : &groups_[groupOf_[s]];
-    bool woken = false, blocked = held_[s] != 0 && !(group && group->sliced);
+    bool woken = false, blocked = false;
     forEachUse(plan_, s, [&](const FlatUse& use, std::size_t) {
       if (use.access != Access::read || use.history > 0 || isInside(s, use.resource)) return;
       woken |= written_[use.resource] != 0;
@@ -182,7 +177,7 @@ bool FrameCadence::decideAhead(const std::vector<std::uint64_t>& own,
   if (plan_.groups.ofResource.empty()) return false;
   settle(own, generations, true);
   for (std::uint32_t group = 0; group < groups_.size(); ++group)
-    if (groups_[group].sliced && groups_[group].finished && !isHeld(group)) return true;
+    if (groups_[group].sliced && groups_[group].finished) return true;
   std::fill(run_.begin(), run_.end(), std::uint8_t{0});
   return false;
 }

@@ -3,7 +3,7 @@
 // program or storage have changed since they last ran. Of the passes of one group (plan.h) all run or none. A time-sliced
 // group runs one slice of one pass per frame and starts again when something it has read changes; its owner publishes it
 // at the start of the frame after its last slice. A pass that is not `always` waits while something it reads was never
-// published, and while the owner holds it. Works on hashes and generations only. Does not: know GL, or keep anything
+// published. Works on hashes and generations only. Does not: know GL, or keep anything
 // across plans; the owner carries PassMemory over by pass name. decide() allocates nothing.
 #pragma once
 
@@ -56,11 +56,6 @@ class FrameCadence {
   void restorePublished(std::uint32_t group) { groups_[group].published = true; }
   bool isPublished(std::uint32_t group) const { return groups_[group].published; }
 
-  // Per step; the owner sets it. A held step that is not `always` does not run, nor does its group. A time-sliced group
-  // runs all the same, but the owner must not publish it.
-  std::vector<std::uint8_t>& held() { return held_; }
-  bool isHeld(std::uint32_t group) const;
-
   std::vector<PassMemory>& memories() { return memories_; }
   const std::vector<PassMemory>& memories() const { return memories_; }
 
@@ -90,7 +85,7 @@ class FrameCadence {
   std::vector<std::uint32_t> groupOf_;  // per step, kNone
   std::vector<Group> groups_;
   std::vector<SliceRange> slices_;
-  std::vector<std::uint8_t> run_, wants_, held_;  // per step
+  std::vector<std::uint8_t> run_, wants_;  // per step
   std::vector<std::uint8_t> written_,
       blocked_;  // per resource, within decide(): a running step writes it; it is not there
   std::vector<std::uint8_t> alwaysWritten_;  // per resource

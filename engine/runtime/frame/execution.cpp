@@ -31,7 +31,6 @@ Execution::Execution(Device& device, PreparedPlan prepared)
           static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment))),
       steps_(plan(), *prepared_.pool, device.imports, prepared_.passes),
       publications_(plan(), *prepared_.pool, device.imports, steps_.cadence(), prepared_.passes),
-      variants_(plan(), device, *prepared_.pool, prepared_.passes),
       runner_(plan(), device, *prepared_.pool, uniforms_.arena()),
       followsPointer_(readsPointer(plan(), device.imports)) {}
 
@@ -43,7 +42,9 @@ bool Execution::start(Execution* before, base::Diagnostics& diagnostics) {
       !readBack_.prepare(plan(), prepared_.passes, before ? &before->readBack_ : nullptr, diagnostics))
     return false;
   if (before) uniforms_.takeOver(before->uniforms_);
-  if (!uniforms_.layOut(variants_.all(), diagnostics)) {
+  std::vector<PreparedPass*> passes;
+  for (PreparedPass& pass : prepared_.passes) passes.push_back(&pass);
+  if (!uniforms_.layOut(passes, diagnostics)) {
     if (before) uniforms_.giveBack(before->uniforms_);
     return false;
   }
@@ -81,12 +82,9 @@ void Execution::beginFrame(const World& world, const FrameInput& input) {
 
 // What the frame before finished, and what the world changed, becomes what this frame sees.
 void Execution::publishFinished(base::Diagnostics& diagnostics) {
-  chooseVariants(false, diagnostics);
-  publications_.holdFading();
-  bool aged = publications_.publishFinished();
+  publications_.publishFinished();
   publications_.refreshImports(diagnostics);
-  aged |= publications_.resetHistories(diagnostics);
-  if (aged) chooseVariants(false, diagnostics);
+  publications_.resetHistories(diagnostics);
 }
 
 // Before a headless frame, every time-sliced group that has work does all of it. A group may wait for what another
@@ -102,8 +100,7 @@ void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
     any = true;
   }
   if (!any) return;
-  chooseVariants(false, diagnostics);  // ages
-  refreshUniforms(false);
+  refreshUniforms(false);  // ages
 }
 
 // All steps of the frame see what its steps will publish as new, of age 0.
@@ -111,7 +108,6 @@ void Execution::chooseSteps(base::Diagnostics& diagnostics) {
   steps_.choose(publications_.generations());
   if (!publications_.announce()) return;
   publications_.viewImports(diagnostics);
-  chooseVariants(true, diagnostics);
   refreshUniforms(true);
 }
 
@@ -146,7 +142,6 @@ void Execution::runSteps(const StepWatch& watch, FrameReport& report, base::Diag
 }
 
 void Execution::endFrame(FrameReport& report, base::Diagnostics& diagnostics) {
-  publications_.releaseImports();
   device_.timers.endFrame();
   if (plan().finalBarriers) {
     glMemoryBarrier(glBarriersOf(plan().finalBarriers));
@@ -160,13 +155,8 @@ void Execution::endFrame(FrameReport& report, base::Diagnostics& diagnostics) {
     report.slowRun += steps_.ran(step) && !steps_.isAlways(step);
   }
   report.passesSkipped = static_cast<std::uint32_t>(steps) - report.passesRun;
+  if (!report.whole) publications_.dropFrame();
   publications_.endFrame();
-}
-
-void Execution::chooseVariants(bool alwaysOnly, base::Diagnostics& diagnostics) {
-  if (!variants_.choose(publications_.ages(), alwaysOnly, diagnostics)) return;
-  uniforms_.layOut(variants_.all(), diagnostics);
-  refreshUniforms(false);
 }
 
 void Execution::refreshUniforms(bool alwaysOnly) {
@@ -193,7 +183,7 @@ void Execution::lookAtMeshes() {
 
 bool Execution::drawsMotion() const {
   return std::ranges::any_of(prepared_.passes, [&](const PreparedPass& pass) {
-    return pass.usable && !pass.idle && pass.list >= 0 &&
+    return pass.usable && pass.list >= 0 &&
            device_.imports.isMoving(static_cast<scene::DrawList>(pass.list), pass.meshes != nullptr);
   });
 }

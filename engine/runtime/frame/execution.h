@@ -19,7 +19,6 @@
 #include "engine/runtime/frame/step_choice.h"
 #include "engine/runtime/frame/step_runner.h"
 #include "engine/runtime/frame/step_watch.h"
-#include "engine/runtime/frame/variant_choice.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
 namespace weft::runtime {
@@ -92,7 +91,6 @@ class Execution {
   void runSteps(const StepWatch& watch, FrameReport& report, base::Diagnostics& diagnostics);
   void endFrame(FrameReport& report, base::Diagnostics& diagnostics);
 
-  void chooseVariants(bool alwaysOnly, base::Diagnostics& diagnostics);
   void refreshUniforms(bool alwaysOnly);
   void lookAtMeshes();
 
@@ -101,7 +99,6 @@ class Execution {
   FrameUniforms uniforms_;
   StepChoice steps_;
   Publications publications_;
-  VariantChoice variants_;
   StepRunner runner_;
   ReadBack readBack_;
   FrameInput input_;

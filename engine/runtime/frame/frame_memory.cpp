@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <span>
 
 #include "engine/graph/language/expr_node.h"
+#include "engine/runtime/prepare/prepare.h"
 
 namespace weft::runtime {
 
@@ -14,6 +16,15 @@ namespace {
 void forEachAge(const graph::ExprNode& node, const std::function<void(std::uint32_t)>& visit) {
   if (node.op == graph::ExprOp::age_key) visit(node.key);
   for (const auto& child : node.children) forEachAge(*child, visit);
+}
+
+// Whether a draw with these instances draws none in any frame, because what they depend on was published before the first.
+bool drawsNothing(const graph::Expr& instances, std::span<const std::uint8_t> still) {
+  if (!instances.present()) return false;
+  bool steady = true;
+  forEachAge(*instances.root(), [&](std::uint32_t resource) { steady &= still[resource] != 0; });
+  return steady &&
+         instancesAt(instances, [](std::uint32_t) { return std::numeric_limits<double>::infinity(); }) == 0;
 }
 
 }  // namespace
@@ -36,10 +47,13 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
     for (const graph::FlatUse& use : usesOf(step))
       if (use.access != graph::Access::read && passOf(step).cadence == graph::Cadence::always)
         still[use.resource] = 0;
-  // What is still was published before the first frame and never again, so its history is the same in every frame.
-  for (std::size_t step = 0; step < passes.size(); ++step)
+  // What is still was published before the first frame and never again, so its history is the same in every frame, and a
+  // draw that counts its instances by the age of such things draws the same number in every frame.
+  for (std::size_t step = 0; step < passes.size(); ++step) {
+    if (drawsNothing(passes[step].context.spec->timedInstances, still)) continue;
     for (const graph::FlatUse& use : usesOf(step))
       if (use.history > 0 && !still[use.resource]) return true;
+  }
   for (const graph::HistorySpec& history : graph.histories) {
     const auto moves = [&](std::uint32_t import) { return !imports.isStill(graph.imports[import], world); };
     const auto changes = [&](std::uint32_t resource) { return !still[resource]; };
@@ -63,6 +77,7 @@ bool remembersFrames(const graph::Plan& plan, std::span<const PreparedPass> pass
         forEachAge(*expr.root(), [&](std::uint32_t resource) { unsteady |= !still[resource]; });
     };
     for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) look(uniform.dynamic);
+    look(pass.context.spec->timedInstances);
     if (unsteady) return true;
     if (passOf(step).cadence == graph::Cadence::always) continue;
     // A result that is kept must be made of what is still; otherwise it matters in which frame it was made.

@@ -62,22 +62,15 @@ class Preparation {
   const ShaderFiles files_;
   base::Diagnostics& diagnostics_;
   std::optional<PassKeeper> keeper_;
-  std::vector<std::uint32_t>
-      same_;  // per step: the step of the running plan that is the same and has settled, or kNone
+  std::vector<std::uint32_t> same_;  // per step: the step of the running plan that is the same, or kNone
   std::vector<std::shared_ptr<const gl::Variant>> variants_;  // per step
 };
-
-// Whether a pass is prepared for the variant that time settles on.
-bool isSettled(const PreparedPass& pass) {
-  return !pass.conditional || pass.conditions == settledConditionsOf(*pass.context.spec);
-}
 
 void Preparation::findSame() {
   keeper_.emplace(*made_.plan, *before_->plan);
   for (std::size_t step = 0; step < made_.plan->steps.size(); ++step) {
     const std::uint32_t old = keeper_->stepBefore(step);
-    const bool same = old != graph::kNone && before_->passes[old].usable && isSettled(before_->passes[old]) &&
-                      keeper_->isSame(step, old);
+    const bool same = old != graph::kNone && before_->passes[old].usable && keeper_->isSame(step, old);
     same_.push_back(same ? old : graph::kNone);
   }
 }
@@ -104,8 +97,7 @@ std::shared_ptr<const gl::Variant> Preparation::findVariant(std::size_t step, ba
   assert(type && "expansion accepts registered pass types only");
   const graph::PassType reflected = type->reflect();
   if (reflected.shader == graph::ShaderShape::none) return nullptr;
-  auto variant = device_.programs.get(
-      programRequestOf(*plan.graph, plan, pass, reflected, settledConditionsOf(spec)), problems);
+  auto variant = device_.programs.get(programRequestOf(*plan.graph, plan, pass, reflected), problems);
   if (variant) checkProgram(plan, pass, *variant, device_.context.device().limits, device_.roles, problems);
   return variant;
 }
@@ -122,8 +114,8 @@ bool Preparation::createPool() {
 
 bool Preparation::preparePasses() {
   base::Diagnostics refused;
-  PrepareContext context{*made_.plan, device_.passTypes,  nullptr,          0,
-                         *made_.pool, device_.geometries, device_.samplers, refused};
+  PrepareContext context{*made_.plan,        device_.passTypes, nullptr, *made_.pool,
+                         device_.geometries, device_.samplers,  refused};
   const std::size_t steps = made_.plan->steps.size();
   made_.passes.resize(steps);
   for (std::size_t step = 0; step < steps; ++step) {
@@ -143,7 +135,6 @@ bool Preparation::preparePassOf(std::size_t step, PrepareContext& context) {
   const graph::PassSpec& spec = made_.plan->graph->specs[made_.plan->steps[step].pass];
   ++made_.passesPrepared;
   context.variant = variants_[step];
-  context.conditions = settledConditionsOf(spec);
   context.diagnostics.clear();
   made_.passes[step] = preparePass(context, step);
   const auto placePass = [&](base::Diagnostic& d) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/hash.h"
+#include "engine/runtime/cadence/lasting.h"
 
 namespace weft::runtime {
 
@@ -40,7 +41,8 @@ Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports&
       imports_(imports),
       cadence_(cadence),
       passes_(passes),
-      ages_([this](std::uint32_t resource) { return ageOf(resource); }) {
+      ages_([this](std::uint32_t resource) { return ageOf(resource); }),
+      ofOneFrame_(findFrameHistories(plan)) {
   const std::size_t resources = plan.graph->resources.size();
   generations_.resize(resources);
   generationsBefore_.resize(resources);
@@ -83,46 +85,23 @@ void Publications::beginFrame(const FrameInput& input) {
   std::fill(publishing_.begin(), publishing_.end(), std::uint8_t{0});
 }
 
-void Publications::holdFading() {
-  std::fill(cadence_.held().begin(), cadence_.held().end(), std::uint8_t{0});
-  const auto holdBefore = [&](const auto& bindings) {
-    for (const auto& binding : bindings)
-      if (binding.history > 0) hold(binding.resource);
-  };
-  for (const PreparedPass& pass : passes_) {
-    if (!pass.passing) continue;
-    holdBefore(pass.textures);
-    holdBefore(pass.images);
-    holdBefore(pass.buffers);
-    holdBefore(pass.fixed);
+void Publications::dropFrame() {
+  for (std::size_t r = 0; r < turned_.size(); ++r) {
+    if (!turned_[r] || !ofOneFrame_[r]) continue;
+    GpuResource& resource = pool_[r];
+    resource.current = (resource.current + resource.copies - 1) % resource.copies;
+    --resource.publications;
   }
 }
 
-// Holds the passes that publish a resource. If they published it again while a pass fades from its contents before, the
-// picture would jump.
-void Publications::hold(std::uint32_t r) {
-  const bool import = plan_.graph->resources[r].import != kNone;
-  const bool shown = import ? imports_.publications(importOf(r)) > 0 : pool_[r].publications > 0;
-  if (!shown) return;
-  for (std::size_t step = 0; step < passes_.size(); ++step) {
-    if (cadenceOf(step) == Cadence::always) continue;
-    const PreparedPass& pass = passes_[step];
-    cadence_.held()[step] |= import ? pass.group != kNone && pass.group == pool_[r].publisher
-                                    : std::ranges::find(pass.written, r) != pass.written.end();
-  }
-}
-
-bool Publications::publishFinished() {
-  bool any = false;
+void Publications::publishFinished() {
   for (std::uint32_t group = 0; group < plan_.groups.sliced.size(); ++group) {
-    if (!cadence_.isFinished(group) || cadence_.isHeld(group)) continue;
+    if (!cadence_.isFinished(group)) continue;
     for (std::uint32_t r = 0; r < generations_.size(); ++r)
       if (pool_[r].group == group) publish(r);
     publishImports(group);
     cadence_.markPublished(group);
-    any = true;
   }
-  return any;
 }
 
 void Publications::publish(std::uint32_t r) {
@@ -166,12 +145,10 @@ void Publications::viewImports(base::Diagnostics& diagnostics) {
   for (std::size_t r = 0; r < generations_.size(); ++r) {
     if (plan_.graph->resources[r].kind != ResourceKind::imported_texture) continue;
     pool_[r].shown = imports_.shown(importOf(r), diagnostics);
-    pool_[r].before = imports_.before(importOf(r), diagnostics);
   }
 }
 
-bool Publications::resetHistories(base::Diagnostics& diagnostics) {
-  bool any = false;
+void Publications::resetHistories(base::Diagnostics& diagnostics) {
   const graph::FlatGraph& graph = *plan_.graph;
   for (std::size_t h = 0; h < graph.histories.size(); ++h) {
     const graph::HistorySpec& history = graph.histories[h];
@@ -185,12 +162,10 @@ bool Publications::resetHistories(base::Diagnostics& diagnostics) {
     const bool changed = framesRun_ > 0 && state != resetState_[h];
     resetState_[h] = state;
     if (!changed) continue;
-    any = true;
     pool_[history.resource].publications = 0;
     ++pool_[history.resource].resets;
     pool_.fill(plan_, history.resource, history.first, diagnostics);
   }
-  return any;
 }
 
 bool Publications::announce() {
@@ -228,18 +203,6 @@ void Publications::publishWritten(const PreparedPass& pass) {
       generations_[r] = nextGeneration_++;
     else
       publish(r);
-  }
-}
-
-void Publications::releaseImports() {
-  for (std::size_t r = 0; r < generations_.size(); ++r) {
-    if (plan_.graph->resources[r].kind != ResourceKind::imported_texture) continue;
-    const bool read = std::ranges::any_of(passes_, [&](const PreparedPass& pass) {
-      return std::ranges::any_of(pass.textures, [&](const TextureBinding& binding) {
-        return binding.resource == r && binding.history > 0;
-      });
-    });
-    if (!read) imports_.releaseBefore(importOf(r));
   }
 }
 
@@ -310,8 +273,7 @@ void Publications::adoptStandIns(const Publications& before) {
       if (old == kNone || lastVersionOf(plan_, name) != kNone) continue;
       GpuResource& stoodIn = before.pool_[old];
       if (!stoodIn.texture || stoodIn.publications == 0) continue;
-      imports_.adopt(import, stoodIn.texture->take(stoodIn.copyOf(0)),
-                     stoodIn.copies > 1 ? stoodIn.texture->take(stoodIn.copyOf(1)) : gl::Texture{});
+      imports_.adopt(import, stoodIn.texture->take(stoodIn.copyOf(0)));
       break;
     }
   }

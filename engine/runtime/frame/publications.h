@@ -36,17 +36,18 @@ class Publications {
 
   void beginFrame(const FrameInput& input);
   void endFrame() { ++framesRun_; }
+  // Before endFrame(), when nobody sees the frame and steps of it were left out: histories that `always` passes write go
+  // back to what they were before it.
+  void dropFrame();
 
-  // Holds the passes that would publish a resource again while a variant that age() chose still reads its history.
-  void holdFading();
-  // Publishes what time-sliced groups finished in the frame before. True when there was something.
-  bool publishFinished();
+  // Publishes what time-sliced groups finished in the frame before.
+  void publishFinished();
   // Asks each import for its newest texture or buffer and its generation.
   void refreshImports(base::Diagnostics& diagnostics);
   // Finds which texture of each import passes see.
   void viewImports(base::Diagnostics& diagnostics);
-  // Sets histories back to their first value when what resets them has changed. True when there was one.
-  bool resetHistories(base::Diagnostics& diagnostics);
+  // Sets histories back to their first value when what resets them has changed.
+  void resetHistories(base::Diagnostics& diagnostics);
   // Sets the age of what the passes of this frame will publish to 0. True when there is something. To be called when the
   // cadence has decided.
   bool announce();
@@ -57,8 +58,6 @@ class Publications {
   // The generations before the round, and the present ones.
   const std::vector<std::uint64_t>& generationsBefore() const { return generationsBefore_; }
   const std::vector<std::uint64_t>& generations() const { return generations_; }
-  // Releases what imports showed before, where no pass reads it.
-  void releaseImports();
 
   // Seconds since a resource was published; infinite when no pass ever writes it.
   double ageOf(std::uint32_t resource) const;
@@ -70,7 +69,6 @@ class Publications {
   void findPublishers();
   void publish(std::uint32_t resource);
   void publishImports(std::uint32_t group);
-  void hold(std::uint32_t resource);
   void takeGenerations(const Publications& before);
   void takeGroups();
   void takeHistories(const Publications& before);
@@ -95,7 +93,8 @@ class Publications {
       publishing_;                    // per resource: a pass that is not `always` publishes it in this frame
   std::vector<std::uint8_t> turned_;  // per resource: rotated in this round
   std::vector<std::uint8_t> made_;    // per resource: the world's, or some pass writes it
-  std::vector<std::uint64_t> resetState_;  // per history: hash of what resets it
+  const std::vector<std::uint8_t> ofOneFrame_;  // per resource, see findFrameHistories
+  std::vector<std::uint64_t> resetState_;       // per history: hash of what resets it
 };
 
 // The last version of the texture or buffer `name` ("hdr", "ibl.brdf") that is alive in the plan, or kNone.

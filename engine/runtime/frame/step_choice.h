@@ -1,4 +1,4 @@
-// Chooses the steps that run in a frame: those that FrameCadence lets run, without those whose variant is idle. Tells the
+// Chooses the steps that run in a frame, by FrameCadence. Tells the
 // cadence what each pass is made of: a hash of its program, uniforms and storage. Knows which steps a frame that nobody
 // will see must still run, and which have run. Does not: know the generations of resources (Publications), or run anything.
 // A frame allocates nothing.
@@ -19,7 +19,7 @@ namespace weft::runtime {
 
 class StepChoice {
  public:
-  // All must outlive this. `passes` are those of the steps of `plan`, each with the variant that is in use.
+  // All must outlive this. `passes` are those of the steps of `plan`.
   StepChoice(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
              const std::vector<PreparedPass>& passes);
 
@@ -35,7 +35,7 @@ class StepChoice {
   bool chooseAhead(const std::vector<std::uint64_t>& generations);
 
   // Whether the last choice runs the step, and which of its slices.
-  bool runs(std::size_t step) const { return cadence_.runs(step) && !passes_[step].idle; }
+  bool runs(std::size_t step) const { return cadence_.runs(step); }
   SliceRange slices(std::size_t step) const { return cadence_.slices(step); }
 
   bool isAlways(std::size_t step) const;
@@ -54,7 +54,7 @@ class StepChoice {
   // To be called after the steps of a round, with the generations before and after it.
   void endRound(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after);
 
-  // For Publications, which tells it what is published and which passes are held.
+  // For Publications, which tells it what is published.
   FrameCadence& cadence() { return cadence_; }
 
  private:

@@ -96,7 +96,7 @@ namespace {
 
 GLuint viewOf(const GpuResource& resource, const std::vector<GLuint>& views, std::uint32_t history,
               std::uint32_t group) {
-  return views.empty() ? resource.importedFor(history, group).id : views[resource.copyOf(history, group)];
+  return views.empty() ? resource.importedFor(group).id : views[resource.copyOf(history, group)];
 }
 
 GLenum attachmentPointOf(graph::Format format) {
@@ -118,8 +118,8 @@ GLuint StepRunner::textureOf(const Binding& binding, const PreparedPass& pass,
   const GpuResource& resource = pool_[binding.resource];
   if (!binding.part) return viewOf(resource, binding.views, binding.history, pass.group);
   const graph::ImportSpec& import = plan_.graph->imports[plan_.graph->resources[binding.resource].import];
-  return binding.part->viewOf(resource.importedFor(binding.history, pass.group),
-                              device_.imports.generation(import), diagnostics);
+  return binding.part->viewOf(resource.importedFor(pass.group), device_.imports.generation(import),
+                              diagnostics);
 }
 
 bool StepRunner::bind(PreparedPass& pass, base::Diagnostics& diagnostics) {

@@ -48,16 +48,10 @@ class Imports {
   gl::TextureRef shown(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
     return of(import).shown(frame(), diagnostics);
   }
-  gl::TextureRef before(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
-    return of(import).before(frame(), diagnostics);
-  }
   void publish(const graph::ImportSpec& import) { of(import).publish(frame()); }
   bool isPublished(const graph::ImportSpec& import) { return of(import).isPublished(frame()); }
   std::uint64_t publications(const graph::ImportSpec& import) { return of(import).publications(frame()); }
-  void adopt(const graph::ImportSpec& import, gl::Texture shown, gl::Texture before) {
-    of(import).adopt(std::move(shown), std::move(before));
-  }
-  void releaseBefore(const graph::ImportSpec& import) { of(import).releaseBefore(frame()); }
+  void adopt(const graph::ImportSpec& import, gl::Texture shown) { of(import).adopt(std::move(shown)); }
   BufferRef buffer(const graph::ImportSpec& import, const RowLayout& layout, base::Diagnostics& diagnostics) {
     return of(import).buffer(frame(), layout, diagnostics);
   }

@@ -32,7 +32,6 @@ class ParameterCheck : PassErrors {
     const gl::Block* block = reflection_.findUniformBlock("Parameters");
     std::string misnamed;  // one that has the parameters
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
-      if (uniform.choosesVariant()) continue;
       const gl::BlockMember* member = block ? block->find(uniform.name) : nullptr;
       if (!member) {
         if (words_.declaresParameter(uniform.name)) continue;

@@ -41,8 +41,7 @@ bool sameSlot(const FlatGraph& mine, const SlotSpec& a, const FlatGraph& theirs,
 }
 
 bool sameUniform(const graph::UniformSpec& a, const graph::UniformSpec& b) {
-  return a.name == b.name && a.role == b.role && a.value.type == b.value.type &&
-         a.value.count == b.value.count;
+  return a.name == b.name && a.value.type == b.value.type && a.value.count == b.value.count;
 }
 
 bool sameState(const graph::StateSpec& a, const graph::StateSpec& b) {

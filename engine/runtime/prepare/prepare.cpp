@@ -33,13 +33,9 @@ class Preparer {
     out_.fromSource = type.fromSource;
     out_.group = c_.plan.groups.groupOf(step_.pass);
     collectUses();
-    out_.conditions = c_.conditions;
-    out_.conditional = conditionCount(spec_) > 0;
-    out_.passing = out_.conditional && c_.conditions != settledConditionsOf(spec_);
-    out_.idle = !runsUnder(spec_, c_.conditions);
     const bool shaded = type.shader != graph::ShaderShape::none;
     out_.usable = !shaded || takeProgram(type);
-    if (!out_.usable || out_.idle) return std::move(out_);
+    if (!out_.usable) return std::move(out_);
     out_.usable = shaded ? bindSlots() : bindFixed();
     if (out_.usable && shaded) prepareGeometry(type);
     collectClears();
@@ -70,8 +66,7 @@ class Preparer {
     out_.programHash = base::kHashSeed;
     for (const gl::StageSource& stage : out_.variant->stages)
       out_.programHash = base::hashCombine(out_.programHash, stage.source->hash);
-    for (const gl::Define& define :
-         programRequestOf(graph_, c_.plan, step_.pass, type, c_.conditions).defines)
+    for (const gl::Define& define : programRequestOf(graph_, c_.plan, step_.pass, type).defines)
       out_.programHash = base::hashBytes(define.name + "=" + define.value, out_.programHash);
     const gl::Reflection& reflection = out_.variant->program.reflection();
     out_.parametersBlock = reflection.findUniformBlock("Parameters");
@@ -344,6 +339,10 @@ class Preparer {
 
 PreparedPass preparePass(PrepareContext& context, std::size_t step) {
   return Preparer(context, step).run();
+}
+
+std::uint32_t instancesAt(const graph::Expr& timed, const std::function<double(std::uint32_t)>& ageOf) {
+  return static_cast<std::uint32_t>(std::clamp(timed.evaluateFolded(ageOf).v[0], 0.0, 2147483647.0));
 }
 
 }  // namespace weft::runtime

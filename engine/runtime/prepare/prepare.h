@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "engine/passes/draw/geometry.h"
@@ -18,7 +19,6 @@ struct PrepareContext {
   const graph::Plan& plan;
   const passes::PassRegistry& types;
   std::shared_ptr<const gl::Variant> variant;  // of the pass to prepare; null for types without a shader
-  std::uint32_t conditions = 0;                // of that variant
   ResourcePool& pool;
   passes::Geometries& geometries;
   SamplerCache& samplers;
@@ -27,5 +27,8 @@ struct PrepareContext {
 
 // Fills everything but the uniform offsets. Reports what does not fit; `usable` says whether the pass can run.
 PreparedPass preparePass(PrepareContext& context, std::size_t step);
+
+// How many instances a draw has whose number contains age(), see PassSpec::timedInstances.
+std::uint32_t instancesAt(const graph::Expr& timed, const std::function<double(std::uint32_t)>& ageOf);
 
 }  // namespace weft::runtime

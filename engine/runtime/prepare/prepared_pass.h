@@ -126,10 +126,6 @@ struct PreparedPass {
   std::uint32_t parametersOffset = kNoPlace, viewOffset = kNoPlace, sliceOffset = kNoPlace;
   std::vector<DynamicUniform> dynamics;
   std::uint64_t programHash = 0;
-  bool conditional = false;                             // has dynamic defines, or is timed
-  std::uint32_t conditions = 0;                         // of its variant, see conditionsOf
-  bool passing = false;                                 // another variant will run once all ages are large
-  bool idle = false;                                    // that variant does not run, and binds nothing
   std::vector<std::pair<GLuint, graph::Blend>> blends;  // draw buffer index, mode
 };
 

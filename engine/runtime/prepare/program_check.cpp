@@ -270,8 +270,7 @@ class Checker : PassErrors {
   // One that has the parameters was reported with them.
   bool hasParameters(const std::string& block) const {
     return std::ranges::any_of(spec_.uniforms, [&](const graph::UniformSpec& uniform) {
-      return !uniform.choosesVariant() && !words_.declaresParameter(uniform.name) &&
-             words_.blockOf(uniform.name) == block;
+      return !words_.declaresParameter(uniform.name) && words_.blockOf(uniform.name) == block;
     });
   }
 

@@ -1,7 +1,6 @@
 #include "engine/runtime/prepare/program_request.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 #include "engine/imports/scene_tables.h"
@@ -46,35 +45,8 @@ std::span<const graph::TableColumn> instanceColumnsOf(const PassSpec& spec) {
   return spec.meshes ? imports::meshColumns() : imports::sphereColumns();
 }
 
-std::uint32_t conditionsOf(const PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf) {
-  std::uint32_t conditions = 0, bit = 0;
-  for (const graph::UniformSpec& uniform : spec.uniforms)
-    if (uniform.choosesVariant())
-      conditions |= (uniform.dynamic.evaluateFolded(ageOf).truth() ? 1u : 0u) << bit++;
-  return conditions;
-}
-
-std::uint32_t settledConditionsOf(const PassSpec& spec) {
-  return conditionsOf(spec, [](std::uint32_t) { return std::numeric_limits<double>::infinity(); });
-}
-
-std::uint32_t conditionCount(const PassSpec& spec) {
-  return static_cast<std::uint32_t>(
-      std::ranges::count_if(spec.uniforms, &graph::UniformSpec::choosesVariant));
-}
-
-bool runsUnder(const PassSpec& spec, std::uint32_t conditions) {
-  std::uint32_t bit = 0;
-  for (const graph::UniformSpec& uniform : spec.uniforms) {
-    if (!uniform.choosesVariant()) continue;
-    if (uniform.role == graph::UniformSpec::Role::enabled && (conditions >> bit & 1u) == 0) return false;
-    ++bit;
-  }
-  return true;
-}
-
 gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,
-                                    const graph::PassType& type, std::uint32_t conditions) {
+                                    const graph::PassType& type) {
   const PassSpec& spec = graph.specs[pass];
   gl::ProgramRequest request;
   request.label = spec.name;
@@ -108,15 +80,8 @@ gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, st
     request.defines.push_back({presenceDefineOf(slot.name), "1"});
     if (slot.kind == Kind::color) request.outputs.push_back(slot.name);
   }
-  std::uint32_t bit = 0;
-  for (const graph::UniformSpec& uniform : spec.uniforms) {
-    if (uniform.choosesVariant()) {
-      const char* const holds = (conditions >> bit++ & 1u) != 0 ? "1" : "0";
-      if (uniform.role == graph::UniformSpec::Role::define) request.defines.push_back({uniform.name, holds});
-    } else {
-      request.defines.push_back({presenceDefineOf(uniform.name), "1"});
-    }
-  }
+  for (const graph::UniformSpec& uniform : spec.uniforms)
+    request.defines.push_back({presenceDefineOf(uniform.name), "1"});
   for (const graph::DefineSpec& define : spec.defines) request.defines.push_back({define.name, define.text});
   return request;
 }

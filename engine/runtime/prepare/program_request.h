@@ -1,9 +1,8 @@
-// What a pass asks of the program cache: the stages, defines and outputs of a variant. Conditions (dynamic defines) choose
-// the variant. Does not: compile anything, or know how a pass is bound.
+// What a pass asks of the program cache: the stages, defines and outputs of a variant.
+// Does not: compile anything, or know how a pass is bound.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -12,19 +11,9 @@
 
 namespace weft::runtime {
 
-// Which of the pass's dynamic defines hold, one bit each. `ageOf(resource)` is how many seconds ago it was published.
-std::uint32_t conditionsOf(const graph::PassSpec& spec, const std::function<double(std::uint32_t)>& ageOf);
-// The same when everything was published long ago.
-std::uint32_t settledConditionsOf(const graph::PassSpec& spec);
-// The number of bits.
-std::uint32_t conditionCount(const graph::PassSpec& spec);
-// Whether the pass runs under these conditions; the `enabled` of a timed pass is one of them.
-bool runsUnder(const graph::PassSpec& spec, std::uint32_t conditions);
-
-// The stages, defines and outputs of a pass's variant under `conditions`: what `check` compiles without running anything.
+// The stages, defines and outputs of a pass's variant: what `check` compiles without running anything.
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan,
-                                    std::uint32_t pass, const graph::PassType& type,
-                                    std::uint32_t conditions);
+                                    std::uint32_t pass, const graph::PassType& type);
 
 // "HAS_GAIN": what a shader finds defined when its pass has the slot or parameter "gain".
 std::string presenceDefineOf(std::string_view name);

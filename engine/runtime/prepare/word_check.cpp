@@ -35,7 +35,7 @@ class WordChecker : PassErrors {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
     std::string misnamed;  // block
     for (const graph::UniformSpec& uniform : spec_.uniforms) {
-      if (uniform.choosesVariant() || words_.declaresParameter(uniform.name)) continue;
+      if (words_.declaresParameter(uniform.name)) continue;
       const std::string block = words_.blockOf(uniform.name);
       if (!block.empty() && !isSlotOf(graph_, spec_, block)) {
         if (misnamed.empty())

@@ -60,8 +60,8 @@ struct PersistentBuffer {
 // Where a resource of the graph is stored, and when it was published.
 struct GpuResource {
   PhysicalTexture* texture = nullptr;  // null for buffers and imports
-  gl::TextureRef imported, shown,
-      before;  // of an import: the newest texture; the one that passes outside `publisher` see; @-1
+  gl::TextureRef imported,
+      shown;  // of an import: the newest texture; the one that passes outside `publisher` see
   std::uint32_t publisher =
       graph::kNone;             // of an import: the group whose publication shows it to all other passes
   std::vector<GLuint> buffers;  // per copy
@@ -74,8 +74,7 @@ struct GpuResource {
   std::uint64_t publications = 0;
   double publishedAt = -std::numeric_limits<double>::infinity();
   bool fresh = true;  // storage was made for this plan: contents undefined
-  const gl::TextureRef& importedFor(std::uint32_t history, std::uint32_t reader) const {
-    if (history > 0) return before;
+  const gl::TextureRef& importedFor(std::uint32_t reader) const {
     return publisher != graph::kNone && publisher == reader ? imported : shown;
   }
   // The copy that passes of `reader` (a group, or kNone) see.

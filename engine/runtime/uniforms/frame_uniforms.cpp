@@ -1,6 +1,7 @@
 #include "engine/runtime/uniforms/frame_uniforms.h"
 
 #include "engine/passes/compute/work_groups.h"
+#include "engine/runtime/prepare/prepare.h"
 
 namespace weft::runtime {
 
@@ -17,14 +18,16 @@ bool FrameUniforms::layOut(std::span<PreparedPass* const> passes, base::Diagnost
   return true;
 }
 
-void FrameUniforms::refresh(std::span<const PreparedPass> passes,
-                            const std::function<double(std::uint32_t)>& ageOf, bool alwaysOnly) {
+void FrameUniforms::refresh(std::span<PreparedPass> passes, const std::function<double(std::uint32_t)>& ageOf,
+                            bool alwaysOnly) {
   const graph::FlatGraph& graph = *plan_.graph;
   for (std::size_t step = 0; step < passes.size(); ++step) {
-    const PreparedPass& pass = passes[step];
+    PreparedPass& pass = passes[step];
     const bool timeless = graph.passes[plan_.steps[step].pass].cadence != graph::Cadence::always;
     if (!pass.usable || (alwaysOnly && timeless)) continue;
     values_.refresh(pass, ageOf, arena_);
+    if (const graph::Expr& timed = pass.context.spec->timedInstances; timed.present())
+      pass.context.instances = instancesAt(timed, ageOf);
     if (!pass.viewBlock) continue;
     const scene::ViewData& view = imports_.view(graph, *pass.context.spec, pass.width, pass.height);
     arena_.writeView(pass.viewOffset, *pass.viewBlock, view,

@@ -32,9 +32,9 @@ class FrameUniforms {
   // buffer cannot be made; see UniformArena::layOut().
   bool layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
 
-  // Writes what changes from frame to frame, the values of age() and the View block, of all passes or of `always` ones only.
+  // Writes what changes from frame to frame, the values of age(), the View block and how often draws draw, of all passes or of `always` ones only.
   // `passes` per step; `ageOf(resource)` in seconds.
-  void refresh(std::span<const PreparedPass> passes, const std::function<double(std::uint32_t)>& ageOf,
+  void refresh(std::span<PreparedPass> passes, const std::function<double(std::uint32_t)>& ageOf,
                bool alwaysOnly);
   // Tells pass type and shader which part of its work the pass does in this frame.
   void setSlices(PreparedPass& pass, const SliceRange& range);

@@ -44,7 +44,6 @@ void UniformValues::fillPass(PreparedPass& pass, UniformArena& arena) const {
   pass.dynamics.clear();
   if (!pass.parametersBlock) return;
   for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) {
-    if (uniform.choosesVariant()) continue;
     const gl::BlockMember* member = pass.parametersBlock->find(uniform.name);
     if (!member) continue;
     if (uniform.dynamic.dynamic())
@@ -57,7 +56,7 @@ void UniformValues::fillPass(PreparedPass& pass, UniformArena& arena) const {
 void UniformValues::listReaders(const PreparedPass& pass) {
   if (!pass.parametersBlock) return;
   for (const graph::UniformSpec& uniform : pass.context.spec->uniforms) {
-    if (uniform.choosesVariant() || !uniform.dynamic.live()) continue;
+    if (!uniform.dynamic.live()) continue;
     const gl::BlockMember* member = pass.parametersBlock->find(uniform.name);
     if (!member) continue;
     for (const std::uint32_t key : uniform.dynamic.parameterKeys())

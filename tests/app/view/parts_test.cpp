@@ -183,11 +183,6 @@ TEST_CASE("a box of the passes turns off what F8 can write, and turns it on agai
   for (const graph::Disable& disable : settings.disables)
     CHECK(ui::disabledBy({"lit." + disable.name, graph::sourceOf(disable)}, settings) == disable.name);
   CHECK(ui::disabledBy({"lit.sky", "enabled: $sky is false"}, settings).empty());
-
-  flat.specs[1].runsWhile = "age(sky) < 1";
-  CHECK(ui::whyIdle(flat.specs[0]).starts_with("kept: "));
-  CHECK(ui::whyIdle(flat.specs[1]) == "idle: it runs while age(sky) < 1");
-  CHECK(ui::idleWord(flat.specs[1]) == std::string("idle"));
 }
 
 }  // namespace weft::app

@@ -72,22 +72,19 @@ TEST_CASE("kinds by default and by word") {
   CHECK(d.use("p", "depth").planes == 3);
 }
 
-TEST_CASE("what an import showed before, and what stands in for it") {
+TEST_CASE("what stands in for an import") {
   const std::string graph = R"J({ "resources": {
       "sky": { "texture": "rgba16f", "size": 8, "history": 1 }, "environment": ["@environment", "sky"],
       "out": { "texture": "rgba8", "size": 8 } },
     "passes": [ { "name": "make", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "sky" } },
       { "name": "p", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "r": "out" },
-        "read": { "now": "environment", "before": "environment@-1", "own": "sky@-1" } } ], "present": "out" })J";
+        "read": { "now": "environment" } } ], "present": "out" })J";
   const Expanded with = expandText(graph);
   CHECK(with.text() == "");
-  CHECK(with.useText("p", "before") == with.useText("p", "now") + " @-1");
   REQUIRE(with.graph->imports.size() == 1);
-  CHECK(with.graph->imports[0].before);
   CHECK(with.graph->imports[0].standIns == std::vector<std::string>{"sky"});
   const Expanded without = expandText(graph, {}, testRegistry({.environment = false}));
   CHECK(without.text() == "");
-  CHECK(without.useText("p", "before") == without.useText("p", "own"));
 }
 
 TEST_CASE("kinds and formats that do not fit") {

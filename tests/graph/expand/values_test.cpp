@@ -90,26 +90,6 @@ TEST_CASE("age() is folded to the last version, also through a let") {
   CHECK(slow.of(Code::badTime).pass == "p");
 }
 
-TEST_CASE(
-    "a define with age() is folded like a parameter; only in passes that are always, and a few of them") {
-  const Expanded e =
-      tryPass(R"J("parameters": { "t": "$fade", "n": 1 }, "defines": { "FADE": "$fade < 1", "TWO": 2 })J",
-              R"J(, "let": { "fade": "min(age(out) / 0.25, 1)" })J");
-  CHECK(e.text() == "");
-  const UniformSpec& fade = e.uniform("p", "FADE");
-  CHECK(fade.role == UniformSpec::Role::define);
-  CHECK(fade.dynamic.evaluateFolded([](std::uint32_t) { return 0.1; }).truth());
-  CHECK_FALSE(fade.dynamic.evaluateFolded([](std::uint32_t) { return 0.25; }).truth());
-  CHECK(e.uniform("p", "t").role == UniformSpec::Role::uniform);
-  CHECK(e.spec("p").defines.size() == 1);
-  const Expanded slow = tryPass(R"J("update": "on_change", "defines": { "T": "age(out) < 1" })J", "");
-  CHECK(slow.of(Code::badTime).pass == "p");
-  const std::string four =
-      R"J("defines": { "A": "age(out) < 1", "B": "age(out) < 2", "C": "age(out) < 3", "D": "age(out) < 4")J";
-  CHECK(tryPass(four + "}", "").text() == "");
-  CHECK(tryPass(four + R"J(, "E": "age(out) < 5" })J", "").of(Code::badTime).pass == "p");
-}
-
 TEST_CASE("--set: suffixes, types, ranges, choices") {
   const std::string head =
       R"J(, "parameters": { "n": { "default": 3, "min": 0, "max": 6 }, "f": { "default": 0.5 }, "b": { "default": true }, "v": { "default": [1, 2] }, "c": { "default": "no", "choices": ["no", "yes"] } })J";

@@ -180,18 +180,6 @@ TEST_CASE("the JSON form is JSON and carries the plan") {
     CHECK(nlohmann::json::accept(dumpJson(randomGraph(seed).compiled(), true)));
 }
 
-TEST_CASE("all forms say when a timed pass runs") {
-  FlatBuilder b = exampleGraph();
-  b.graph.specs.resize(b.graph.passes.size());
-  b.graph.specs[1].runsWhile = "age(\"a\") < 1";
-  const Plan plan = b.compiled();
-  CHECK(dumpText(plan).find(" while age(\"a\") < 1\n") != std::string::npos);
-  CHECK(dumpDot(plan).find("\\nwhile age(\\\"a\\\") < 1") != std::string::npos);
-  const auto steps = nlohmann::json::parse(dumpJson(plan))["steps"];
-  CHECK(std::ranges::count_if(steps,
-                              [](const auto& s) { return s.value("while", "") == "age(\"a\") < 1"; }) == 1);
-}
-
 TEST_CASE("the DOT form names every pass once, quotes what needs it, greys what is culled") {
   FlatBuilder b = exampleGraph();
   b.graph.passNames[1] = "draw \"it\"";

@@ -154,7 +154,7 @@ namespace {
 std::string runSlices(FrameCadence& cadence, const Plan& plan, const std::vector<std::uint64_t>& own,
                       std::vector<std::uint64_t>& generations) {
   for (std::uint32_t group = 0; group < plan.groups.sliced.size(); ++group) {
-    if (!cadence.isFinished(group) || cadence.isHeld(group)) continue;
+    if (!cadence.isFinished(group)) continue;
     for (std::uint32_t r = 0; r < generations.size(); ++r)
       if (plan.groups.slicedWriterOf(r) == group) ++generations[r];
     cadence.markPublished(group);
@@ -254,58 +254,4 @@ TEST_CASE(
   CHECK_FALSE(cadence.decideAhead(g.own, g.generations));
   CHECK(cadence.countRunning() == 0);
   CHECK(runSlices(cadence, g.plan, g.own, g.generations) == "4 5");
-}
-
-TEST_CASE(
-    "slices: a group that is held is done beforehand, stays finished, and begins again after a change") {
-  SlicedGraph g;
-  FrameCadence cadence(g.plan);
-  const auto frame = [&] { return runSlices(cadence, g.plan, g.own, g.generations); };
-  cadence.held()[3] = 1;
-  CHECK(frame() == "0 1:0/2 5");
-  CHECK(frame() == "1:1/2 5");
-  CHECK(frame() == "2 3 5");
-  CHECK(frame() == "5");
-  CHECK(cadence.isFinished(0));
-  g.own[2] = 9;
-  CHECK(frame() == "1:0/2 5");
-  CHECK_FALSE(cadence.isFinished(0));
-  CHECK(frame() == "1:1/2 5");
-  CHECK(frame() == "2 3 5");
-  CHECK(frame() == "5");
-  CHECK_FALSE(cadence.decideAhead(g.own, g.generations));  // nothing comes of another round
-  CHECK(frame() == "5");
-  cadence.held()[3] = 0;
-  CHECK(frame() == "4 5");
-  CHECK(frame() == "5");
-}
-
-TEST_CASE(
-    "a group that is held runs when it is no longer, with what it reads then; its readers wait with it") {
-  SlicedGraph g;
-  g.b.graph->passes[1].slices = 1;
-  const Plan plan = g.b.compile(5);
-  FrameCadence cadence(plan);
-  const auto frame = [&] { return runFrame(cadence, plan, g.own, g.generations); };
-  CHECK(frame() == std::vector<int>{1, 1, 1, 1, 1, 1});
-  cadence.held()[2] = 1;
-  g.own[0] = 2;
-  g.own[3] = 2;
-  CHECK(frame() == std::vector<int>{1, 0, 0, 0, 0, 1});
-  g.own[3] = 3;
-  CHECK(frame() == std::vector<int>{0, 0, 0, 0, 0, 1});
-  cadence.held()[2] = 0;
-  CHECK(frame() == std::vector<int>{0, 1, 1, 1, 1, 1});
-  CHECK(frame() == std::vector<int>{0, 0, 0, 0, 0, 1});
-}
-
-TEST_CASE("a group without slices runs all or none, in one frame") {
-  SlicedGraph g;
-  g.b.graph->passes[1].slices = 1;
-  const Plan plan = g.b.compile(5);
-  FrameCadence cadence(plan);
-  CHECK(plan.copiesOf(1) == 1);
-  CHECK(runFrame(cadence, plan, g.own, g.generations) == std::vector<int>{1, 1, 1, 1, 1, 1});
-  g.own[3] = 2;
-  CHECK(runFrame(cadence, plan, g.own, g.generations) == std::vector<int>{0, 1, 1, 1, 1, 1});
 }

@@ -49,13 +49,20 @@ TEST_CASE("lasting: a picture that nothing outlives leaves nothing behind") {
                 kHdr) == "");
 }
 
-TEST_CASE("lasting: a history, and all that it is made from; not what only looks at it") {
+TEST_CASE("lasting: a history that is kept, and all that it is made from; not what only looks at it") {
   const std::string passes =
       pass("sky", R"("write": { "r": "hdr" })") + "," +
       pass("blend", R"("read": { "s": "hdr", "old": "sum@-1" }, "write": { "r": "sum" })") + "," +
       pass("late", R"("read": { "s": "hdr" }, "write": { "r": "hdr" })") + "," +
       pass("tone", R"("read": { "s": "hdr", "sum": "sum" }, "write": { "r": "ldr" })");
   CHECK(lasting(passes,
+                kHdr + R"(, "sum": { "texture": "rgba16f", "size": "screen", "history": 1, "first": 0 })") ==
+        "");
+  const std::string slow =
+      pass("sky", R"("write": { "r": "hdr" })") + "," +
+      pass("blend", R"("update": "on_change", "read": { "s": "hdr" }, "write": { "r": "sum" })") + "," +
+      pass("tone", R"("read": { "s": "hdr", "sum": "sum", "old": "sum@-1" }, "write": { "r": "ldr" })");
+  CHECK(lasting(slow,
                 kHdr + R"(, "sum": { "texture": "rgba16f", "size": "screen", "history": 1, "first": 0 })") ==
         "sky blend ");
 }

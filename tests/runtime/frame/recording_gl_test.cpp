@@ -163,26 +163,25 @@ TEST_CASE("the same while one environment fades into the next, with lighting in 
     Stage stage("graphs/studio.json", 96, 54);
     stage.settings.sets = {{"ibl.sliced", sliced}};
     GlRecorder recorder;
-    std::uint32_t frames = 0, mixed = 0;
-    const auto runUntilFaded = [&] {
-      const std::uint32_t before = mixed;
-      // In slices the lighting takes some dozens of frames before the fade begins.
-      for (std::uint32_t idle = 0; idle < 200 && (mixed == before || stage.ran("fade.mix")); ++idle) {
-        FrameInput input = headlessFrame(stage.world, 0, 60);
-        input.headless = false;
-        input.time = 10 + 0.05 * frames++;
-        recordFrame(recorder, stage, "fade", tally, [&] { stage.run(input); });
-        mixed += stage.ran("fade.mix");
-      }
-    };
+    std::uint32_t frames = 0, changed = 0;
+    std::vector<std::uint8_t> last;
     for (const std::uint16_t brightness : {0x3800, 0x3c00}) {
       stage.world.setEnvironment(mapOf(brightness));
       REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
-      runUntilFaded();
+      // In slices the lighting takes some dozens of frames before the fade begins.
+      for (int n = 0; n < (sliced[0] == 't' ? 80 : 10); ++n) {
+        FrameInput input = headlessFrame(stage.world, 0, 60);
+        input.headless = false;
+        input.time = 10 + 0.05 * frames++;
+        input.deltaTime = 0.05;
+        recordFrame(recorder, stage, "fade", tally, [&] { stage.run(input); });
+        std::vector<std::uint8_t> seen = stage.pixels();
+        changed += seen != last;
+        last = std::move(seen);
+      }
     }
-    MESSAGE(frames << " frames, " << mixed << " of a fade, " << tally.barriers << " barriers");
-    CHECK(mixed >= 8);
-    CHECK(tally.textureBarriers >= mixed);  // fade.mix has feedback
+    MESSAGE(frames << " frames, " << changed << " with another picture, " << tally.barriers << " barriers");
+    CHECK(changed >= 7);  // the first, and those of a fade
   }
 }
 

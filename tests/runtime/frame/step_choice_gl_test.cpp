@@ -1,9 +1,8 @@
-// What runs in a frame, and why: hashes of what a pass is made of, idle variants, obsolete frames, slices. Which steps must run
+// What runs in a frame, and why: hashes of what a pass is made of, obsolete frames, slices. Which steps must run
 // is read off the graphs by hand. Nothing is drawn.
 #include <memory>
 
 #include "engine/runtime/frame/step_choice.h"
-#include "engine/runtime/frame/variant_choice.h"
 #include "engine/runtime/uniforms/frame_uniforms.h"
 #include "tests/runtime/plan_on_device.h"
 #include "tests/runtime/stage.h"
@@ -87,26 +86,17 @@ TEST_CASE("a step ran or not: in this frame, and always or not") {
   CHECK(live.steps.isAlways(start));
 }
 
-TEST_CASE("a step whose variant is idle does not run") {
-  const CleanScope clean;
-  ChosenSteps timed("tests/runtime/graphs/timed.json");
-  runtime::VariantChoice variants(*timed.on.plan, timed.on.device, *timed.on.pool, timed.on.passes);
-  base::Diagnostics diagnostics;
-  CHECK(timed.frame() == "pulse start ");
-  REQUIRE(variants.choose(agedBy(0.5), false, diagnostics));  // prepared as time settles on: idle
-  timed.uniforms.layOut(variants.all(), diagnostics);
-  CHECK(timed.frame() == "start take add ");
-  variants.choose(agedBy(1e9), false, diagnostics);
-  CHECK(timed.frame() == "start ");
-  CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());
-}
-
-TEST_CASE("later frames need the steps that lead to a history, and not those that lead to the picture") {
+TEST_CASE(
+    "later frames need the steps that lead to what is kept, and not those that lead to a picture and its "
+    "history") {
   const CleanScope clean;
   ChosenSteps obsolete("tests/runtime/graphs/obsolete.json");
   for (const auto& [pass, lasts] :
-       {std::pair{"next", true}, {"keep", true}, {"scale", false}, {"show", false}})
+       {std::pair{"next", false}, {"keep", false}, {"scale", false}, {"show", false}})
     CHECK_MESSAGE(obsolete.steps.isLasting(obsolete.on.step(pass)) == lasts, pass);
+  ChosenSteps live("tests/runtime/graphs/live.json");
+  for (const auto& [pass, lasts] : {std::pair{"kept", true}, {"start", false}, {"timed", false}})
+    CHECK_MESSAGE(live.steps.isLasting(live.on.step(pass)) == lasts, pass);
 }
 
 TEST_CASE("what takes over from an execution of the same passes runs none of them again") {

@@ -189,7 +189,6 @@ std::uint32_t internImport(Model& model, ImportRequest request, ImportKind kind,
                      .kind = kind,
                      .name = name,
                      .columns = type ? type->columns : std::vector<TableColumn>{},
-                     .before = type && type->before,
                      .standIns = {}});
   model.importResource.push_back(kNone);
   return static_cast<std::uint32_t>(imports.size() - 1);

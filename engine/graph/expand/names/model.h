@@ -128,11 +128,8 @@ struct Entity {
   Progress bindState = Progress::fresh;
   std::uint32_t bound = kNone;
   Progress listState = Progress::fresh;  // alternatives: cycle check
-  // The condition of the timed passes that make it (into Model::timings, from 1). 0: no timed pass does, so far.
-  std::uint32_t timing = 0;
-  bool made = false;              // some pass writes or modifies it
-  std::uint32_t emptied = kNone;  // into Model::emptied: one that would write it
-  bool incomplete = false;        // a pass that would write it was left out for its mistakes
+  std::uint32_t emptied = kNone;         // into Model::emptied: one that would write it
+  bool incomplete = false;               // a pass that would write it was left out for its mistakes
   std::vector<std::uint32_t>
       candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
@@ -171,12 +168,6 @@ struct DisableRule {
   std::string why;       // "--disable fxaa"
   std::string declared;  // full declared name of a pass
   std::string instance;  // full instance name, or empty: all repeats
-};
-
-// A condition of timed passes, see timing.h.
-struct Timing {
-  const Expr* expr = nullptr;
-  Scope* scope = nullptr;
 };
 
 // A write of a pass, enabled or not, in declared order: for messages that say which pass would have written something.
@@ -246,8 +237,6 @@ struct Model {
   std::unordered_map<std::uint64_t, std::uint32_t> importIndex{};  // by keyOf(request)
   KnownNames<Leaves> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
-  std::vector<Timing> timings{};
-  std::map<std::pair<const Scope*, std::string>, std::uint32_t> timingByText{};  // from 1
   std::vector<WriteRecord> writes{};
   std::vector<MissingRead> missing{};
   std::vector<EmptyRepeat> emptied{};

@@ -94,7 +94,7 @@ std::optional<Value> Names::variable(std::string_view name) {
                                        fmt::format("'${}' contains age() and changes from frame to frame, "
                                                    "but stands where a value must be known before",
                                                    let.path));
-    d.hint = "age() may stand in uniform parameters, defines and \"enabled\" of passes only";
+    d.hint = "age() may stand in parameters and \"instances\" of passes only";
     return Value{};
   }
   return letValue(model_, let);
