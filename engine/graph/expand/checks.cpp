@@ -16,8 +16,9 @@ bool isTexture(const FlatResource& shape) {
   return shape.kind == ResourceKind::texture || shape.kind == ResourceKind::imported_texture;
 }
 
-bool coversAPart(const PassType& type, const SlotWork& work) {
-  return type.shader == ShaderShape::draw && (work.use.kind == Kind::color || work.use.kind == Kind::depth);
+bool coversAll(const PassType* type, const SlotWork& work) {
+  return !type || type->shader != ShaderShape::draw ||
+         (work.use.kind != Kind::color && work.use.kind != Kind::depth);
 }
 
 bool isInteger(Format format) {

@@ -8,8 +8,8 @@ namespace weft::graph::expansion {
 
 bool isTexture(const FlatResource& shape);
 bool isInteger(Format format);
-// An attachment of a draw: only what its geometry covers is drawn.
-bool coversAPart(const PassType& type, const SlotWork& work);
+// Not an attachment of a draw: of that only what its geometry covers is drawn.
+bool coversAll(const PassType* type, const SlotWork& work);
 
 // What `outer`, of a slot, says of sampling, and where it says nothing, `inner` of the alternative that it means.
 Sampler layOver(const Sampler& outer, const Sampler& inner);

@@ -98,13 +98,11 @@ class PassWalk {
       failed_ = true;
       return;
     }
-    // Counted before the innermost range runs; outer ranges around empty ones count as well.
+    // Counted before the innermost range runs, and outer ranges around empty ones.
     const std::int64_t steps = (*last - *first) / *step + 1;
     if (steps <= 0)
-      noteEmptyRepeat(
-          model_, *scope_, *desc_,
-          {declared_, range.index, *first, *last, *step, range.place,
-           scopeWhy_.empty() && isEmptyByMistake(model_, *scope_, *desc_, range, *first, *last, *step)});
+      noteEmptyRepeat(model_, *scope_, *desc_, range,
+                      {declared_, range.index, *first, *last, *step, range.place, scopeWhy_.empty()});
     if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
     walked_ += std::max<std::int64_t>(steps, 1);
     if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
@@ -260,8 +258,7 @@ class PassWalk {
       const std::uint32_t e = work.firstElement + i, index = spec.firstUse + i;
       FlatUse& use = graph_.uses[index];
       if (use.access == Access::write)
-        use.resource =
-            resourceToWrite(model_, work.entity, e, work.whole, !type_ || !coversAPart(*type_, work));
+        use.resource = resourceToWrite(model_, work.entity, e, work.whole, coversAll(type_, work));
       model_.versions.write(index);
     }
     record(slots, work, pass, kNone);

@@ -106,6 +106,17 @@ void checkKeys(const Stanza& stanza) {
   checkKey(stanza, desc.instances.present(), "instances", desc.instances.place());
   checkKey(stanza, !desc.list.empty(), "list", desc.listPlace);
   checkKey(stanza, !desc.geometry.empty(), "geometry", desc.geometryPlace);
+  const auto modifies = [](const SlotDesc& slot) { return slot.access == Access::modify; };
+  if (desc.feedback && std::ranges::none_of(desc.slots, modifies)) {
+    auto& d = stanza.error(Code::keyNotTaken, desc.namePlace, "has the key 'feedback' and modifies nothing");
+    d.expected = "a slot in \"modify\" whose own texel it reads";
+    d.hint = "leave \"feedback\" out, or say \"modify\" where the slot says \"write\"";
+  }
+  if (!desc.list.empty() && desc.instances.present())
+    stanza
+        .error(Code::keyNotTaken, desc.instances.place(),
+               "has \"instances\" and a \"list\", which says how many")
+        .hint = "leave one of the two out";
   const ShaderShape shader = stanza.type->shader;
   const auto notTaken = [&](const char* key, const Place& place) {
     stanza.error(Code::keyNotTaken, place,

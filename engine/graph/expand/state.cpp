@@ -242,7 +242,7 @@ class StateFiller {
 
   void checkCover() {
     for (const SlotWork& work : slots_) {
-      if (work.entity == kNone || work.slot->access != Access::write || !coversAPart(*context_.type, work))
+      if (work.entity == kNone || work.slot->access != Access::write || coversAll(context_.type, work))
         continue;
       const Entity& entity = context_.model.entities[work.entity];
       if (entity.shape.hasClear) continue;

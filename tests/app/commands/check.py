@@ -147,6 +147,55 @@ def check_conditions(weft, report):
         report.check("did you mean 'HAS_GLOW'?" in done.err, done.err)
 
 
+SILENT = """{ "parameters": { "shiny": { "default": false }, "tone": { "default": "soft", "choices": ["soft", "hard"] } },
+  "resources": { "a": { "texture": "rgba8", "size": 8 }, "b": { "texture": "rgba8", "size": 8 } },
+  "passes": [ { "name": "p", "type": "fullscreen", "shader": "p.frag.glsl", "side_effect": true, "write": { "result": "a", "other": "b" },
+    "defines": { "SHINY": "$shiny", "TONE": "$tone"%s } } ], "present": "a" }
+"""
+QUIET = """out vec4 result, other;
+#ifndef SHINY
+#define SHINY 1
+#endif
+void both(float x) { result = other = vec4(x); }
+void main() { both(SHINY == 1 || TONE == TONE_HARD ? 1.0 : 0.5); }
+"""
+LOUD = """out vec4 result, other;
+#if TONE == TONE_HARD
+#endif
+void main() {
+  result = vec4(0.5);
+#ifdef SHINY
+  result = vec4(1.0);
+#endif
+}
+"""
+
+
+def check_silent_words(weft, report):
+    """What a shader ignores of its pass: an output that it never writes, a define that is 0 and asked for by #ifdef, and one that it never asks for."""
+    with temporary_folder() as name:
+        folder = pathlib.Path(name)
+        (folder / "shaders").mkdir()
+        for text, more, said in ((QUIET, "", []), (LOUD, "", ["W181", "W187"]), (QUIET, ', "DULL": 1', ["W182"])):
+            (folder / "g.json").write_text(SILENT % more)
+            (folder / "shaders/p.frag.glsl").write_text(text)
+            for options in (["--no-shaders"], ["--no-shaders", "--all"]):
+                done = run(weft, "check", folder / "g.json", *options)
+                report.check(done.code == 0 and sorted(done.codes("warning")) == said, f"{said} {options}: {done.code}\n{done.err}")
+
+
+def check_scene_lists(weft, report):
+    """Things of a scene that stand in no list that the graph draws are told, once, and by every command that shows the graph."""
+    with temporary_folder() as name:
+        scene = pathlib.Path(name, "scene.json")
+        for lists, said in ((["transparent_spheres"], 1), (["spheres", "transparent_spheres"], 0), (["shadow_casters"], 0)):
+            sphere = {"center": [0, 1, 0], "material": {"albedo": [1, 0, 0]}, "lists": lists}
+            scene.write_text(json.dumps({"cameras": {"a": {"position": [0, 1, 10]}}, "spheres": [sphere]}))
+            done = run(weft, "check", "--no-shaders", "graphs/studio.json", "--scene", scene)
+            report.check(done.code == 0 and done.err.count("in the list 'transparent_spheres', which no pass of 'studio' draws") == said, f"{lists}: {done.err}")
+            report.check(len(done.codes("warning")) == said, f"{lists}: {done.err}")
+
+
 def check_missing_shader(weft, report):
     """With --no-shaders a shader that is not there is no mistake, and not silent."""
     with temporary_folder() as name:
@@ -322,6 +371,8 @@ def main():
         check_words(weft, report)
         check_time(weft, report, "--no-shaders")
         check_conditions(weft, report)
+        check_silent_words(weft, report)
+        check_scene_lists(weft, report)
         check_missing_shader(weft, report)
         check_matrix(weft, report)
         check_many_mistakes(weft, report)

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "engine/base/nearest.h"
 #include "engine/graph/expand/judge/unused.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
@@ -193,6 +195,29 @@ void warnOfList(Model& model, const Entity& list) {
   }
 }
 
+// A pass alone in its group, whose name is nearly that of another group: it would publish by itself.
+void warnOfGroups(Model& model, const Scope& scope) {
+  std::map<std::string, int> members;
+  for (const PassDesc& pass : scope.desc->passes) {
+    const std::string& group = pass.include ? pass.include->group : pass.group;
+    if (!group.empty()) members[group] += pass.include ? 2 : 1;  // an include has several passes
+  }
+  for (const PassDesc& pass : scope.desc->passes) {
+    if (pass.include || pass.group.empty() || members[pass.group] > 1 || !isOnTop(scope, pass.place))
+      continue;
+    std::vector<std::string> others;
+    for (const auto& [group, count] : members)
+      if (group != pass.group && count > 1) others.push_back(group);
+    const std::string near = base::nearestName(pass.group, others);
+    if (near.empty()) continue;
+    auto& d =
+        model.diagnostics.warning(Code::unusedDeclaration, pass.place,
+                                  fmt::format("pass '{}' is alone in the group '{}'", pass.name, pass.group));
+    d.pass = pass.name;
+    d.hint = fmt::format("did you mean '{}'?", near);
+  }
+}
+
 // Things of the scene whose author put them into lists, of which the graph draws others only.
 void warnOfLists(Model& model) {
   if (!model.desc.top.empty()) return;
@@ -227,6 +252,7 @@ void warnUnnamed(Model& model) {
   std::set<const GraphDesc*> said;  // a file that is included twice says it once
   for (const Scope& scope : model.scopes) {
     if (!said.insert(scope.desc).second) continue;
+    warnOfGroups(model, scope);
     for (const ResourceDesc& resource : scope.desc->resources)
       if (isOnTop(scope, resource.place)) warnOfResource(model, scope, resource, named);
   }
