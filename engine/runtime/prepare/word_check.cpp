@@ -48,7 +48,6 @@ class WordChecker : PassErrors {
     }
     warnTimeless(graph_, pass_, words_, diagnostics_);
     warnUnwritten(plan_, pass_, words_, diagnostics_);
-    warnUnaskedDefines();
     // One misspelling is one mistake.
     if (any()) return;
     for (const auto& [type, name] : words_.parameters())
@@ -78,29 +77,6 @@ class WordChecker : PassErrors {
         return;
       default:
         return;
-    }
-  }
-
-  // A define whose word no text of the shaders has, in any branch; of a choice its own word or those of its choices count.
-  void warnUnaskedDefines() {
-    for (const graph::DefineSpec& define : spec_.defines) {
-      const auto isOfIt = [&](const graph::DefineSpec& other) {
-        return other.name == define.name || other.name.starts_with(define.name + "_") ||
-               define.name.starts_with(other.name + "_");
-      };
-      const auto isAsked = [&](const graph::DefineSpec& other) {
-        return isOfIt(other) && std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
-                 return stage.source->mentions(other.name);
-               });
-      };
-      if (std::ranges::any_of(spec_.defines, isAsked)) continue;
-      const std::string message = fmt::format("pass '{}' defines '{}', and no text of '{}' has that word",
-                                              spec_.declared, define.name, shaders_);
-      const auto isSaid = [&](const base::Diagnostic& d) { return d.message == message; };
-      if (std::ranges::any_of(diagnostics_.items(), isSaid)) continue;
-      base::Diagnostic& d = diagnostics_.warning(Code::parameterNotInShader, spec_.shaderPlace, message);
-      d.pass = spec_.name;
-      d.hint = fmt::format("ask for it, `#if {}`, or take it out of \"defines\"", define.name);
     }
   }
 
