@@ -110,10 +110,8 @@ class PassWalk {
     // Counted before the innermost range runs; outer ranges around empty ones count as well.
     const std::int64_t steps = (*last - *first) / *step + 1;
     if (steps <= 0)
-      noteEmptyRepeat(
-          model_, *scope_, *desc_,
-          {declared_, range.index, *first, *last, *step, range.place,
-           scopeWhy_.empty() && isEmptyByMistake(model_, *scope_, *desc_, range, *first, *last, *step)});
+      noteEmptyRepeat(model_, *scope_, *desc_, range,
+                      {declared_, range.index, *first, *last, *step, range.place, scopeWhy_.empty()});
     if (steps > 0 && depth + 1 == desc_->repeat.size()) planned_ += steps;
     walked_ += std::max<std::int64_t>(steps, 1);
     if (planned_ > kMaxInstances || walked_ > 4 * static_cast<std::int64_t>(kMaxInstances)) {
