@@ -4,6 +4,19 @@
 
 namespace weft::imports {
 
+std::pair<scene::CameraPose, scene::CameraPose> CameraViews::posesOf(const Frame& frame) const {
+  return poses_ ? poses_(frame) : std::pair(frame.input.pose, frame.input.previousPose);
+}
+
+std::uint64_t CameraViews::generation(const Frame& frame) {
+  const scene::CameraPose pose = posesOf(frame).first;
+  if (generation_ == 0 || pose != seen_) {
+    seen_ = pose;
+    generation_ = frame.newGeneration();
+  }
+  return generation_;
+}
+
 const scene::ViewData& CameraViews::view(const Frame& frame, std::uint32_t width, std::uint32_t height) {
   Cached* cached = nullptr;
   for (Cached& each : cached_)
@@ -16,7 +29,7 @@ const scene::ViewData& CameraViews::view(const Frame& frame, std::uint32_t width
   }
   if (cached->frame != frame.number) {
     const FrameInput& input = frame.input;
-    const auto [pose, previous] = poses_ ? poses_(frame) : std::pair(input.pose, input.previousPose);
+    const auto [pose, previous] = posesOf(frame);
     cached->data = scene::makeView({.pose = pose,
                                     .previousPose = previous,
                                     .viewport = {width, height},

@@ -19,6 +19,9 @@ class CameraViews {
   // `jitter`: length of the sub-pixel sequence, 0 for none. `poses`: empty for the scene's camera.
   explicit CameraViews(std::uint32_t jitter = 0, Poses poses = {})
       : jitter_(jitter), poses_(std::move(poses)) {}
+  // Moves when the camera stands elsewhere or has another lens. What else a view holds does not count: the moment, the
+  // sub-pixel step of the jitter, and where the camera stood before.
+  std::uint64_t generation(const Frame& frame);
   // Valid until the next call.
   const scene::ViewData& view(const Frame& frame, std::uint32_t width, std::uint32_t height);
 
@@ -28,8 +31,11 @@ class CameraViews {
     std::uint64_t frame = 0;  // that it was made in
     scene::ViewData data;
   };
+  std::pair<scene::CameraPose, scene::CameraPose> posesOf(const Frame& frame) const;
   std::uint32_t jitter_;
   Poses poses_;
+  scene::CameraPose seen_;  // of generation_
+  std::uint64_t generation_ = 0;
   std::vector<Cached> cached_;
 };
 

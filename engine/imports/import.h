@@ -40,8 +40,8 @@ class Provider {
   virtual BufferRef buffer(const Frame&, const RowLayout& layout, base::Diagnostics&);
   // Valid until the next call.
   virtual const scene::ViewData& view(const Frame& frame, const ViewPart& part);
-  // Another number whenever the import has changed: then `on_change` passes run, and histories that it resets begin again.
-  // Unless overridden, it changes in every frame.
+  // Another number whenever the import has changed, and only then: then `on_change` passes run, and histories that it resets
+  // begin again. Unless overridden, it changes in every frame, as for what moves all the time.
   virtual std::uint64_t generation(const Frame& frame) { return frame.number; }
 
   // Whether the import is the same in every frame of a world that nobody changes.

@@ -34,6 +34,9 @@ void SceneTables::beginFrame(const World& world, const FrameInput& input, std::u
   world_ = &world;
   input_ = &input;
   number_ = number;
+  const auto moment = std::pair(input.time, input.deltaTime);
+  if (moment != moment_) ++moments_;
+  moment_ = moment;
 }
 
 const SceneTables::ListFacts& SceneTables::factsOf(scene::DrawList list) {
@@ -51,7 +54,7 @@ std::uint32_t SceneTables::countOf(scene::DrawList list) {
 
 std::uint64_t SceneTables::generation(scene::DrawList list) {
   const std::uint64_t still = world_->sceneGeneration() << 32;
-  return factsOf(list).moving ? still + number_ : still;
+  return factsOf(list).moving ? still + moments_ : still;
 }
 
 const std::vector<scene::Instance>& SceneTables::rows(scene::DrawList list) {

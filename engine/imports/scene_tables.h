@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -70,6 +71,8 @@ class SceneTables {
   const World* world_ = nullptr;
   const FrameInput* input_ = nullptr;
   std::uint64_t number_ = 0;
+  std::pair<double, double> moment_{0, -1};  // time and step, on which all that moves depends
+  std::uint64_t moments_ = 0;
   ListFacts facts_[scene::kDrawListCount];
   Rows rows_[scene::kDrawListCount];
   std::vector<RowTable> sphereTables_, meshTables_;  // per draw list

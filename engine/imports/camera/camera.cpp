@@ -108,6 +108,7 @@ class CameraProvider : public Provider {
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     return views_.view(frame, part.width, part.height);
   }
+  std::uint64_t generation(const Frame& frame) override { return views_.generation(frame); }
 
  private:
   CameraViews views_;

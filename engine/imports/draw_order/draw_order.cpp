@@ -35,7 +35,7 @@ class DrawOrderProvider : public Provider {
 
   BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
     if (!list_ || !method_) return {};
-    if (frame_ != frame.number) {
+    if (const std::uint64_t now = generation(frame); sorted_ != now) {
       const scene::ViewData& view = frame.camera.view(frame, 1, 1);
       scene::drawOrder(frame.tables.rows(*list_), view, by_, *method_, elements_, scratch_);
       const std::uint64_t bytes = std::max<std::size_t>(elements_.size(), 1) * sizeof(scene::SortElement);
@@ -45,9 +45,17 @@ class DrawOrderProvider : public Provider {
         buffer_ = std::move(*buffer);
       }
       if (!elements_.empty()) gl::uploadBuffer(buffer_.id(), 0, std::as_bytes(std::span(elements_)));
-      frame_ = frame.number;
+      sorted_ = now;
     }
     return {buffer_.id(), buffer_.bytes()};
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    if (!list_) return 0;
+    const std::uint64_t rows = frame.tables.generation(*list_), camera = frame.camera.generation(frame);
+    if (generation_ == 0 || rows != rows_ || camera != camera_) generation_ = frame.newGeneration();
+    rows_ = rows;
+    camera_ = camera;
+    return generation_;
   }
 
  private:
@@ -55,7 +63,8 @@ class DrawOrderProvider : public Provider {
   scene::SortBy by_;
   std::optional<scene::SortMethod> method_;  // none: a graph's own passes sort
   gl::Buffer buffer_;
-  std::uint64_t frame_ = 0;  // that it was sorted in
+  std::uint64_t generation_ = 0, rows_ = 0, camera_ = 0;
+  std::uint64_t sorted_ = 0;  // the generation that the buffer holds
   std::vector<scene::SortElement> elements_, scratch_;
 };
 

@@ -34,14 +34,9 @@ class SilhouettesProvider : public Provider {
 
   BufferRef buffer(const Frame& frame, const RowLayout&, base::Diagnostics& diagnostics) override {
     if (!list_) return {};
-    if (frame_ == frame.number) return {buffer_.id(), buffer_.bytes()};
-    frame_ = frame.number;
-    const scene::ViewData& view = frame.camera.view(frame, 1, 1);
-    const float pixel = 2 / (view.projection[1].y * height_);
-    const std::uint64_t generation = frame.tables.generation(*list_);
-    if (buffer_ && generation == generation_ && view.eye == eye_ && pixel == pixel_)
-      return {buffer_.id(), buffer_.bytes()};
-    found_.find(frame.tables.rows(*list_), view.eye, kPixels * pixel);
+    const std::uint64_t now = generation(frame);
+    if (buffer_ && sent_ == now) return {buffer_.id(), buffer_.bytes()};
+    found_.find(frame.tables.rows(*list_), eye_, kPixels * pixel_);
     const std::span<const std::byte> bytes = std::as_bytes(std::span(found_.rows()));
     if (!buffer_ || buffer_.bytes() < bytes.size()) {
       // Half as much again, so that spheres which move do not make it anew in every frame.
@@ -54,10 +49,20 @@ class SilhouettesProvider : public Provider {
       buffer_ = std::move(*buffer);
     }
     gl::uploadBuffer(buffer_.id(), 0, bytes);
-    generation_ = generation;
+    sent_ = now;
+    return {buffer_.id(), buffer_.bytes()};
+  }
+  std::uint64_t generation(const Frame& frame) override {
+    if (!list_) return 0;
+    const scene::ViewData& view = frame.camera.view(frame, 1, 1);
+    const float pixel = 2 / (view.projection[1].y * height_);
+    const std::uint64_t rows = frame.tables.generation(*list_);
+    if (generation_ == 0 || rows != rows_ || view.eye != eye_ || pixel != pixel_)
+      generation_ = frame.newGeneration();
+    rows_ = rows;
     eye_ = view.eye;
     pixel_ = pixel;
-    return {buffer_.id(), buffer_.bytes()};
+    return generation_;
   }
 
  private:
@@ -65,8 +70,8 @@ class SilhouettesProvider : public Provider {
   float height_;
   scene::Silhouettes found_;
   gl::Buffer buffer_;
-  std::uint64_t frame_ = 0;       // that it was asked for in
-  std::uint64_t generation_ = 0;  // of the list, the eye and the pixel that it was made for
+  std::uint64_t generation_ = 0, sent_ = 0;  // of what is below; of what the buffer holds
+  std::uint64_t rows_ = 0;
   glm::vec3 eye_{0};
   float pixel_ = 0;
 };
