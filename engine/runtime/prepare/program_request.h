@@ -22,6 +22,10 @@ std::uint32_t conditionCount(const graph::PassSpec& spec);
 bool runsUnder(const graph::PassSpec& spec, std::uint32_t conditions);
 
 // The stages, defines and outputs of a pass's variant under `conditions`: what `check` compiles without running anything.
+// Whether an attachment does no more than say how large the raster of a pass is that stores: nobody reads it, and the
+// shader need not write it.
+bool givesRasterAlone(const graph::Plan& plan, std::uint32_t pass, std::uint32_t use);
+
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan,
                                     std::uint32_t pass, const graph::PassType& type,
                                     std::uint32_t conditions);

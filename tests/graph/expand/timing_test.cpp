@@ -125,9 +125,9 @@ TEST_CASE("timed: only what runs in every frame otherwise, under one condition, 
                 R"("repeat": { "s": [0, 0] }, "modify": { "r": "out" }, "parameters": { "young": "$young" })",
                 "age(pulse) < $seconds"))
             .text() == "");
-  const Expanded repeated =
-      tryPasses(stanza("many", R"("repeat": { "i": [0, 1] }, "write": { "r": "other.mip[i]" })") + ", " +
-                stanza("mix", R"("read": { "a": "other.mip[1]" }, "modify": { "r": "out" })"));
+  const Expanded repeated = tryPasses(
+      stanza("many", R"("repeat": { "i": [0, 1] }, "write": { "r": "other.mip[i]" })") + ", " +
+      stanza("mix", R"("read": { "a": "other.mip[1]", "b": "other.mip[0]" }, "modify": { "r": "out" })"));
   CHECK_MESSAGE(repeated.text() == "", repeated.text());
 }
 
