@@ -35,7 +35,7 @@ SUB_ROOMS = {
         "expand/names": {".", "language", "versions", "pick"},
         "expand/judge": {".", "language", "versions", "expand/names"},
         "expand": {".", "language", "versions", "pick", "expand/names", "expand/judge"},
-        "compile": {".", "versions", "expand"},
+        "compile": {".", "versions"},
         "print": {".", "language", "compile"},
         "edit": {".", "language", "read", "expand/names", "expand"},
         "survey": {".", "language", "expand"},

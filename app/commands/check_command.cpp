@@ -87,11 +87,12 @@ Checked checkOnce(const Options& options) {
   checked.variants = shaders.variants();
   checked.unread = shaders.unread();
   if (checked.matrix && options.matrix)
-    for (const graph::RefusedVariation& refused : checked.matrix->broken)
-      for (base::Diagnostic each : refused.said.items()) {
-        each.message += fmt::format(" (with {})", refused.variation.text());
-        diagnostics.add(std::move(each));
-      }
+    for (const auto* told : {&checked.matrix->broken, &checked.matrix->lost})
+      for (const graph::RefusedVariation& variation : *told)
+        for (base::Diagnostic each : variation.said.items()) {
+          each.message += fmt::format(" (with {})", variation.variation.text());
+          diagnostics.add(std::move(each));
+        }
   diagnostics.sortByPlace();
   return checked;
 }
@@ -159,7 +160,8 @@ Json documentOf(const Options& options, const Checked& checked) {
                      {"pairs", checked.matrix->pairs},
                      {"values", checked.matrix->values},
                      {"needed", refusedJson(checked.matrix->needed)},
-                     {"broken", refusedJson(checked.matrix->broken)}};
+                     {"broken", refusedJson(checked.matrix->broken)},
+                     {"lost", refusedJson(checked.matrix->lost)}};
   return out;
 }
 

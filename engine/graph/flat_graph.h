@@ -244,7 +244,7 @@ struct FlatGraph {
   std::vector<FlatResource> resources;
   FlatUse
       present;  // resource kNone: nothing. Kind sampled: a stand-in for an import, which other plans read; else copy
-  std::vector<FlatUse> outputs;  // read-backs; keep nothing alive
+  std::vector<FlatUse> outputs;  // read-backs; which read as passes do
   VersionLinks links;
   // names and places, parallel to passes and resources
   std::vector<std::string> passNames, resourceNames;

@@ -50,6 +50,13 @@ inline Subresource subresourceAt(std::uint32_t index, const FlatResource& r) {
   return {index % r.mips, index / r.mips % r.layers, index / r.mips / r.layers};
 }
 
+// A shader stores to an image or a storage block.
+inline bool isStore(const FlatUse& use) {
+  const auto kind = 1u << static_cast<unsigned>(use.kind);
+  return use.access != Access::read && (kind & (1u << static_cast<unsigned>(Kind::image) |
+                                                1u << static_cast<unsigned>(Kind::storage))) != 0;
+}
+
 // ---- rectangles ----
 
 // A use of all of `r`.

@@ -25,6 +25,13 @@ struct BoundTexture {
   GLint level = 0, layer = 0;
 };
 
+// A range of a buffer.
+struct BoundBuffer {
+  GLuint name = 0;
+  GLintptr offset = 0;
+  GLsizeiptr bytes = 0;
+};
+
 // Vertices of a draw.
 struct Geometry {
   GLuint vertexArray = 0;
@@ -39,8 +46,10 @@ struct PassContext {
   std::uint32_t groupSize[3] = {1, 1, 1};  // compute: the program's local size
   std::uint32_t maxGroups[3] = {65535, 65535, 65535};
   BoundTexture source, destination;  // blit, mipmap
-  bool linear = false;               // blit: filter of the source slot
-  bool exact = false;                // blit: as graph::FlatUse::exact
+  BoundBuffer sourceBuffer,
+      destinationBuffer;  // blit: in their place, without a name where textures are copied
+  bool linear = false;    // blit: filter of the source slot
+  bool exact = false;     // blit: as graph::FlatUse::exact
   Geometry geometry;
   std::uint32_t instances = 0;  // draw
   // Slices [slice, slice + sliceCount) of `slices`. Rows of pixels are the executor's scissor; compute takes rows of groups.

@@ -21,12 +21,6 @@
 
 namespace weft::graph {
 
-inline bool isStore(const FlatUse& use) {
-  const auto kind = 1u << static_cast<unsigned>(use.kind);
-  return use.access != Access::read && (kind & (1u << static_cast<unsigned>(Kind::image) |
-                                                1u << static_cast<unsigned>(Kind::storage))) != 0;
-}
-
 // The bit a store itself waits behind, rule (b).
 inline std::uint16_t storeBit(const FlatUse& use) {
   return use.kind == Kind::storage ? kBarrierStorage : kBarrierImage;

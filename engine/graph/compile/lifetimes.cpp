@@ -88,16 +88,15 @@ bool isLiveOutput(const FlatGraph& graph, std::size_t output, const Plan& plan, 
   const FlatResource& r = graph.resources[use.resource];
   const std::uint8_t flags = scratch.flags[use.resource];
   if ((flags & Scratch::kImported) == 0 && plan.firstStep[use.resource] == kNone) return false;
-  bool live = true, zero = false;
-  graph.links.forEachRun(graph.links.outputs[output], [&](std::uint32_t writer, std::uint32_t) {
-    live = live && (writer == kNone || plan.attached[writer] != 0);
-    zero = zero || writer == kNone;
-  });
-  if (!live || !zero || (flags & Scratch::kImported) != 0) return live;
+  bool zero = false;
+  graph.links.forEachRun(graph.links.outputs[output],
+                         [&](std::uint32_t writer, std::uint32_t) { zero = zero || writer == kNone; });
+  if (!zero || (flags & Scratch::kImported) != 0) return true;
   if ((flags & Scratch::kClear) == 0) return false;
   // What nobody writes is version zero, which is there when something cleared it.
   const std::uint32_t base = scratch.cellBase[use.resource];
   if ((flags & Scratch::kGranular) == 0) return scratch.cleared[base] != 0;
+  bool live = true;
   forEachVersion(graph.links, graph.links.outputs[output], use, r,
                  [&](std::uint32_t s, std::uint32_t writer) {
                    live = live && (writer != kNone || scratch.cleared[base + s] != 0);

@@ -7,7 +7,7 @@
 #include <span>
 #include <unordered_map>
 
-#include "engine/base/nearest.h"
+#include "engine/graph/expand/copies.h"
 #include "engine/graph/expand/names/limits.h"
 
 namespace weft::graph::expansion {
@@ -42,7 +42,7 @@ Sampler layOver(const Sampler& outer, const Sampler& inner) {
 
 Kind defaultKind(const PassType* type, Access access, const FlatResource& shape) {
   if (!type) return Kind::copy;
-  if (!isTexture(shape)) return Kind::storage;
+  if (!isTexture(shape)) return type->shader == ShaderShape::none ? Kind::copy : Kind::storage;
   if (access == Access::read) return type->defaultReadTexture;
   return type->defaultWriteTexture == Kind::color && isDepth(shape.format) ? Kind::depth
                                                                            : type->defaultWriteTexture;
@@ -109,15 +109,16 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     return formatMisfit("a format that images can have");
   if (known && kind == Kind::depth && !isDepth(shape.format)) return formatMisfit("a depth format");
   const Sampler& sampler = work.sampler;
-  const bool blit = kind == Kind::copy && shader == ShaderShape::none && sampler.wrap == Wrap::clamp &&
-                    !sampler.compare;  // may filter
+  const bool blit = kind == Kind::copy && context.type && context.type->framebuffers && texture &&
+                    access == Access::read && sampler.wrap == Wrap::clamp && !sampler.compare;  // may filter
   if ((sampler.linear || sampler.wrap != Wrap::clamp || sampler.compare) && kind != Kind::sampled && !blit)
     return report(Code::badKind,
                   fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
                   "linear, wrap, mirror, border and compare for sampled textures");
   if (known && kind == Kind::sampled && sampler.compare && !isDepth(shape.format))
     return formatMisfit("a depth format for compare", "name a depth texture, or leave 'compare' out");
-  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2))
+  const bool depths = kind == Kind::copy && isDepth(shape.format);
+  if (known && sampler.linear && (isInteger(shape.format) || work.use.planes == 2 || depths))
     return formatMisfit("a format that can be filtered, or no linear", "leave 'linear' out");
   if (shape.samples > 1 && sampler.linear)
     return report(
@@ -203,45 +204,6 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
   return true;
 }
 
-// The two slots of a pass type without a shader, against each other.
-bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
-  const SlotWork *from = nullptr, *to = nullptr;
-  for (const SlotWork& work : slots)
-    if (work.state == SlotWork::State::connected) (work.slot->access == Access::read ? from : to) = &work;
-  if (!from || !to) return true;
-  const Entity& source = context.model.entities[from->entity];
-  const Entity& target = context.model.entities[to->entity];
-  if (context.type->fromSource) {
-    const bool follows = from->entity == to->entity && from->firstElement == to->firstElement &&
-                         from->use.mips == 1 && to->use.mip == from->use.mip + 1 &&
-                         from->use.layer == to->use.layer && from->use.layers == to->use.layers;
-    if (follows) return true;
-    auto& d =
-        context.model.diagnostics.error(Code::badSlots, to->slot->ref.place,
-                                        fmt::format("{}: the levels of '{}' do not follow '{}'", context.user,
-                                                    to->slot->ref.text, from->slot->ref.text));
-    d.pass = context.pass;
-    d.resource = target.name;
-    d.hint = fmt::format(
-        "\"read\": {{ \"source\": \"{0}.mip[0]\" }}, \"write\": {{ \"result\": \"{0}.mip[1..]\" }}",
-        to->slot->ref.name);
-    return false;
-  }
-  const Format a = source.shape.format, b = target.shape.format;
-  if (a == Format::none || b == Format::none) return true;
-  const bool depth = isDepth(a) || isDepth(b), integer = isInteger(a) || isInteger(b);
-  const bool fits = depth ? a == b : !integer || infoOf(a).kind == infoOf(b).kind;
-  if (fits) return true;
-  auto& d =
-      context.model.diagnostics.error(Code::badFormat, to->slot->ref.place,
-                                      fmt::format("{}: '{}' ({}) cannot be copied to '{}' ({})", context.user,
-                                                  source.name, infoOf(a).name, target.name, infoOf(b).name));
-  d.pass = context.pass;
-  d.resource = target.name;
-  d.expected = "equal depth formats, or both integer of one sign, or both neither";
-  return false;
-}
-
 }  // namespace
 
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots) {
@@ -312,6 +274,31 @@ bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::
     }
   }
   return good;
+}
+
+bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, const Entity& entity) {
+  const auto depth = static_cast<int>(entity.depth);
+  const bool import = entity.kind == ResourceDesc::Kind::import;
+  const bool before = import && context.model.graph.imports[entity.import].before;
+  if (import ? history == 1 && before : history <= depth) return true;
+  const auto own = context.names.scope().resources.find(ref.name);
+  if (own != context.names.scope().resources.end() && context.model.entities[own->second].badHistory)
+    return false;  // the input that asks for it was reported
+  auto& d = context.model.diagnostics.error(
+      Code::noHistory, ref.place,
+      fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name));
+  d.pass = context.pass;
+  d.resource = entity.name;
+  if (before) d.expected = "@-1, what was shown before";
+  if (depth > 0) d.expected = fmt::format("@-1 to @-{}", depth);
+  if (d.expected.empty()) d.found = import ? "an import, which has no history" : "no history is declared";
+  const bool input = entity.scope != &context.names.scope() && ref.name.find('.') == std::string::npos;
+  if (!import)
+    d.hint = fmt::format("declare \"history\": {} on '{}'{}", history, entity.name,
+                         input ? ", or on this file's input" : "");
+  else if (!before)
+    d.hint = "let a pass write it into a texture or buffer with \"history\", and read that";
+  return false;
 }
 
 void checkAccumulation(const SlotContext& context, const SlotWork& work, std::uint32_t firstUse) {

@@ -20,6 +20,9 @@ Kind defaultKind(const PassType* type, Access access, const FlatResource& shape)
 // Checks one use: its kind must fit the resource, the access, the pass type and the format; sampler words must fit.
 bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, const SlotWork& work);
 
+// Checks that the resource remembers as much as `ref` asks for, x@-`history`.
+bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, const Entity& entity);
+
 // Checks all uses of one pass: attachments must have one size, layer count and sample count; nothing may be written
 // twice; nothing may be both read and written, except by feedback.
 bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::vector<SlotWork>& slots);

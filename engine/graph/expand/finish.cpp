@@ -94,12 +94,33 @@ bool checkOutput(Model& model, const OutputDesc& output, const std::string& name
   return false;
 }
 
+// A version zero alone is nothing to read back.
+bool isWritten(Model& model, const OutputDesc& output, const std::string& name, const FlatUse& use) {
+  if (use.history > 0) return true;
+  std::uint32_t missing = kNone;
+  model.versions.forEachRun(use, [&](std::uint32_t writer, std::uint32_t first, std::uint32_t) {
+    if (writer == kNone) missing = first;
+    return missing == kNone;
+  });
+  if (missing == kNone) return true;
+  if (output.ref.optional) return false;
+  const std::string part = subresourceText(model.graph.resources[use.resource], missing);
+  const std::string& resource = model.graph.resourceNames[use.resource];
+  auto& d = model.diagnostics.error(Code::nobodyWrites, output.ref.place,
+                                    fmt::format("output '{}' reads {}'{}', which no pass writes", name,
+                                                part.empty() ? "" : part + " of ", resource));
+  d.resource = resource;
+  d.found = output.ref.text;
+  d.hint = "end the reference with '?' to leave the output out when nothing writes it";
+  return false;
+}
+
 void resolveOutputs(Model& model) {
   for (Scope& scope : model.scopes)
     for (const OutputDesc& output : scope.desc->outputs) {
       const std::string name = scope.prefix + output.name;
       auto use = resolveFinal(model, scope, output.ref, fmt::format("output '{}'", name), name);
-      if (!use || !checkOutput(model, output, name, *use)) continue;
+      if (!use || !checkOutput(model, output, name, *use) || !isWritten(model, output, name, *use)) continue;
       use->kind = Kind::copy;
       model.graph.outputs.push_back(*use);
       model.graph.outputNames.push_back(name);
@@ -129,7 +150,6 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
     const std::uint32_t found = findEntityOrReport(model, *entity.scope, ref.name, ref.import, ref.place,
                                                    {"the reset of '{}' names the", entity.name});
     if (found == kNone) continue;
-    mention(model, found, kNone);
     if (!holds || !*holds) continue;
     // An import that has nothing now may have something later.
     const std::uint32_t target =
@@ -253,6 +273,29 @@ void foldLive(Model& model, const std::vector<DeferredUniform>& deferred) {
   }
 }
 
+// Which uses of a pass stay even when no other pass reads what they write.
+void settleKept(FlatGraph& graph) {
+  for (std::size_t p = 0; p < graph.passes.size(); ++p) {
+    const FlatPass& pass = graph.passes[p];
+    const StateSpec& state = graph.specs[p].state;
+    // A depth test reads what it writes; so does a shader that modifies an image or a storage block.
+    const bool tests = state.depthTest && state.depthCompare != Compare::always;
+    FlatUse* raster = nullptr;
+    bool stores = false, hasRaster = false;
+    for (std::uint32_t u = pass.firstUse; u < pass.firstUse + pass.useCount; ++u) {
+      FlatUse& use = graph.uses[u];
+      const bool store = isStore(use), attachment = use.kind == Kind::color || use.kind == Kind::depth;
+      use.keep = use.access != Access::read && (pass.sideEffect || (store && use.access == Access::modify) ||
+                                                (tests && use.kind == Kind::depth));
+      stores = stores || store;
+      hasRaster = hasRaster || (attachment && (use.keep || use.access == Access::read));
+      if (attachment && !raster) raster = &use;
+    }
+    // A pass may live by what it stores alone: then one attachment says how large its raster is.
+    if (stores && raster && !hasRaster) raster->keep = true;
+  }
+}
+
 // One level and one layer of a texture that glCopyImageSubData can copy as glBlitFramebuffer does. The texture that an import
 // gives may be a stand-in of another format.
 bool isPlainImage(const FlatUse& use, const FlatResource& r) {
@@ -287,6 +330,7 @@ void finishGraph(Model& model, const std::vector<DeferredUniform>& deferred) {
   resolveOutputs(model);
   foldTimed(model, deferred);
   resolveHistories(model);
+  settleKept(model.graph);
   settleCopies(model.graph);
   model.versions.finish();
   settleComparisons(model);

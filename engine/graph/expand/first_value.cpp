@@ -132,10 +132,11 @@ void FirstValues::resolve(const SlotContext& context, const std::vector<SlotWork
   }
 }
 
-std::vector<SlotWork> FirstValues::with(const std::vector<SlotWork>& slots) const {
-  std::vector<SlotWork> all = slots;
-  for (const auto& [slot, first] : works_) all.push_back(first);
-  return all;
+const std::vector<SlotWork>& FirstValues::with(const std::vector<SlotWork>& slots) {
+  if (works_.empty()) return slots;
+  all_ = slots;
+  for (const auto& [slot, first] : works_) all_.push_back(first);
+  return all_;
 }
 
 bool FirstValues::emit(Model& model, const SlotWork& work, std::uint32_t pass, SlotSpec& spec) const {

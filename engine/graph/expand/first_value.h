@@ -14,15 +14,15 @@ class FirstValues {
   // For each connected slot that reads @-n: the same part of what `first` of the resource names, read in the same way. Reports
   // what does not fit.
   void resolve(const SlotContext& context, const std::vector<SlotWork>& slots, std::uint32_t pass);
-  bool none() const { return works_.empty(); }
   // `slots` and these, for the checks of a whole pass.
-  std::vector<SlotWork> with(const std::vector<SlotWork>& slots) const;
+  const std::vector<SlotWork>& with(const std::vector<SlotWork>& slots);
   // Adds the use that belongs to `work`, if there is one, to the graph. False when the graph has too many.
   bool emit(Model& model, const SlotWork& work, std::uint32_t pass, SlotSpec& spec) const;
 
  private:
   std::vector<std::pair<const SlotDesc*, SlotWork>> works_;  // by the slot that reads the history
   std::vector<SlotDesc> slots_;                              // of the works
+  std::vector<SlotWork> all_;
 };
 
 }  // namespace weft::graph::expansion

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <iterator>
 
 #include "engine/graph/expand/checks.h"
@@ -162,37 +161,45 @@ class PassWalk {
     const SlotContext context{model_, names, type_, user_, name_, enabled, !byItself, &leaves_};
     const auto pass = static_cast<std::uint32_t>(graph_.passes.size());
 
+    const std::size_t missed = model_.missing.size();
     std::vector<SlotWork>& slots = slots_;
     slots.clear();
-    slots.reserve(desc_->slots.size());
     const SlotDesc* gone = nullptr;
     for (const SlotDesc& slot : desc_->slots) {
       if (isOver(model_)) return;
+      model_.slot = static_cast<std::uint32_t>(slots.size());
       slots.push_back(resolveSlot(context, slot, enabled ? pass : kNone));
       if (slots.back().state == State::empty && !gone) gone = &slot;
       if (slots.back().state == State::failed && slot.access != Access::read)
         leaveOutWrite(model_, *scope_, slot.ref);
     }
+    model_.slot = kNone;
     firsts_.resolve(context, slots, enabled ? pass : kNone);
-    checkPassUses(context, *desc_, firsts_.none() ? slots : firsts_.with(slots));
+    const std::vector<SlotWork>& all = firsts_.with(slots);
+    checkPassUses(context, *desc_, all);
     if (isOver(model_)) return;
-    if (!why->empty()) {
-      disabledInstance(context, slots, name_, *why);
-    } else if (gone) {
-      disabledInstance(context, slots, name_, fmt::format("'{}' is not there at this size", gone->ref.text));
-    } else if (enabled) {
+    if (gone) model_.missing.resize(missed);  // nobody runs to miss it
+    const std::string off =
+        enabled && gone ? fmt::format("'{}' is not there at this size", gone->ref.text) : *why;
+    if (off.empty())
       emit(context, slots, names);
-    }
+    else
+      disabledInstance(context, all, off);
     // The other repeats would say the same.
     if (model_.diagnostics.errorCount() > before && !names.indices.empty()) failed_ = true;
   }
 
   void disabledInstance(const SlotContext& context, const std::vector<SlotWork>& slots,
-                        const std::string& name, const std::string& why) {
+                        const std::string& why) {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
-    graph_.disabled.push_back({name, why});
+    graph_.disabled.push_back({name_, why});
+    if (desc_->sideEffect) wouldUse(model_, WouldUse{});
     for (const SlotWork& work : slots)
-      if (work.state == State::connected && work.slot->access != Access::read)
+      if (work.state == State::empty && work.slot->access != Access::read)
+        wouldUse(model_, WouldUse{});  // who knows what reads it at another size
+      else if (work.state == State::connected && work.slot->access == Access::read)
+        wouldUse(model_, {WouldUse::Why::off, work.entity, work.firstElement, work.elementCount, work.use});
+      else if (work.state == State::connected)
         record(slots, work, kNone, index);
     if (!context.ranges || !stanzaGood_) return;
     PassSpec ignored;
@@ -246,7 +253,6 @@ class PassWalk {
     for (std::uint32_t e = work.firstElement; e < work.firstElement + work.elementCount; ++e) {
       FlatUse use = work.use;
       use.feedback = desc_->feedback && use.access == Access::modify;
-      use.keep = desc_->sideEffect && use.access != Access::read;
       use.exact = type_ && type_->exactCopies;  // finishGraph() looks at the shapes
       addUse(model_, work.entity, e, use, pass);
     }
@@ -308,11 +314,6 @@ class PassWalk {
     }
     flat.useCount = static_cast<std::uint32_t>(graph_.uses.size()) - flat.firstUse;
     spec.slotCount = static_cast<std::uint32_t>(slots.size());
-    // A depth test reads what it writes, so the attachment stays even when no other pass reads it.
-    const bool tests = spec.state.depthTest && spec.state.depthCompare != Compare::always;
-    for (std::uint32_t use = flat.firstUse; use < flat.firstUse + flat.useCount; ++use)
-      if (tests && graph_.uses[use].kind == Kind::depth && graph_.uses[use].access != Access::read)
-        graph_.uses[use].keep = true;
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const SlotSpec& slot = graph_.slots[spec.firstSlot + i];
       if (slot.useCount == 0 || slot.access == Access::read) continue;
@@ -362,8 +363,7 @@ void expandPasses(Model& model, std::vector<DeferredUniform>& deferred) {
     }
   }
   // Powers of two, as far as repeats go on from there by doubling: just below the limits of instances and slots they are full.
-  slots = std::bit_ceil(slots);
-  passes = std::bit_ceil(passes);
+  for (std::size_t* count : {&slots, &passes}) *count = std::bit_ceil(*count);
   model.graph.slots.reserve(slots);
   model.graph.uses.reserve(slots);
   model.graph.passes.reserve(passes);

@@ -126,7 +126,9 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
   if (leaf.sampler.wrap == Wrap::clamp) leaf.border = ref.border;
   leaf.sampler = layOver(leaf.sampler, ref.sampler);
   leaf.history += ref.history;
-  const Entity& entity = model.entities[leaf.entity];
+  Entity& entity = model.entities[leaf.entity];
+  entity.read = true;
+  entity.firstRead = std::min(entity.firstRead, model.position);
   if (entity.kind != ResourceDesc::Kind::alternatives) {
     leaves.push_back(std::move(leaf));
     return true;
@@ -141,7 +143,11 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
     const auto holds =
         evaluateCondition(listNames, alternative.condition, true, "the condition of an alternative");
     if (!holds) good = false;
-    if (holds && *holds) good = collectLeaves(context, listNames, alternative, leaf, leaves) && good;
+    if (holds && !*holds)
+      wouldUse(model, entity.candidates[i], Access::read, leaf.history + alternative.history);
+    Leaf within = leaf;
+    within.conditional = leaf.conditional || alternative.condition.present();
+    if (holds && *holds) good = collectLeaves(context, listNames, alternative, within, leaves) && good;
   }
   return good;
 }
@@ -250,43 +256,16 @@ bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t 
   return false;
 }
 
-bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, const Entity& entity) {
-  const auto depth = static_cast<int>(entity.depth);
-  const bool import = entity.kind == ResourceDesc::Kind::import;
-  if (!import && history <= depth) return true;
-  const auto own = context.names.scope().resources.find(ref.name);
-  if (own != context.names.scope().resources.end() && context.model.entities[own->second].badHistory)
-    return false;  // the input that asks for it was reported
-  auto& d = report(
-      context, Code::noHistory, ref.place,
-      fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name),
-      entity.name);
-  if (depth > 0) d.expected = fmt::format("@-1 to @-{}", depth);
-  if (d.expected.empty()) d.found = import ? "an import, which has no history" : "no history is declared";
-  const bool input = entity.scope != &context.names.scope() && ref.name.find('.') == std::string::npos;
-  if (!import)
-    d.hint = fmt::format("declare \"history\": {} on '{}'{}", history, entity.name,
-                         input ? ", or on this file's input" : "");
-  else
-    d.hint = "let a pass write it into a texture or buffer with \"history\", and read that";
-  return false;
+void noteWould(Model& model, const SlotWork& work, WouldUse::Why why) {
+  wouldUse(model, {why, work.entity, work.firstElement, work.elementCount, work.use});
+}
+// The alternatives of a slot that is off, from `first` on.
+void noteOthers(Model& model, const std::vector<Leaf>& leaves, Access access, std::size_t first) {
+  for (std::size_t i = first; i < leaves.size(); ++i)
+    wouldUse(model, leaves[i].entity, access, leaves[i].history);
 }
 
 }  // namespace
-
-void mention(Model& model, std::uint32_t index, std::uint32_t position) {
-  Entity& entity = model.entities[index];
-  if (!entity.mentions.empty() && entity.mentions.back().position == position) {
-    entity.mentions.back() = {position};
-    return;
-  }
-  if (entity.mentions.empty()) entity.mentions.reserve(4);
-  entity.mentions.push_back({position});
-  if (!entity.candidates.empty() && !lookAt(model, entity.candidates.size(), entity.desc->place)) return;
-  for (std::size_t i = 0; i < entity.candidates.size(); ++i)
-    if (entity.candidates[i] != kNone)
-      mention(model, entity.candidates[i], entity.desc->alternatives[i].history > 0 ? kNone : position);
-}
 
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass) {
   using State = SlotWork::State;
@@ -304,9 +283,6 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
                           context.user},
                          context.pass, slot.name);
   if (found == kNone) return work;
-  const std::size_t mentioned = model.entities[found].mentions.size();
-  if (slot.access == Access::read) mention(model, found, ref.history > 0 ? kNone : model.position);
-  const bool fresh = model.entities[found].mentions.size() > mentioned;
   if (slot.access != Access::read && !isWritable(context, slot, found)) return work;
 
   const auto holds =
@@ -328,7 +304,7 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
         {cause, pass, model.position, slot.name, &ref, false, slot.access, std::move(wanted)});
   };
   const bool looksForVersions = context.versions && *holds && slot.access != Access::write;
-  bool onlyImports = !leaves.empty();
+  bool onlyImports = !leaves.empty(), byCondition = false;
   const SlotWork blank = work;
   std::optional<SlotWork> zero;  // the first candidate that has no more than version zero
   for (const Leaf& leaf : leaves) {
@@ -336,28 +312,33 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
     if (!placeSelection(checked, leaf, ref, candidate) ||
         !finishUse(checked, leaf, ref, slot.access, candidate))
       return work;
-    if (fresh && candidate.entity == found && candidate.state == State::connected) {
-      Mention& narrowed = model.entities[found].mentions.back();
-      narrowed.firstMip = candidate.use.mip;
-      narrowed.lastMip = candidate.use.mip + candidate.use.mips - 1u;
-    }
     const Entity& entity = model.entities[candidate.entity];
     const bool earlier = leaf.history > 0;
     if (earlier && !checkHistory(context, ref, leaf.history, entity)) return work;
+    candidate.use.history = static_cast<std::uint8_t>(leaf.history);
     if (!*holds) {
+      if (context.versions) {
+        const bool placed = candidate.state == State::connected;
+        if (placed) noteWould(model, candidate, WouldUse::Why::off);
+        noteOthers(model, leaves, slot.access, placed ? 1 : 0);
+      }
       candidate.state = slot.access == Access::read && !ref.optional ? State::missing : State::absent;
       work = std::move(candidate);
-      if (work.state == State::missing && context.versions) {
-        addMissing(MissingRead::Cause::condition);
-      }
+      if (work.state == State::missing && context.versions) addMissing(MissingRead::Cause::condition);
       return work;
     }
     if (candidate.state == State::empty) {
       if (ref.optional) candidate.state = State::absent;
       return candidate;
     }
-    candidate.use.history = static_cast<std::uint8_t>(leaf.history);
-    if (!looksForVersions || earlier) return candidate;
+    // Those behind one that is there by a condition, or from outside, are off as long as it is.
+    byCondition = byCondition || leaf.conditional || entity.kind == ResourceDesc::Kind::import;
+    const auto chosen = [&] {
+      if (byCondition || !context.versions)
+        noteOthers(model, leaves, slot.access, static_cast<std::size_t>(&leaf - leaves.data()) + 1);
+      return candidate;
+    };
+    if (!looksForVersions || earlier) return chosen();
     bool complete = true, real = false;
     for (std::uint32_t e = candidate.firstElement; e < candidate.firstElement + candidate.elementCount; ++e) {
       const VersionCheck check = checkVersion(model, candidate.entity, e, candidate.use);
@@ -365,8 +346,10 @@ SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint
       if (complete && !check.complete) wanted.push_back({candidate.entity, e, check.missing, candidate.use});
       complete = complete && check.complete;
     }
-    if (complete && real) return candidate;
+    if (complete && real) return chosen();
     onlyImports = onlyImports && entity.kind == ResourceDesc::Kind::import;
+    if (slot.access == Access::read)
+      noteWould(model, candidate, complete && !ref.optional ? WouldUse::Why::zero : WouldUse::Why::empty);
     if (complete && !zero) zero = candidate;
     if (work.entity == kNone) work = std::move(candidate);
   }

@@ -30,7 +30,8 @@ struct Leaf {
   std::optional<Kind> kind;
   Sampler sampler;
   BorderColor border{};
-  int history = 0;  // n of @-n, of the reference and of the alternatives on the way
+  int history = 0;           // n of @-n, of the reference and of the alternatives on the way
+  bool conditional = false;  // it stands in a list, with a condition
 };
 
 // A slot of one pass instance.
@@ -83,8 +84,5 @@ bool placeSelection(const SlotContext& context, const Leaf& leaf, const RefDesc&
 // Resolves one slot. Reads and modifies look for versions; a required slot without one is recorded in
 // model.missing (with `pass` as its pass) and comes back as `missing`.
 SlotWork resolveSlot(const SlotContext& context, const SlotDesc& slot, std::uint32_t pass);
-
-// Every resource the reference may ever mean, alternatives included, is mentioned at `position`.
-void mention(Model& model, std::uint32_t entity, std::uint32_t position);
 
 }  // namespace weft::graph::expansion

@@ -153,7 +153,10 @@ void checkKeys(const Stanza& stanza) {
       std::none_of(desc.slots.begin(), desc.slots.end(), [](const SlotDesc& s) {
         return s.access != Access::read && s.ref.kind != Kind::image && s.ref.kind != Kind::storage;
       }))
-    lacks("something to draw into", "a slot in \"write\" or \"modify\" that is an attachment");
+    lacks("something to draw into",
+          "a slot in \"write\" or \"modify\" that is an attachment: it gives the size of what is drawn, and "
+          "the "
+          "shader need not write it if nobody reads it");
 }
 
 void checkLists(const Stanza& stanza) {

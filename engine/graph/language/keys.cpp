@@ -28,7 +28,7 @@ constexpr KeySpec kGraph[] = {
      "passes and includes, in declared order", true},
     {"present", "@reference", "the picture"},
     {"outputs", R"({"type":"object","additionalProperties":{"$ref":"#/$defs/reference"}})",
-     "what is read back, by name; keeps nothing alive"},
+     "what is read back, by name"},
 };
 
 constexpr KeySpec kParameter[] = {

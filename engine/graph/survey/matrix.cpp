@@ -21,6 +21,13 @@ bool namesDisabled(const base::Diagnostic& d) {
          d.code == Code::nothingPresented;
 }
 
+// Codes by which an enabled pass does not do what it is there for.
+bool namesLost(const base::Diagnostic& d) {
+  return d.severity == base::Severity::warning &&
+         (d.code == Code::readBeforeWrite || d.code == Code::culledOverwritten ||
+          d.code == Code::culledUnread);
+}
+
 class Trial {
  public:
   Trial(const GraphDesc& desc, const Registry& registry, const Settings& settings,
@@ -77,8 +84,14 @@ class Trial {
     base::Diagnostics said;
     auto graph = expandGraph(desc_, registry_, settings, said);
     said_.clear();
+    base::Diagnostics lost;
     for (const base::Diagnostic& d : said.items())
-      if (d.severity == base::Severity::error) said_.add(d);
+      if (d.severity == base::Severity::error)
+        said_.add(d);
+      else if (namesLost(d) && told_.insert(fmt::format("{} {}", d.pass, d.resource)).second)
+        lost.add(d);
+    const bool changed = !variation.disables.empty() || !variation.parameter.empty();
+    if (graph && changed && !lost.empty()) matrix_.lost.push_back({variation, std::move(lost)});
     if (graph && options_.visit) options_.visit(variation, graph);
     return graph;
   }
@@ -98,6 +111,7 @@ class Trial {
   const MatrixOptions& options_;
   Matrix matrix_;
   base::Diagnostics said_;
+  std::set<std::string> told_;  // passes and resources that were warned of
 };
 
 }  // namespace

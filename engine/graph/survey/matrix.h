@@ -23,7 +23,7 @@ struct Variation {
 
 struct RefusedVariation {
   Variation variation;
-  base::Diagnostics said;  // errors only
+  base::Diagnostics said;  // errors only; of `lost` what it warns of and no variation before it does
 };
 
 struct Matrix {
@@ -33,6 +33,9 @@ struct Matrix {
   std::vector<RefusedVariation> needed;
   // Whatever else is refused: a value that a parameter offers, and passes whose errors do not tell that they are disabled.
   std::vector<RefusedVariation> broken;
+  // Variations in which a pass does not reach the picture, or reads what is written below it, and which the graph as it is
+  // has not.
+  std::vector<RefusedVariation> lost;
 };
 
 struct MatrixOptions {

@@ -90,8 +90,9 @@ void findLive(const FlatGraph& graph, std::vector<std::uint8_t>& livePass, std::
   livePass.assign(graph.passes.size(), 0);
   liveUse.assign(graph.uses.size(), 0);
   stack.clear();
-  links.forEachWriter(links.present,
-                      [&](std::uint32_t writer) { liveUse[writer] = livePass[links.passOf[writer]] = 1; });
+  const auto keep = [&](std::uint32_t writer) { liveUse[writer] = livePass[links.passOf[writer]] = 1; };
+  links.forEachWriter(links.present, keep);
+  for (const std::uint32_t output : links.outputs) links.forEachWriter(output, keep);
   for (std::size_t p = 0; p < graph.passes.size(); ++p) livePass[p] |= graph.passes[p].sideEffect ? 1 : 0;
   if (links.forward)
     Sweep(graph, livePass.data(), liveUse.data(), stack).run();

@@ -10,9 +10,8 @@
 
 namespace weft::graph {
 
-// `pass`: 1 for what `present`, a side effect or a history that a live pass reads needs, directly or through others.
-// `use`: 1 for all reads of live passes, and for writes and modifies that are kept or that a live use sees. Outputs
-// keep nothing alive.
+// `pass`: 1 for what `present`, an output, a side effect or a history that a live pass reads needs, directly or through
+// others. `use`: 1 for all reads of live passes, and for writes and modifies that are kept or that a live use sees.
 struct Liveness {
   std::vector<std::uint8_t> pass, use;
 };

@@ -3,20 +3,25 @@
 namespace weft::passes {
 
 graph::PassType Blit::reflect() const {
-  return {.name = "blit",
-          .doc =
-              "Copies `source` to `destination`, scaling when the sizes differ (`\"source\": \"x as "
-              "linear\"` filters).",
-          .shader = graph::ShaderShape::none,
-          .defaultReadTexture = graph::Kind::copy,
-          .defaultWriteTexture = graph::Kind::copy,
-          .fixedSlots = {{"source", graph::Access::read, "the level and layer to copy from"},
-                         {"destination", graph::Access::write, "the level and layer to copy to"}},
-          .framebuffers = true,
-          .exactCopies = true};
+  return {
+      .name = "blit",
+      .doc =
+          "Copies `source` to `destination`: one level and layer of a texture, scaling when the sizes differ "
+          "(`\"source\": \"x as linear\"` filters), or a buffer to one of the same size.",
+      .shader = graph::ShaderShape::none,
+      .defaultReadTexture = graph::Kind::copy,
+      .defaultWriteTexture = graph::Kind::copy,
+      .fixedSlots = {{"source", graph::Access::read, "the level and layer, or the buffer, to copy from"},
+                     {"destination", graph::Access::write, "the level and layer, or the buffer, to copy to"}},
+      .framebuffers = true,
+      .exactCopies = true};
 }
 
 void Blit::execute(const PassContext& context) const {
+  if (const BoundBuffer& from = context.sourceBuffer, &to = context.destinationBuffer; from.name && to.name) {
+    glCopyNamedBufferSubData(from.name, to.name, from.offset, to.offset, to.bytes);
+    return;
+  }
   const BoundTexture& from = context.source;
   const BoundTexture& to = context.destination;
   if (context.exact) {

@@ -84,7 +84,7 @@ void applyState(const PreparedPass& pass, gl::StateCache& states) {
   states.enable(GL_DEPTH_TEST, depthTest);
   if (depthTest) states.depthFunc(glCompareOf(state.depthCompare));
   states.depthMask(depthTest && depthWritable && state.depthWrite);
-  states.colorMask(true);
+  states.colorMask(pass.writesColor);
   states.enable(GL_CULL_FACE, state.cull != graph::Cull::none);
   if (state.cull != graph::Cull::none) states.cullFace(state.cull == graph::Cull::back ? GL_BACK : GL_FRONT);
   states.polygonMode(state.lines ? GL_LINE : GL_FILL);

@@ -188,6 +188,13 @@ void StepRunner::bindBlock(const gl::Block* block, std::uint32_t offset) {
 
 // Binds what a pass type without a shader works on: GL names of textures, and framebuffers around them if it wants some.
 bool StepRunner::bindFixed(const FixedBinding& binding, PreparedPass& pass, base::Diagnostics& diagnostics) {
+  if (const GpuResource& resource = pool_[binding.resource]; !resource.texture && !resource.buffers.empty()) {
+    (binding.source ? pass.context.sourceBuffer : pass.context.destinationBuffer) = {
+        .name = resource.buffers[resource.copyOf(binding.history, pass.group)],
+        .offset = static_cast<GLintptr>(resource.offset),
+        .bytes = static_cast<GLsizeiptr>(resource.bytes)};
+    return true;
+  }
   passes::BoundTexture& bound = binding.source ? pass.context.source : pass.context.destination;
   bound.name = textureOf(binding, pass, diagnostics);
   if (!pass.framebuffers || !bound.name) return bound.name != 0;

@@ -117,6 +117,7 @@ class Preparer {
         good &= bindUse(slot, index, k) && bindFirst(slot, index, k);
       }
     }
+    if (out_.attachments.empty()) good &= attachRaster();
     const gl::Block* instances =
         out_.variant->program.reflection().findStorageBlock(imports::kInstancesBlock);
     if (instances && !spec_.list.empty() && !hasSlot(imports::kInstancesBlock)) {
@@ -127,6 +128,17 @@ class Preparer {
       out_.buffers.push_back(binding);
     }
     return good;
+  }
+
+  // A draw is never without a framebuffer of its own: where the program has no output for any attachment, one says the size.
+  bool attachRaster() {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
+      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+      if (slot.useCount == 0 || slot.kind != Kind::color || !isAttached(slot.firstUse)) continue;
+      out_.writesColor = false;
+      return attach(slot.firstUse, GL_COLOR_ATTACHMENT0);
+    }
+    return true;
   }
 
   // For a read of @-n: also binds, in the same place, what "first" of the resource names.
@@ -287,9 +299,10 @@ class Preparer {
       passes::BoundTexture& bound = from ? out_.context.source : out_.context.destination;
       bound.width = std::max(1u, resource.width >> use.mip);
       bound.height = std::max(1u, resource.height >> use.mip);
-      bound.planes = !graph::isDepth(resource.format)     ? GL_COLOR_BUFFER_BIT
-                     : graph::hasStencil(resource.format) ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT
-                                                          : GL_DEPTH_BUFFER_BIT;
+      bound.planes = !graph::isDepth(resource.format)
+                         ? GL_COLOR_BUFFER_BIT
+                         : ((use.planes & 1) != 0 ? GL_DEPTH_BUFFER_BIT : 0u) |
+                               ((use.planes & 2) != 0 ? GL_STENCIL_BUFFER_BIT : 0u);
       out_.context.exact = use.exact;
       if (from) out_.context.linear = slot->sampler.linear;
       const FlatUse& read = graph_.uses[slot->firstUse];

@@ -112,8 +112,9 @@ struct PreparedPass {
   std::vector<std::uint32_t> written, read;  // resources (attached writes; reads)
   std::uint32_t width = 0, height = 0;       // of the attachments
   bool feedback = false;
-  bool encodesSrgb = false;            // an attachment is sRGB: GL encodes the linear light of shaders
-  std::uint32_t group = graph::kNone;  // as Plan::groups
+  bool writesColor = true;   // false: the shader has no output, and an attachment only says the size
+  bool encodesSrgb = false;  // an attachment is sRGB: GL encodes the linear light of shaders
+  std::uint32_t group = graph::kNone;             // as Plan::groups
   bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
   std::unique_ptr<imports::MeshPass> meshes;  // of a draw of the list's meshes

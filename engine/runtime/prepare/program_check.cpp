@@ -141,7 +141,8 @@ class Checker : PassErrors {
         checkTable(reflection_.findStorageBlock(slot.name), columnsOf(graph_, use), slot.place);
         return;
       case Kind::color:
-        if (!reflection_.findOutput(slot.name) && (!declared(slot) || !otherUse(slot.name).empty()))
+        if (!reflection_.findOutput(slot.name) && (!declared(slot) || !otherUse(slot.name).empty()) &&
+            !givesRasterAlone(plan_, pass_, slot.firstUse))
           missing(slot, "an output", otherUse(slot.name), use);
         checkOutput(slot, use);
         return;

@@ -65,6 +65,7 @@ class WordChecker : PassErrors {
       case Kind::uniform:
       case Kind::storage:
       case Kind::color:
+        if (slot.kind == Kind::color && givesRasterAlone(plan_, pass_, slot.firstUse)) return;
         if (!words_.declares(slot.name, slot.kind))
           sayMissingSlot(graph_, spec_, slot, words_, shaders_, declared(),
                          fail(Code::slotNotInShader, slot.place, ""));

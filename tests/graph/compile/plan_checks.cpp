@@ -52,6 +52,7 @@ std::string checkLiveness(const Plan& plan) {
   while (changed) {
     changed = false;
     if (graph.present.resource != kNone) want(graph.present, passes);
+    for (const FlatUse& output : graph.outputs) want(output, passes);
     for (std::uint32_t p = 0; p < passes; ++p) {
       const FlatPass& pass = graph.passes[p];
       if (pass.sideEffect) set(livePass[p]);

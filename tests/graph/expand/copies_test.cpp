@@ -44,3 +44,59 @@ TEST_CASE("a blit of equal formats and sizes is an exact copy, of levels and lay
   CHECK_FALSE(exact("cubes.face[1]", "b"));
   CHECK_FALSE(exact("a.mip[0]", "a.mip[1..]", "mipmap"));
 }
+
+TEST_CASE("what a blit or a mipmap cannot do is refused") {
+  const auto said = [](const std::string& source, const std::string& destination,
+                       const std::string& type = "blit") {
+    return expandText(R"J({ "resources": {
+      "one": { "buffer": 64, "clear": 0 }, "two": { "buffer": 64 }, "large": { "buffer": 128, "clear": 0 },
+      "many": { "texture": "rgba8", "size": 64, "array": 2, "clear": 0 },
+      "a": { "texture": "rgba8", "size": 64, "mips": 3, "clear": 0 }, "b": { "texture": "rgba8", "size": 64, "clear": 0 },
+      "layers": { "texture": "rgba8", "size": 64, "layers": 2, "clear": 0 },
+      "cube": { "texture": "rgba8", "size": 64, "view": "cube", "clear": 0 },
+      "deep": { "texture": "rgba8", "size": [8, 8, 8], "clear": 0 },
+      "four": { "texture": "rgba8", "size": 64, "samples": 4, "clear": 0 }, "half": { "texture": "rgba8", "size": 32 },
+      "eight": { "texture": "rgba8", "size": 64, "samples": 8 },
+      "zs": { "texture": "depth24_stencil8", "size": 64, "clear": [0, 0] }, "z2": { "texture": "depth24_stencil8", "size": 64, "clear": [0, 0] },
+      "shared": { "texture": "rgb9_e5", "size": 64, "clear": 0 },
+      "ids": { "texture": "r32ui", "size": 64, "mips": 3, "clear": 0 } },
+      "passes": [ { "name": "p", "type": ")J" +
+                      type + R"J(", "side_effect": true, "read": { "source": ")J" + source +
+                      R"J(" }, "write": { ")J" + (type == "blit" ? "destination" : "result") + R"J(": ")J" +
+                      destination + R"J(" } } ], "present": "b" })J");
+  };
+  const Expanded copied = said("one", "two");
+  REQUIRE_MESSAGE(copied.graph, copied.text());
+  CHECK(copied.use("p", "source").kind == Kind::copy);
+  CHECK_FALSE(copied.use("p", "source").exact);
+  for (const auto& [source, destination] :
+       std::vector<std::pair<std::string, std::string>>{{"one", "large"},
+                                                        {"large", "two"},
+                                                        {"one", "b"},
+                                                        {"b", "two"},
+                                                        {"many", "b"},
+                                                        {"@spheres", "two"},
+                                                        {"a", "b"},
+                                                        {"b", "a"},
+                                                        {"layers", "b"},
+                                                        {"b", "cube"},
+                                                        {"deep", "b"},
+                                                        {"four", "half"},
+                                                        {"four", "eight"},
+                                                        {"zs.stencil", "z2"},
+                                                        {"b?", "a.mip[0]"}}) {
+    CAPTURE(source);
+    CAPTURE(destination);
+    const Expanded e = said(source, destination);
+    CHECK_MESSAGE(e.has(base::Code::badSlots), e.text());
+  }
+  CHECK(said("shared", "b").has(base::Code::badFormat));
+  CHECK(said("zs as linear", "z2").has(base::Code::badFormat));
+  CHECK(said("one as linear", "two").has(base::Code::badKind));
+  CHECK(said("b", "a.mip[0] as linear").has(base::Code::badKind));
+  CHECK(said("four", "b").graph);
+  CHECK(said("zs.stencil", "z2.stencil").graph);
+  CHECK(said("one", "two", "mipmap").has(base::Code::badSlots));
+  CHECK(said("ids.mip[0]", "ids.mip[1..]", "mipmap").has(base::Code::badFormat));
+  CHECK(said("a.mip[0] as linear", "a.mip[1..]", "mipmap").has(base::Code::badKind));
+}

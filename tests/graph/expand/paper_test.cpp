@@ -41,7 +41,7 @@ std::string paperFolder() {
       { "include": "gi.json", "bind": { "irradiance": "ibl.irradiance" } },
       { "name": "show", "type": "fullscreen", "shader": "a.frag.glsl",
         "read": { "hdr": "hdr", "depth": "depth?", "sh": "gi.sh as linear if $gi_sampling == textures ?",
-                  "probes": "gi.probes if $gi_sampling == buffer ?" },
+                  "probes": "gi.probes if $gi_sampling == buffer ?", "brdf": "ibl.brdf", "specular": "ibl.specular" },
         "write": { "result": "ldr" } } ],
     "present": "ldr" })";
   return folder.string();

@@ -77,7 +77,8 @@ TEST_CASE("a whole write after a clear that nobody used needs no rename, after a
       fullscreen("zero", R"J("read": { "source": "a" }, "write": { "result": "out" })J") + "," +
           fullscreen("one", R"J("write": { "result": "a" })J") + "," +
           fullscreen("last", R"J("read": { "source": "a", "old": "out" }, "write": { "result": "out" })J")));
-  CHECK(used.text() == "");
+  CHECK(used.of(Code::readBeforeWrite).message ==
+        "pass 'zero' reads 'a' before pass 'one' writes it: its slot 'source' has only what \"clear\" says");
   CHECK(used.useText("zero", "source") == "a");
   CHECK(used.useText("one", "result") == "a#2");
   CHECK(used.resource("a").hasClear);
@@ -154,6 +155,7 @@ TEST_CASE("alternatives: the first whose condition holds and which has a version
   CHECK_FALSE(none.graph);
   CHECK(none.of(Code::disabledWriter).message.find("'make_b'") != std::string::npos);
   CHECK(expandText(text).text() == "");
+  CHECK(expandText(text, with({{"first", "false"}})).text() == "");
 }
 
 TEST_CASE("alternatives of an import that may be missing, with a part of another") {

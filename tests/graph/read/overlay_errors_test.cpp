@@ -103,7 +103,7 @@ TEST_CASE("a name that is not whole is one error, whose fix is the whole name") 
       R"("passes": [ { "before": "post", "include": "parts/glow.json", "as": "twin", "bind": { "source": "hdr" } })";
   CHECK(hint(twin + R"(, { "name": "spread", "enabled": true } ])") ==
         "W016 write the whole name, 'twin.spread' or 'post.bloom.spread'");
-  CHECK(fine(folder.over(twin + R"(, { "name": "post.bloom.spread", "enabled": true } ])")).graph);
+  CHECK(expandFile(folder.over(twin + R"(, { "name": "post.bloom.spread", "enabled": true } ])")).graph);
 }
 
 TEST_CASE("a pass that stands in an included file uses the names of that file, and the message says them") {

@@ -22,3 +22,22 @@ TEST_CASE("a blit takes and gives the level and the layer that it says") {
         CHECK(texels[i] == static_cast<float>(1 + mip + 2 * (1 - layer)));
     }
 }
+
+TEST_CASE(
+    "what a pass needs and no other reads: a counter, the raster of a draw that only stores; and copies of "
+    "buffers") {
+  const CleanScope clean;
+  Stage stage("tests/runtime/graphs/kept.json", 16, 16, "scenes/empty.json");
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run();
+  CHECK(stage.read("picture") == std::vector<float>(stage.read("picture").size(), stage.read("picture")[0]));
+  CHECK(stage.read("picture")[0] == 3);
+  const std::vector<float> shown = stage.read("result");
+  const auto at = [&](int x, int y) { return shown.data() + 4 * (16 * y + x); };
+  CHECK(at(0, 0)[0] == 3);
+  CHECK(at(0, 0)[1] == 1);    // in the triangle
+  CHECK(at(7, 7)[1] == 0);    // in the raster, outside the triangle
+  CHECK(at(12, 1)[1] == 0);   // outside the raster of 8 by 8
+  CHECK(at(0, 0)[2] == 7);    // each thread had a place of its own
+  CHECK(at(15, 15)[3] == 7);  // and all of it was copied
+}

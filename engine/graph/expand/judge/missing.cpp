@@ -222,6 +222,8 @@ class Judge {
         fixes.insert(fixes.begin(), fmt::format("enable '{}'", disabled.name));
       if (const std::string names = namesToDisable(passes, disabled.name); !names.empty())
         fixes.push_back(fmt::format("disable {} too", names));
+      if (first.pass == kNone && first.slot != "present")
+        fixes.push_back("end the reference with '?' to leave the output out when nothing writes it");
       if (first.access == Access::read && first.pass != kNone)
         fixes.push_back(
             "end the reference with '?' if the shader can do without, or read a resource that is a list of "

@@ -161,10 +161,10 @@ const PassDesc* findUnconditional(const Model& model, const std::string& declare
 
 // The pass that always writes all of it before anybody reads the list, or null.
 const PassDesc* alwaysWrites(const Model& model, std::uint32_t candidate, const Entity& list) {
-  if (list.mentions.empty()) return nullptr;
-  const std::uint32_t first = std::ranges::min(list.mentions, {}, &Mention::position).position;
   for (const WriteRecord& write : model.writes) {
-    if (write.entity != candidate || write.pass == kNone || !write.whole || write.position >= first) continue;
+    if (write.entity != candidate || write.pass == kNone || !write.whole || !list.read ||
+        write.position >= list.firstRead)
+      continue;
     const PassDesc* pass = findUnconditional(model, model.graph.specs[write.pass].declared);
     const auto conditional = [](const SlotDesc& slot) {
       return slot.access != Access::read && slot.ref.condition.present();

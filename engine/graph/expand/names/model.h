@@ -97,12 +97,6 @@ struct Element {
   bool zeroUsed = false;           // version zero was read or modified
 };
 
-// Where something may read an entity, and which levels of it.
-struct Mention {
-  std::uint32_t position = 0;  // of the instance, in declared order; kNone: after all passes
-  std::uint32_t firstMip = 0, lastMip = kNone;
-};
-
 struct Entity {
   ResourceDesc::Kind kind = ResourceDesc::Kind::texture;
   const ResourceDesc* desc = nullptr;  // null: an import named only by @x
@@ -133,7 +127,8 @@ struct Entity {
   std::vector<std::uint32_t>
       candidates;  // alternatives: entities, parallel to desc->alternatives; kNone: unknown
   std::vector<Element> elements;
-  std::vector<Mention> mentions;  // by position
+  bool read = false;  // some slot names it, at this position first
+  std::uint32_t firstRead = kNone;
 };
 
 // One file instance.
@@ -179,6 +174,22 @@ struct WriteRecord {
   std::uint32_t disabled = kNone;  // of FlatGraph::disabled otherwise
   bool whole = false;
   bool passesOn = false;  // the pass reads or modifies the same: it needs another to have written it before
+};
+
+// A read or write that is not in the graph. It would be there if a pass or a condition that is switched off now were not, or
+// if there were something to read.
+struct WouldUse {
+  enum class Why : std::uint8_t {
+    off,    // of a disabled pass, or its condition is false
+    empty,  // an optional slot or an alternative that nothing wrote so far
+    zero    // it reads what "clear" says: nothing wrote it so far
+  };
+  Why why = Why::off;
+  std::uint32_t entity = kNone;  // kNone: whatever the pass does, it counts
+  std::uint32_t firstElement = 0, elementCount = 1;
+  FlatUse rect;
+  std::uint32_t position = kNone;  // of the instance, in declared order; kNone: after all passes
+  std::uint32_t slot = kNone;      // of the pass, when it is enabled
 };
 
 // A pass whose "repeat" leaves nothing of it.
@@ -238,6 +249,7 @@ struct Model {
   KnownNames<Leaves> parametersByLeaf{};
   std::unordered_map<std::string, std::vector<DisableRule>> disables{};  // by declared name
   std::vector<WriteRecord> writes{};
+  std::vector<WouldUse> would{};  // by position
   std::vector<MissingRead> missing{};
   std::vector<EmptyRepeat> emptied{};
   struct HistoryUse {
@@ -245,7 +257,11 @@ struct Model {
   };
   std::vector<HistoryUse> historyUses{};    // their resource is the last one, known at the end
   std::vector<std::uint32_t> positionOf{};  // per pass of the FlatGraph
-  std::vector<Unincluded> unincluded{};     // reported at the end
+  struct ElementOf {
+    std::uint32_t entity, element;
+  };
+  std::vector<ElementOf> elementOf{};                             // per FlatResource
+  std::vector<Unincluded> unincluded{};                           // reported at the end
   std::set<std::pair<const Scope*, std::string>> unknownFacts{};  // what expressions ask of, and was reported
   // Some write is missing because of a mistake, and nobody knows of what: missing versions are not reported. Where it is
   // known, Entity::incomplete says so.
@@ -253,6 +269,7 @@ struct Model {
   bool toInclude =
       false;  // the file that was opened has inputs: it is to be included, and its own names are not all
   std::uint32_t position = 0;             // of the instance being expanded
+  std::uint32_t slot = kNone;             // of it, while it is resolved
   std::vector<std::string> evaluating{};  // what is being evaluated now, for the path of a cycle
   Effort effort{};
 };

@@ -8,6 +8,7 @@
 #include "engine/base/nearest.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
+#include "engine/graph/expand/names/versions.h"
 
 namespace weft::graph::expansion {
 
@@ -189,12 +190,15 @@ void noteEmptyRepeat(Model& model, Scope& scope, const PassDesc& desc, const Ran
                      EmptyRepeat empty) {
   empty.mistake =
       empty.mistake && isEmptyByMistake(model, scope, desc, range, empty.first, empty.last, empty.step);
+  const bool first = model.emptied.empty() || model.emptied.back().pass != empty.pass;  // range of the pass
   for (const SlotDesc& slot : desc.slots) {
-    const std::uint32_t found =
-        slot.access == Access::read ? kNone : findEntity(model, scope, slot.ref.name, slot.ref.import);
-    if (found != kNone && model.entities[found].emptied == kNone)
+    const std::uint32_t found = findEntity(model, scope, slot.ref.name, slot.ref.import);
+    if (found == kNone) continue;
+    if (first) wouldUse(model, found, slot.access, slot.ref.history);
+    if (slot.access != Access::read && model.entities[found].emptied == kNone)
       model.entities[found].emptied = static_cast<std::uint32_t>(model.emptied.size());
   }
+  ++model.position;
   model.emptied.push_back(std::move(empty));
 }
 

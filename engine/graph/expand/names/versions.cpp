@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/resources.h"
+#include "engine/graph/subresource.h"
 
 namespace weft::graph::expansion {
 
@@ -21,6 +25,7 @@ std::uint32_t addResource(Model& model, std::uint32_t index, std::uint32_t eleme
   const auto resource = static_cast<std::uint32_t>(model.graph.resources.size());
   ++e.count;
   model.graph.resources.push_back(entity.shape);
+  model.elementOf.push_back({index, element});
   model.graph.resourceNames.push_back(flatName(entity, element, e.count));
   model.graph.resourcePlaces.push_back(entity.desc ? entity.desc->place : Place{});
   // Only the first FlatResource has a version zero; the others begin with a write, which mostly covers them.
@@ -99,6 +104,25 @@ std::uint32_t resourceToWrite(Model& model, std::uint32_t index, std::uint32_t e
   e.zeroUsed = false;
   if (last != kNone) model.versions.replace(last, next);
   return next;
+}
+
+void wouldUse(Model& model, WouldUse use) {
+  if (use.entity != kNone && model.entities[use.entity].kind == ResourceDesc::Kind::import) return;
+  use.position = model.position;
+  use.slot = model.slot;
+  model.would.push_back(use);
+}
+
+void wouldUse(Model& model, std::uint32_t index, Access access, int history) {
+  const Entity& entity = model.entities[index];
+  for (std::size_t i = 0; i < entity.candidates.size(); ++i)
+    if (entity.candidates[i] != kNone && lookAt(model, 1, entity.desc->place))
+      wouldUse(model, entity.candidates[i], access, history + entity.desc->alternatives[i].history);
+  const bool own = entity.kind == ResourceDesc::Kind::texture || entity.kind == ResourceDesc::Kind::buffer;
+  if (!own || entity.state != Progress::done) return;
+  FlatUse whole = wholeUse(0, entity.shape, Kind::copy, access);
+  whole.history = static_cast<std::uint8_t>(history);
+  wouldUse(model, {.entity = index, .elementCount = std::max(1u, entity.arrayCount), .rect = whole});
 }
 
 }  // namespace weft::graph::expansion

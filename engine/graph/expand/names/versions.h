@@ -27,4 +27,9 @@ void addUse(Model& model, std::uint32_t entity, std::uint32_t element, const Fla
 std::uint32_t resourceToWrite(Model& model, std::uint32_t entity, std::uint32_t element, bool whole,
                               bool covers);
 
+// Notes in Model::would what would be used at this position. Imports do not matter.
+void wouldUse(Model& model, WouldUse use);
+// The same for all of `entity`, or of what it lists.
+void wouldUse(Model& model, std::uint32_t entity, Access access, int history);
+
 }  // namespace weft::graph::expansion
