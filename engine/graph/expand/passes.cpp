@@ -9,6 +9,7 @@
 
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/first_value.h"
+#include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/names/versions.h"
@@ -48,21 +49,14 @@ class PassWalk {
     const std::uint32_t timing = timingOf(model_, scope, desc, outer);
     Names names(model_, scope);
     const auto enabled = holds(names, desc.enabled, {"'enabled' of include '{}'", desc.include->as});
-    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why, timing);
+    model_.incomplete = model_.incomplete || !enabled;  // nobody knows whether its passes are there
+    if (enabled) walk(*child->second, why.empty() && !*enabled ? whyFalse(desc.enabled) : why, timing);
   }
 
   // One that contains age() decides in each frame, not here.
   std::optional<bool> holds(Names& names, const Expr& enabled, const Called& what) {
     if (isDynamic(model_, names.scope(), enabled)) return true;
     return evaluateCondition(names, enabled, true, what);
-  }
-
-  // Kept for each instance, so a long expression is cut.
-  static std::string whyFalse(const Expr& enabled) {
-    std::string text = enabled.text();
-    if (enabled.isConstant()) return fmt::format("\"enabled\": {}", text);
-    if (text.size() > 80) text = text.substr(0, 80) + "…";
-    return fmt::format("enabled: {} is false", text);
   }
 
   // ---- one stanza: its repeats ----
