@@ -27,8 +27,11 @@ std::string printedText(const std::string& text) {
   return printable(shortened(text));
 }
 
-bool sameText(const Diagnostic& a, const Diagnostic& b) {
-  return a.code == b.code && a.severity == b.severity && keyOf(a) == keyOf(b) && a.message == b.message;
+// Of one place with one fix: said of each pass that is like another, and of each include of one file.
+bool sameMistake(const Diagnostic& a, const Diagnostic& b) {
+  return a.code == b.code && a.severity == b.severity && keyOf(a) == keyOf(b) &&
+         (a.message == b.message ||
+          (a.place.line > 0 && !a.hint.empty() && a.hint == b.hint && a.found == b.found));
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ void Diagnostics::clear() {
 void Diagnostics::sortByPlace() {
   std::stable_sort(items_.begin(), items_.end(),
                    [](const Diagnostic& a, const Diagnostic& b) { return keyOf(a) < keyOf(b); });
-  items_.erase(std::unique(items_.begin(), items_.end(), sameText), items_.end());
+  items_.erase(std::unique(items_.begin(), items_.end(), sameMistake), items_.end());
   errors_ = static_cast<std::size_t>(std::count_if(
       items_.begin(), items_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; }));
 }

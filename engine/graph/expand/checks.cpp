@@ -111,7 +111,8 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
   const Sampler& sampler = work.sampler;
   const bool blit = kind == Kind::copy && context.type && context.type->framebuffers && texture &&
                     access == Access::read && sampler.wrap == Wrap::clamp && !sampler.compare;  // may filter
-  if ((sampler.linear || sampler.wrap != Wrap::clamp || sampler.compare) && kind != Kind::sampled && !blit)
+  if (context.type && (sampler.linear || sampler.wrap != Wrap::clamp || sampler.compare) &&
+      kind != Kind::sampled && !blit)
     return report(Code::badKind,
                   fmt::format("{}: '{}' is not sampled, it has no filter", context.user, entity.name),
                   "linear, wrap, mirror, border and compare for sampled textures");

@@ -8,6 +8,7 @@
 
 #include "engine/graph/expand/checks.h"
 #include "engine/graph/expand/first_value.h"
+#include "engine/graph/expand/judge/remedy.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/expand/names/unread.h"
 #include "engine/graph/expand/names/versions.h"
@@ -45,15 +46,8 @@ class PassWalk {
     Names names(model_, scope);
     const auto enabled =
         evaluateCondition(names, desc.enabled, true, {"'enabled' of include '{}'", desc.include->as});
-    walk(*child->second, why.empty() && enabled && !*enabled ? whyFalse(desc.enabled) : why);
-  }
-
-  // Kept for each instance, so a long expression is cut.
-  static std::string whyFalse(const Expr& enabled) {
-    std::string text = enabled.text();
-    if (enabled.isConstant()) return fmt::format("\"enabled\": {}", text);
-    if (text.size() > 80) text = text.substr(0, 80) + "…";
-    return fmt::format("enabled: {} is false", text);
+    model_.incomplete = model_.incomplete || !enabled;  // nobody knows whether its passes are there
+    if (enabled) walk(*child->second, why.empty() && !*enabled ? whyFalse(desc.enabled) : why);
   }
 
   // ---- one stanza: its repeats ----

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/graph/read/misspelt_keys.h"
 #include "engine/graph/read/overlay.h"
 #include "engine/graph/read/read_context.h"
 #include "engine/graph/read/read_like.h"
@@ -105,6 +106,7 @@ class GraphReader {
       std::optional<RefDesc> ref = context.ref(&member.value, fmt::format("the output '{}'", member.key));
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
+    mendNames(*graph, diagnostics_);
     graph->texts = loader_.texts();
     return graph;
   }

@@ -8,6 +8,13 @@
 
 namespace weft::graph::expansion {
 
+std::string whyFalse(const Expr& enabled) {
+  std::string text = enabled.text();
+  if (enabled.isConstant()) return fmt::format("\"enabled\": {}", text);
+  if (text.size() > 80) text = text.substr(0, 80) + "…";
+  return fmt::format("enabled: {} is false", text);
+}
+
 bool isSwitchedOff(const Model& model, const DisabledPass& disabled) {
   return std::ranges::any_of(model.settings.disables,
                              [&](const Disable& each) { return sourceOf(each) == disabled.why; });

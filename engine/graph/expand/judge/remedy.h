@@ -9,6 +9,8 @@
 
 namespace weft::graph::expansion {
 
+// Why a pass whose "enabled" is false is disabled. Kept for each instance, so a long expression is cut.
+std::string whyFalse(const Expr& enabled);
 // Whether --disable or a checkbox has taken this pass out, and not its "enabled".
 bool isSwitchedOff(const Model& model, const DisabledPass& disabled);
 

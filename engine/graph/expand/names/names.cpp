@@ -167,6 +167,9 @@ std::optional<Value> Names::fact(Fact fact, std::string_view resource, const Pla
   const std::uint32_t target = isImport && fact != Fact::has ? index : staticTarget(model_, index, &mip);
   if (fact == Fact::has) return Value::boolean(target != kNone);
   if (target == kNone && (model_.effort.stopped || model_.effort.tooDeep)) return Value{};
+  if (target == kNone &&
+      std::ranges::find(model_.entities[index].candidates, kNone) != model_.entities[index].candidates.end())
+    return Value{};  // one of its alternatives was reported
   if (target == kNone) {
     auto& d = model_.diagnostics.error(Code::conditionLeavesSlotEmpty, place,
                                        fmt::format("no alternative of '{}' holds, so it has no size", asked));

@@ -159,6 +159,10 @@ std::vector<std::string> resourceNames(Model& model, const Scope& scope) {
   return names;
 }
 
+static std::string hintForView(std::string_view name) {
+  return fmt::format("declare it: \"resources\": {{ \"{}\": {{ \"import\": \"camera\" }} }}", name);
+}
+
 std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view name, bool import,
                                  const Place& place, const Called& user, const std::string& pass,
                                  std::string_view slot, bool orPass) {
@@ -177,23 +181,19 @@ std::uint32_t findEntityOrReport(Model& model, Scope& scope, std::string_view na
     for (const ImportType& type : model.registry.imports) types.push_back(type.name);
     d.resource = "@" + std::string(name);
     d.pass = pass;
-    d.hint = slot == "view"
-                 ? fmt::format("declare it: \"resources\": {{ \"{}\": {{ \"import\": \"camera\" }} }}", name)
-             : scope.resources.contains(name)
+    d.hint = scope.resources.contains(name)
                  ? fmt::format("'{}' is a resource of this graph: write it without the @", name)
                  : hintForImport(name, types);
+    if (slot == "view" && d.hint.starts_with("imports are")) d.hint = hintForView(name);
     return kNone;
   }
   auto& d = model.diagnostics.error(Code::unknownResource, place,
                                     fmt::format("{} unknown resource '{}'", user.text(), name));
   d.resource = std::string(name);
   d.pass = pass;
-  d.hint =
-      slot == "view"
-          ? fmt::format(
-                "write '@camera', or declare it: \"resources\": {{ \"{}\": {{ \"import\": \"camera\" }} }}",
-                name)
-          : hintForResource(model, scope, name, slot, orPass, place);
+  d.hint = hintForResource(model, scope, name, slot == "view" ? "" : slot, orPass, place);
+  if (slot == "view" && !d.hint.starts_with("did you mean"))
+    d.hint = "write '@camera', or " + hintForView(name);
   return kNone;
 }
 

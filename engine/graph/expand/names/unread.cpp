@@ -67,8 +67,10 @@ bool isUnread(const Scope& from, std::string_view name) {
   // A name into an include that could not be read, or that left the resource out.
   const auto child = from.includes.find(name.substr(0, name.find('.')));
   if (child != from.includes.end()) return isUnread(*child->second, name.substr(name.find('.') + 1));
-  for (const PassDesc& pass : from.desc->passes)
-    if (pass.include && !pass.include->graph && name.starts_with(pass.include->as + ".")) return true;
+  const std::string_view first = firstPart(name);
+  for (const PassDesc& pass : from.desc->passes)  // the path may be what is misspelt, and so the name
+    if (pass.include && !pass.include->graph && (pass.include->as == first || from.resources.contains(first)))
+      return true;
   return false;
 }
 

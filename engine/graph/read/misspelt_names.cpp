@@ -1,0 +1,161 @@
+// Resources that are declared under a misspelt name. Declared in misspelt_keys.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "engine/base/nearest.h"
+#include "engine/graph/read/misspelt_keys.h"
+
+namespace weft::graph {
+
+namespace {
+
+constexpr std::size_t kShortest = 3;  // shorter names are near to each other by chance
+
+struct Mentions {
+  std::uint32_t count = 0;
+  Place first;
+};
+
+class NameMender {
+ public:
+  NameMender(GraphDesc& desc, base::Diagnostics& diagnostics) : desc_(desc), diagnostics_(diagnostics) {}
+
+  void run() {
+    for (const PassDesc& pass : desc_.passes)
+      for (const SlotDesc& slot : pass.slots) add(slot.ref);
+    if (desc_.present) add(*desc_.present);
+    std::vector<ResourceDesc*> unused = unmentioned();
+    if (unused.empty()) return;
+    addTheRest();
+    unused = unmentioned();
+    std::vector<ResourceDesc> also;
+    for (ResourceDesc* resource : unused)
+      if (const std::string meant = meantBy(*resource); !meant.empty()) {
+        const Mentions& mentions = mentions_.at(meant);
+        if (mentions.count > 1) {
+          report(*resource, mentions, meant);
+        } else {
+          // Which of the two is right, only other files know: for them both are there.
+          auto& d = diagnostics_.error(base::Code::unknownResource, mentions.first,
+                                       fmt::format("the resource '{}' is not there", meant));
+          d.resource = meant;
+          d.hint = fmt::format("did you mean '{}'?", resource->name);
+          ResourceDesc& other = also.emplace_back();
+          other.name = resource->name;
+          other.place = resource->place;
+          other.kind = ResourceDesc::Kind::alternatives;
+          RefDesc& ref = other.alternatives.emplace_back();
+          ref.text = ref.name = meant;
+          ref.place = resource->place;
+        }
+        resource->name = meant;
+      }
+    for (ResourceDesc& other : also) desc_.resources.push_back(std::move(other));
+  }
+
+ private:
+  void report(const ResourceDesc& resource, const Mentions& mentions, const std::string& meant) {
+    auto& d =
+        diagnostics_.error(base::Code::unknownResource, resource.place,
+                           fmt::format("nothing names the resource '{}', and the resource '{}' is not there",
+                                       resource.name, meant));
+    d.pointer = resource.pointer;
+    d.resource = resource.name;
+    if (mentions.first.file)
+      d.found = fmt::format(
+          "'{}' at {}:{}:{}{}", meant, *mentions.first.file, mentions.first.line, mentions.first.column,
+          mentions.count == 2 ? " and once more" : fmt::format(" and {} times more", mentions.count - 1));
+    d.hint = fmt::format("did you mean '{}'?", meant);
+  }
+
+  void mention(const std::string& name, const Place& place, std::uint32_t times = 1) {
+    Mentions& mentions = mentions_[name.substr(0, name.find('.'))];
+    mentions.count += times;
+    if (!mentions.first.file) mentions.first = place;
+  }
+
+  void add(const RefDesc& ref) {
+    mention(ref.name, ref.place, ref.import ? 0 : 1);
+    add(ref.condition);
+    if (ref.element) add(*ref.element);
+  }
+  void add(const Expr& expr) {
+    if (!expr.present() || expr.isConstant()) return;
+    for (const auto& [_, name] : expr.facts())
+      if (!name.starts_with('@')) mention(name, expr.place());
+  }
+
+  void addTheRest() {
+    for (const NamedExpr& let : desc_.lets) add(let.expr);
+    for (const ResourceDesc& resource : desc_.resources) {
+      for (const Expr* expr :
+           {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
+            &resource.bytes, &resource.clear, &resource.history, &resource.first})
+        add(*expr);
+      for (const Expr& value : resource.resetValues) add(value);
+      for (const NamedExpr& argument : resource.import.arguments) add(argument.expr);
+      if (resource.firstRef) add(*resource.firstRef);
+      for (const RefDesc& ref : resource.resetRefs) add(ref);
+      for (const RefDesc& ref : resource.alternatives) add(ref);
+    }
+    for (const PassDesc& pass : desc_.passes) addPass(pass);
+    for (const OutputDesc& output : desc_.outputs) add(output.ref);
+  }
+
+  void addPass(const PassDesc& pass) {
+    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) add(*expr);
+    for (const RangeDesc& range : pass.repeat)
+      for (const Expr* expr : {&range.first, &range.last, &range.step}) add(*expr);
+    for (const PassParameterDesc& parameter : pass.parameters) add(parameter.value);
+    for (const NamedExpr& define : pass.defines) add(define.expr);
+    for (const NamedExpr& state : pass.state) add(state.expr);
+    for (const Expr& argument : pass.geometryArguments) add(argument);
+    if (pass.view) add(*pass.view);
+    if (!pass.include) return;
+    for (const auto& [input, ref] : pass.include->binds) add(ref);
+    if (!pass.include->graph) return;
+    // An input that is not bound takes the resource of its name.
+    for (const ResourceDesc& input : pass.include->graph->resources)
+      if (input.kind == ResourceDesc::Kind::input &&
+          std::ranges::none_of(pass.include->binds,
+                               [&](const auto& bind) { return bind.first == input.name; }))
+        mention(input.name, pass.place, input.optional ? 0 : 1);
+  }
+
+  std::vector<ResourceDesc*> unmentioned() {
+    std::vector<ResourceDesc*> found;
+    for (ResourceDesc& resource : desc_.resources)
+      if (resource.name.size() >= kShortest && !mentions_.contains(resource.name)) found.push_back(&resource);
+    return found;
+  }
+
+  // What is named, is not there, and is one slip away. An input has its name from another file, so one mention is not enough.
+  std::string meantBy(const ResourceDesc& resource) const {
+    std::string meant;
+    for (const auto& [name, mentions] : mentions_)
+      if (mentions.count > (resource.kind == ResourceDesc::Kind::input ? 1U : 0U) &&
+          name.size() >= kShortest && (meant.empty() || name < meant) &&
+          base::editDistance(name, resource.name, 1) <= 1 && !isThere(name))
+        meant = name;
+    return meant;
+  }
+  bool isThere(const std::string& name) const {
+    return std::ranges::find(desc_.resources, name, &ResourceDesc::name) != desc_.resources.end() ||
+           std::ranges::find(desc_.passes, name, &PassDesc::name) != desc_.passes.end() ||
+           std::ranges::find(desc_.unread, name) != desc_.unread.end();
+  }
+
+  GraphDesc& desc_;
+  base::Diagnostics& diagnostics_;
+  std::unordered_map<std::string, Mentions> mentions_;  // by the first part of a name
+};
+
+}  // namespace
+
+void mendNames(GraphDesc& desc, base::Diagnostics& diagnostics) {
+  NameMender(desc, diagnostics).run();
+}
+
+}  // namespace weft::graph
