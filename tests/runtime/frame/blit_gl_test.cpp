@@ -30,11 +30,10 @@ TEST_CASE(
   Stage stage("tests/runtime/graphs/kept.json", 16, 16, "scenes/empty.json");
   REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
   stage.run();
-  CHECK(stage.read("picture") == std::vector<float>(stage.read("picture").size(), stage.read("picture")[0]));
-  CHECK(stage.read("picture")[0] == 3);
   const std::vector<float> shown = stage.read("result");
   const auto at = [&](int x, int y) { return shown.data() + 4 * (16 * y + x); };
-  CHECK(at(0, 0)[0] == 3);
+  for (std::size_t i = 0; i < shown.size(); i += 4)
+    CHECK(shown[i] == 3);     // nothing was drawn over the picture
   CHECK(at(0, 0)[1] == 1);    // in the triangle
   CHECK(at(7, 7)[1] == 0);    // in the raster, outside the triangle
   CHECK(at(12, 1)[1] == 0);   // outside the raster of 8 by 8
