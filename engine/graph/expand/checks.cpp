@@ -280,8 +280,7 @@ bool checkPassUses(const SlotContext& context, const PassDesc& desc, const std::
 bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, const Entity& entity) {
   const auto depth = static_cast<int>(entity.depth);
   const bool import = entity.kind == ResourceDesc::Kind::import;
-  const bool before = import && context.model.graph.imports[entity.import].before;
-  if (import ? history == 1 && before : history <= depth) return true;
+  if (!import && history <= depth) return true;
   const auto own = context.names.scope().resources.find(ref.name);
   if (own != context.names.scope().resources.end() && context.model.entities[own->second].badHistory)
     return false;  // the input that asks for it was reported
@@ -290,14 +289,13 @@ bool checkHistory(const SlotContext& context, const RefDesc& ref, int history, c
       fmt::format("{} reads '{}', further back than '{}' remembers", context.user, ref.text, entity.name));
   d.pass = context.pass;
   d.resource = entity.name;
-  if (before) d.expected = "@-1, what was shown before";
   if (depth > 0) d.expected = fmt::format("@-1 to @-{}", depth);
   if (d.expected.empty()) d.found = import ? "an import, which has no history" : "no history is declared";
   const bool input = entity.scope != &context.names.scope() && ref.name.find('.') == std::string::npos;
   if (!import)
     d.hint = fmt::format("declare \"history\": {} on '{}'{}", history, entity.name,
                          input ? ", or on this file's input" : "");
-  else if (!before)
+  else
     d.hint = "let a pass write it into a texture or buffer with \"history\", and read that";
   return false;
 }
