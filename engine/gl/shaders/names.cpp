@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/base/files/file_access.h"
+#include "engine/base/nearest.h"
 
 namespace weft::gl {
 
@@ -47,6 +48,12 @@ const std::vector<std::string>& ShaderNames::below(std::span<const std::string> 
 void ShaderNames::forget() {
   known_.clear();
   seen_ = kept_ = 0;
+}
+
+std::string hintForInclude(const std::string& name, const std::vector<std::string>& names) {
+  const auto same =
+      std::ranges::find_if(names, [&](const std::string& each) { return each.ends_with("/" + name); });
+  return same == names.end() ? base::nearestHint(name, names) : "did you mean '" + *same + "'?";
 }
 
 }  // namespace weft::gl

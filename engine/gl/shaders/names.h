@@ -28,4 +28,7 @@ class ShaderNames {
   std::size_t seen_ = 0, kept_ = 0;  // entries looked at, names in known_
 };
 
+// For an included file that is not there: one of the same name in another folder, else the nearest of `names`.
+std::string hintForInclude(const std::string& name, const std::vector<std::string>& names);
+
 }  // namespace weft::gl

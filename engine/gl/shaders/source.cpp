@@ -166,11 +166,7 @@ class IncludeExpander {
       base::Diagnostic& error = diagnostics_.error(Code::missingShaderInclude, place,
                                                    fmt::format("included file '{}' not found", name));
       error.expected = fmt::format("a file beside the including one or below {}", fmt::join(roots_, ", "));
-      const std::vector<std::string>& names = names_.below(folders);
-      const auto same =
-          std::ranges::find_if(names, [&](const std::string& each) { return each.ends_with("/" + name); });
-      error.hint =
-          same == names.end() ? base::nearestHint(name, names) : fmt::format("did you mean '{}'?", *same);
+      error.hint = hintForInclude(name, names_.below(folders));
       return;
     }
     const auto position = std::find(paths_.begin(), paths_.end(), *path);

@@ -83,8 +83,8 @@ class NameMender {
   }
   void add(const Expr& expr) {
     if (!expr.present() || expr.isConstant()) return;
-    for (const auto& [_, name] : expr.facts())
-      if (!name.starts_with('@')) mention(name, expr.place());
+    for (const auto& [fact, name] : expr.facts())
+      if (!name.starts_with('@') && (fact != Fact::has || !isPass(name))) mention(name, expr.place());
   }
 
   void addTheRest() {
@@ -141,9 +141,13 @@ class NameMender {
         meant = name;
     return meant;
   }
+  bool isPass(const std::string& name) const {
+    return std::ranges::find(desc_.passes, name, &PassDesc::name) != desc_.passes.end();
+  }
   bool isThere(const std::string& name) const {
     return std::ranges::find(desc_.resources, name, &ResourceDesc::name) != desc_.resources.end() ||
-           std::ranges::find(desc_.passes, name, &PassDesc::name) != desc_.passes.end() ||
+           std::ranges::any_of(desc_.passes,
+                               [&](const PassDesc& pass) { return pass.include && pass.name == name; }) ||
            std::ranges::find(desc_.unread, name) != desc_.unread.end();
   }
 

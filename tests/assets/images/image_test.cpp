@@ -179,8 +179,8 @@ TEST_CASE("a sun beyond half floats keeps its light and its colour, and what fin
   sanitizeRadiance(map, "sun", diagnostics);
   for (int c = 0; c < 3; ++c) CHECK(lightOf(map, c) == doctest::Approx(lightOf(before, c)).epsilon(1e-4));
   CHECK(*std::max_element(map.texels.begin(), map.texels.end()) <= kHalfMax);
-  CHECK(map.texels[(9 * 64 + 5) * 3] == 0.5f);  // no further than it must
-  CHECK(map.texels[(9 * 64 + 63) * 3] > 1000);  // across the seam
+  CHECK(map.texels[(9 * 64 + 5) * 3] == 0.5f);             // no further than it must
+  CHECK(map.texels[(9 * 64 + 63) * 3] > 1000);             // across the seam
   CHECK_MESSAGE(diagnostics.empty(), diagnostics.text());  // nothing is lost, and nothing told
 
   // No room: everything is too bright.

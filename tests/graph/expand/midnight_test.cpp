@@ -109,7 +109,8 @@ TEST_CASE("a mistake at midnight: references") {
            "write 'as linear'");
   checkOne("\"now\": \"scene\"", "\"now\": \"trail.previous\"", unknownResource, "'trail.previous'",
            "'trail@-1'");
-  checkOne("\"now\": \"scene\"", "\"now\": \"trail@prev\"", badReference, "history is written", "write 'trail@-1'");
+  checkOne("\"now\": \"scene\"", "\"now\": \"trail@prev\"", badReference, "history is written",
+           "write 'trail@-1'");
   checkOne("\"now\": \"scene\"", "\"now\": \"trail[-1]\"", badSelector, "is no array", "write 'trail@-1'");
   checkOne("\"glow.mip[0]\"", "\"glow.lod[0]\"", unknownResource, "'glow.lod'", "'glow.mip[…]'");
   checkOne("\"glow.mip[0]\"", "\"glow[0]\"", badSelector, "is no array", "'glow.mip[…]'");
