@@ -75,6 +75,9 @@ class FileWriter {
       if (plan_.stepOf[pass] != kNone) passes.push_back(passJson(pass));
     if (graph_.present.resource != kNone) use(graph_.present.resource);
     for (const FlatUse& output : graph_.outputs) use(output.resource);
+    for (const HistorySpec& history : graph_.histories)
+      if (used_[history.resource] != 0)
+        for (const std::uint32_t other : history.resetResources) use(other);
     file["resources"] = resourcesJson();
     file["passes"] = std::move(passes);
     if (graph_.present.resource != kNone) file["present"] = presentText();
@@ -127,12 +130,12 @@ class FileWriter {
     std::string text = elementName(graph_.resourceNames[shown.resource]).array;
     if (const std::string& index = elementName(graph_.resourceNames[shown.resource]).index; !index.empty())
       text += "[" + index + "]";
-    if (!first && shown.mips < r.mips) text += spanText("mip", shown.mip, shown.mips);
+    if (!first && r.mips > 1) text += spanText("mip", shown.mip, shown.mips);
     return text;
   }
 
   // A folded expression, with names and values for its keys.
-  std::string expressionText(const Expr& expr) const {
+  std::string expressionText(const Expr& expr) {
     std::string text = expr.text();
     const auto replaceKeys = [&](std::string_view before, std::string_view kept, const auto& wordFor) {
       for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
@@ -146,6 +149,7 @@ class FileWriter {
       }
     };
     replaceKeys("age(#", "age(", [&](std::uint32_t r) {
+      use(r);
       const std::uint32_t import = graph_.resources[r].import;
       return import == kNone ? elementName(graph_.resourceNames[r]).array : importName(import);
     });
@@ -245,7 +249,7 @@ class FileWriter {
     return json;
   }
 
-  void addUniforms(const PassSpec& spec, Json& json) const {
+  void addUniforms(const PassSpec& spec, Json& json) {
     Json parameters, defines;
     for (const DefineSpec& define : spec.defines)
       defines[define.name] = Json::parse(define.text, nullptr, false);
@@ -279,7 +283,7 @@ class FileWriter {
     }
   }
 
-  void addDrawing(const PassSpec& spec, Json& json) const {
+  void addDrawing(const PassSpec& spec, Json& json) {
     if (spec.threadsPlace.line > 0) json["threads"] = {spec.threads[0], spec.threads[1], spec.threads[2]};
     if (!spec.list.empty()) json["list"] = spec.list;
     if (!spec.geometry.empty()) {

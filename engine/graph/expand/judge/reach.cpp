@@ -82,7 +82,8 @@ class Whole {
 
   // A write that is not there now takes nothing away.
   void addWhere(std::uint32_t entity, std::uint32_t first, std::uint32_t count, FlatUse rect) {
-    rect.keep = rect.access == Access::modify;  // it may test or read what it modifies
+    // It may test the depth, or read the storage, that it modifies; color it only draws over.
+    rect.keep = rect.access == Access::modify && rect.kind != Kind::color;
     if (rect.access == Access::write) rect.access = Access::modify;
     ground_.eachElement(entity, first, count, rect, [&](const FlatUse& use) { all_.uses.push_back(use); });
   }
