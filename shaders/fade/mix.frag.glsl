@@ -11,6 +11,6 @@ out vec4 result;
 
 void main() {
   vec4 last = texelFetch(before, ivec2(gl_FragCoord.xy), 0);
-  float share = left / (left + delta_time) * last.a;
+  float share = last.a > 0.5 ? left / (left + delta_time) : 0.0;  // at edges alpha is 1 but for rounding
   result = vec4(last.rgb * share, share);
 }

@@ -100,7 +100,7 @@ gl::ProgramCacheStats toggleAll(const std::string& folder, Model& model) {
       const graph::PassType type =
           stage.renderer().device().passTypes.find(plan.graph->specs[step.pass].type)->reflect();
       if (type.shader != graph::ShaderShape::none)
-        model.request(keyOf(runtime::programRequestOf(*plan.graph, plan, step.pass, type, 0)));
+        model.request(keyOf(runtime::programRequestOf(*plan.graph, plan, step.pass, type)));
     }
   }
   stage.run();

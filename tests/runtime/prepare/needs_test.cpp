@@ -76,9 +76,7 @@ class Survey {
       const graph::PassSpec& spec = flat->specs[step.pass];
       const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
       REQUIRE(type != registry_.passTypes.end());
-      const std::uint32_t variants = 1u << std::min(4u, runtime::conditionCount(spec));
-      for (std::uint32_t conditions = 0; conditions < variants; ++conditions)
-        take(runtime::programRequestOf(*flat, plan, step.pass, *type, conditions), row);
+      take(runtime::programRequestOf(*flat, plan, step.pass, *type), row);
     }
     return flat;
   }
