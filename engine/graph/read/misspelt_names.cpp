@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <unordered_map>
+#include <unordered_set>
+#include <vector>
 
 #include "engine/base/nearest.h"
 #include "engine/graph/read/misspelt_keys.h"
@@ -11,7 +14,8 @@ namespace weft::graph {
 
 namespace {
 
-constexpr std::size_t kShortest = 3;  // shorter names are near to each other by chance
+constexpr std::size_t kShortest = 3;     // shorter names are near to each other by chance
+constexpr std::size_t kMaxUnknown = 64;  // a file with more names that are not there has no slip but another mistake
 
 struct Mentions {
   std::uint32_t count = 0;
@@ -30,6 +34,8 @@ class NameMender {
     if (unused.empty()) return;
     addTheRest();
     unused = unmentioned();
+    findUnknown();
+    if (unused.empty() || unknown_.empty() || unknown_.size() > kMaxUnknown) return;
     std::vector<ResourceDesc> also;
     for (ResourceDesc* resource : unused)
       if (const std::string meant = meantBy(*resource); !meant.empty()) {
@@ -51,6 +57,7 @@ class NameMender {
           ref.place = resource->place;
         }
         resource->name = meant;
+        std::erase(unknown_, meant);
       }
     for (ResourceDesc& other : also) desc_.resources.push_back(std::move(other));
   }
@@ -134,26 +141,28 @@ class NameMender {
   // What is named, is not there, and is one slip away. An input has its name from another file, so one mention is not enough.
   std::string meantBy(const ResourceDesc& resource) const {
     std::string meant;
-    for (const auto& [name, mentions] : mentions_)
-      if (mentions.count > (resource.kind == ResourceDesc::Kind::input ? 1U : 0U) &&
-          name.size() >= kShortest && (meant.empty() || name < meant) &&
-          base::editDistance(name, resource.name, 1) <= 1 && !isThere(name))
+    for (const std::string_view name : unknown_)
+      if (mentions_.at(std::string(name)).count > (resource.kind == ResourceDesc::Kind::input ? 1U : 0U) &&
+          (meant.empty() || name < meant) && base::editDistance(name, resource.name, 1) <= 1)
         meant = name;
     return meant;
   }
   bool isPass(const std::string& name) const {
     return std::ranges::find(desc_.passes, name, &PassDesc::name) != desc_.passes.end();
   }
-  bool isThere(const std::string& name) const {
-    return std::ranges::find(desc_.resources, name, &ResourceDesc::name) != desc_.resources.end() ||
-           std::ranges::any_of(desc_.passes,
-                               [&](const PassDesc& pass) { return pass.include && pass.name == name; }) ||
-           std::ranges::find(desc_.unread, name) != desc_.unread.end();
+  void findUnknown() {
+    std::unordered_set<std::string_view> there(desc_.unread.begin(), desc_.unread.end());
+    for (const ResourceDesc& resource : desc_.resources) there.insert(resource.name);
+    for (const PassDesc& pass : desc_.passes)
+      if (pass.include) there.insert(pass.name);
+    for (const auto& [name, mentions] : mentions_)
+      if (mentions.count > 0 && name.size() >= kShortest && !there.contains(name)) unknown_.push_back(name);
   }
 
   GraphDesc& desc_;
   base::Diagnostics& diagnostics_;
   std::unordered_map<std::string, Mentions> mentions_;  // by the first part of a name
+  std::vector<std::string_view> unknown_;               // of these, what the file does not have
 };
 
 }  // namespace

@@ -195,5 +195,5 @@ TEST_CASE("no fix asks for what a switch has taken out, and following them ends 
     CHECK(hint.find("enable '") == std::string::npos);
   }
   CHECK(said({{"composite"}, {"fxaa"}}).starts_with(present));
-  CHECK(said({{"post"}, {"lit"}}).starts_with(present));
+  CHECK(said({{"post"}, {"lit.billboards"}}).starts_with(present));
 }
