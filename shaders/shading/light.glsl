@@ -99,10 +99,10 @@ void main() {
 #else
   Lobe lobe = lobeOf(point.roughness, 0.0);
 #endif
+  vec3 mirrored = mix(point.mirror, point.n, response.lobe.x);
 #if SEES_NEIGHBOURS
-  float sphere_radius = sphereOf().y;
-  Listed listed = listedOf(uint(sphereOf().x));
-  Surround surround = surroundOf(listed, point.at, point.n, mix(point.mirror, point.n, response.lobe.x), point.surface.roughness, point.surface.albedo, lobe);
+  vec2 row_and_radius = sphereOf();
+  Surround surround = surroundOf(listedOf(uint(row_and_radius.x)), point.at, point.n, mirrored, point.surface.roughness, point.surface.albedo, lobe);
   // Light of the ground where nothing stands, and what is in its place in the environment.
   GroundLight on_ground = groundLight(lobe, around_above.rgb);
   vec3 open_ground = mix(around_below.rgb, surround.soil.albedo * (on_ground.sky + on_ground.spot + on_ground.sun), surfaceOf(surround.soil, point.at));
@@ -120,7 +120,6 @@ void main() {
   vec3 reflected = vec3(0.0);
 #ifdef HAS_SPECULAR
   float near_spot = dot(point.mirror, lobe.spot), level = min(lobe.maps.y + response.lobe.y * lobe.maps.w, lobe.poles.w);
-  vec3 mirrored = mix(point.mirror, point.n, response.lobe.x);
 #if SEES_NEIGHBOURS
   mirrored = overGround(surround, mirrored);
 #endif
@@ -136,7 +135,7 @@ void main() {
 #endif
 #if SEES_NEIGHBOURS
   reflected = skyAndGround(surround, on_ground, reflected) * surround.mirror_seen +
-              hiddenLight(surround, point.at, point.n, sphere_radius, point.surface.albedo, point.surface.metallic,
+              hiddenLight(surround, point.at, point.n, row_and_radius.y, point.surface.albedo, point.surface.metallic,
                           alphaOfRoughness(point.surface.roughness), lobe, on_ground);
 #endif
   reflected *= response.single;

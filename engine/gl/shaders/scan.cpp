@@ -38,7 +38,11 @@ bool LineScanner::next() {
   while (length < body.size() && base::isIdentChar(body[length])) ++length;
   directive_ = {body.substr(0, length), trimmed(body.substr(length)),
                 static_cast<std::uint32_t>(code_.find('#') + 1)};
-  if (directive_.name == "endif") depth_ = std::max(0, depth_ - 1);
+  const std::string_view name = directive_.name;
+  if (name == "endif") depth_ = std::max(0, depth_ - 1);
+  if (name == "define" && directives_ == 1 && !guards_.empty() && directive_.rest == guards_) guard_ = 1;
+  if (depth_ == 0 || (depth_ == 1 && name.starts_with("el"))) guard_ = 0;
+  guards_ = directives_++ == 0 && name == "ifndef" ? std::string(directive_.rest) : std::string();
   return true;
 }
 

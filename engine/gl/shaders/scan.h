@@ -27,7 +27,9 @@ class LineScanner {
   std::string_view line() const { return line_; }   // without its newline
   std::uint32_t number() const { return number_; }  // from 1
   const Directive& directive() const { return directive_; }
-  int depth() const { return depth_; }  // of #if around the line
+  // Of #if around the line. The guard of a whole file, #ifndef X with #define X next, does not count: what it leaves out is there
+  // already.
+  int depth() const { return depth_ - guard_; }
 
  private:
   void strip();
@@ -35,6 +37,9 @@ class LineScanner {
   std::string code_;  // the line, comments as spaces, columns kept
   std::uint32_t number_ = 0;
   int depth_ = 0;
+  int guard_ = 0;       // 1 within it
+  std::string guards_;  // the X of a first directive #ifndef X, until the next directive
+  int directives_ = 0;
   bool inComment_ = false;
   Directive directive_;
 };

@@ -101,7 +101,7 @@ def check_time(weft, report, *more):
             graph = folder / f"{shader}_{update}.json"
             graph.write_text(json.dumps({
                 "resources": {"a": {"texture": "rgba8", "size": 8, "mips": 3}},
-                "passes": [{"name": "draw", "type": "fullscreen", "shader": f"{shader}.frag.glsl", "update": update, "repeat": {"i": [0, 2]}, "write": {"result": "a.mip[i]"}}],
+                "passes": [{"name": "draw", "type": "fullscreen", "shader": f"{shader}.frag.glsl", "update": update, "repeat": {"i": [0, 2]}, "write": {"result": "a.mip[i]"}, "side_effect": True}],
                 "present": "a"}))
             done = run(weft, "check", graph, *more)
             report.check(done.code == 0 and done.codes("warning") == (["W083"] if told else []), f"{graph.name} {more}: {done.code}\n{done.err}")

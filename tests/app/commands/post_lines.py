@@ -2,7 +2,8 @@
 """graphs/post.json is a list of effects, one include a line. post_lines.py WEFT, from the source folder.
 
 Each line but the composite's may be deleted, all of them may, and those that change `hdr` may stand in any order: the studio still
-passes `check`. A deleted line gives the picture of the effect switched off. A moved one gives another order of passes."""
+passes `check`. One that stands on the wrong side of the composite is named. A deleted
+line gives the picture of the effect switched off. A moved one gives another order of passes."""
 import itertools
 import pathlib
 import re
@@ -11,7 +12,7 @@ import sys
 
 from program import Report, TOP, run, temporary_folder
 
-LINE = re.compile(r'^    \{ "include": "effects/(\w+)\.json".*$', re.M)
+LINE = re.compile(r'^    \{ "include": "(?:effects/)?(\w+)\.json".*$', re.M)
 SWITCHES = {"depth_of_field": "dof", "taa": "taa", "motion_blur": "motion_blur", "bloom": "bloom", "exposure": "auto_exposure", "fxaa": "fxaa"}
 
 
@@ -29,7 +30,7 @@ def main():
             shutil.copytree(TOP / part, folder / part)
         post, text = folder / "graphs/post.json", (TOP / "graphs/post.json").read_text()
         lines = {found[1]: found[0] for found in LINE.finditer(text)}
-        report.check(set(lines) == {*SWITCHES, "composite"}, f"the effects: {list(lines)}")
+        report.check(set(lines) == {*SWITCHES, "fade", "composite"}, f"the effects: {list(lines)}")
         everything = [word for switch in SWITCHES.values() for word in ("--set", f"{switch}=true")]
 
         def checked(lines, *arguments):
@@ -38,16 +39,30 @@ def main():
             # Parameters that only a deleted effect read change nothing any more, and W089 says so.
             names = [LINE.match(line)[1] for line in lines]
             said = set(re.findall(r"(?:error|warning)\[(W\d+)\]", made.err))
-            report.check(made.code == 0 and bool(made.err) == bool(said) and said <= ({"W089"} if len(names) < len(SWITCHES) + 1 else set()), f"{names}: {made.err}")
+            report.check(made.code == 0 and bool(made.err) == bool(said) and said <= ({"W089"} if len(names) < len(SWITCHES) + 2 else set()), f"{names}: {made.err}")
 
         checked(list(lines.values()))
         report.check(post.read_text() == text, "the same lines give the same file")
         checked([lines["composite"]])
-        for gone in SWITCHES:
+        for gone in (*SWITCHES, "fade"):
             checked([line for effect, line in lines.items() if effect != gone], *everything)
         behind = [lines["composite"], lines["fxaa"]]
-        for order in itertools.permutations([e for e in SWITCHES if e != "fxaa"]):
-            checked([*(lines[effect] for effect in order), *behind], *everything)
+        # The fade stands in each place in turn.
+        for i, order in enumerate(itertools.permutations([e for e in SWITCHES if e != "fxaa"])):
+            at = i % (len(order) + 1)
+            checked([lines[effect] for effect in (*order[:at], "fade", *order[at:])] + behind, *everything)
+
+        # What moves below the composite, or fxaa above it, reaches the picture no more: a warning names its passes. The fade's line is out,
+        # for the fade of the next frame reads what `hdr` is at the end of this one.
+        for effect in (*SWITCHES, "fade"):
+            part = "dof" if effect == "depth_of_field" else effect
+            moved = [lines[e] for e in lines if e not in (effect, "fade", "fxaa", "composite")]
+            moved += [lines["fxaa"], lines["composite"]] if effect == "fxaa" else [lines["composite"], lines[effect], lines["fxaa"]]
+            post.write_text(with_lines(text, moved))
+            only = [word for e, switch in SWITCHES.items() for word in ("--set", f"{switch}={str(e == effect).lower()}")]
+            made = run(weft, "check", folder / "graphs/studio.json", "--no-shaders", *only)
+            told = [line for line in made.err.splitlines() if re.search(r"warning\[W(059|090|091)\]", line)]
+            report.check(made.code == 0 and any(f"'post.{part}." in line for line in told), f"{effect} on the wrong side of the composite: {made.code}\n{made.err}")
 
         def passes():
             plan = run(weft, "plan", folder / "graphs/studio.json", *everything).out

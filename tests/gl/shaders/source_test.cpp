@@ -70,6 +70,33 @@ TEST_CASE("a file included inside an #if is still there when it is included agai
   CHECK(occurrences(source->text, "#define WEFT_INCLUDED_1") == 1);
 }
 
+TEST_CASE("a guard of a whole file is no condition of what it includes") {
+  TemporaryFolder folder;
+  folder.write("v.glsl", "float v;\n");
+  folder.write("a.glsl", "// Says what.\n#ifndef A_GLSL\n#define A_GLSL\n#include \"v.glsl\"\n#endif\n");
+  folder.write("b.glsl", "#ifndef B_GLSL\n#define B_GLSL\n#ifdef C\n#include \"w.glsl\"\n#endif\n#endif\n");
+  folder.write("w.glsl", "float w;\n");
+  // No guards: of another name, and not the first directive.
+  folder.write("d.glsl", "#ifndef D\n#define E\n#include \"x.glsl\"\n#endif\n");
+  folder.write("e.glsl", "#define F\n#ifndef G\n#define G\n#include \"y.glsl\"\n#endif\n");
+  folder.write("x.glsl", "float x;\n");
+  folder.write("y.glsl", "float y;\n");
+  // Behind the #else of a guard stands what is not always there.
+  folder.write("f.glsl", "#ifndef H\n#define H\n#else\n#include \"z.glsl\"\n#endif\n");
+  folder.write("z.glsl", "float z;\n");
+  std::string text;
+  for (const char* name : {"a", "b", "d", "e", "f", "v", "w", "x", "y", "z"})
+    text += "#include \"" + std::string(name) + ".glsl\"\n";
+  folder.write("x.frag.glsl", text + "void main() {}\n");
+  SourceLoader loader({folder.path().string()});
+  Diagnostics diagnostics;
+  const auto source = loader.load("x.frag.glsl", diagnostics);
+  REQUIRE_MESSAGE(source, diagnostics.text());
+  CHECK(occurrences(source->text, "float v;") == 1);
+  for (const char* name : {"w", "x", "y", "z"})
+    CHECK_MESSAGE(occurrences(source->text, "float " + std::string(name) + ";") == 2, name);
+}
+
 TEST_CASE("cycles are reported with their path, once, at the include that closes them") {
   TemporaryFolder folder;
   folder.write("a.glsl", "#include \"b.glsl\"\n");
