@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "engine/graph/subresource.h"
 
@@ -103,27 +102,53 @@ void warnMisplaced(Model& model, const Ground& ground, const Liveness& live,
                          });
   const std::vector<std::uint32_t> switchedOff = findNearest(ground, queries, off, false);
   Needs needs(graph);
-  std::set<std::pair<std::string_view, std::string_view>> said;  // stanza and slot
+  // What stands on the wrong side of the same entry is one mistake.
+  struct Mistake {
+    std::size_t first;
+    std::vector<std::string_view> readers{};  // stanzas, the first not among them
+  };
+  std::map<std::pair<std::string, std::string>, Mistake> mistakes;
+  std::vector<std::pair<std::string, std::string>> inOrder;
   for (std::size_t i = 0; i < missed.size(); ++i) {
     const std::uint32_t writer = writers[i], reader = queries[i].who;
-    const WouldUse& would = *missed[i].would;
     if (writer == kNone || live.pass[reader] == 0 || switchedOff[i] != kNone) continue;
-    const PassSpec &spec = graph.specs[reader], &other = graph.specs[writer];
-    if (spec.declared == other.declared) continue;
-    if (would.why == WouldUse::Why::zero && needs.has(writer, reader)) continue;
+    const std::string &name = graph.specs[reader].declared, &other = graph.specs[writer].declared;
+    if (name == other) continue;
+    if (missed[i].would->why == WouldUse::Why::zero && needs.has(writer, reader)) continue;
+    auto entries = entriesOf(name, other);
+    const auto [at, fresh] = mistakes.try_emplace(entries, Mistake{i});
+    if (fresh) inOrder.push_back(std::move(entries));
+    std::vector<std::string_view>& readers = at->second.readers;
+    if (name != graph.specs[queries[at->second.first].who].declared &&
+        std::ranges::find(readers, name) == readers.end())
+      readers.push_back(name);
+  }
+  for (const auto& entries : inOrder) {
+    const auto& [here, there] = entries;
+    const Mistake& mistake = mistakes.at(entries);
+    const WouldUse& would = *missed[mistake.first].would;
+    const PassSpec& spec = graph.specs[queries[mistake.first].who];
     const SlotSpec& slot = graph.slots[spec.firstSlot + would.slot];
-    if (!said.emplace(spec.declared, slot.name).second) continue;
     const std::string& resource = model.entities[would.entity].name;
-    auto& d = model.diagnostics.warning(
-        Code::readBeforeWrite, slot.place,
-        fmt::format("pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}", spec.name, resource,
-                    other.name, slot.name,
-                    would.why == WouldUse::Why::zero ? "has only what \"clear\" says"
-                    : slot.useCount == 0             ? "stays empty"
-                                                     : "takes another alternative"));
+    std::string message = fmt::format(
+        "pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}", spec.name, resource,
+        graph.specs[writers[mistake.first]].name, slot.name,
+        would.why == WouldUse::Why::zero ? "has only what \"clear\" says"
+        : slot.useCount == 0             ? "stays empty"
+                                         : "takes another alternative");
+    if (!mistake.readers.empty())
+      message += fmt::format("; likewise '{}'", fmt::join(mistake.readers, "', '"));
+    std::vector<std::string_view> culled;
+    for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+      const std::string& name = graph.specs[p].declared;
+      const bool within = name == there || name.starts_with(there + ".");
+      if (within && live.pass[p] == 0 && !isLost(p) && std::ranges::find(culled, name) == culled.end())
+        culled.push_back(name);
+    }
+    if (!culled.empty()) message += fmt::format("; culled: '{}'", fmt::join(culled, "', '"));
+    auto& d = model.diagnostics.warning(Code::readBeforeWrite, slot.place, std::move(message));
     d.pass = spec.name;
     d.resource = resource;
-    const auto [here, there] = entriesOf(spec.declared, other.declared);
     d.hint = fmt::format("move '{}' above '{}', or read '{}@-1' for what it was in the frame before", there,
                          here, resource);
   }
