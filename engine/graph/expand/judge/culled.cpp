@@ -27,8 +27,10 @@ struct Loss {
 
 class Losses {
  public:
-  Losses(Model& model, const Ground& ground, const Liveness& live, const Liveness& reach)
-      : model_(model), graph_(model.graph), ground_(ground), live_(live), reach_(reach) {}
+  // `now`: what reaches the picture of its own frame.
+  Losses(Model& model, const Ground& ground, const Liveness& live, const Liveness& reach,
+         const Liveness& now)
+      : model_(model), graph_(model.graph), ground_(ground), live_(live), reach_(reach), now_(now) {}
 
   void run() {
     findLostUses();
@@ -63,11 +65,16 @@ class Losses {
   }
 
   // Writes that nobody sees, with the pass that overwrites them and the reader above them.
+  bool isUnseen(std::uint32_t use) const { return live_.use[use] == 0 && reach_.use[use] == 0; }
+  // A write that only later frames see.
+  bool isLate(std::uint32_t use) const {
+    return graph_.uses[use].access != Access::read && live_.use[use] != 0 && now_.use[use] == 0;
+  }
   void findLostUses() {
     std::vector<Line> queries, overwriters, readers;
     std::vector<std::uint32_t> seen;  // entities of which a pass writes something that somebody sees
     lostAt_.assign(graph_.uses.size(), kNone);
-    const auto unseen = [&](std::uint32_t u) { return live_.use[u] == 0 && reach_.use[u] == 0; };
+    const auto unseen = [&](std::uint32_t u) { return isUnseen(u) || isLate(u); };
     const auto entityOf = [&](std::uint32_t u) { return model_.elementOf[graph_.uses[u].resource].entity; };
     for (std::uint32_t p = 0; p < graph_.passes.size(); ++p) {
       seen.clear();
@@ -78,7 +85,7 @@ class Losses {
         const FlatUse& use = graph_.uses[u];
         if (ground_.of(use.resource) == kNone) return;
         if (use.access == Access::write) overwriters.push_back(lineOf(p, u));
-        if (use.access == Access::read && live_.pass[p] != 0 && use.history == 0)
+        if (use.access == Access::read && live_.pass[p] != 0 && now_.pass[p] != 0 && use.history == 0)
           readers.push_back(lineOf(p, u));
         // An element of an array of which others are seen is no loss.
         if (use.access == Access::read || !unseen(u) || std::ranges::find(seen, entityOf(u)) != seen.end())
@@ -161,8 +168,10 @@ class Losses {
   void blameUse(std::uint32_t use) {
     const std::uint32_t pass = graph_.links.passOf[use];
     const Loss loss = lossOf(pass);
-    const bool told =
-        loss.reason == Reason::overwritten || (loss.reason == Reason::readerAbove && !loss.runs);
+    const bool late = loss.use != kNone && isLate(loss.use);
+    const bool told = late ? loss.reason == Reason::readerAbove
+                           : loss.reason == Reason::overwritten ||
+                                 (loss.reason == Reason::readerAbove && !loss.runs);
     if (!told || loss_[pass] != kNone) return;
     const std::uint32_t at = add(loss);
     if (loss.runs)
@@ -210,8 +219,13 @@ class Losses {
       }
       case Reason::readerAbove: {
         const std::string& by = graph_.passNames[loss.by];
-        message = fmt::format("pass '{}' is culled: '{}', which reads '{}', stands above it", spec.name, by,
-                              resource);
+        message = loss.runs
+                      ? fmt::format(
+                            "only later frames see what pass '{}' writes to '{}': '{}', which reads it, "
+                            "stands above it",
+                            spec.name, resource, by)
+                      : fmt::format("pass '{}' is culled: '{}', which reads '{}', stands above it",
+                                    spec.name, by, resource);
         const auto [lost, other] = entriesOf(spec.declared, graph_.specs[loss.by].declared);
         hint = fmt::format("move '{}' above '{}', or disable '{}'", lost, other, spec.declared);
         break;
@@ -246,7 +260,7 @@ class Losses {
   Model& model_;
   FlatGraph& graph_;
   const Ground& ground_;
-  const Liveness &live_, &reach_;
+  const Liveness &live_, &reach_, &now_;
   std::vector<std::uint32_t> lost_, lostUses_;       // passes; writes of passes that run
   std::vector<std::uint32_t> lostAt_;                // per use: into the next two
   std::vector<std::uint32_t> overwriter_, reader_;   // passes
@@ -274,8 +288,9 @@ void warnUnread(Model& model) {
   const bool all =
       std::ranges::find(live.pass, 0) == live.pass.end() && std::ranges::find(live.use, 0) == live.use.end();
   const Liveness reach = all ? live : findReach(model, ground);
-  Losses losses(model, ground, live, reach);
-  if (!all) losses.run();
+  const Liveness now = graph.histories.empty() ? reach : findReachNow(model, ground);
+  Losses losses(model, ground, live, reach, now);
+  if (!all || !graph.histories.empty()) losses.run();
   warnMisplaced(model, ground, live, [&](std::uint32_t pass) { return losses.isLost(pass); });
 }
 

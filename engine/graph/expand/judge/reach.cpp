@@ -27,7 +27,8 @@ namespace {
 // The graph with everything in it, pass by pass in the order of positions.
 class Whole {
  public:
-  Whole(const Model& model, const Ground& ground) : model_(model), graph_(model.graph), ground_(ground) {
+  Whole(const Model& model, const Ground& ground, bool histories)
+      : model_(model), graph_(model.graph), ground_(ground), histories_(histories) {
     all_.resources = ground.resources();
     at_.resize(graph_.uses.size(), kNone);
   }
@@ -74,7 +75,7 @@ class Whole {
     for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u) {
       FlatUse use = graph_.uses[u];
       use.resource = ground_.of(use.resource);
-      if (use.resource == kNone) continue;
+      if (use.resource == kNone || (use.history > 0 && !histories_)) continue;
       at_[u] = static_cast<std::uint32_t>(all_.uses.size());
       all_.uses.push_back(use);
     }
@@ -83,6 +84,7 @@ class Whole {
   // A write that is not there now takes nothing away.
   void addWhere(std::uint32_t entity, std::uint32_t first, std::uint32_t count, FlatUse rect) {
     // It may test the depth, or read the storage, that it modifies; color it only draws over.
+    if (rect.history > 0 && !histories_) return;
     rect.keep = rect.access == Access::modify && rect.kind != Kind::color;
     if (rect.access == Access::write) rect.access = Access::modify;
     ground_.eachElement(entity, first, count, rect, [&](const FlatUse& use) { all_.uses.push_back(use); });
@@ -107,6 +109,7 @@ class Whole {
   const Model& model_;
   const FlatGraph& graph_;
   const Ground& ground_;
+  const bool histories_;
   FlatGraph all_;
   std::vector<std::uint32_t> at_, passes_;  // of a use and a pass of the graph: the one here
 };
@@ -114,7 +117,10 @@ class Whole {
 }  // namespace
 
 Liveness findReach(const Model& model, const Ground& ground) {
-  return Whole(model, ground).run();
+  return Whole(model, ground, true).run();
+}
+Liveness findReachNow(const Model& model, const Ground& ground) {
+  return Whole(model, ground, false).run();
 }
 
 std::vector<std::uint32_t> findNearest(const Ground& ground, const std::vector<Line>& queries,

@@ -37,6 +37,8 @@ class Ground {
 // As findLive() of the graph, but everything that is disabled or whose condition is false is there, too: a disabled pass
 // writes without taking away what was there before.
 Liveness findReach(const Model& model, const Ground& ground);
+// The same without what only later frames read, by a history.
+Liveness findReachNow(const Model& model, const Ground& ground);
 
 // A use at a position, in the resources of a Ground.
 struct Line {
