@@ -52,11 +52,10 @@ def main():
             at = i % (len(order) + 1)
             checked([lines[effect] for effect in (*order[:at], "fade", *order[at:])] + behind, *everything)
 
-        # What moves below the composite, or fxaa above it, reaches the picture no more: a warning names its passes. The fade's line is out,
-        # for the fade of the next frame reads what `hdr` is at the end of this one.
+        # What moves below the composite, or fxaa above it, reaches the picture no more: a warning names its passes.
         for effect in (*SWITCHES, "fade"):
             part = "dof" if effect == "depth_of_field" else effect
-            moved = [lines[e] for e in lines if e not in (effect, "fade", "fxaa", "composite")]
+            moved = [lines[e] for e in lines if e not in (effect, "fxaa", "composite")]
             moved += [lines["fxaa"], lines["composite"]] if effect == "fxaa" else [lines["composite"], lines[effect], lines["fxaa"]]
             post.write_text(with_lines(text, moved))
             only = [word for e, switch in SWITCHES.items() for word in ("--set", f"{switch}={str(e == effect).lower()}")]
