@@ -1,6 +1,6 @@
 """Driving `weft view` in a window of a virtual display with xdotool: keys, drags, screenshots. Scripts wait for what the viewer says
-(`--events`, docs/viewer.md) and never for a time; LIMIT only guards against hanging. inside_display() runs a test's script again
-in a display of its own."""
+(`--events`, docs/viewer.md) and never for a time but that of a fade; LIMIT only guards against hanging. inside_display() runs a test's script
+again in a display of its own."""
 import contextlib
 import os
 import pathlib
@@ -14,6 +14,7 @@ import time
 from program import SANITIZED, SLOWER, TOP, Report, count_run, temporary_folder
 
 LIMIT = 300 * SLOWER  # seconds for anything to happen
+FADE = 0.3  # seconds, longer than graphs/fade.json takes; the window's time runs with the wall clock
 
 
 class Session:
@@ -129,10 +130,12 @@ class Session:
         return first
 
     def settled(self):
-        """The picture at rest: of two later frames that are alike. While an environment fades in, no two are."""
+        """The picture at rest: of two frames that are alike, with the whole time of a fade between them. Within a fade two may be
+        alike by chance, also where it shows nothing: a picture mixed with itself is another by rounding."""
         shots = [self.shot()]
 
         def alike():
+            time.sleep(FADE)
             shots.append(self.shot())
             return all(shots[-2:]) and shots[-1].read_bytes() == shots[-2].read_bytes()
 
