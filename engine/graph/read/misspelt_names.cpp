@@ -14,8 +14,9 @@ namespace weft::graph {
 
 namespace {
 
-constexpr std::size_t kShortest = 3;     // shorter names are near to each other by chance
-constexpr std::size_t kMaxUnknown = 64;  // a file with more names that are not there has no slip but another mistake
+constexpr std::size_t kShortest = 3;  // shorter names are near to each other by chance
+constexpr std::size_t kMaxUnknown =
+    64;  // a file with more names that are not there has no slip but another mistake
 
 struct Mentions {
   std::uint32_t count = 0;

@@ -28,8 +28,7 @@ struct Loss {
 class Losses {
  public:
   // `now`: what reaches the picture of its own frame.
-  Losses(Model& model, const Ground& ground, const Liveness& live, const Liveness& reach,
-         const Liveness& now)
+  Losses(Model& model, const Ground& ground, const Liveness& live, const Liveness& reach, const Liveness& now)
       : model_(model), graph_(model.graph), ground_(ground), live_(live), reach_(reach), now_(now) {}
 
   void run() {
@@ -169,9 +168,9 @@ class Losses {
     const std::uint32_t pass = graph_.links.passOf[use];
     const Loss loss = lossOf(pass);
     const bool late = loss.use != kNone && isLate(loss.use);
-    const bool told = late ? loss.reason == Reason::readerAbove
-                           : loss.reason == Reason::overwritten ||
-                                 (loss.reason == Reason::readerAbove && !loss.runs);
+    const bool told =
+        late ? loss.reason == Reason::readerAbove
+             : loss.reason == Reason::overwritten || (loss.reason == Reason::readerAbove && !loss.runs);
     if (!told || loss_[pass] != kNone) return;
     const std::uint32_t at = add(loss);
     if (loss.runs)
@@ -224,8 +223,8 @@ class Losses {
                             "only later frames see what pass '{}' writes to '{}': '{}', which reads it, "
                             "stands above it",
                             spec.name, resource, by)
-                      : fmt::format("pass '{}' is culled: '{}', which reads '{}', stands above it",
-                                    spec.name, by, resource);
+                      : fmt::format("pass '{}' is culled: '{}', which reads '{}', stands above it", spec.name,
+                                    by, resource);
         const auto [lost, other] = entriesOf(spec.declared, graph_.specs[loss.by].declared);
         hint = fmt::format("move '{}' above '{}', or disable '{}'", lost, other, spec.declared);
         break;

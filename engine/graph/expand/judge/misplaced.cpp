@@ -130,12 +130,12 @@ void warnMisplaced(Model& model, const Ground& ground, const Liveness& live,
     const PassSpec& spec = graph.specs[queries[mistake.first].who];
     const SlotSpec& slot = graph.slots[spec.firstSlot + would.slot];
     const std::string& resource = model.entities[would.entity].name;
-    std::string message = fmt::format(
-        "pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}", spec.name, resource,
-        graph.specs[writers[mistake.first]].name, slot.name,
-        would.why == WouldUse::Why::zero ? "has only what \"clear\" says"
-        : slot.useCount == 0             ? "stays empty"
-                                         : "takes another alternative");
+    std::string message =
+        fmt::format("pass '{}' reads '{}' before pass '{}' writes it: its slot '{}' {}", spec.name, resource,
+                    graph.specs[writers[mistake.first]].name, slot.name,
+                    would.why == WouldUse::Why::zero ? "has only what \"clear\" says"
+                    : slot.useCount == 0             ? "stays empty"
+                                                     : "takes another alternative");
     if (!mistake.readers.empty())
       message += fmt::format("; likewise '{}'", fmt::join(mistake.readers, "', '"));
     std::vector<std::string_view> culled;
