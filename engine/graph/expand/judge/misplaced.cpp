@@ -138,13 +138,24 @@ void warnMisplaced(Model& model, const Ground& ground, const Liveness& live,
                                                      : "takes another alternative");
     if (!mistake.readers.empty())
       message += fmt::format("; likewise '{}'", fmt::join(mistake.readers, "', '"));
-    std::vector<std::string_view> culled;
-    for (std::uint32_t p = 0; p < graph.passes.size(); ++p) {
+    // What is culled of that entry, with what only feeds it.
+    std::vector<bool> gone(graph.passes.size(), false);
+    for (std::size_t p = graph.passes.size(); p-- > 0;) {
       const std::string& name = graph.specs[p].declared;
-      const bool within = name == there || name.starts_with(there + ".");
-      if (within && live.pass[p] == 0 && !isLost(p) && std::ranges::find(culled, name) == culled.end())
-        culled.push_back(name);
+      if (live.pass[p] != 0 || isLost(static_cast<std::uint32_t>(p))) continue;
+      if (name == there || name.starts_with(there + ".")) gone[p] = true;
+      if (!gone[p]) continue;
+      const FlatPass& flat = graph.passes[p];
+      for (std::uint32_t u = flat.firstUse; u < flat.firstUse + flat.useCount; ++u)
+        graph.links.forEachWriter(graph.links.seen[u], [&](std::uint32_t writer) {
+          gone[graph.links.passOf[writer]] = live.pass[graph.links.passOf[writer]] == 0;
+        });
     }
+    std::vector<std::string_view> culled;
+    for (std::size_t p = 0; p < gone.size(); ++p)
+      if (const std::string& name = graph.specs[p].declared;
+          gone[p] && std::ranges::find(culled, name) == culled.end())
+        culled.push_back(name);
     if (!culled.empty()) message += fmt::format("; culled: '{}'", fmt::join(culled, "', '"));
     auto& d = model.diagnostics.warning(Code::readBeforeWrite, slot.place, std::move(message));
     d.pass = spec.name;
