@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/judge/unused.h"
 #include "engine/graph/expand/names/resources.h"
 #include "engine/graph/expand/names/scope.h"
@@ -31,35 +32,15 @@ class Named {
 
  private:
   void addFile(Scope& scope) {
-    const GraphDesc& desc = *scope.desc;
-    for (const NamedExpr& let : desc.lets) add(scope, let.expr);
-    for (const ResourceDesc& resource : desc.resources) {
-      for (const Expr* expr :
-           {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
-            &resource.bytes, &resource.clear, &resource.history, &resource.first})
-        add(scope, *expr);
-      for (const Expr& value : resource.resetValues) add(scope, value);
-      for (const NamedExpr& argument : resource.import.arguments) add(scope, argument.expr);
-      if (resource.firstRef) add(scope, *resource.firstRef);
-      for (const RefDesc& ref : resource.resetRefs) add(scope, ref);
-      for (const RefDesc& ref : resource.alternatives) add(scope, ref);
-    }
-    for (const PassDesc& pass : desc.passes) addPass(scope, pass);
-    if (desc.present) add(scope, *desc.present);
-    for (const OutputDesc& output : desc.outputs) add(scope, output.ref);
-  }
-
-  void addPass(Scope& scope, const PassDesc& pass) {
-    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) add(scope, *expr);
-    for (const RangeDesc& range : pass.repeat)
-      for (const Expr* expr : {&range.first, &range.last, &range.step}) add(scope, *expr);
-    for (const SlotDesc& slot : pass.slots) add(scope, slot.ref);
-    for (const PassParameterDesc& parameter : pass.parameters) add(scope, parameter.value);
-    for (const NamedExpr& define : pass.defines) add(scope, define.expr);
-    for (const NamedExpr& state : pass.state) add(scope, state.expr);
-    if (pass.view) add(scope, *pass.view);
-    if (pass.include)
-      for (const auto& [input, ref] : pass.include->binds) add(scope, ref);
+    visitMentions(
+        *scope.desc, [&](const Expr& expr) { add(scope, expr); },
+        [&](const RefDesc& ref) { add(scope, ref); });
+    for (const PassDesc& pass : scope.desc->passes)
+      if (pass.include)
+        for (const auto& [input, ref] : pass.include->binds) {
+          add(scope, ref.condition);
+          add(scope, ref);
+        }
   }
 
   void add(Scope& scope, const Expr& expr) {
@@ -67,16 +48,7 @@ class Named {
     for (const auto& [fact, name] : expr.facts()) nameOne(scope, name, false, false);
   }
 
-  void add(Scope& scope, const RefDesc& ref) {
-    add(scope, ref.condition);
-    if (ref.element) add(scope, *ref.element);
-    for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
-      if (*span) {
-        add(scope, (*span)->first);
-        add(scope, (*span)->last);
-      }
-    nameOne(scope, ref.name, ref.import, ref.history > 0);
-  }
+  void add(Scope& scope, const RefDesc& ref) { nameOne(scope, ref.name, ref.import, ref.history > 0); }
 
   // As findEntity() does, but with everything on the way: an input, and what is bound to it.
   void nameOne(Scope& scope, std::string_view name, bool import, bool back) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "engine/graph/desc_walk.h"
 #include "engine/graph/expand/names/scope.h"
 
 namespace weft::graph::expansion {
@@ -56,36 +57,9 @@ class Uses {
 
  private:
   void addFile(Scope& scope) {
-    const GraphDesc& desc = *scope.desc;
-    for (const NamedExpr& let : desc.lets) add(scope, let.expr);
-    for (const ResourceDesc& resource : desc.resources) addResource(scope, resource);
-    for (const PassDesc& pass : desc.passes) addPass(scope, pass);
-    if (desc.present) add(scope, *desc.present);
-    for (const OutputDesc& output : desc.outputs) add(scope, output.ref);
-  }
-
-  void addResource(Scope& scope, const ResourceDesc& resource) {
-    for (const Expr* expr :
-         {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
-          &resource.bytes, &resource.clear, &resource.history, &resource.first})
-      add(scope, *expr);
-    for (const Expr& value : resource.resetValues) add(scope, value);
-    for (const NamedExpr& argument : resource.import.arguments) add(scope, argument.expr);
-    if (resource.firstRef) add(scope, *resource.firstRef);
-    for (const RefDesc& ref : resource.resetRefs) add(scope, ref);
-    for (const RefDesc& ref : resource.alternatives) add(scope, ref);
-  }
-
-  void addPass(Scope& scope, const PassDesc& pass) {
-    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) add(scope, *expr);
-    for (const RangeDesc& range : pass.repeat)
-      for (const Expr* expr : {&range.first, &range.last, &range.step}) add(scope, *expr);
-    for (const SlotDesc& slot : pass.slots) add(scope, slot.ref);
-    for (const PassParameterDesc& parameter : pass.parameters) add(scope, parameter.value);
-    for (const NamedExpr& define : pass.defines) add(scope, define.expr);
-    for (const NamedExpr& state : pass.state) add(scope, state.expr);
-    for (const Expr& argument : pass.geometryArguments) add(scope, argument);
-    if (pass.view) add(scope, *pass.view);
+    visitMentions(
+        *scope.desc, [&](const Expr& expr) { add(scope, expr); },
+        [&](const RefDesc& ref) { add(scope, ref); });
   }
 
   void add(Scope& scope, const Expr& expr) {
@@ -102,13 +76,6 @@ class Uses {
   }
 
   void add(Scope& scope, const RefDesc& ref) {
-    add(scope, ref.condition);
-    if (ref.element) add(scope, *ref.element);
-    for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
-      if (*span) {
-        add(scope, (*span)->first);
-        add(scope, (*span)->last);
-      }
     const std::uint32_t found = ref.import ? kNone : findEntity(model_, scope, ref.name, false);
     if (found == kNone) return;
     const Entity& entity = model_.entities[found];

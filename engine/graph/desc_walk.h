@@ -1,0 +1,50 @@
+// Visits every expression and every reference that a graph file writes, except what its includes bind.
+#pragma once
+
+#include <optional>
+
+#include "engine/graph/desc.h"
+
+namespace weft::graph {
+
+// Calls onExpr(expr) for each expression, absent ones too, and onRef(ref) for each reference, after the expressions in it.
+template <class OnExpr, class OnRef>
+void visitMentions(const GraphDesc& desc, OnExpr&& onExpr, OnRef&& onRef) {
+  const auto visitRef = [&](const RefDesc& ref) {
+    onExpr(ref.condition);
+    if (ref.element) onExpr(*ref.element);
+    for (const std::optional<SpanDesc>* span : {&ref.mip, &ref.layer, &ref.face})
+      if (*span) {
+        onExpr((*span)->first);
+        onExpr((*span)->last);
+      }
+    onRef(ref);
+  };
+  for (const NamedExpr& let : desc.lets) onExpr(let.expr);
+  for (const ResourceDesc& resource : desc.resources) {
+    for (const Expr* expr :
+         {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
+          &resource.bytes, &resource.clear, &resource.history, &resource.first})
+      onExpr(*expr);
+    for (const Expr& value : resource.resetValues) onExpr(value);
+    for (const NamedExpr& argument : resource.import.arguments) onExpr(argument.expr);
+    if (resource.firstRef) visitRef(*resource.firstRef);
+    for (const RefDesc& ref : resource.resetRefs) visitRef(ref);
+    for (const RefDesc& ref : resource.alternatives) visitRef(ref);
+  }
+  for (const PassDesc& pass : desc.passes) {
+    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) onExpr(*expr);
+    for (const RangeDesc& range : pass.repeat)
+      for (const Expr* expr : {&range.first, &range.last, &range.step}) onExpr(*expr);
+    for (const SlotDesc& slot : pass.slots) visitRef(slot.ref);
+    for (const PassParameterDesc& parameter : pass.parameters) onExpr(parameter.value);
+    for (const NamedExpr& define : pass.defines) onExpr(define.expr);
+    for (const NamedExpr& state : pass.state) onExpr(state.expr);
+    for (const Expr& argument : pass.geometryArguments) onExpr(argument);
+    if (pass.view) visitRef(*pass.view);
+  }
+  if (desc.present) visitRef(*desc.present);
+  for (const OutputDesc& output : desc.outputs) visitRef(output.ref);
+}
+
+}  // namespace weft::graph
