@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds every #include of engine/ and app/ against the tables below: rooms (folders of engine/, and app) and sub-rooms (folders inside a
 room, along its pipeline), and finds circles of #includes and headers without #pragma once. In engine/, app/, tests/ and shaders/ every
-folder has less than 25 source files, and every source file at most 400 lines. A .cpp file of engine/ or app/ without a header of its own
+folder has less than 25 source files, and every source file at most 800 lines. A .cpp file of engine/ or app/ without a header of its own
 shows which header declares its functions: the only one of its folder that it includes, or "Declared in x.h" in its first comment.
 
     rooms.py TOP
@@ -86,7 +86,7 @@ SUB_ROOMS = {
     },
 }
 MOST_FILES = 24
-MOST_LINES = 400
+MOST_LINES = 800
 SOURCES = {".h", ".cpp", ".py", ".glsl"}
 # Files that define no function that another file calls.
 UNDECLARED = {"app/main.cpp", "engine/assets/images/stb_implementation.cpp"}
