@@ -48,8 +48,6 @@ OTHER_MEANINGS = {
     ("engine/gl/shaders/scan.cpp", "image"): "how types of GLSL begin",
     ("engine/gl/shaders/roles.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",
-    ("engine/graph/workload/neutral.cpp", "name"): "a key of neutral workloads",
-    ("engine/graph/workload/neutral.cpp", "height"): "a key of neutral workloads",
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')

@@ -39,7 +39,6 @@ SUB_ROOMS = {
         "print": {".", "language", "compile"},
         "edit": {".", "language", "read", "expand/names", "expand"},
         "survey": {".", "language", "expand"},
-        "workload": {".", "language", "versions"},
     },
     "assets": {
         "images": set(),

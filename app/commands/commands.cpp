@@ -9,7 +9,6 @@
 #include "app/bench/edit_bench.h"
 #include "app/bench/frame_bench.h"
 #include "app/bench/task_bench.h"
-#include "app/bench/workload_bench.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/graph/language/schema.h"
@@ -47,29 +46,22 @@ int runPlan(const Options& options) {
 
 int runBench(const Options& options) {
   base::Diagnostics diagnostics;
-  if (!options.frameGraph.empty()) {
-    Options frame = options;
-    frame.graph = options.frameGraph;
-    const auto text = benchFrame(frame, diagnostics);
-    if (text) print(*text + "\n");
-    return report(diagnostics);
-  }
-  if (!options.editGraph.empty()) {
-    Options edit = options;
-    edit.graph = options.editGraph;
-    const auto text = benchEdits(edit, diagnostics);
-    if (text) print(*text + "\n");
-    return report(diagnostics);
-  }
+  Options frame = options, edit = options;
+  frame.graph = options.frameGraph;
+  edit.graph = options.editGraph;
+  std::optional<std::string> text;
   if (options.tasks) {
-    const auto text = benchTasks(options, diagnostics);
-    if (text) print(*text + "\n");
-    return report(diagnostics);
+    text = benchTasks(options, diagnostics);
+  } else if (!frame.graph.empty()) {
+    text = benchFrame(frame, diagnostics);
+  } else if (!edit.graph.empty()) {
+    text = benchEdits(edit, diagnostics);
+  } else {
+    frame.graph = edit.graph = dataFolder() + "/graphs/studio.json";
+    const auto edits = benchEdits(edit, diagnostics);
+    const auto frames = edits ? benchFrame(frame, diagnostics) : std::nullopt;
+    if (frames) text = fmt::format("{{\"edit\": {},\n\"frame\": {}}}", *edits, *frames);
   }
-  WorkloadBenchOptions wanted;
-  wanted.files = options.workloads;
-  const auto text = options.workloads.size() == 1 ? benchWorkload(options.workloads[0], diagnostics)
-                                                  : benchWorkloads(wanted, diagnostics);
   if (text) print(*text + "\n");
   return report(diagnostics);
 }

@@ -29,7 +29,6 @@ void chooseFiles(const Options& options) {
     base::chooseFile(*file);
   for (const std::string& preset : options.presets) base::chooseFile(preset);
   for (const std::string& preset : options.trial.otherPresets) base::chooseFile(preset);
-  for (const std::string& workload : options.workloads) base::chooseFile(workload);
   for (const std::string& file : options.files) base::chooseFile(file);
   for (const graph::Setting& set : options.sets) base::chooseFile(set.text);  // where the parameter is a file
   for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
@@ -256,26 +255,21 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   plan->add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
   plan->add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
 
-  CLI::App* bench = app.add_subcommand("bench", "measure; prints JSON");
-  bench
-      ->add_option("--workload", options.workloads, "neutral workload files ({textures, passes}); repeatable")
-      ->type_name("FILE");
+  CLI::App* bench = app.add_subcommand(
+      "bench", "measure; prints JSON; by default --edit and --frame of graphs/studio.json");
   bench
       ->add_option("--frame", options.frameGraph, "a graph file: the cost of its frame in full-screen copies")
-      ->type_name("FILE")
-      ->excludes("--workload");
+      ->type_name("FILE");
   bench
       ->add_option("--edit", options.editGraph,
                    "a graph file: what a changed parameter and a saved file cost before the next frame")
       ->type_name("FILE")
-      ->excludes("--workload")
       ->excludes("--frame");
   bench
       ->add_flag(
           "--tasks", options.tasks,
           "the CPU's work for a frame of a scene (default: 100,000 moving meshes), per stage, on 1 and "
           "on 2 threads")
-      ->excludes("--workload")
       ->excludes("--frame")
       ->excludes("--edit");
   bench

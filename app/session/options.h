@@ -78,7 +78,6 @@ struct Options {
   bool checkOnly = false;                // format: say what differs, write nothing
   bool explain = false;                  // plan: say why
   bool tasks = false;                    // dot, bench: the CPU's work for a frame, not a plan
-  std::vector<std::string> workloads;    // bench
   std::string frameGraph;                // bench --frame
   std::string editGraph;                 // bench --edit
   std::uint32_t maxFrames = 0;           // view: stop after this many frames; 0: until closed

@@ -4,7 +4,7 @@
 // Ranges: W001-W019 JSON and files, W020-W039 expressions and references, W040-W099 graph (expansion, validation),
 // W100-W149 shaders and GL, W150-W179 assets and scenes, W180-W199 command line, runtime and outputs, W200-W219 limits, W220-W239 pipelines of other
 // programs.
-// Numbers are never reused; W010 (overlays are not supported yet) and W088 (reads of what timed passes made) are retired. Does not hold the message texts: those
+// Numbers are never reused; W010 (overlays are not supported yet), W088 (reads of what timed passes made) and W093-W099 (workloads) are retired. Does not hold the message texts: those
 // stand where the mistake is found.
 #pragma once
 
@@ -94,13 +94,6 @@ namespace weft::base {
   X(W090, culledOverwritten,         "culled: output overwritten")                                  \
   X(W091, culledUnread,              "culled: output never read")                                   \
   X(W092, nothingPresented,          "nothing is presented")                                        \
-  X(W093, notAWorkload,              "not a workload file")                                         \
-  X(W094, unknownWorkloadTexture,    "unknown texture in a workload")                               \
-  X(W095, unknownWorkloadFormat,     "unknown format in a workload")                                \
-  X(W096, duplicateFlatName,         "duplicate name in a flat graph")                              \
-  X(W097, flatReadBeforeWrite,       "read before write in a flat graph")                           \
-  X(W098, touchedTwice,              "sub-resource touched twice by one pass")                      \
-  X(W099, useOutsideResource,        "use outside its resource")                                    \
   /* shaders and GL */                                                                              \
   X(W100, unreadableShader,          "shader file cannot be read")                                  \
   X(W101, missingShaderInclude,      "included file not found")                                     \

@@ -1,7 +1,7 @@
 // FlatGraph: a graph after expansion. Includes, repeats, conditions, alternatives and disabled passes are gone, each
 // version with storage of its own is a resource of its own, every size is a number and every name an index. Passes
 // stand in declared order, which is always a legal order: a use refers to the latest version before it. compile()
-// reads this, in flat arrays. It needs only the first members (the neutral workloads fill only those and the names);
+// reads this, in flat arrays. It needs only the first members;
 // `specs`, `slots` and the rest are for the executor.
 #pragma once
 
@@ -248,9 +248,9 @@ struct FlatGraph {
   VersionLinks links;
   // names and places, parallel to passes and resources
   std::vector<std::string> passNames, resourceNames;
-  std::vector<Place> resourcePlaces;  // of their declarations; empty for neutral graphs
+  std::vector<Place> resourcePlaces;  // of their declarations; may be empty
   // the executor's
-  std::vector<PassSpec> specs;  // parallel to passes, or empty for neutral graphs
+  std::vector<PassSpec> specs;  // parallel to passes, or empty
   std::vector<SlotSpec> slots;
   std::vector<BorderColor> borders;  // of slots that have one
   std::vector<ImportSpec> imports;

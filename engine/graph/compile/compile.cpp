@@ -15,15 +15,13 @@ namespace weft::graph {
 
 Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options) {
   CompileScratch scratch;
-  return compile(std::move(graph), options, scratch);
-}
-
-Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options, CompileScratch& scratch) {
   Plan plan;
   const FlatGraph& g = *graph;
   plan.graph = std::move(graph);
   steps::indexCells(g, scratch);
-  findLive(g, scratch.livePass, plan.attached, scratch.stack);
+  Liveness live = findLive(g);
+  scratch.livePass = std::move(live.pass);
+  plan.attached = std::move(live.use);
   steps::orderPasses(g, options, plan, scratch);
   plan.groups = formGroups(
       g, [&](std::uint32_t p) { return plan.stepOf[p] != kNone; },

@@ -16,12 +16,10 @@ struct CompileOptions {
   std::uint32_t orderFirst = 0, orderLast = ~0u;
 };
 
-// The graph must be valid and linked (by expandGraph, or by linkFlat for neutral graphs): every read has a version, some
+// The graph must be valid and linked (by expandGraph, or by linkVersions): every read has a version, some
 // pass writes what is presented (version zero is not enough), and imports are not written. The order of the plan is the
 // declared order of the live passes. It is always legal, because a use refers to the latest version before it, and it is
-// the order that a person reads in the file. The second form reuses the working memory of earlier calls.
-struct CompileScratch;  // scratch.h
+// the order that a person reads in the file.
 Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options = {});
-Plan compile(std::shared_ptr<const FlatGraph> graph, const CompileOptions& options, CompileScratch& scratch);
 
 }  // namespace weft::graph

@@ -1,5 +1,4 @@
-// Working memory of compile(), kept between calls so that a recompile allocates only the Plan. Not thread-safe. Flat
-// vectors indexed by pass, use, resource or cell; their contents mean nothing after a call. A cell is one sub-resource
+// What the steps of one compile() hand on: flat vectors indexed by pass, resource or cell. A cell is one sub-resource
 // where some use touches a part of a resource, else the whole resource.
 #pragma once
 
@@ -29,7 +28,6 @@ struct CompileScratch {
 
   // liveness
   std::vector<std::uint8_t> livePass;  // per pass
-  std::vector<std::uint32_t> stack;    // of findLive
 
   // lifetimes
   std::vector<std::uint32_t> births;     // live resources by first step

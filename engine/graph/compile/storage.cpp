@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 #include "engine/base/hash.h"
 
@@ -36,40 +37,10 @@ ClassKey keyOf(const FlatResource& r) {
           std::uint64_t{r.samples} << 32 | familyOf(r.target) << 16 | infoOf(r.format).viewClass};
 }
 
-// Open addressing; the classes of a graph are few.
-class ClassTable {
- public:
-  ClassTable() : slots_(64, kNone) {}
-
-  std::uint32_t find(const ClassKey& key) {
-    std::uint64_t at = base::hashCombine(key.size ^ key.kind * 0x9e3779b97f4a7c15ull, key.shape);
-    for (;; ++at) {
-      const std::uint32_t found = slots_[at & (slots_.size() - 1)];
-      if (found == kNone) break;
-      if (keys_[found] == key) return found;
-    }
-    if ((keys_.size() + 1) * 2 > slots_.size()) {
-      grow();
-      return find(key);
-    }
-    const auto index = static_cast<std::uint32_t>(keys_.size());
-    slots_[at & (slots_.size() - 1)] = index;
-    keys_.push_back(key);
-    return index;
+struct ClassHash {
+  std::size_t operator()(const ClassKey& key) const {
+    return base::hashCombine(base::hashCombine(key.size, key.shape), key.kind);
   }
-
- private:
-  void grow() {
-    slots_.assign(slots_.size() * 2, kNone);
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-      std::uint64_t at =
-          base::hashCombine(keys_[i].size ^ keys_[i].kind * 0x9e3779b97f4a7c15ull, keys_[i].shape);
-      while (slots_[at & (slots_.size() - 1)] != kNone) ++at;
-      slots_[at & (slots_.size() - 1)] = i;
-    }
-  }
-  std::vector<std::uint32_t> slots_;
-  std::vector<ClassKey> keys_;
 };
 
 // Free ranges by offset and by size; best fit, lowest offset among equals; the arena grows at its end.
@@ -206,7 +177,8 @@ class Placer {
   }
 
   void bearTexture(std::uint32_t index, const FlatResource& r) {
-    const std::uint32_t found = table_.find(keyOf(r));
+    const auto found =
+        table_.try_emplace(keyOf(r), static_cast<std::uint32_t>(classes_.size())).first->second;
     if (found == classes_.size()) {
       classes_.emplace_back();
       classes_.back().bytes = r.bytes;
@@ -267,7 +239,7 @@ class Placer {
   const bool share_;
   Plan& plan_;
   Scratch& scratch_;
-  ClassTable table_;
+  std::unordered_map<ClassKey, std::uint32_t, ClassHash> table_;  // into classes_
   Arena arena_;
   std::vector<ClassState> classes_;
   std::vector<std::uint32_t> nextFree_, classOf_;  // per storage

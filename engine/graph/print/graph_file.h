@@ -10,7 +10,7 @@
 
 namespace weft::graph {
 
-// The text of the file. The plan is of a graph file, not of a neutral workload.
+// The text of the file.
 std::string graphFileOf(const Plan& plan);
 
 }  // namespace weft::graph

@@ -10,7 +10,7 @@
 
 namespace weft::graph {
 
-// Slot name per use; "" where the graph has none (neutral workloads).
+// Slot name per use; "" where the graph has none.
 std::vector<std::string> slotNames(const FlatGraph& graph);
 
 struct FramebufferText {

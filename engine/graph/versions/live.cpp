@@ -34,9 +34,8 @@ void sweepBack(const FlatGraph& graph, std::uint8_t* const livePass, std::uint8_
 // The same where a history leads to its own pass or a later one.
 class Sweep {
  public:
-  Sweep(const FlatGraph& graph, std::uint8_t* livePass, std::uint8_t* liveUse,
-        std::vector<std::uint32_t>& stack)
-      : graph_(graph), livePass_(livePass), liveUse_(liveUse), stack_(stack), swept_(graph.passes.size()) {}
+  Sweep(const FlatGraph& graph, Liveness& live)
+      : graph_(graph), livePass_(live.pass.data()), liveUse_(live.use.data()), swept_(graph.passes.size()) {}
 
   void run() {
     while (swept_ > 0) {
@@ -77,33 +76,26 @@ class Sweep {
 
   const FlatGraph& graph_;
   std::uint8_t *const livePass_, *const liveUse_;
-  std::vector<std::uint32_t>& stack_;
+  std::vector<std::uint32_t> stack_;
   std::size_t swept_;  // passes from here on have been looked at; what is asked of them waits on the stack
 };
 
 }  // namespace
 
-void findLive(const FlatGraph& graph, std::vector<std::uint8_t>& livePass, std::vector<std::uint8_t>& liveUse,
-              std::vector<std::uint32_t>& stack) {
+Liveness findLive(const FlatGraph& graph) {
   const VersionLinks& links = graph.links;
   assert(links.seen.size() == graph.uses.size());  // linkVersions was forgotten
-  livePass.assign(graph.passes.size(), 0);
-  liveUse.assign(graph.uses.size(), 0);
-  stack.clear();
-  const auto keep = [&](std::uint32_t writer) { liveUse[writer] = livePass[links.passOf[writer]] = 1; };
+  Liveness live;
+  live.pass.assign(graph.passes.size(), 0);
+  live.use.assign(graph.uses.size(), 0);
+  const auto keep = [&](std::uint32_t writer) { live.use[writer] = live.pass[links.passOf[writer]] = 1; };
   links.forEachWriter(links.present, keep);
   for (const std::uint32_t output : links.outputs) links.forEachWriter(output, keep);
-  for (std::size_t p = 0; p < graph.passes.size(); ++p) livePass[p] |= graph.passes[p].sideEffect ? 1 : 0;
+  for (std::size_t p = 0; p < graph.passes.size(); ++p) live.pass[p] |= graph.passes[p].sideEffect ? 1 : 0;
   if (links.forward)
-    Sweep(graph, livePass.data(), liveUse.data(), stack).run();
+    Sweep(graph, live).run();
   else
-    sweepBack(graph, livePass.data(), liveUse.data());
-}
-
-Liveness findLive(const FlatGraph& graph) {
-  Liveness live;
-  std::vector<std::uint32_t> stack;
-  findLive(graph, live.pass, live.use, stack);
+    sweepBack(graph, live.pass.data(), live.use.data());
   return live;
 }
 

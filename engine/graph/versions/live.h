@@ -16,10 +16,7 @@ struct Liveness {
   std::vector<std::uint8_t> pass, use;
 };
 
-// The vectors of `live` keep what they hold of memory; so does `stack`, which means nothing afterwards. Linear in uses
-// and runs, also for chains of histories: each link is followed at most once.
-void findLive(const FlatGraph& graph, std::vector<std::uint8_t>& livePass, std::vector<std::uint8_t>& liveUse,
-              std::vector<std::uint32_t>& stack);
+// Linear in uses and runs, also for chains of histories: each link is followed at most once.
 Liveness findLive(const FlatGraph& graph);
 
 }  // namespace weft::graph

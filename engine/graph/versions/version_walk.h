@@ -1,6 +1,6 @@
 // The one walk of versions. It visits passes in declared order, keeps which use wrote each sub-resource last, and makes
 // FlatGraph::links of that. Expansion moves it on use by use, because which version a write makes depends on what was
-// read; linkFlat does so for neutral workloads; linkVersions runs it over a whole graph. The time is linear in the uses,
+// read; linkVersions runs it over a whole graph. The time is linear in the uses,
 // and in the sub-resources of uses that touch a resource in part or after such a write. Does not: decide whether a missing
 // version is an error, or what is live (versions/live.h).
 #pragma once

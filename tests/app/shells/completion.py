@@ -16,7 +16,7 @@ FOUND = {"bash": shutil.which("bash"), "zsh": shutil.which("zsh"), "fish": shuti
 INNER = ["new pass"]  # commands of commands
 # Behind an option: a file, a folder, or neither. In a folder that has one of both, the file offers nothing where a folder is meant.
 KINDS = {"file": ["a_file", "a_folder"], "folder": ["a_folder"], "number": []}
-MEANT = (("file", "bench --frame"), ("file", "bench --edit"), ("file", "bench --workload"), ("file", "test --report"), ("file", "render -o"),
+MEANT = (("file", "bench --frame"), ("file", "bench --edit"), ("file", "test --report"), ("file", "render -o"),
          ("file", "render --trace"), ("file", "view --record"), ("file", "bisect --other-preset"), ("file", "new pass --graph"),
          ("file", "check"), ("file", "test"), ("file", "import"), ("file", "lsp --scene"),
          ("folder", "dump -o"), ("folder", "import --output"), ("folder", "test -o"), ("folder", "new pass -o"), ("folder", "render --program-cache"),

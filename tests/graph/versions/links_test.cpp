@@ -1,10 +1,7 @@
-// Version links of random graphs and workloads against their definition; corners of the walk; liveness along the links.
+// Version links of random graphs against their definition; corners of the walk; liveness along the links.
 #include <doctest/doctest.h>
 
-#include "engine/base/files/file.h"
 #include "engine/graph/versions/live.h"
-#include "engine/graph/workload/link_flat.h"
-#include "engine/graph/workload/neutral.h"
 #include "tests/graph/compile/random_graph.h"
 #include "tests/graph/versions/brute_links.h"
 
@@ -36,47 +33,6 @@ TEST_CASE("the links of random graphs are the last writers in declared order, pe
                       << count.histories << " of earlier frames");
   CHECK(count.links > 50000);
   for (const std::size_t n : {count.several, count.none, count.histories}) CHECK(n > 1000);
-}
-
-TEST_CASE("linkFlat links as linkVersions does") {
-  std::size_t valid = 0;
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
-    const FlatBuilder b = randomGraph(seed);
-    FlatGraph graph = b.graph;
-    base::Diagnostics d;
-    if (!linkFlat(graph, d)) continue;
-    ++valid;
-    const auto linked = b.linked();
-    CHECK(graph.links.passOf == linked->links.passOf);
-    CHECK(graph.links.seen == linked->links.seen);
-    CHECK(graph.links.runs.size() == linked->links.runs.size());
-    CHECK(graph.links.outputs == linked->links.outputs);
-    CHECK(graph.links.present == linked->links.present);
-    CHECK(graph.links.forward == linked->links.forward);
-  }
-  CHECK(valid > 400);
-}
-
-TEST_CASE("the links of the workload files and of generated ones") {
-  const auto check = [](const std::string& text) {
-    base::Diagnostics d;
-    auto graph = readNeutral(text, "w.json", {}, d);
-    REQUIRE(graph.has_value());
-    REQUIRE(linkFlat(*graph, d));
-    checks::LinkCount count;
-    CHECK(checks::checkLinks(*graph, count) == "");
-    CHECK(count.links > 50);
-  };
-  for (const char* name :
-       {"chain_100", "chain_1000", "fanin_100", "fanin_1000", "layered_100", "layered_1000"}) {
-    base::Diagnostics d;
-    const auto text =
-        base::readFile(WEFT_SOURCE_DIR "/tests/graph/workloads/" + std::string(name) + ".json", d);
-    REQUIRE(text.has_value());
-    check(*text);
-  }
-  for (const NeutralShape shape : {NeutralShape::chain, NeutralShape::layered, NeutralShape::fanin})
-    check(neutralText(shape, 300));
 }
 
 TEST_CASE(
@@ -130,16 +86,4 @@ TEST_CASE("liveness follows histories to later passes, and modifies only when so
   const Liveness live = findLive(*graph);
   CHECK(live.pass == std::vector<std::uint8_t>{1, 1, 1, 0});
   CHECK(live.use == std::vector<std::uint8_t>{1, 1, 1, 0, 1, 0, 0, 0});
-}
-
-TEST_CASE("an output outside its resource is refused before anything is linked to it") {
-  FlatBuilder b = emptyGraph();
-  const auto a = b.texture("a");
-  b.pass("p").write(a);
-  b.output(a);
-  base::Diagnostics fine, d;
-  CHECK(linkFlat(b.graph, fine));
-  b.graph.outputs[0].mip = 1;
-  CHECK_FALSE(linkFlat(b.graph, d));
-  CHECK(d.contains(base::Code::useOutsideResource));
 }
