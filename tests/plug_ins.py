@@ -45,8 +45,8 @@ OTHER_MEANINGS = {
     ("engine/graph/expand/stanza.cpp", "image"): "a type of pass of other engines",
     ("engine/base/words/foreign_formats.cpp", "srgb"): "how formats of other APIs begin",
     ("engine/base/words/glsl_words.cpp", "image"): "how types of GLSL begin",
-    ("engine/gl/shaders/scan.cpp", "image"): "how types of GLSL begin",
-    ("engine/gl/shaders/roles.cpp", "image"): "how types of GLSL begin",
+    ("engine/glsl/scan.cpp", "image"): "how types of GLSL begin",
+    ("engine/glsl/roles.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }

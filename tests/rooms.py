@@ -13,14 +13,15 @@ import sys
 ROOMS = {
     "base": set(),
     "graph": {"base"},
-    "gl": {"base"},
+    "glsl": {"base"},
+    "gl": {"base", "glsl"},
     "assets": {"base"},
     "scene": {"base", "assets"},
-    "convert": {"base", "gl", "assets"},
-    "passes": {"base", "graph", "gl", "scene", "assets"},
-    "imports": {"base", "graph", "gl", "assets", "scene"},
-    "runtime": {"base", "graph", "gl", "assets", "scene", "passes", "imports"},
-    "app": {"base", "graph", "gl", "assets", "scene", "passes", "imports", "runtime", "convert"},
+    "convert": {"base", "glsl", "assets"},
+    "passes": {"base", "graph", "glsl", "gl", "scene", "assets"},
+    "imports": {"base", "graph", "glsl", "gl", "assets", "scene"},
+    "runtime": {"base", "graph", "glsl", "gl", "assets", "scene", "passes", "imports"},
+    "app": {"base", "graph", "glsl", "gl", "assets", "scene", "passes", "imports", "runtime", "convert"},
 }
 # Sub-rooms and which others of their room each may include. "." is the door: files in the room's own folder. Each line may name
 # earlier lines only, so that no arrow runs upward.
@@ -54,9 +55,8 @@ SUB_ROOMS = {
     "gl": {
         "context": set(),
         "objects": {"context"},
-        "shaders": set(),
-        "messages": {"shaders"},
-        "programs": {"context", "objects", "shaders", "messages"},
+        "messages": set(),
+        "programs": {"context", "objects", "messages"},
     },
     "convert": {"text": set(), "isf": {"text"}, "mpv": {"text"}, ".": {"text", "isf", "mpv"}},
     "runtime": {

@@ -19,7 +19,7 @@ namespace {
 std::string keyOf(const gl::ProgramRequest& request) {
   std::string key = request.pass;
   for (const gl::ProgramRequest::Stage& stage : request.stages) key += "|" + stage.file;
-  for (const gl::Define& define : request.defines) key += "|" + define.name + "=" + define.value;
+  for (const glsl::Define& define : request.defines) key += "|" + define.name + "=" + define.value;
   for (const std::string& output : request.outputs) key += "|" + output;
   return key;
 }
@@ -99,7 +99,7 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
 void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
                              base::Diagnostics& diagnostics) {
   if (!sources_)
-    sources_ = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
+    sources_ = std::make_unique<glsl::SourceLoader>(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
   const passes::PassRegistry types = passes::PassRegistry::builtin();
   base::Diagnostics said;
   const graph::PassSpec* last = nullptr;
@@ -129,12 +129,12 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
 }
 
 void ShaderCheck::checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics) {
-  gl::SourceLoader sources(runtime::shaderRootsOf(desc.files, dataFolder()));
+  glsl::SourceLoader sources(runtime::shaderRootsOf(desc.files, dataFolder()));
   checkFiles(desc, sources, diagnostics);
   read_.insert(sources.touched().begin(), sources.touched().end());
 }
 
-void ShaderCheck::checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sources,
+void ShaderCheck::checkFiles(const graph::GraphDesc& desc, glsl::SourceLoader& sources,
                              base::Diagnostics& diagnostics) {
   const passes::PassRegistry types = passes::PassRegistry::builtin();
   for (const graph::PassDesc& pass : desc.passes) {

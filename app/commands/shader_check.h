@@ -36,14 +36,14 @@ class ShaderCheck {
   std::vector<std::string> files() const;
 
  private:
-  void checkFiles(const graph::GraphDesc& desc, gl::SourceLoader& sources, base::Diagnostics& diagnostics);
+  void checkFiles(const graph::GraphDesc& desc, glsl::SourceLoader& sources, base::Diagnostics& diagnostics);
   void tell(const base::Diagnostics& said, const std::string& with, base::Diagnostics& diagnostics);
 
   const Options options_;
   std::unique_ptr<DeviceSession> session_;
   bool failed_ = false;
-  std::unique_ptr<gl::SourceLoader> sources_;  // for checkWords()
-  std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;
+  std::unique_ptr<glsl::SourceLoader> sources_;  // for checkWords()
+  std::map<std::string, std::shared_ptr<const glsl::ShaderSource>> loaded_;
   runtime::RoleCache roles_;
   std::set<std::string> known_;        // variants, by what they are made of
   std::set<std::string> read_, told_;  // files, messages

@@ -117,7 +117,7 @@ void Analysis::look(const std::string& path, Graph& graph) {
   if (!desc) return;
   graph.read = desc->files;
   if (!hasShaderRoots(graph))
-    graph.sources = std::make_unique<gl::SourceLoader>(runtime::shaderRootsOf(graph.read, dataFolder()));
+    graph.sources = std::make_unique<glsl::SourceLoader>(runtime::shaderRootsOf(graph.read, dataFolder()));
   graph.sources->forgetTouched();
   const auto flat = graph::expandGraph(*desc, registry_, settingsOf(options_, true), graph.said);
   if (flat && !graph.said.hasErrors()) {
@@ -132,8 +132,8 @@ void Analysis::look(const std::string& path, Graph& graph) {
   graph.said.sortByPlace();
 }
 
-std::shared_ptr<const gl::ShaderSource> Analysis::source(Graph& graph, const std::string& shader,
-                                                         const base::Place& place) {
+std::shared_ptr<const glsl::ShaderSource> Analysis::source(Graph& graph, const std::string& shader,
+                                                           const base::Place& place) {
   const auto [known, fresh] = loaded_.try_emplace(shader);
   if (fresh) known->second = graph.sources->load(shader, graph.said, place);
   return known->second;

@@ -10,7 +10,7 @@
 
 #include "app/lsp/files/project.h"
 #include "app/session/options.h"
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 #include "engine/graph/plan.h"
 #include "engine/graph/registry.h"
 #include "engine/runtime/prepare/shader_words.h"
@@ -32,7 +32,7 @@ class Analysis {
     base::Diagnostics said;
     std::set<std::string> files;
     std::vector<std::string> read;  // GraphDesc::files
-    std::unique_ptr<gl::SourceLoader> sources;
+    std::unique_ptr<glsl::SourceLoader> sources;
   };
   const std::map<std::string, Graph>& graphs() const { return graphs_; }
   // The graph whose plan has the file: the file itself when it is a graph with a plan, else a graph that includes it, with the
@@ -50,15 +50,15 @@ class Analysis {
   void look(const std::string& path, Graph& graph);
   void checkShaders(Graph& graph, const graph::Plan& plan);
   void checkFiles(Graph& graph, const graph::GraphDesc& desc);
-  std::shared_ptr<const gl::ShaderSource> source(Graph& graph, const std::string& shader,
-                                                 const base::Place& place);
+  std::shared_ptr<const glsl::ShaderSource> source(Graph& graph, const std::string& shader,
+                                                   const base::Place& place);
 
   const Options& options_;
   const Texts& texts_;
   const Project& project_;
   graph::Registry registry_;
   std::map<std::string, Graph> graphs_;
-  std::map<std::string, std::shared_ptr<const gl::ShaderSource>> loaded_;  // of one check
+  std::map<std::string, std::shared_ptr<const glsl::ShaderSource>> loaded_;  // of one check
   runtime::RoleCache roles_;
 };
 

@@ -1,5 +1,5 @@
 // The words of a GLSL text with their byte ranges, what it declares for its pass, and what it includes. It scans tokens as
-// engine/gl/shaders/scan.h does, without macros, and takes all branches of an #if. Does not: report.
+// engine/glsl/scan.h does, without macros, and takes all branches of an #if. Does not: report.
 #pragma once
 
 #include <cstdint>

@@ -144,7 +144,7 @@ class ShaderTranslator {
 
   void nameFacts(GlslText& text, Stage stage, const std::shared_ptr<const std::string>& file) {
     for (std::size_t i = 0; i < text.tokens().size(); ++i) {
-      const gl::Token& token = text.tokens()[i];
+      const glsl::Token& token = text.tokens()[i];
       usesSamplers_ |= token.text.starts_with("VVSAMPLER_2DBY");
       const auto [image, fact] = factOf(token.text);
       if (!image || !text.isName(i)) continue;

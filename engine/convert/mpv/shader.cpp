@@ -62,8 +62,8 @@ std::string translateMpvText(const MpvFile& file) {
 
 std::set<std::string> namesMentioned(const std::string& text) {
   std::set<std::string> names;
-  for (const gl::Token& token : gl::splitTokens(text)) {
-    if (token.kind != gl::TokenKind::word) continue;
+  for (const glsl::Token& token : glsl::splitTokens(text)) {
+    if (token.kind != glsl::TokenKind::word) continue;
     names.emplace(token.text);
     for (const std::string_view ending : {std::string_view("_gather")})
       if (token.text.ends_with(ending))

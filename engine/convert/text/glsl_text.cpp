@@ -6,14 +6,14 @@
 
 namespace weft::convert {
 
-using gl::TokenKind;
+using glsl::TokenKind;
 
-GlslText::GlslText(std::string_view text) : text_(text), tokens_(gl::splitTokens(text)) {
+GlslText::GlslText(std::string_view text) : text_(text), tokens_(glsl::splitTokens(text)) {
   directives_.resize(tokens_.size());
   int depth = 0;
   std::string_view directive;
   for (std::size_t i = 0; i < tokens_.size(); ++i) {
-    const gl::Token& token = tokens_[i];
+    const glsl::Token& token = tokens_[i];
     if (token.first) {
       directive = {};
       if (token.is("#")) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/tokens.h"
 
 namespace weft::convert {
 
@@ -21,7 +21,7 @@ class GlslText {
   explicit GlslText(std::string_view text);
 
   std::string_view text() const { return text_; }
-  const std::vector<gl::Token>& tokens() const { return tokens_; }
+  const std::vector<glsl::Token>& tokens() const { return tokens_; }
   std::size_t offsetOf(std::size_t token) const {
     return static_cast<std::size_t>(tokens_[token].text.data() - text_.data());
   }
@@ -51,7 +51,7 @@ class GlslText {
     std::string replacement;
   };
   std::string_view text_;
-  std::vector<gl::Token> tokens_;
+  std::vector<glsl::Token> tokens_;
   std::vector<std::string_view> directives_;  // by token
   std::set<std::string_view> outside_;
   std::vector<Change> changes_;

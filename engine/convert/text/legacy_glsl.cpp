@@ -57,11 +57,11 @@ bool isNewWord(std::string_view word) {
 void modernize(GlslText& text, Stage stage, std::string_view output, const base::Place& file,
                base::Diagnostics& diagnostics) {
   const auto& tokens = text.tokens();
-  const auto placeOf = [&](const gl::Token& token) {
+  const auto placeOf = [&](const glsl::Token& token) {
     return base::Place{file.file, token.line, token.column};
   };
   for (std::size_t i = 0; i < tokens.size(); ++i) {
-    const gl::Token& token = tokens[i];
+    const glsl::Token& token = tokens[i];
     if (text.isDirective(i)) {
       const std::string_view name = text.directiveOf(i);
       if (name == "version" || name == "extension" || name == "line") {

@@ -31,10 +31,10 @@ std::string fixForAssignment(std::string_view message) {
   return {};
 }
 
-bool isGiven(std::string_view name, std::span<const Define> defines) {
+bool isGiven(std::string_view name, std::span<const glsl::Define> defines) {
   std::string presence = "HAS_";
   for (const char c : name) presence += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return std::ranges::find(defines, presence, &Define::name) != defines.end();
+  return std::ranges::find(defines, presence, &glsl::Define::name) != defines.end();
 }
 
 }  // namespace weft::gl

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
 namespace weft::gl {
 
@@ -13,6 +13,6 @@ namespace weft::gl {
 std::string fixForAssignment(std::string_view message);
 
 // Whether the graph gives a name to the shader as a slot or a parameter: then its HAS_… is among the defines.
-bool isGiven(std::string_view name, std::span<const Define> defines);
+bool isGiven(std::string_view name, std::span<const glsl::Define> defines);
 
 }  // namespace weft::gl

@@ -156,8 +156,8 @@ bool isOrnament(std::string_view text) {
 
 }  // namespace
 
-std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code code,
-                   base::Diagnostics& diagnostics, std::span<const Define> defines) {
+std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, base::Code code,
+                   base::Diagnostics& diagnostics, std::span<const glsl::Define> defines) {
   static const auto prefix = std::make_shared<const std::string>("<defines>");
   std::vector<LogMessage> messages;
   LogMessage message;
@@ -197,8 +197,8 @@ std::size_t mapLog(std::string_view log, const ShaderSource& source, base::Code 
     pending.code = code;
     pending.severity = line ? line->severity : base::Severity::error;
     pending.message = std::string(line ? line->text : raw);
-    if (line && line->placed && line->line >= kTextLine) {
-      message.textLine = line->line - kTextLine + 1;
+    if (line && line->placed && line->line >= glsl::kTextLine) {
+      message.textLine = line->line - glsl::kTextLine + 1;
       pending.place =
           source.placeOf(message.textLine, trueColumn(lineOf(source.text, message.textLine), line->column));
     } else if (line && line->placed) {

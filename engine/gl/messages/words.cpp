@@ -78,7 +78,7 @@ std::string_view wordBefore(std::string_view line, std::uint32_t column) {
   return before.substr(at);
 }
 
-std::string nearestOf(std::string_view name, bool function, const ShaderSource& source) {
+std::string nearestOf(std::string_view name, bool function, const glsl::ShaderSource& source) {
   std::vector<std::string> names(source.declared.begin(), source.declared.end());
   std::erase(names, name);
   if (std::string near = base::nearestName(name, names); !near.empty()) return near;
@@ -141,7 +141,7 @@ std::optional<SyntaxError> syntaxErrorIn(std::string_view message) {
 }
 
 // The last line before `textLine` that is more than blanks and a comment, or 0.
-std::uint32_t codeBefore(const ShaderSource& source, std::uint32_t textLine) {
+std::uint32_t codeBefore(const glsl::ShaderSource& source, std::uint32_t textLine) {
   while (textLine > 1) {
     const std::string_view line = withoutEnds(lineOf(source.text, --textLine));
     if (!line.empty() && !line.starts_with("//")) return line.starts_with("#") ? 0 : textLine;
@@ -149,7 +149,7 @@ std::uint32_t codeBefore(const ShaderSource& source, std::uint32_t textLine) {
   return 0;
 }
 
-std::string fixFor(const SyntaxError& error, const LogMessage& message, const ShaderSource& source) {
+std::string fixFor(const SyntaxError& error, const LogMessage& message, const glsl::ShaderSource& source) {
   const base::Where& place = message.diagnostic.place;
   if (error.token == "end of file" || error.token == "$end") return "a '{' is never closed";
   if (error.expects("end of file") || error.expects("$end"))
@@ -194,7 +194,7 @@ std::string fixFor(const SyntaxError& error, const LogMessage& message, const Sh
   return {};
 }
 
-bool explainSyntax(LogMessage& message, const ShaderSource& source) {
+bool explainSyntax(LogMessage& message, const glsl::ShaderSource& source) {
   base::Diagnostic& d = message.diagnostic;
   const std::string raw = d.message;
   const std::optional<SyntaxError> error = syntaxErrorIn(raw);
@@ -218,7 +218,7 @@ bool explainSyntax(LogMessage& message, const ShaderSource& source) {
 }
 
 // A quote or a space of another kind ends the text for a compiler, which then misses a '}'.
-bool explainStray(LogMessage& message, const ShaderSource& source) {
+bool explainStray(LogMessage& message, const glsl::ShaderSource& source) {
   if (!message.textLine || !message.diagnostic.message.starts_with("syntax error")) return false;
   std::string_view line = lineOf(source.text, message.textLine);
   line = line.substr(0, line.find("//"));
@@ -234,7 +234,7 @@ bool explainStray(LogMessage& message, const ShaderSource& source) {
 }
 
 // An #if without its #endif: the last one that is open where the text ends.
-bool explainUnterminated(LogMessage& message, const ShaderSource& source) {
+bool explainUnterminated(LogMessage& message, const glsl::ShaderSource& source) {
   base::Diagnostic& d = message.diagnostic;
   if (!d.message.starts_with("Unterminated #if") && d.message.find("missing #endif") == std::string::npos)
     return false;
@@ -248,7 +248,8 @@ bool explainUnterminated(LogMessage& message, const ShaderSource& source) {
 
 constexpr std::string_view kReservedUse = "illegal use of reserved word `";
 
-void explainNames(base::Diagnostic& d, const ShaderSource& source, std::span<const Define> defines) {
+void explainNames(base::Diagnostic& d, const glsl::ShaderSource& source,
+                  std::span<const glsl::Define> defines) {
   const auto meant = [&](std::string_view name, bool function) {
     if (!function && source.declared.contains(name))
       if (const std::string conditional = conditionalAround(name, source.text); !conditional.empty()) {
@@ -329,7 +330,7 @@ bool namesErrorType(const std::string& text) {
 
 // "`c' used uninitialized", where an error stands on a line with `c`: it kept it from being set.
 bool isKeptFromSetting(const LogMessage& message, const std::vector<std::uint32_t>& errors,
-                       const ShaderSource& source) {
+                       const glsl::ShaderSource& source) {
   const auto name = between(message.diagnostic.message, "`", "' used uninitialized");
   return name && std::ranges::any_of(errors, [&](std::uint32_t line) {
            return line != 0 && mentionsWord(lineOf(source.text, line), *name);
@@ -337,8 +338,8 @@ bool isKeptFromSetting(const LogMessage& message, const std::vector<std::uint32_
 }
 
 // The word at the place of the message, when a define of the graph stands in its place.
-const Define* hidingDefine(const LogMessage& message, const ShaderSource& source,
-                           std::span<const Define> defines) {
+const glsl::Define* hidingDefine(const LogMessage& message, const glsl::ShaderSource& source,
+                                 std::span<const glsl::Define> defines) {
   const std::uint32_t column = message.diagnostic.place.column;
   const std::string_view line = message.textLine ? lineOf(source.text, message.textLine) : std::string_view();
   if (column == 0 || column > line.size() || !message.diagnostic.message.starts_with("syntax error"))
@@ -346,7 +347,7 @@ const Define* hidingDefine(const LogMessage& message, const ShaderSource& source
   std::size_t first = column - 1, end = column - 1;
   while (first > 0 && base::isIdentChar(line[first - 1])) --first;
   while (end < line.size() && base::isIdentChar(line[end])) ++end;
-  const auto found = std::ranges::find(defines, line.substr(first, end - first), &Define::name);
+  const auto found = std::ranges::find(defines, line.substr(first, end - first), &glsl::Define::name);
   return found == defines.end() ? nullptr : &*found;
 }
 
@@ -361,7 +362,7 @@ std::string_view lineOf(std::string_view text, std::uint32_t number) {
   return text.substr(0, text.find('\n'));
 }
 
-void dropConsequences(std::vector<LogMessage>& messages, const ShaderSource& source) {
+void dropConsequences(std::vector<LogMessage>& messages, const glsl::ShaderSource& source) {
   std::vector<std::uint32_t> causes, reserved;  // lines
   for (const LogMessage& message : messages) {
     const base::Diagnostic& d = message.diagnostic;
@@ -379,9 +380,10 @@ void dropConsequences(std::vector<LogMessage>& messages, const ShaderSource& sou
   });
 }
 
-void explainMessage(LogMessage& message, const ShaderSource& source, std::span<const Define> defines) {
+void explainMessage(LogMessage& message, const glsl::ShaderSource& source,
+                    std::span<const glsl::Define> defines) {
   base::Diagnostic& d = message.diagnostic;
-  if (const Define* define = hidingDefine(message, source, defines)) {
+  if (const glsl::Define* define = hidingDefine(message, source, defines)) {
     d.message = fmt::format("'{}' is a name of the shader, and the graph defines it as {}", define->name,
                             define->value);
     d.expected = "a name under \"defines\" that nothing in the shader has";

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
 namespace weft::gl {
 
@@ -19,11 +19,12 @@ struct LogMessage {
 };
 
 // Rewrites message, expected and hint.
-void explainMessage(LogMessage& message, const ShaderSource& source, std::span<const Define> defines);
+void explainMessage(LogMessage& message, const glsl::ShaderSource& source,
+                    std::span<const glsl::Define> defines);
 
 // Takes away errors that only follow from another one of the list: on the same line, or about the type
 // "error" that Mesa gives to what it could not understand. Before explainMessage.
-void dropConsequences(std::vector<LogMessage>& messages, const ShaderSource& source);
+void dropConsequences(std::vector<LogMessage>& messages, const glsl::ShaderSource& source);
 
 // Line `number` (from 1) of a text.
 std::string_view lineOf(std::string_view text, std::uint32_t number);

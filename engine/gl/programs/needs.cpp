@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "engine/gl/shaders/roles.h"
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/roles.h"
+#include "engine/glsl/tokens.h"
 
 namespace weft::gl {
 
@@ -30,18 +30,18 @@ std::optional<Extent2> extentOfValue(std::string_view type) {
   return std::nullopt;
 }
 
-using Words = std::span<const Token>;
+using Words = std::span<const glsl::Token>;
 
 bool hasWord(Words words, std::string_view what) {
-  return std::ranges::any_of(words, [&](const Token& token) { return token.is(what); });
+  return std::ranges::any_of(words, [&](const glsl::Token& token) { return token.is(what); });
 }
 
 // The declarations of one stage, statement by statement.
 class NeedsCount {
  public:
-  NeedsCount(GLenum stage, const ShaderRoles& roles) : stage_(stage), roles_(roles) {}
+  NeedsCount(GLenum stage, const glsl::ShaderRoles& roles) : stage_(stage), roles_(roles) {}
 
-  void read(const std::vector<Token>& tokens) {
+  void read(const std::vector<glsl::Token>& tokens) {
     std::size_t begin = 0;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (tokens[i].is(";")) {
@@ -70,7 +70,7 @@ class NeedsCount {
   StageNeeds needs;
 
  private:
-  static std::size_t closing(const std::vector<Token>& tokens, std::size_t open) {
+  static std::size_t closing(const std::vector<glsl::Token>& tokens, std::size_t open) {
     int depth = 0;
     for (std::size_t i = open; i < tokens.size(); ++i) {
       depth += tokens[i].is("{") ? 1 : tokens[i].is("}") ? -1 : 0;
@@ -82,7 +82,7 @@ class NeedsCount {
   bool isUsed(std::string_view name) const { return roles_.unsure || roles_.reachable.contains(name); }
 
   std::optional<std::int64_t> valueOf(Words words) const {
-    return evaluateTokens(
+    return glsl::evaluateTokens(
         words,
         [&](std::string_view name) -> std::optional<std::int64_t> {
           const auto known = constants_.find(name);
@@ -170,8 +170,8 @@ class NeedsCount {
     std::size_t at = 1;
     const std::uint32_t elements = behind.empty() ? 1 : elementsAt(behind, at);
     const bool used = behind.empty() ? std::ranges::any_of(members,
-                                                           [&](const Token& word) {
-                                                             return word.kind == TokenKind::word &&
+                                                           [&](const glsl::Token& word) {
+                                                             return word.kind == glsl::TokenKind::word &&
                                                                     isUsed(word.text) && !extentOf(word.text);
                                                            })
                                      : isUsed(behind[0].text);
@@ -188,7 +188,7 @@ class NeedsCount {
   }
 
   void takeStatement(Words words) {
-    const auto value = std::ranges::find_if(words, [](const Token& token) { return token.is("="); });
+    const auto value = std::ranges::find_if(words, [](const glsl::Token& token) { return token.is("="); });
     const Words declared = words.first(static_cast<std::size_t>(value - words.begin()));
     if (declared.empty()) return;
     if (hasWord(declared, "const") && value != words.end()) {
@@ -209,22 +209,22 @@ class NeedsCount {
   }
 
   GLenum stage_;
-  const ShaderRoles& roles_;
+  const glsl::ShaderRoles& roles_;
   std::map<std::string_view, Extent2> structs_;
   std::map<std::string_view, std::int64_t> constants_;
 };
 
 }  // namespace
 
-StageNeeds needsOf(const StageSource& stage, std::span<const Define> defines) {
-  const ShaderRoles roles = rolesIn(stage.source->text, defines);
-  const TokenList list = expandTokens(stage.source->text, defines, 1'000'000, 100);
+StageNeeds needsOf(const StageSource& stage, std::span<const glsl::Define> defines) {
+  const glsl::ShaderRoles roles = glsl::rolesIn(stage.source->text, defines);
+  const glsl::TokenList list = glsl::expandTokens(stage.source->text, defines, 1'000'000, 100);
   NeedsCount count(stage.stage, roles);
   count.read(list.tokens);
   return count.needs;
 }
 
-ProgramNeeds needsOf(std::span<const StageSource> stages, std::span<const Define> defines) {
+ProgramNeeds needsOf(std::span<const StageSource> stages, std::span<const glsl::Define> defines) {
   ProgramNeeds all;
   for (const StageSource& stage : stages) {
     const StageNeeds one = needsOf(stage, defines);

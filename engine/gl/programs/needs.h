@@ -17,14 +17,14 @@ struct StageNeeds {
   std::uint32_t samplers = 0;
   std::uint32_t images = 0, storageBlocks = 0, outputs = 0;  // outputs: of a fragment shader
 };
-StageNeeds needsOf(const StageSource& stage, std::span<const Define> defines);
+StageNeeds needsOf(const StageSource& stage, std::span<const glsl::Define> defines);
 
 struct ProgramNeeds {
   std::uint32_t locations = 0, components = 0;  // between the stages
   std::uint32_t samplers = 0;                   // of the stage that has most
   std::uint32_t together = 0;  // images, storage blocks and outputs of the stage that has most
 };
-ProgramNeeds needsOf(std::span<const StageSource> stages, std::span<const Define> defines);
+ProgramNeeds needsOf(std::span<const StageSource> stages, std::span<const glsl::Define> defines);
 
 // MAX_VARYING_VECTORS, MAX_VARYING_COMPONENTS, MAX_TEXTURE_IMAGE_UNITS, MAX_COMBINED_SHADER_OUTPUT_RESOURCES.
 inline constexpr ProgramNeeds kLeastDevice{.locations = 15, .components = 60, .samplers = 16, .together = 8};

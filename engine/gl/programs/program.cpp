@@ -53,8 +53,9 @@ std::string textOf(GLint length, GLuint id, void (*read)(GLuint, GLsizei, GLsize
 
 // The log as diagnostics, at least one error. Of what succeeded a driver says what it likes, and only while its caches are cold:
 // that is not passed on.
-void reportLog(const std::string& log, const ShaderSource& source, Code code, bool succeeded,
-               const std::string& failure, Diagnostics& diagnostics, std::span<const Define> defines = {}) {
+void reportLog(const std::string& log, const glsl::ShaderSource& source, Code code, bool succeeded,
+               const std::string& failure, Diagnostics& diagnostics,
+               std::span<const glsl::Define> defines = {}) {
   if (succeeded) return;
   Diagnostics found;
   mapLog(log, source, code, found, defines);
@@ -62,9 +63,9 @@ void reportLog(const std::string& log, const ShaderSource& source, Code code, bo
   if (!found.hasErrors()) diagnostics.error(code, {source.file, 0, 0}, failure);
 }
 
-bool compileStage(const Shader& shader, const StageSource& stage, std::span<const Define> defines,
+bool compileStage(const Shader& shader, const StageSource& stage, std::span<const glsl::Define> defines,
                   Diagnostics& diagnostics) {
-  const std::string text = assembleSource(*stage.source, defines);
+  const std::string text = glsl::assembleSource(*stage.source, defines);
   const GLchar* start = text.data();
   const auto length = static_cast<GLint>(text.size());
   glShaderSource(shader.id(), 1, &start, &length);
@@ -82,7 +83,7 @@ bool compileStage(const Shader& shader, const StageSource& stage, std::span<cons
 }
 
 // Of a program that does not link: whether it needs more than the device has.
-bool reportExcess(std::span<const StageSource> stages, std::span<const Define> defines,
+bool reportExcess(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                   std::string_view label, Diagnostics& diagnostics) {
   const std::optional<Excess> excess = excessOf(needsOf(stages, defines), limitsOfDevice());
   if (!excess) return false;
@@ -97,7 +98,8 @@ bool reportExcess(std::span<const StageSource> stages, std::span<const Define> d
 
 }  // namespace
 
-std::optional<Program> Program::compile(std::span<const StageSource> stages, std::span<const Define> defines,
+std::optional<Program> Program::compile(std::span<const StageSource> stages,
+                                        std::span<const glsl::Define> defines,
                                         std::span<const std::string> outputs, std::string_view label,
                                         Diagnostics& diagnostics) {
   assert(!stages.empty());

@@ -16,7 +16,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/gl/objects/objects.h"
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
 namespace weft::gl {
 
@@ -74,7 +74,7 @@ struct Reflection {
 
 struct StageSource {
   GLenum stage = GL_FRAGMENT_SHADER;  // GL_VERTEX_SHADER, GL_FRAGMENT_SHADER or GL_COMPUTE_SHADER
-  std::shared_ptr<const ShaderSource> source;
+  std::shared_ptr<const glsl::ShaderSource> source;
 };
 
 struct ProgramBinary {
@@ -87,7 +87,8 @@ class Program : public Owner<ObjectKind::program> {
   // Compiles and links. `outputs` are bound to locations 0, 1, … before linking, in that order, so that attachment i
   // is outputs[i]. A name that the program lacks is ignored; `layout(location)` in the source wins. Reports the errors
   // of every stage (W104), or else those of linking (W105), with true places. Warnings of the driver become warnings.
-  static std::optional<Program> compile(std::span<const StageSource> stages, std::span<const Define> defines,
+  static std::optional<Program> compile(std::span<const StageSource> stages,
+                                        std::span<const glsl::Define> defines,
                                         std::span<const std::string> outputs, std::string_view label,
                                         base::Diagnostics& diagnostics);
   // Nullopt when the driver rejects the binary, without an error or a message of the driver. `compute` says whether

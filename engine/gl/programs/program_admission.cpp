@@ -14,19 +14,19 @@ using base::Code;
 using base::Diagnostics;
 using base::Limit;
 
-ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const Define> defines,
+ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                            Diagnostics& diagnostics) {
   ProgramSize program;
   for (const StageSource& stage : stages) {
-    program.stages.push_back(measureShader(*stage.source, defines));
-    checkShaderSize(program.stages.back(), *stage.source, diagnostics);
-    program.unusual |= isUnusual(program.stages.back());
+    program.stages.push_back(glsl::measureShader(*stage.source, defines));
+    glsl::checkShaderSize(program.stages.back(), *stage.source, diagnostics);
+    program.unusual |= glsl::isUnusual(program.stages.back());
   }
   return program;
 }
 
 bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
-                   std::span<const StageSource> stages, std::span<const Define> defines,
+                   std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                    std::span<const std::string> outputs, const ProgramSize& size, TrialTime& time,
                    Diagnostics& diagnostics) {
   // A window's driver without its window.
@@ -44,8 +44,9 @@ bool survivesTrial(std::span<const std::string> command, const DeviceInfo& devic
   }
   std::size_t largest = 0;
   for (std::size_t i = 1; i < stages.size(); ++i)
-    if (largestShare(size.stages[i]).share >= largestShare(size.stages[largest]).share) largest = i;
-  const ShaderShare share = largestShare(size.stages[largest]);
+    if (glsl::largestShare(size.stages[i]).share >= glsl::largestShare(size.stages[largest]).share)
+      largest = i;
+  const glsl::ShaderShare share = glsl::largestShare(size.stages[largest]);
   base::Diagnostic& error = diagnostics.error(
       Code::driverDied, {stages[largest].source->file, 0, 0},
       result.during.empty() ? "there is no time left to try this shader"
@@ -70,7 +71,7 @@ void placeCircles(std::span<const StageSource> stages, const ProgramSize& size, 
   bool told = false;
   for (base::Diagnostic d : log.items()) {
     for (std::size_t i = 0; i < stages.size() && isAbout(d); ++i) {
-      const ShaderSize& stage = size.stages[i];
+      const glsl::ShaderSize& stage = size.stages[i];
       if (stage.circle.empty()) continue;
       if (!told) {
         base::Diagnostic& circle = placed.error(

@@ -10,17 +10,17 @@
 #include "engine/base/diagnostic.h"
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
-#include "engine/gl/shaders/bounds.h"
+#include "engine/glsl/bounds.h"
 
 namespace weft::gl {
 
 struct ProgramSize {
-  std::vector<ShaderSize> stages;
+  std::vector<glsl::ShaderSize> stages;
   bool unusual = false;
 };
 
 // Errors (W203) for what is beyond a bound.
-ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const Define> defines,
+ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                            base::Diagnostics& diagnostics);
 
 // Processor time that trials have taken since a graph began to load: all of them together have shader_seconds.
@@ -30,7 +30,7 @@ struct TrialTime {
 
 // False after an error (W204): the driver did not survive the program, or no time is left to try it.
 bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
-                   std::span<const StageSource> stages, std::span<const Define> defines,
+                   std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                    std::span<const std::string> outputs, const ProgramSize& size, TrialTime& time,
                    base::Diagnostics& diagnostics);
 

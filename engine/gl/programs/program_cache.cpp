@@ -40,7 +40,7 @@ std::string makeKey(const std::vector<StageSource>& stages, const ProgramRequest
   const auto add = [&](std::string_view part) { text += fmt::format("\n{}:{}", part.size(), part); };
   for (const StageSource& stage : stages)
     text += fmt::format("\n{:x} {:016x} {}", stage.stage, stage.source->hash, stage.source->text.size());
-  for (const Define& define : request.defines) {
+  for (const glsl::Define& define : request.defines) {
     add(define.name);
     add(define.value);
   }
@@ -64,7 +64,7 @@ bool Variant::mentions(std::string_view name) const {
                      [&](const StageSource& s) { return s.source->mentions(name); });
 }
 
-ProgramCache::ProgramCache(const DeviceInfo& device, SourceLoader& loader, Options options)
+ProgramCache::ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options)
     : device_(device), loader_(loader), options_(std::move(options)) {
   assert(options_.capacity >= 1);
   if (!device_.hasProgramBinaries) options_.folder.clear();

@@ -21,7 +21,7 @@
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
 #include "engine/gl/programs/program_admission.h"
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
 namespace weft::gl {
 
@@ -32,7 +32,7 @@ struct ProgramRequest {
     std::string text;  // not empty: GLSL that the engine itself supplies
   };
   std::vector<Stage> stages;
-  std::vector<Define> defines;
+  std::vector<glsl::Define> defines;
   std::vector<std::string> outputs;  // see Program::compile
   std::string label;                 // debug label; not part of the key
   base::Place place;                 // of the graph's "shader" value
@@ -43,8 +43,8 @@ struct ProgramRequest {
 struct Variant {
   Program program;
   std::vector<StageSource> stages;
-  std::string key{};              // of the cache
-  std::vector<Define> defines{};  // of the request
+  std::string key{};                    // of the cache
+  std::vector<glsl::Define> defines{};  // of the request
   // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no
   // error).
   bool mentions(std::string_view name) const;
@@ -73,7 +73,7 @@ class ProgramCache {
     std::vector<std::string> trial{};
   };
   // `device` and `loader` must outlive the cache.
-  ProgramCache(const DeviceInfo& device, SourceLoader& loader, Options options);
+  ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options);
 
   // The variant, or null after errors. It stays valid when evicted or when its sources change.
   std::shared_ptr<const Variant> get(const ProgramRequest& request, base::Diagnostics& diagnostics);
@@ -105,7 +105,7 @@ class ProgramCache {
   std::string pathOf(const std::string& key) const;
 
   const DeviceInfo& device_;
-  SourceLoader& loader_;
+  glsl::SourceLoader& loader_;
   Options options_;
   ProgramCacheStats stats_;
   TrialTime trialTime_;

@@ -104,7 +104,7 @@ const char* stepOf(char last) {
 }  // namespace
 
 TrialResult tryProgram(std::span<const std::string> command, Backend backend,
-                       std::span<const StageSource> stages, std::span<const Define> defines,
+                       std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                        std::span<const std::string> outputs, std::uint64_t seconds) {
   TrialResult result;
   int ends[2];

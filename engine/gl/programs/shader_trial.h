@@ -28,7 +28,7 @@ struct TrialResult {
 // `command`: the executable and what comes before kTrialWord; empty: nothing is tried. Waits for the process,
 // which is gone when this returns: it is ended after `seconds` of processor time, or six times that by the clock.
 TrialResult tryProgram(std::span<const std::string> command, Backend backend,
-                       std::span<const StageSource> stages, std::span<const Define> defines,
+                       std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                        std::span<const std::string> outputs, std::uint64_t seconds);
 
 // The other end: `argv` from kTrialWord on, the program on standard input. Does not return.

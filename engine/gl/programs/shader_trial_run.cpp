@@ -145,11 +145,11 @@ void draw(const TrialProgram& program, GLuint linked) {
 
 }  // namespace
 
-std::string writeTrial(std::span<const StageSource> stages, std::span<const Define> defines,
+std::string writeTrial(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                        std::span<const std::string> outputs) {
   std::string text = fmt::format("{} {}\n", stages.size(), outputs.size());
   for (const StageSource& stage : stages) {
-    const std::string source = assembleSource(*stage.source, defines);
+    const std::string source = glsl::assembleSource(*stage.source, defines);
     text += fmt::format("{} {}\n{}", stage.stage, source.size(), source);
   }
   for (const std::string& output : outputs) text += fmt::format("{}\n{}", output.size(), output);

@@ -19,7 +19,7 @@ struct TrialProgram {
   std::vector<std::string> outputs;
 };
 
-std::string writeTrial(std::span<const StageSource> stages, std::span<const Define> defines,
+std::string writeTrial(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
                        std::span<const std::string> outputs);
 // Nothing when it is no such text.
 std::optional<TrialProgram> readTrial(std::string_view text);

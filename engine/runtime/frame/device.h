@@ -21,7 +21,7 @@ struct Device {
   Device(gl::Context& context, std::vector<std::string> shaderRoots, std::string cacheFolder,
          std::vector<std::string> trial = {}, PlugIns plugIns = {});
   gl::Context& context;
-  gl::SourceLoader sources;
+  glsl::SourceLoader sources;
   gl::ProgramCache programs;
   RoleCache roles;  // what the names in shader sources are
   SamplerCache samplers;

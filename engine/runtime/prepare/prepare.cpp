@@ -66,7 +66,7 @@ class Preparer {
     out_.programHash = base::kHashSeed;
     for (const gl::StageSource& stage : out_.variant->stages)
       out_.programHash = base::hashCombine(out_.programHash, stage.source->hash);
-    for (const gl::Define& define : programRequestOf(graph_, c_.plan, step_.pass, type).defines)
+    for (const glsl::Define& define : programRequestOf(graph_, c_.plan, step_.pass, type).defines)
       out_.programHash = base::hashBytes(define.name + "=" + define.value, out_.programHash);
     const gl::Reflection& reflection = out_.variant->program.reflection();
     out_.parametersBlock = reflection.findUniformBlock("Parameters");

@@ -9,8 +9,8 @@
 
 namespace weft::runtime {
 
-using gl::Role;
-using gl::ShaderRoles;
+using glsl::Role;
+using glsl::ShaderRoles;
 
 namespace {
 
@@ -30,20 +30,21 @@ Role roleFor(graph::Kind kind) {
 
 }  // namespace
 
-const ShaderRoles& RoleCache::ofText(const gl::ShaderSource& source) {
+const ShaderRoles& RoleCache::ofText(const glsl::ShaderSource& source) {
   const auto [known, fresh] = known_.try_emplace(fmt::format("{:016x} {}", source.hash, source.text.size()));
   if (!fresh) return known->second;
   bytes_ += source.text.size();
-  return known->second = gl::rolesIn(source.text);
+  return known->second = glsl::rolesIn(source.text);
 }
 
-const ShaderRoles& RoleCache::ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines) {
+const ShaderRoles& RoleCache::ofVariant(const glsl::ShaderSource& source,
+                                        std::span<const glsl::Define> defines) {
   std::string key = fmt::format("{:016x} {}", source.hash, source.text.size());
-  for (const gl::Define& define : defines) key += fmt::format("|{}={}", define.name, define.value);
+  for (const glsl::Define& define : defines) key += fmt::format("|{}={}", define.name, define.value);
   const auto [known, fresh] = known_.try_emplace(key + "|");
   if (!fresh) return known->second;
   bytes_ += source.text.size() + key.size();
-  return known->second = gl::rolesIn(source.text, defines);
+  return known->second = glsl::rolesIn(source.text, defines);
 }
 
 void RoleCache::clear() {
@@ -101,7 +102,7 @@ std::string ShaderWords::whatIs(std::string_view name) const {
     const ShaderRoles& all = cache_.ofText(*stage->source);
     if (const auto found = all.roles.find(name); found != all.roles.end()) roles = found->second;
   }
-  if (const std::string_view role = gl::nameOfRole(roles); !role.empty()) return std::string(role);
+  if (const std::string_view role = glsl::nameOfRole(roles); !role.empty()) return std::string(role);
   if (base::isGlslFunction(name)) return "a built-in function";
   return mentioned ? "a word that declares nothing" : "";
 }

@@ -1,4 +1,4 @@
-// What the names in the texts of a pass's shaders are (engine/gl/shaders/roles.h), as the checks of slots and parameters ask
+// What the names in the texts of a pass's shaders are (engine/glsl/roles.h), as the checks of slots and parameters ask
 // for it: whether the text declares what a slot needs, which the linker may have dropped, and what carries the name
 // instead. Keeps what it scanned, by text and defines. Does not: need a context, or report.
 #pragma once
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/gl/programs/program.h"
-#include "engine/gl/shaders/roles.h"
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/roles.h"
+#include "engine/glsl/source.h"
 #include "engine/graph/flat_graph.h"
 
 namespace weft::runtime {
@@ -20,8 +20,8 @@ namespace weft::runtime {
 // clear() or makeRoom().
 class RoleCache {
  public:
-  const gl::ShaderRoles& ofText(const gl::ShaderSource& source);
-  const gl::ShaderRoles& ofVariant(const gl::ShaderSource& source, std::span<const gl::Define> defines);
+  const glsl::ShaderRoles& ofText(const glsl::ShaderSource& source);
+  const glsl::ShaderRoles& ofVariant(const glsl::ShaderSource& source, std::span<const glsl::Define> defines);
   // The bytes of all texts that were scanned. A text counts once, and once more for each of its variants.
   std::size_t textBytes() const { return bytes_; }
   void clear();
@@ -31,14 +31,15 @@ class RoleCache {
   }
 
  private:
-  std::map<std::string, gl::ShaderRoles> known_;
+  std::map<std::string, glsl::ShaderRoles> known_;
   std::size_t bytes_ = 0;
 };
 
 class ShaderWords {
  public:
   // All must outlive this. The last stage is the one that has outputs.
-  ShaderWords(std::span<const gl::StageSource> stages, std::span<const gl::Define> defines, RoleCache& cache)
+  ShaderWords(std::span<const gl::StageSource> stages, std::span<const glsl::Define> defines,
+              RoleCache& cache)
       : stages_(stages), defines_(defines), cache_(cache), variants_(stages.size()) {}
 
   // Whether the text declares the name as what a slot of this kind needs, in any branch, or may do so.
@@ -58,21 +59,21 @@ class ShaderWords {
   // The uniform block that has the name as a member, where no block is called Parameters; "" for the engine's own blocks.
   std::string blockOf(std::string_view name) const;
   // The members of the block Parameters, also those that are not read; empty when this variant reads no member of it.
-  std::vector<gl::ShaderRoles::Member> parameters() const;
+  std::vector<glsl::ShaderRoles::Member> parameters() const;
   // Whether main() of some stage reaches the name.
   bool uses(std::string_view name) const;
   // The same, of a member of the block View.
   bool usesOfView(std::string_view member) const;
 
  private:
-  bool maybe(std::string_view name, gl::Role role, bool lastOnly) const;
+  bool maybe(std::string_view name, glsl::Role role, bool lastOnly) const;
   // The roles in this variant. Looks them up once for each stage, because a pass may have many slots and many defines.
-  const gl::ShaderRoles& variantOf(const gl::StageSource& stage) const;
+  const glsl::ShaderRoles& variantOf(const gl::StageSource& stage) const;
 
   const std::span<const gl::StageSource> stages_;
-  const std::span<const gl::Define> defines_;
+  const std::span<const glsl::Define> defines_;
   RoleCache& cache_;
-  mutable std::vector<const gl::ShaderRoles*> variants_;  // by stage; null: not asked for yet
+  mutable std::vector<const glsl::ShaderRoles*> variants_;  // by stage; null: not asked for yet
 };
 
 }  // namespace weft::runtime

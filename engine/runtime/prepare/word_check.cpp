@@ -6,7 +6,7 @@
 
 #include "engine/base/chars.h"
 #include "engine/base/nearest.h"
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/tokens.h"
 #include "engine/runtime/prepare/missing_slot.h"
 #include "engine/runtime/prepare/pass_errors.h"
 
@@ -21,7 +21,7 @@ namespace {
 class WordChecker : PassErrors {
  public:
   WordChecker(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
-              std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics)
+              std::span<const glsl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics)
       : PassErrors(plan.graph->specs[pass].name, diagnostics),
         plan_(plan),
         graph_(*plan.graph),
@@ -114,7 +114,7 @@ class WordChecker : PassErrors {
 }  // namespace
 
 void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
-                std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics) {
+                std::span<const glsl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics) {
   WordChecker(plan, pass, stages, defines, cache, diagnostics).run();
 }
 
@@ -164,13 +164,13 @@ void warnUnwritten(const graph::Plan& plan, std::uint32_t pass, const ShaderWord
 namespace {
 
 // A define that is 0, and "#ifdef" of it: it is defined, whatever it is.
-void warnOfTests(const std::string& pass, const gl::StageSource& stage, std::span<const gl::Define> defines,
+void warnOfTests(const std::string& pass, const gl::StageSource& stage, std::span<const glsl::Define> defines,
                  base::Diagnostics& diagnostics) {
-  const auto isOff = [](const gl::Define& define) { return define.value == "0"; };
+  const auto isOff = [](const glsl::Define& define) { return define.value == "0"; };
   if (std::ranges::none_of(defines, isOff)) return;
-  for (const gl::Token& word : gl::onlyTested(stage.source->text)) {
+  for (const glsl::Token& word : glsl::onlyTested(stage.source->text)) {
     const auto off = std::ranges::find_if(
-        defines, [&](const gl::Define& define) { return isOff(define) && define.name == word.text; });
+        defines, [&](const glsl::Define& define) { return isOff(define) && define.name == word.text; });
     if (off == defines.end()) continue;
     const base::Place place = stage.source->placeOf(word.line, word.column);
     const auto isSaid = [&](const base::Diagnostic& d) {
@@ -189,12 +189,12 @@ void warnOfTests(const std::string& pass, const gl::StageSource& stage, std::spa
 }  // namespace
 
 void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
-                      std::span<const gl::Define> defines, base::Diagnostics& diagnostics) {
+                      std::span<const glsl::Define> defines, base::Diagnostics& diagnostics) {
   std::vector<std::string> names;
-  for (const gl::Define& define : defines) names.push_back(define.name);
+  for (const glsl::Define& define : defines) names.push_back(define.name);
   for (const gl::StageSource& stage : stages) warnOfTests(pass, stage, defines, diagnostics);
   for (const gl::StageSource& stage : stages)
-    for (const gl::UnknownCondition& unknown : gl::unknownInConditions(stage.source->text, defines)) {
+    for (const glsl::UnknownCondition& unknown : glsl::unknownInConditions(stage.source->text, defines)) {
       const auto likeIt = [&](const std::string& name) {
         return base::lowered(name) == base::lowered(unknown.word.text);
       };

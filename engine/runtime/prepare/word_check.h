@@ -15,7 +15,7 @@ namespace weft::runtime {
 
 // `stages` and `defines`: as programRequestOf() has them for the pass.
 void checkWords(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
-                std::span<const gl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics);
+                std::span<const glsl::Define> defines, RoleCache& cache, base::Diagnostics& diagnostics);
 
 // W083 for a pass that is not `always`, whose shaders read the time: it is 0 there.
 void warnTimeless(const graph::FlatGraph& graph, std::uint32_t pass, const ShaderWords& words,
@@ -29,6 +29,6 @@ void warnUnwritten(const graph::Plan& plan, std::uint32_t pass, const ShaderWord
 // to a compiler they are 0, whatever the graph says. And of a define that is 0 and of which the shaders ask only whether it
 // is defined. Once for each place, however many passes have the shader.
 void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
-                      std::span<const gl::Define> defines, base::Diagnostics& diagnostics);
+                      std::span<const glsl::Define> defines, base::Diagnostics& diagnostics);
 
 }  // namespace weft::runtime

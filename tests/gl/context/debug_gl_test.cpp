@@ -5,6 +5,7 @@
 #include "tests/gl/gl_test.h"
 
 using namespace weft::gl;
+using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::base::Severity;

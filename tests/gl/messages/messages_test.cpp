@@ -2,11 +2,12 @@
 #include <doctest/doctest.h>
 
 #include "engine/gl/messages/log.h"
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 #include "tests/gl/documented.h"
 #include "tests/temporary_folder.h"
 
 using namespace weft::gl;
+using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::base::Severity;

@@ -9,6 +9,7 @@
 #include "tests/temporary_folder.h"
 
 using namespace weft::gl;
+using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostic;
 using weft::base::Diagnostics;

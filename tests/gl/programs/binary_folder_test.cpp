@@ -12,6 +12,7 @@
 #include "tests/temporary_folder.h"
 
 using namespace weft::gl;
+using namespace weft::glsl;
 namespace fs = std::filesystem;
 
 namespace {

@@ -7,6 +7,7 @@
 #include "tests/temporary_folder.h"
 
 using namespace weft::gl;
+using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::base::Severity;

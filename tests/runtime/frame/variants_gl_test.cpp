@@ -25,7 +25,7 @@ constexpr int kToggles = 10000;
 std::string keyOf(const gl::ProgramRequest& request) {
   std::string key;
   for (const auto& stage : request.stages) key += stage.file + ";";
-  for (const gl::Define& define : request.defines) key += define.name + "=" + define.value + ";";
+  for (const glsl::Define& define : request.defines) key += define.name + "=" + define.value + ";";
   for (const std::string& output : request.outputs) key += output + ";";
   return key;
 }

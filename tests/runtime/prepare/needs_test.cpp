@@ -85,7 +85,7 @@ class Survey {
   void take(const gl::ProgramRequest& request, Row& row) {
     std::string key;
     for (const auto& stage : request.stages) key += stage.file + " ";
-    for (const gl::Define& define : request.defines) key += define.name + "=" + define.value + " ";
+    for (const glsl::Define& define : request.defines) key += define.name + "=" + define.value + " ";
     const bool fresh = row.programs.insert(key).second;
     if (!fresh || request.stages.empty()) return;
     base::Diagnostics diagnostics;
@@ -107,7 +107,7 @@ class Survey {
                               excess ? excess->what : "", excess ? excess->allowed : 0, key));
   }
 
-  gl::SourceLoader sources_;
+  glsl::SourceLoader sources_;
   graph::Registry registry_;
   std::shared_ptr<const graph::GraphDesc> desc_;
 };
@@ -186,9 +186,9 @@ TEST_CASE("needs: no program of a bundled graph asks for more than OpenGL 4.5 pr
 }
 
 TEST_CASE("needs: what is counted, by hand") {
-  gl::SourceLoader loader({});
+  glsl::SourceLoader loader({});
   base::Diagnostics diagnostics;
-  const auto needsOf = [&](GLenum stage, const std::string& text, std::vector<gl::Define> defines = {}) {
+  const auto needsOf = [&](GLenum stage, const std::string& text, std::vector<glsl::Define> defines = {}) {
     return gl::needsOf(gl::StageSource{stage, loader.loadText(text, "<text>", diagnostics)}, defines);
   };
   const std::string kText = R"(

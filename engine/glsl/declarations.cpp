@@ -1,9 +1,9 @@
-#include "engine/gl/shaders/declarations.h"
+#include "engine/glsl/declarations.h"
 
 #include <algorithm>
 #include <array>
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace {
 
@@ -149,4 +149,4 @@ void DeclarationCount::add(std::span<const Token> statement) {
   }
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

@@ -1,4 +1,4 @@
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,10 +13,10 @@
 #include "engine/base/files/file_overlay.h"
 #include "engine/base/hash.h"
 #include "engine/base/nearest.h"
-#include "engine/gl/shaders/bounds.h"
-#include "engine/gl/shaders/scan.h"
+#include "engine/glsl/bounds.h"
+#include "engine/glsl/scan.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace fs = std::filesystem;
 using base::Code;
@@ -394,4 +394,4 @@ std::string assembleSource(const ShaderSource& source, std::span<const Define> d
   return text + source.text;
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

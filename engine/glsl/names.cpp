@@ -1,4 +1,4 @@
-#include "engine/gl/shaders/names.h"
+#include "engine/glsl/names.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include "engine/base/files/file_access.h"
 #include "engine/base/nearest.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace fs = std::filesystem;
 
@@ -56,4 +56,4 @@ std::string hintForInclude(const std::string& name, const std::vector<std::strin
   return same == names.end() ? base::nearestHint(name, names) : "did you mean '" + *same + "'?";
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

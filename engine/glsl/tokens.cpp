@@ -1,4 +1,4 @@
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/tokens.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "engine/base/chars.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace {
 
@@ -207,4 +207,4 @@ std::optional<std::int64_t> evaluateTokens(std::span<const Token> tokens,
   return Evaluator(tokens, valueOf, deepest).run();
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

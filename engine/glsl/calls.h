@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gl/shaders/bounds.h"
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/bounds.h"
+#include "engine/glsl/tokens.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 class CallCount {
  public:
@@ -46,4 +46,4 @@ class CallCount {
   bool open_ = false;
 };
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

@@ -11,9 +11,9 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/limits.h"
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 // A count, and where in the text the thing that has it begins (from 1).
 struct ShaderCount {
@@ -57,4 +57,4 @@ struct ShaderShare {
 };
 ShaderShare largestShare(const ShaderSize& size);
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

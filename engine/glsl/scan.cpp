@@ -1,4 +1,4 @@
-#include "engine/gl/shaders/scan.h"
+#include "engine/glsl/scan.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 
 #include "engine/base/chars.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace {
 
@@ -197,4 +197,4 @@ void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared, D
   }
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

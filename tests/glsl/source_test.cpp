@@ -1,4 +1,4 @@
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include "engine/base/files/file_access.h"
 #include "tests/temporary_folder.h"
 
-using namespace weft::gl;
+using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostic;
 using weft::base::Diagnostics;

@@ -1,4 +1,4 @@
-#include "engine/gl/shaders/bounds.h"
+#include "engine/glsl/bounds.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/gl/documented.h"
 
-using namespace weft::gl;
+using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::base::Limit;

@@ -5,9 +5,9 @@
 #include <unordered_set>
 #include <utility>
 
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/tokens.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace {
 
@@ -377,4 +377,4 @@ std::vector<Token> onlyTested(std::string_view text) {
   return tested;
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

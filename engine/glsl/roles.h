@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace weft::gl {
+namespace weft::glsl {
 
 struct Define;
 
@@ -62,4 +62,4 @@ ShaderRoles rolesIn(std::string_view text, std::span<const Define> defines);
 // "an input", "a function", …: the plainest of the roles that a name has; "" when it has none.
 std::string_view nameOfRole(std::uint16_t roles);
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

@@ -1,13 +1,13 @@
 // What names are in the text of a shader, in all branches and in one variant.
-#include "engine/gl/shaders/roles.h"
+#include "engine/glsl/roles.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
-using namespace weft::gl;
+using namespace weft::glsl;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace weft::gl {
+namespace weft::glsl {
 
 struct DeclaredParts {
   std::map<std::string, std::string, std::less<>>
@@ -16,4 +16,4 @@ struct DeclaredParts {
   std::map<std::string, std::vector<std::string>, std::less<>> imageFormats;  // by image: "rgba8"
 };
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

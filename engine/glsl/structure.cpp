@@ -1,14 +1,14 @@
-#include "engine/gl/shaders/structure.h"
+#include "engine/glsl/structure.h"
 
 #include <algorithm>
 #include <array>
 #include <unordered_set>
 #include <utility>
 
-#include "engine/gl/shaders/calls.h"
-#include "engine/gl/shaders/declarations.h"
+#include "engine/glsl/calls.h"
+#include "engine/glsl/declarations.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace {
 
@@ -226,4 +226,4 @@ void measureStructure(std::span<const Token> tokens, ShaderSize& size) {
   StructureScan(tokens, size).run();
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

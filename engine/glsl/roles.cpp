@@ -1,14 +1,14 @@
-#include "engine/gl/shaders/roles.h"
+#include "engine/glsl/roles.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <utility>
 
-#include "engine/gl/shaders/source.h"
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/source.h"
+#include "engine/glsl/tokens.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace {
 
@@ -22,12 +22,12 @@ bool isNameText(std::string_view text) {
   return !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) != 0 || text[0] == '_');
 }
 bool isQualifier(std::string_view word) {
-  constexpr std::array<std::string_view, 22> kQualifiers{
+  constexpr std::array<std::string_view, 22> kRoleQualifiers{
       "uniform", "buffer",        "in",        "out",         "const",    "flat",
       "smooth",  "noperspective", "centroid",  "sample",      "highp",    "mediump",
       "lowp",    "readonly",      "writeonly", "coherent",    "volatile", "restrict",
       "precise", "invariant",     "row_major", "column_major"};
-  return std::ranges::find(kQualifiers, word) != kQualifiers.end();
+  return std::ranges::find(kRoleQualifiers, word) != kRoleQualifiers.end();
 }
 bool has(const Statement& statement, std::string_view word) {
   return std::ranges::find(statement, word) != statement.end();
@@ -352,4 +352,4 @@ std::string_view nameOfRole(std::uint16_t roles) {
   return {};
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

@@ -4,12 +4,12 @@
 
 #include <span>
 
-#include "engine/gl/shaders/bounds.h"
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/bounds.h"
+#include "engine/glsl/tokens.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 // Fills `inlined`, `depth`, `cases`, `array` and the circle.
 void measureStructure(std::span<const Token> tokens, ShaderSize& size);
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

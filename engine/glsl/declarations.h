@@ -9,10 +9,10 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "engine/gl/shaders/bounds.h"
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/bounds.h"
+#include "engine/glsl/tokens.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 // Writes ShaderSize::array, and `uncertain` where the size of an array is no constant that is understood.
 class DeclarationCount {
@@ -41,4 +41,4 @@ class DeclarationCount {
   std::string_view struct_;  // whose body is read, or whose body was the last
 };
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

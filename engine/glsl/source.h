@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/gl/shaders/declared.h"
-#include "engine/gl/shaders/names.h"
+#include "engine/glsl/declared.h"
+#include "engine/glsl/names.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 struct Define {
   std::string name, value;
@@ -115,4 +115,4 @@ class SourceLoader {
 constexpr std::uint32_t kTextLine = 10001;
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines);
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

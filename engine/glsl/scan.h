@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "engine/gl/shaders/declared.h"
+#include "engine/glsl/declared.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 struct Directive {
   std::string_view name;     // "include", or "" when the line is none
@@ -51,4 +51,4 @@ using NameSet = std::set<std::string, std::less<>>;
 // hints only. So are `parts`.
 void scanNames(std::string_view text, NameSet& identifiers, NameSet& declared, DeclaredParts& parts);
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

@@ -1,9 +1,9 @@
-#include "engine/gl/shaders/calls.h"
+#include "engine/glsl/calls.h"
 
 #include <algorithm>
 #include <string>
 
-namespace weft::gl {
+namespace weft::glsl {
 
 namespace {
 
@@ -117,4 +117,4 @@ void CallCount::noteCircle(const std::vector<std::uint32_t>& path, std::uint32_t
       .count = size.circle.size() - 1, .line = at.line, .column = at.column, .name = size.circle.front()};
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

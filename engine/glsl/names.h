@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace weft::gl {
+namespace weft::glsl {
 
 class ShaderNames {
  public:
@@ -31,4 +31,4 @@ class ShaderNames {
 // For an included file that is not there: one of the same name in another folder, else the nearest of `names`.
 std::string hintForInclude(const std::string& name, const std::vector<std::string>& names);
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

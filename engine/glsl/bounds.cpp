@@ -1,13 +1,13 @@
-#include "engine/gl/shaders/bounds.h"
+#include "engine/glsl/bounds.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "engine/gl/shaders/structure.h"
-#include "engine/gl/shaders/tokens.h"
+#include "engine/glsl/structure.h"
+#include "engine/glsl/tokens.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 using base::Limit;
 
@@ -122,4 +122,4 @@ bool isUnusual(const ShaderSize& size) {
          size.allElements > lowestOf(Limit::shader_array) || largestShare(size).share > kUsualShare;
 }
 
-}  // namespace weft::gl
+}  // namespace weft::glsl

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/gl/shaders/source.h"
+#include "engine/glsl/source.h"
 
-namespace weft::gl {
+namespace weft::glsl {
 
 enum class TokenKind : std::uint8_t { word, number, sign };
 
@@ -68,4 +68,4 @@ std::optional<std::int64_t> evaluateTokens(
     std::span<const Token> tokens,
     const std::function<std::optional<std::int64_t>(std::string_view)>& valueOf, std::uint32_t deepest);
 
-}  // namespace weft::gl
+}  // namespace weft::glsl
