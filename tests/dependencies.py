@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Holds the package list of ./run and the table of docs/dependencies.md against each other: equal names, equal order,
-each with a reason. And what the CMake files and the tests look for comes from a package of the list."""
+each with a reason. What the program needs and what its tests need besides are apart. And what the CMake files and the tests look for comes from a package of the list."""
 import pathlib
 import re
 import sys
@@ -20,9 +20,9 @@ IMPLIED = {"g++", "cmake", "ninja-build", "python3", "xauth", "libegl-mesa0", "l
 
 
 def sought(top: pathlib.Path) -> dict:
-    """What is looked for, and where."""
+    """What is looked for, and where: in the program, else in the tests."""
     found = {}
-    for path in [*top.glob("CMakeLists.txt"), *(p for f in ("engine", "app", "tests", "cmake") for p in (top / f).rglob("*"))]:
+    for path in [*top.glob("CMakeLists.txt"), *(p for f in ("engine", "app", "cmake", "tests") for p in (top / f).rglob("*"))]:
         if path.name != "CMakeLists.txt" and path.suffix not in {".cmake", ".py", ".sh", ".md"}:
             continue
         text = re.sub(r"^\s*#.*", "", path.read_text(), flags=re.M)
@@ -30,14 +30,16 @@ def sought(top: pathlib.Path) -> dict:
         for modules in re.findall(r"pkg_(?:check|search)_module[s]?\(\w+([^)]*)\)", text):
             names += ["pkg-config", *(m for m in modules.split() if m.islower())]
         names += re.findall(r'which\("([\w-]+)"\)', text) + re.findall(r'find_spec\("(\w+)"\)', text)
-        found.update({name: path.relative_to(top) for name in names})
+        for name in names:
+            found.setdefault(name, path.relative_to(top))
     return found
 
 
 def main() -> int:
     top = pathlib.Path(sys.argv[1])
-    listed = re.search(r"^packages=\(([^)]*)\)", (top / "run").read_text(), re.M)
-    packages = listed.group(1).split() if listed else []
+    run = (top / "run").read_text()
+    program, tests = (re.search(rf"^{name}=\(([^)]*)\)", run, re.M).group(1).split() for name in ("packages", "test_packages"))
+    packages = program + tests
     rows = re.findall(r"^\| `([^`]+)` \|(.*)\|$", (top / "docs/dependencies.md").read_text(), re.M)
     named = [name for name, _ in rows]
     problems = [f"run installs '{p}', docs/dependencies.md does not say why" for p in packages if p not in named]
@@ -52,6 +54,10 @@ def main() -> int:
             problems.append(f"{path} looks for '{name}', and PROVIDED in tests/dependencies.py does not say which package has it")
         elif PROVIDED[name] and PROVIDED[name] not in packages:
             problems.append(f"{path} looks for '{name}', run does not install {PROVIDED[name]}")
+        elif path.parts[0] != "tests" and PROVIDED[name] in tests:
+            problems.append(f"{path} looks for '{name}', and {PROVIDED[name]} is a package of the tests alone")
+        elif path.parts[0] == "tests" and PROVIDED[name] in set(program) - IMPLIED:
+            problems.append(f"run installs '{PROVIDED[name]}' for the program, and only {path} looks for '{name}'")
     used = {PROVIDED.get(name) for name in looked_for} | IMPLIED
     problems += [f"run installs '{p}', which nothing looks for" for p in packages if p not in used]
     print("\n".join(problems) or f"dependencies: {len(packages)} packages, each with its reason")

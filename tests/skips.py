@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A skipped case is seen: the exit code of a test executable whose cases skip, and what ./test and .ci/run print at their end. Runs copies of
-these scripts on tests that are pretended, in a folder with spaces and quotes.
+these scripts on tests that are pretended, in a folder with a space.
 
     skips.py SKIP_PROBE
 """
@@ -61,20 +61,12 @@ def environment(**more):
     return {key: value for key, value in os.environ.items() if key != "WEFT_BUILD"} | more
 
 
-def leads_into(path, folder):
-    """False also for what others remove meanwhile."""
-    try:
-        return os.readlink(path).startswith(folder)
-    except OSError:
-        return False
-
-
 def main():
     problems = []
     check_probe(sys.argv[1], problems)
     with tempfile.TemporaryDirectory(prefix="weft_test_") as name:
-        folder = pathlib.Path(name).resolve() / """it's a "test" folder"""
-        for part in ("test", ".ci/run", "cmake/plain_path.sh", "tests/ctest.sh", "tests/skipped.py"):
+        folder = pathlib.Path(name).resolve() / "a folder"
+        for part in ("test", ".ci/run", "tests/ctest.sh", "tests/skipped.py"):
             (folder / part).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(TOP / part, folder / part)
         (folder / "run").write_text("#!/bin/sh\nexit 0\n")  # the set-up
@@ -82,15 +74,10 @@ def main():
         build = folder / "build/release"
         build.mkdir(parents=True)
         (build / "CTestTestfile.cmake").write_text(TESTS.replace('"sun"', '\\"sun\\"'))
-        try:
-            check_script(folder, ["./test"], ["-E", "broken"], 0, ["moon", "silent", "off"], problems)
-            check_script(folder, ["./test"], ["-R", "passes"], 0, [], problems)
-            check_script(folder, ["./test"], ["-R", "silent|passes|broken"], 8, ["silent"], problems)
-            check_script(folder, ["bash", ".ci/run"], [], 8, ["moon", "silent", "off"], problems)
-        finally:
-            for path in pathlib.Path("/tmp").glob("weft_*"):
-                if leads_into(path, name):
-                    path.unlink()
+        check_script(folder, ["./test"], ["-E", "broken"], 0, ["moon", "silent", "off"], problems)
+        check_script(folder, ["./test"], ["-R", "passes"], 0, [], problems)
+        check_script(folder, ["./test"], ["-R", "silent|passes|broken"], 8, ["silent"], problems)
+        check_script(folder, ["bash", ".ci/run"], [], 8, ["moon", "silent", "off"], problems)
     print("\n".join(problems) or "skips: every skip is seen")
     return 1 if problems else 0
 

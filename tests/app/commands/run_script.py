@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """`./run` around a build that is pretended: silent when it is quick, how far it is on a terminal when it is not, the end of
-the log when it fails; then the program with its arguments. And in a folder with spaces and quotes: what CMake is told has neither, and is
-that folder. Needs no build of Weft.
+the log when it fails; then the program with its arguments. It asks before it installs on a terminal and nowhere else, and takes what the
+tests need only for them. All in a folder with a space. Needs no build of Weft.
 
     run_script.py WEFT
 """
 import os
 import pathlib
 import pty
-import shutil
 import subprocess
 
 from program import TOP, Report, temporary_folder
@@ -19,8 +18,14 @@ for i in 1 2 3 4; do echo "[$i/4] Building thing $i"; if [ "$i" = 2 ] && [ -n "$
 [ -z "${PRETEND_FAILURE:-}" ] || { echo "thing.cpp:1: error: pretended"; exit 1; }
 """
 WEFT = '#!/usr/bin/env bash\necho "weft got $*"\n'
-ODD = """it's a "test" folder"""
-QUERY = "#!/usr/bin/env bash\necho installed\n"
+QUERY = """#!/usr/bin/env bash
+for missing in ${PRETEND_MISSING:-}; do [ "${!#}" != "$missing" ] || exit 1; done
+echo installed
+"""
+INSTALL = """#!/usr/bin/env bash
+[ "$1" = install ] && printf '%s\n' "${@:2}" >>"$PRETEND_INSTALLED"
+exit 0
+"""
 
 
 def program(path, text):
@@ -29,10 +34,11 @@ def program(path, text):
     path.chmod(0o755)
 
 
-def on_terminal(command, door, until, **options):
-    """What a terminal gets of standard error, and standard output apart. The build waits at its door until `until` was shown."""
+def on_terminal(command, door, until, answer=None, **options):
+    """What a terminal gets of standard error, and standard output apart. The build waits at its door until `until` was shown; a question is
+    answered when it was."""
     ours, theirs = pty.openpty()
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs, **options) as process:
+    with subprocess.Popen(command, stdin=theirs, stdout=subprocess.PIPE, stderr=theirs, **options) as process:
         os.close(theirs)
         seen = b""
         while True:
@@ -45,60 +51,72 @@ def on_terminal(command, door, until, **options):
             seen += part
             if door and until in seen:
                 door = door.write_text("go on\n") and None
+            if answer and until in seen:
+                os.write(ours, answer)
+                answer = None
         out = process.stdout.read()
     os.close(ours)
     return process.returncode, out.decode(), seen.decode()
 
 
-def leads_into(path, folder):
-    """False also for what others remove meanwhile."""
-    try:
-        return os.readlink(path).startswith(folder)
-    except OSError:
-        return False
+def installing(report, folder, command, environment):
+    """Who is asked, and what is installed."""
+    log = folder / "installed"
+    missing = dict(environment, PRETEND_MISSING="g++ doctest-dev", PRETEND_INSTALLED=str(log))
+    missing.pop("CI", None)
+
+    def installed():
+        words = log.read_text().split() if log.exists() else []
+        log.unlink(missing_ok=True)
+        return [word for word in words if not word.startswith("-")]
+
+    question = b"[y/N]"
+    code, out, seen = on_terminal(command, None, question, answer=b"n\n", env=missing, cwd=folder)
+    report.check((code, out, installed()) == (1, "", []) and "nothing was installed" in seen and "g++" in seen and "doctest" not in seen, f"no: {code} {seen!r}")
+    code, out, seen = on_terminal(command, None, question, answer=b"y\n", env=missing, cwd=folder)
+    report.check((code, installed()) == (0, ["g++"]) and out.startswith("weft got"), f"yes: {code} {seen!r}")
+    for what, words, more in (("--yes", ["--yes"], {}), ("CI", [], {"CI": "true"})):
+        code, out, seen = on_terminal([*command[:2], *words, *command[2:]], None, b"", env=missing | more, cwd=folder)
+        report.check((code, installed()) == (0, ["g++"]) and question.decode() not in seen, f"{what}: {code} {seen!r}")
+    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, env=missing, cwd=folder)
+    report.check((done.returncode, installed()) == (0, ["g++"]), f"without a terminal: {done}")
+    done = subprocess.run([*command[:2], "--tests", "--install-only"], capture_output=True, text=True, stdin=subprocess.DEVNULL, env=missing, cwd=folder)
+    report.check((done.returncode, done.stdout, installed()) == (0, "", ["g++", "doctest-dev"]), f"--tests: {done}")
 
 
-def links_to(folder):
-    return [path for path in pathlib.Path("/tmp").glob("weft_*") if leads_into(path, str(folder))]
-
-
-def odd_folder(report, folder, environment):
-    """Without WEFT_BUILD, so that the build is inside."""
-    top = folder / ODD
-    for name in ("run", "cmake/plain_path.sh"):
-        (top / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(TOP / name, top / name)
-    program(top / "build/release/app/weft", WEFT)
+def configuring(report, folder, command, environment):
+    """What CMake is told in a new folder and in one that is there."""
     log = folder / "told"
-    environment = {key: value for key, value in environment.items() if key != "WEFT_BUILD"} | {"PRETEND_LOG": str(log)}
-    try:
-        for time in ("first", "second"):
-            done = subprocess.run([str(top / "run"), "check", 'a "b".json'], capture_output=True, text=True, env=environment, cwd=folder)
-            report.check((done.returncode, done.stdout, done.stderr) == (0, 'weft got check a "b".json\n', ""), f"odd folder, {time} time: {done}")
-        told = log.read_text().splitlines()
-        paths = [word for word in told if word.startswith("/")]
-        report.check(told[:2] == ["-S", paths[0]] and told.count("--build") == 2, f"odd folder: cmake was told {told}")
-        report.check(not any(set(path) & set(" '\"") for path in paths), f"odd folder: {paths}")
-        report.check([os.path.realpath(path) for path in paths[:2]] == [str(top), str(top / "build/release")], f"odd folder: {paths}")
-        link = pathlib.Path(paths[0])
-        link.unlink()
-        link.symlink_to(folder)
-        stolen = subprocess.run([str(top / "run"), "check"], capture_output=True, text=True, env=environment, cwd=folder)
-        report.check(stolen.returncode == 1 and f"{link} is to be your link to {top}" in stolen.stderr, f"a link of that name to elsewhere: {stolen}")
-    finally:
-        for path in links_to(folder):
-            path.unlink()
+    told = {}
+    for what, words, there in (("new", ["--setup-only"], False), ("new, with tests", ["--tests", "--setup-only"], False), ("there", ["--setup-only"], True),
+                               ("there, with tests", ["--tests", "--setup-only"], True)):
+        (folder / "build/build.ninja").unlink(missing_ok=True)
+        if there:
+            (folder / "build/build.ninja").write_text("")
+        done = subprocess.run([*command[:2], *words], capture_output=True, text=True, stdin=subprocess.DEVNULL, env=dict(environment, PRETEND_LOG=str(log)), cwd=folder)
+        report.check((done.returncode, done.stdout) == (0, ""), f"{what}: {done}")
+        told[what] = log.read_text().splitlines()
+        log.unlink()
+    place = ["-S", str(folder), "-B", str(folder / "build")]
+    for what, options, absent, target in (
+            ("new", ["-DWEFT_TESTS=OFF"], ["-DWEFT_TESTS=ON", "-DWEFT_WERROR=ON"], "weft"), ("new, with tests", ["-DWEFT_TESTS=ON", "-DWEFT_WERROR=ON"], [], "all"),
+            ("there", [], ["-S"], "weft"), ("there, with tests", ["-DWEFT_TESTS=ON"], ["-DWEFT_WERROR=ON"], "all")):
+        words = told[what]
+        report.check(("-S" not in words or words[:4] == place) and set(options) <= set(words) and not set(absent) & set(words) and words[-1] == target, f"{what}: CMake was told {words}")
 
 
 def main():
     report = Report()
     with temporary_folder() as name:
-        folder = pathlib.Path(name)
-        (folder / "cmake").mkdir()
-        for part in ("run", "cmake/plain_path.sh"):
-            shutil.copy(TOP / part, folder / part)
+        folder = pathlib.Path(name) / "a folder"
+        folder.mkdir()
+        text = (TOP / "run").read_text()
+        report.check("every=10 first=10" in text, "a line every ten seconds")
+        (folder / "run").write_text(text.replace("every=10 first=10", "every=1 first=1"))  # which takes a second here
         program(folder / "bin/cmake", CMAKE)
         program(folder / "bin/dpkg-query", QUERY)
+        program(folder / "bin/apt-get", INSTALL)
+        program(folder / "bin/sudo", '#!/usr/bin/env bash\nexec "$@"\n')
         program(folder / "build/app/weft", WEFT)
         (folder / "build/build.ninja").write_text("")
         environment = dict(os.environ, PATH=f"{folder / 'bin'}:{os.environ['PATH']}", WEFT_BUILD=str(folder / "build"))
@@ -122,7 +140,8 @@ def main():
                              env=dict(environment, PRETEND_FAILURE="1"))
         report.check(bad.returncode == 1 and "error: pretended" in bad.stderr and "the build failed" in bad.stderr and not bad.stdout,
                      f"a build that fails: {bad}")
-        odd_folder(report, folder, environment)
+        installing(report, folder, command, environment)
+        configuring(report, folder, command, environment)
     report.end()
 
 

@@ -4,12 +4,10 @@
 # virtual display. Leaks of the software GL drivers are excepted (tests/gl/lsan.supp).
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
-. "$top/cmake/plain_path.sh"
-build="${WEFT_ASAN_BUILD:-$top/build/asan}"
+build=$(realpath -m "${WEFT_ASAN_BUILD:-$top/build/asan}")
+case "$top$build" in *" "*) echo "test: a space ends a path in the options of sanitizers; clone into a folder without one" >&2; exit 1 ;; esac
 mkdir -p "$build"
-build=$(plain_build_path "$top" "$(realpath "$build")")
-top=$(plain_path "$top")
-cmake -S "$top" -B "$build" -G Ninja -DCMAKE_UNITY_BUILD=ON -DWEFT_SANITIZE=address,undefined -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_C_FLAGS_DEBUG=-O1 >/dev/null
+cmake -S "$top" -B "$build" -G Ninja -DCMAKE_UNITY_BUILD=ON -DWEFT_SANITIZE=address,undefined -DWEFT_WERROR=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_C_FLAGS_DEBUG=-O1 >/dev/null
 # What holds buffers, textures and threads over many frames, saves and environments; the others go through the same code.
 gl_tests="gl_objects_test gl_program_test runtime_reload_test runtime_studio_test"
 start=$SECONDS
