@@ -21,9 +21,9 @@ int main(int argc, char** argv) {
       {"render", runRender}, {"view", runView},     {"check", runCheck},   {"explain", runExplain},
       {"expand", runExpand}, {"diff", runDiff},     {"params", runParams}, {"presets", runPresets},
       {"dot", runDot},       {"plan", runPlan},     {"bench", runBench},   {"schema", runSchema},
-      {"types", runTypes},   {"format", runFormat}, {"lsp", runLsp},       {"completion", runCompletion},
-      {"man", runMan},       {"dump", runDump},     {"test", runTest},     {"bisect", runBisect},
-      {"ablate", runAblate}, {"fuzz", runFuzz},     {"new", runNew},       {"import", runImport},
+      {"types", runTypes},   {"format", runFormat}, {"lsp", runLsp},       {"dump", runDump},
+      {"test", runTest},     {"bisect", runBisect}, {"ablate", runAblate}, {"fuzz", runFuzz},
+      {"new", runNew},       {"import", runImport},
   };
   for (const auto& [name, run] : kCommands)
     if (options->command == name) return finishStreams(run(*options));

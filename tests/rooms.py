@@ -26,7 +26,7 @@ ROOMS = {
 # Sub-rooms and which others of their room each may include. "." is the door: files in the room's own folder. Each line may name
 # earlier lines only, so that no arrow runs upward.
 SUB_ROOMS = {
-    "base": {".": set(), "words": {"."}, "files": {"."}, "json": {".", "files"}},
+    "base": {".": set(), "files": {"."}, "words": {".", "files"}, "json": {".", "files"}},
     "graph": {
         "language": set(),
         ".": {"language"},

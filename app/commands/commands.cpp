@@ -8,7 +8,6 @@
 
 #include "app/bench/edit_bench.h"
 #include "app/bench/frame_bench.h"
-#include "app/bench/task_bench.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
 #include "engine/graph/language/schema.h"
@@ -30,7 +29,6 @@ std::shared_ptr<const graph::Plan> planFor(const Options& options, base::Diagnos
 }  // namespace
 
 int runDot(const Options& options) {
-  if (options.tasks) return runTaskDot(options);
   base::Diagnostics diagnostics;
   if (const auto plan = planFor(options, diagnostics)) print(graph::dumpDot(*plan));
   return report(diagnostics);
@@ -50,9 +48,7 @@ int runBench(const Options& options) {
   frame.graph = options.frameGraph;
   edit.graph = options.editGraph;
   std::optional<std::string> text;
-  if (options.tasks) {
-    text = benchTasks(options, diagnostics);
-  } else if (!frame.graph.empty()) {
+  if (!frame.graph.empty()) {
     text = benchFrame(frame, diagnostics);
   } else if (!edit.graph.empty()) {
     text = benchEdits(edit, diagnostics);

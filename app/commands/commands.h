@@ -22,14 +22,11 @@ int runNew(const Options& options);
 int runParams(const Options& options);
 int runPresets(const Options& options);
 int runDot(const Options& options);
-int runTaskDot(const Options& options);
 int runPlan(const Options& options);
 int runBench(const Options& options);
 int runFormat(const Options& options);
 int runImport(const Options& options);
 int runSchema(const Options& options);
 int runTypes(const Options& options);
-int runCompletion(const Options& options);
-int runMan(const Options& options);
 
 }  // namespace weft::app

@@ -3,7 +3,6 @@
 
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
-#include "app/session/command_line.h"
 #include "app/session/option_checks.h"
 #include "app/session/option_parts.h"
 #include "app/trials/device_run.h"
@@ -136,7 +135,9 @@ class Fuzzer {
         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                "_-./=:,+@%") == std::string::npos)
       return word;
-    return quotedForShell(word);
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
   }
 
   std::string settingsText() const {

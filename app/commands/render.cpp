@@ -11,7 +11,6 @@
 #include "app/output/picture_writer.h"
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
-#include "app/output/trace_recorder.h"
 #include "app/session/device_session.h"
 #include "app/session/frame_limit.h"
 #include "app/session/pick_outputs.h"
@@ -60,8 +59,7 @@ int runRender(const Options& options) {
   // Frames before the first one written run too when it may look back at them.
   const std::uint32_t begin = session->renderer.execution()->remembers(world) ? 0 : options.firstFrame;
   const std::uint64_t total = std::uint64_t{options.lastFrame} - begin + 1;
-  std::vector<OutputFile> outputs = {{"-o", options.output, options.firstFrame, options.lastFrame},
-                                     {"--trace", options.trace}};
+  std::vector<OutputFile> outputs = {{"-o", options.output, options.firstFrame, options.lastFrame}};
   picks.append(outputs);
   if (!checkFrameCount(total, placeOfFrames(options), kRemembers, diagnostics) ||
       !checkDistinct(outputs, filesReadBy(options, session->renderer, world), diagnostics) ||
@@ -71,8 +69,6 @@ int runRender(const Options& options) {
   const bool progress = total > 1 && !options.quiet;
   ProgressLines lines(isTerminal());
   session->renderer.device().timers.setEnabled(options.profile);
-  auto recorder = std::make_unique<TraceRecorder>(session->renderer.device().timers);
-  if (!options.trace.empty() && !recorder->start(options.trace, diagnostics)) return report(diagnostics);
   runtime::FrameReport last;
   PictureWriter writer;
   // So frame N does not depend on where the range starts.
@@ -80,10 +76,8 @@ int runRender(const Options& options) {
     const auto frame = static_cast<std::uint32_t>(begin + (done - 1));
     const double before = now();
     picks.expect(frame < options.firstFrame ? std::nullopt : std::optional(frame));
-    recorder->begin(session->renderer.execution()->plan(), frame);
     last = session->renderer.frame(world, runtime::headlessFrame(world, frame, options.fps, options.pointer),
                                    diagnostics);
-    recorder->end(last);
     session->renderer.dropUploaded(world);
     session->context->debugLog().drain(diagnostics);
     if (done == 1) {
@@ -103,8 +97,6 @@ int runRender(const Options& options) {
   session->context->debugLog().drain(diagnostics);
   writer.tell(diagnostics);
   picks.stop(session->renderer);
-  recorder->stop(diagnostics);
-  recorder.reset();
   if (options.stats) {
     auto stats = statsOf(*session, {{"setup_ms", (prepared - start) * 1e3},
                                     {"first_frame_ms", firstFrame * 1e3},

@@ -33,7 +33,7 @@ class Recorder {
   bool active_ = false;
 };
 
-// A name for a picture (or trace) of frame `frame` that no file here has yet: weft_00012.png, weft_00012_2.png.
+// A name for a picture of frame `frame` that no file here has yet: weft_00012.png, weft_00012_2.png.
 std::string screenshotName(std::uint32_t frame, const char* extension);
 
 }  // namespace weft::app

@@ -60,10 +60,6 @@ void addBackendOptions(CLI::App& command, Options& options) {
 void addDeviceOptions(CLI::App& command, Options& options) {
   addBackendOptions(command, options);
   command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
-  command
-      .add_option("--trace", options.trace,
-                  "write a Chrome trace of the frames, for ui.perfetto.dev (measures each pass)")
-      ->type_name("FILE");
   command.add_flag("--profile", options.profile,
                    "measure each pass (slower: waits for the GPU after every pass on software)");
 }

@@ -35,6 +35,17 @@ void chooseFiles(const Options& options) {
     base::allowFolder(dataFolder() + "/" + folder);
 }
 
+// With those of commands behind them: "pass" of "new".
+std::vector<CLI::App*> allCommands(CLI::App& app) {
+  std::vector<CLI::App*> commands;
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    commands.push_back(command);
+    const std::vector<CLI::App*> inner = allCommands(*command);
+    commands.insert(commands.end(), inner.begin(), inner.end());
+  }
+  return commands;
+}
+
 // Text as messages print it.
 std::string shown(const std::string& text) {
   return base::shortened(base::printable(text));
@@ -240,15 +251,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   addPresetFolder(*presets, options);
 
   CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
-  CLI::Option* drawn = addGraphOptions(*dot, options, raw);
-  drawn->required(false);
-  dot->add_flag("--tasks", options.tasks,
-                "what the CPU does for a frame of the scene, and which tables each task reads and writes; "
-                "without a graph")
-      ->excludes(drawn);
-  dot->callback([&options, drawn] {
-    if (!options.tasks && options.graph.empty()) throw CLI::RequiredError(drawn->get_name());
-  });
+  addGraphOptions(*dot, options, raw);
 
   CLI::App* plan = app.add_subcommand("plan", "print the compiled plan: order, barriers, storage, bytes");
   addGraphOptions(*plan, options, raw);
@@ -266,19 +269,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       ->type_name("FILE")
       ->excludes("--frame");
   bench
-      ->add_flag(
-          "--tasks", options.tasks,
-          "the CPU's work for a frame of a scene (default: 100,000 moving meshes), per stage, on 1 and "
-          "on 2 threads")
-      ->excludes("--frame")
-      ->excludes("--edit");
-  bench
       ->add_option("--environment", options.environment,
                    "environment map for --frame and --edit, .hdr or .exr")
       ->type_name("FILE");
-  bench->add_option("--scene", options.scene, "scene file for --frame, --edit and --tasks")
-      ->type_name("FILE");
-  bench->add_option("--camera", options.camera, "camera of the scene for --frame, --edit and --tasks");
+  bench->add_option("--scene", options.scene, "scene file for --frame and --edit")->type_name("FILE");
+  bench->add_option("--camera", options.camera, "camera of the scene for --frame and --edit");
   bench->add_option("--materials", options.materials, "material library for --frame and --edit")
       ->type_name("FILE");
   bench->add_option("--size", raw.size, "size of the screen for --frame and --edit")
@@ -298,14 +293,6 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   lsp->add_option("--size", raw.size, "size of the screen")->check(CLI::Validator(checkSize, "WxH"));
   lsp->add_flag("--stdio", options.stdio, "as editors say it; there is no other way");
   lsp->footer("Example, for Neovim: vim.lsp.start({ name = 'weft', cmd = { 'weft', 'lsp' } })");
-
-  CLI::App* completion =
-      app.add_subcommand("completion", "print a script by which a shell completes commands and options");
-  completion->add_option("shell", options.shell, "bash, zsh or fish")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  completion->footer("Example: source <(weft completion bash)");
-  app.add_subcommand("man", "print the manual page")->footer("Example: weft man | man -l -");
 
   addTrialCommands(app, options, raw);
   CLI::App* import = app.add_subcommand(
@@ -362,8 +349,6 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
     exitCode = 2;
     return std::nullopt;
   }
-  if (options.command == "completion" || options.command == "man")
-    options.commandLine = describeCommands(app);
   parsePair(raw.size, 'x', options.width, options.height);
   if (!parsePair(raw.frames, ':', options.firstFrame, options.lastFrame)) {
     parseNumber(raw.frames, options.firstFrame);

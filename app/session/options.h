@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/session/command_line.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/pick/pick.h"
 #include "engine/imports/world.h"
@@ -15,7 +14,6 @@
 namespace weft::app {
 
 constexpr const char* kVersion = "0.1.0";
-constexpr const char* kReleased = "2026-11-21";  // the day of this version in CHANGELOG.md
 
 // A texture of the graph that is written to a file.
 struct PickedOutput {
@@ -59,34 +57,30 @@ struct Options {
   std::string backend = "auto";
   std::string cacheFolder;  // program binaries; empty: the user's cache folder, "none": none
   bool stats = false, profile = false, quiet = false;
-  bool shaders = true;                   // check: compile every shader too
-  bool matrix = false;                   // check: try every variation
-  bool allVariants = false;              // check: compile what the variations reach
-  bool watch = false;                    // check: again after every save
-  std::string name;                      // explain: of a pass, a resource or a parameter
-  std::string otherGraph;                // diff: the second graph
-  std::string format = "text";           // check, diff, plan, params, presets: text, json or (check) sarif
-  std::vector<std::string> files;        // format
-  std::string foreignFile;               // import: of another program
-  std::string folder;                    // import: where the graph goes
-  std::string newName;                   // import: of the graph; empty: that of the file
-  std::vector<std::string> images;       // import: NAME=FILE of pictures that the file reads
-  bool overwrite = false;                // import: files that are there
-  std::string shell;                     // completion
-  std::vector<CommandText> commandLine;  // completion, man: what they are about
-  bool stdio = true;                     // lsp: what editors ask for, and the only way there is
-  bool checkOnly = false;                // format: say what differs, write nothing
-  bool explain = false;                  // plan: say why
-  bool tasks = false;                    // dot, bench: the CPU's work for a frame, not a plan
-  std::string frameGraph;                // bench --frame
-  std::string editGraph;                 // bench --edit
-  std::uint32_t maxFrames = 0;           // view: stop after this many frames; 0: until closed
-  std::string screenshot;                // view: written at the end
-  bool waitForAssets = false;            // view: before the first frame; without a window always
-  std::string trace;                     // render, view: Chrome trace to write
-  std::vector<std::string> panels;       // view: shown or hidden at the start
-  bool ui = true;                        // view: panels over the picture
-  bool vsync = true, idle = false;       // view
+  bool shaders = true;              // check: compile every shader too
+  bool matrix = false;              // check: try every variation
+  bool allVariants = false;         // check: compile what the variations reach
+  bool watch = false;               // check: again after every save
+  std::string name;                 // explain: of a pass, a resource or a parameter
+  std::string otherGraph;           // diff: the second graph
+  std::string format = "text";      // check, diff, plan, params, presets: text, json or (check) sarif
+  std::vector<std::string> files;   // format
+  std::string foreignFile;          // import: of another program
+  std::string folder;               // import: where the graph goes
+  std::string newName;              // import: of the graph; empty: that of the file
+  std::vector<std::string> images;  // import: NAME=FILE of pictures that the file reads
+  bool overwrite = false;           // import: files that are there
+  bool stdio = true;                // lsp: what editors ask for, and the only way there is
+  bool checkOnly = false;           // format: say what differs, write nothing
+  bool explain = false;             // plan: say why
+  std::string frameGraph;           // bench --frame
+  std::string editGraph;            // bench --edit
+  std::uint32_t maxFrames = 0;      // view: stop after this many frames; 0: until closed
+  std::string screenshot;           // view: written at the end
+  bool waitForAssets = false;       // view: before the first frame; without a window always
+  std::vector<std::string> panels;  // view: shown or hidden at the start
+  bool ui = true;                   // view: panels over the picture
+  bool vsync = true, idle = false;  // view
   double renderScale = 1,
          uiScale = 0;   // view: pixels of the scene per pixel of the window; 0: as the screen says
   bool events = false;  // view: says what happens, for scripts

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "app/output/standard_streams.h"
-#include "data_places.h"
 #include "engine/assets/environments/loader.h"
 #include "engine/base/message_choice.h"
 #include "engine/graph/compile/compile.h"
@@ -16,13 +15,6 @@
 #include "engine/scene/files/scene_file.h"
 
 namespace weft::app {
-
-std::string dataFolder() {
-  if (const char* folder = std::getenv("WEFT_DATA")) return folder;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(WEFT_DATA_SOURCE, ignored)) return WEFT_DATA_SOURCE;
-  return WEFT_DATA_INSTALLED;
-}
 
 std::string presetsFolder() {
   return dataFolder() + "/graphs/presets";

@@ -9,6 +9,7 @@
 
 #include "app/session/options.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/files/data_folder.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
@@ -17,8 +18,7 @@
 
 namespace weft::app {
 
-// The folder that holds graphs/, shaders/, materials/ and scenes/: beside the build, or where it was installed.
-std::string dataFolder();
+using base::dataFolder;
 
 // The folder of the bundled presets, in it.
 std::string presetsFolder();

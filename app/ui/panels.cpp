@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "app/output/recorder.h"
 #include "app/output/standard_streams.h"
 #include "app/ui/loading.h"
 #include "app/ui/log_layout.h"
@@ -23,7 +22,11 @@ constexpr std::array<const char*, 6> kTitles = {"Parameters",     "Passes",  "Te
 }  // namespace
 
 Panels::Panels(LiveGraph& live, runtime::Renderer& renderer, Log& log)
-    : live_(live), renderer_(renderer), log_(log), trace_(renderer.device().timers), inspector_(renderer) {}
+    : live_(live),
+      renderer_(renderer),
+      log_(log),
+      profiler_(renderer.device().timers),
+      inspector_(renderer) {}
 
 Panels::~Panels() {
   inspector_.release();
@@ -46,13 +49,12 @@ std::vector<std::string> Panels::names() {
 }
 
 void Panels::beforeFrame(std::uint64_t frame) {
-  frame_ = frame;
   inspector_.beforeFrame(visible && open_[kInspector]);
-  if (renderer_.execution()) trace_.begin(renderer_.execution()->plan(), frame);
+  if (renderer_.execution()) profiler_.begin(renderer_.execution()->plan(), frame);
 }
 
 void Panels::afterFrame(const runtime::FrameReport& report) {
-  trace_.end(report);
+  profiler_.end(report);
   if (visible && open_[kHistogram] && report.whole && renderer_.execution())
     histogram_.update(renderer_.execution()->presented());
 }
@@ -74,7 +76,7 @@ void Panels::draw(const runtime::FrameReport& report, base::Diagnostics& diagnos
     if (open_[kPasses]) ImGui::End();
     if (begin(kInspector)) inspector_.draw(diagnostics);
     if (open_[kInspector]) ImGui::End();
-    if (begin(kProfiler)) drawProfiler(diagnostics);
+    if (begin(kProfiler)) drawProfiler();
     if (open_[kProfiler]) ImGui::End();
     if (begin(kStorage)) drawStorage();
     if (open_[kStorage]) ImGui::End();
@@ -107,17 +109,10 @@ void Panels::drawMenu(base::Diagnostics& diagnostics) {
   }
   if (ImGui::BeginMenu("Measure")) {
     gl::PassTimers& timers = renderer_.device().timers;
-    if (ImGui::MenuItem("Each pass", "P", timers.enabled(), !trace_.recording()))
-      timers.setEnabled(!timers.enabled());
-    if (ImGui::MenuItem(trace_.recording() ? "End the trace" : "Begin a trace", "F9"))
-      toggleTrace(diagnostics);
+    if (ImGui::MenuItem("Each pass", "P", timers.enabled())) timers.setEnabled(!timers.enabled());
     ImGui::EndMenu();
   }
-  if (trace_.recording())
-    ImGui::TextColored({1, 0.5f, 0.4f, 1}, "tracing: %llu frames",
-                       static_cast<unsigned long long>(trace_.frames()));
-  else if (!said_.empty())
-    ImGui::TextDisabled("%s", said_.c_str());
+  if (!said_.empty()) ImGui::TextDisabled("%s", said_.c_str());
   ImGui::EndMainMenuBar();
 }
 
@@ -193,19 +188,6 @@ void Panels::writeBack(base::Diagnostics& diagnostics) {
     flushPrinted();
   } else {
     said_ = "nothing was written: see the log";
-  }
-}
-
-void Panels::toggleTrace(base::Diagnostics& diagnostics) {
-  if (!trace_.recording()) {
-    trace_.start(screenshotName(static_cast<std::uint32_t>(frame_), ".trace.json"), diagnostics);
-    return;
-  }
-  const std::string path = trace_.path();
-  if (trace_.stop(diagnostics)) {
-    said_ = "wrote " + path;
-    print(base::printable(said_) + "\n");
-    flushPrinted();
   }
 }
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "app/live/live_graph.h"
-#include "app/output/trace_recorder.h"
 #include "app/ui/inspector_panel.h"
 #include "app/ui/log.h"
 #include "engine/graph/print/explain.h"
+#include "engine/runtime/inspection/frame_profiler.h"
 #include "engine/runtime/inspection/picture_histogram.h"
 
 namespace weft::app::ui {
@@ -44,10 +44,6 @@ class Panels {
 
   // Writes what was changed here into the files; says what it wrote in the log.
   void writeBack(base::Diagnostics& diagnostics);
-  // Starts a trace in weft_<frame>.trace.json, or ends it.
-  void toggleTrace(base::Diagnostics& diagnostics);
-  TraceRecorder& tracer() { return trace_; }
-  bool tracing() const { return trace_.recording(); }
 
  private:
   enum Panel : std::size_t { kParameters, kPasses, kInspector, kProfiler, kStorage, kHistogram, kPanelCount };
@@ -58,7 +54,7 @@ class Panels {
   void drawSummary(const runtime::FrameReport& report);
   void drawPasses(base::Diagnostics& diagnostics);
   void drawParameters(base::Diagnostics& diagnostics);
-  void drawProfiler(base::Diagnostics& diagnostics);
+  void drawProfiler();
   void drawStorage();
   void drawHistogram(base::Diagnostics& diagnostics);
   void drawLog();
@@ -66,11 +62,11 @@ class Panels {
   LiveGraph& live_;
   runtime::Renderer& renderer_;
   Log& log_;
-  TraceRecorder trace_;
+  runtime::FrameProfiler profiler_;
   InspectorPanel inspector_;
   runtime::PictureHistogram histogram_;
   std::unique_ptr<graph::Explainer> explainer_;  // of the plan of `explained_`
-  std::uint64_t explained_ = 0, frame_ = 0;
+  std::uint64_t explained_ = 0;
 
   struct Place {
     float x = 0, y = 0, width = 0, height = 0;

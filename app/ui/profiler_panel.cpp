@@ -70,19 +70,15 @@ void explainFrame(const runtime::FrameProfile& profile, bool gpu) {
 
 }  // namespace
 
-void Panels::drawProfiler(base::Diagnostics& diagnostics) {
+void Panels::drawProfiler() {
   gl::PassTimers& timers = renderer_.device().timers;
-  const auto& history = trace_.history();
+  const auto& history = profiler_.history();
   bool measure = timers.enabled();
-  ImGui::BeginDisabled(trace_.recording());
   if (ImGui::Checkbox("measure each pass", &measure)) timers.setEnabled(measure);
-  ImGui::EndDisabled();
   ImGui::SameLine();
   int kind = gpuStack_ ? 0 : 1;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
   if (ImGui::Combo("##kind", &kind, "GPU\0CPU\0")) gpuStack_ = kind == 0;
-  ImGui::SameLine();
-  if (ImGui::Button(trace_.recording() ? "End trace" : "Trace")) toggleTrace(diagnostics);
   if (history.empty()) return;
   const runtime::FrameProfile& last = history.back();
   ImGui::TextDisabled(

@@ -45,7 +45,6 @@ constexpr KeyBinding kBindings[] = {
     {How::press, GLFW_KEY_F6, false, "panel_storage", "F6", "storage over the steps of the frame"},
     {How::press, GLFW_KEY_F7, false, "panel_histogram", "F7", "histogram of the picture"},
     {How::press, GLFW_KEY_F8, false, "write_back", "F8", "write what was changed here into the files"},
-    {How::press, GLFW_KEY_F9, false, "trace", "F9", "begin or end a trace, weft_<frame>.trace.json"},
     {How::press, GLFW_KEY_P, false, "profile", "P", "measure each pass (slower on software)"},
     {How::press, GLFW_KEY_V, false, "vsync", "V", "wait for the screen's refresh, or not"},
     {How::press, GLFW_KEY_I, false, "idle", "I", "idle mode: draw only when something changed"},

@@ -49,8 +49,7 @@ bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
 bool checkInputs(const Options& options, const LiveGraph& live, base::Diagnostics& diagnostics) {
   const std::uint32_t last = lastFrameOf(options);
   const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
-                                {"--record", options.record, 0, options.maxFrames ? last : ~0u},
-                                {"--trace", options.trace}};
+                                {"--record", options.record, 0, options.maxFrames ? last : ~0u}};
   std::vector<std::string> inputs = live.files();
   inputs.push_back(options.graph);
   const bool known = options.maxFrames > 0;

@@ -35,7 +35,6 @@ Viewer::Viewer(const Options& options, DeviceSession& session, LiveGraph& live, 
   input_.setOverlay(overlay_.get());
   addActions();
   renderer_.device().timers.setEnabled(options.profile);
-  if (!options.trace.empty() && !panels_.tracer().start(options.trace, diagnostics_)) broken_ = true;
   for (const std::string& panel : options.panels) panels_.toggle(panel);
 }
 
@@ -44,7 +43,7 @@ void Viewer::addActions() {
   actions_.add("panels", [this] { panels_.visible = !panels_.visible; });
   actions_.add("profile", [this] {
     gl::PassTimers& timers = renderer_.device().timers;
-    if (!panels_.tracer().recording()) timers.setEnabled(!timers.enabled());  // a trace measures throughout
+    timers.setEnabled(!timers.enabled());
   });
   actions_.add("fly", [this] { toggleFlight(); });
   actions_.add("head_bob", [this] { rig_.headBob = !rig_.headBob; });
@@ -61,7 +60,6 @@ void Viewer::addActions() {
   for (const std::string& panel : ui::Panels::names())
     actions_.add("panel_" + panel, [this, panel] { panels_.toggle(panel); });
   actions_.add("write_back", [this] { panels_.writeBack(diagnostics_); });
-  actions_.add("trace", [this] { panels_.toggleTrace(diagnostics_); });
   actions_.add("screenshot", [this] { screenshot_ = ".png"; });
   actions_.add("screenshot_exr", [this] { screenshot_ = ".exr"; });
   actions_.add("close", [this] {

@@ -61,7 +61,6 @@ int Viewer::run() {
   }
   saveLast();
   recorder_.stop(diagnostics_);
-  panels_.tracer().stop(diagnostics_);
   input_.capture(false);
   say("closed");
   return report(diagnostics_) || broken_ || !live_.good() ? 1 : 0;
@@ -143,7 +142,6 @@ std::string Viewer::modes() const {
   const auto add = [&](const std::string& mode) { text += (text.empty() ? "" : "  |  ") + mode; };
   if (rig_.mode() == CameraRig::Mode::fly) add("flying (Esc lets go)");
   if (recorder_.active()) add("recording, " + base::counted(recorder_.frames(), "frame"));
-  if (panels_.tracing()) add("tracing");
   if (idle_) add("idle");
   if (renderScale_ != 1) add(fmt::format("render scale {}", renderScale_));
   return text;

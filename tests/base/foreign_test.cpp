@@ -1,14 +1,46 @@
-// Words of other engines and APIs, and what Weft and GLSL call the same thing.
+// Words of other engines and APIs, and what Weft and GLSL call the same thing; words of GLSL.
 #include <doctest/doctest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <utility>
 
-#include "engine/base/words/foreign_formats.h"
+#include "engine/base/files/data_folder.h"
 #include "engine/base/words/foreign_words.h"
 #include "engine/base/words/glsl_words.h"
 
 using namespace weft::base;
+
+TEST_CASE("the table of foreign words: what is to be written, then the words that mean it, each once") {
+  std::ifstream file(dataFolder() + "/words/foreign.json");
+  const auto table = nlohmann::json::parse(file);
+  for (const auto& [kind, rows] : table.items()) {
+    std::set<std::string> seen;
+    for (const auto& [ours, words] : rows.items()) {
+      CHECK_MESSAGE(!ours.empty(), kind);
+      for (const std::string theirs : words) CHECK_MESSAGE(seen.insert(theirs).second, kind, ": ", theirs);
+    }
+    CHECK_MESSAGE(!seen.empty(), kind);
+  }
+}
+
+TEST_CASE("a word of each kind is found however it is decorated") {
+  const std::pair<Foreign, const char*> kWords[] = {
+      {Foreign::graph_key, "nodes"},       {Foreign::pass_key, "renderToScreen"},
+      {Foreign::texture_key, "format"},    {Foreign::state_key, "ZTest"},
+      {Foreign::state_word, "GL_LEQUAL"},  {Foreign::state_word, "One One"},
+      {Foreign::value_key, "value"},       {Foreign::value_type, "Range(0, 1)"},
+      {Foreign::sampling, "LinearFilter"}, {Foreign::expression, "round"},
+      {Foreign::value, "width"},           {Foreign::import_type, "texture"},
+      {Foreign::import_argument, "url"},   {Foreign::shader_name, "saturate"}};
+  for (const auto& [kind, word] : kWords) CHECK_MESSAGE(!hintForForeign(kind, word).empty(), word);
+  CHECK(hintForForeign(Foreign::state_word, "less-equal") == "write 'less_equal'");
+  // GLSL tells cases apart, and a word that nobody knows has no hint.
+  CHECK(hintForForeign(Foreign::shader_name, "Saturate").empty());
+  CHECK(hintForForeign(Foreign::pass_key, "read").empty());
+}
 
 TEST_CASE("texture formats of other APIs become the one that is meant") {
   const std::pair<const char*, const char*> kFormats[] = {
@@ -47,134 +79,6 @@ TEST_CASE("texture formats of other APIs become the one that is meant") {
   for (const auto& [theirs, ours] : kFormats) CHECK_MESSAGE(formatMeantBy(theirs) == ours, theirs);
   for (const char* none : {"", "colour", "rgba12", "texture", "bc7"})
     CHECK_MESSAGE(formatMeantBy(none).empty(), none);
-}
-
-TEST_CASE("states, keys, types, functions and names of GLSL") {
-  CHECK(hintForForeign(Foreign::state_word, "GL_LEQUAL") == "write 'less_equal'");
-  CHECK(hintForForeign(Foreign::state_word, "gequal") == "write 'greater_equal'");
-  CHECK(hintForForeign(Foreign::state_word, "less-equal") == "write 'less_equal'");
-  CHECK(hintForForeign(Foreign::pass_key, "inputs") == "slots that are read stand in \"read\"");
-  CHECK(hintForForeign(Foreign::texture_key, "format") == "the format is the value of \"texture\"");
-  CHECK(hintForForeign(Foreign::value_type, "Float3") == "write \"vec3\"");
-  CHECK(hintForForeign(Foreign::expression, "round") == "write 'floor(a + 0.5)'");
-  CHECK(hintForForeign(Foreign::shader_name, "saturate") == "GLSL says 'clamp(x, 0.0, 1.0)'");
-  // GLSL tells cases apart, and a name that nobody knows has no hint.
-  CHECK(hintForForeign(Foreign::shader_name, "Saturate").empty());
-  CHECK(hintForForeign(Foreign::pass_key, "read").empty());
-}
-
-TEST_CASE("keys of states and of parameters, blends and tests as other programs write them") {
-  const std::pair<const char*, const char*> kBlends[] = {
-      {"GL_ONE", "write 'add', which is glBlendFunc(GL_ONE, GL_ONE)"},
-      {"One One", "write 'add'"},
-      {"SrcAlpha OneMinusSrcAlpha", "write 'alpha'"},
-      {"One OneMinusSrcAlpha", "write 'premultiplied'"},
-      {"DstColor Zero", "write 'multiply'"},
-      {"AdditiveBlending", "write 'add'"},
-      {"NormalBlending", "write 'alpha'"},
-      {"NoBlending", "write 'none'"},
-      {"LessEqualDepth", "depth is reversed, the near plane is 1: write 'greater_equal'"},
-      {"DoubleSide", "write 'none'"},
-  };
-  for (const auto& [theirs, hint] : kBlends)
-    CHECK_MESSAGE(hintForForeign(Foreign::state_word, theirs) == hint, theirs);
-  for (const char* key : {"transparent", "side", "ZTest", "ZWrite", "depthFunc", "colorMask", "stencil"})
-    CHECK_MESSAGE(!hintForForeign(Foreign::state_key, key).empty(), key);
-  for (const char* key : {"value", "range", "options", "description"})
-    CHECK_MESSAGE(!hintForForeign(Foreign::value_key, key).empty(), key);
-  for (const char* key : {"fragmentShader", "renderToScreen"})
-    CHECK_MESSAGE(!hintForForeign(Foreign::pass_key, key).empty(), key);
-  for (const char* word : {"LinearFilter", "RepeatWrapping", "LinearMipmapLinearFilter"})
-    CHECK_MESSAGE(!hintForForeign(Foreign::sampling, word).empty(), word);
-  CHECK(hintForForeign(Foreign::value_type, "Range(0, 1)") ==
-        "write \"float\", and the range with \"min\" and \"max\"");
-  CHECK(hintForForeign(Foreign::value, "width") == "write 'screen.x', or 'size(name).x' of a texture");
-}
-
-TEST_CASE("names in shaders of other programs, and what their hints name") {
-  struct Row {
-    const char *name, *says;
-  };
-  constexpr Row kRows[] = {
-      // Shadertoy
-      {"iTime", "'time'"},
-      {"iTimeDelta", "'delta_time'"},
-      {"iFrame", "'frame'"},
-      {"iFrameRate", "1.0 / delta_time"},
-      {"iResolution", "'viewport'"},
-      {"iMouse", "\"mouse\": \"@mouse\""},
-      {"iMouse", "'shadertoyMouse()'"},
-      {"iDate", "parameter"},
-      {"iSampleRate", "sound"},
-      {"iChannel0", "uniform sampler2D"},
-      {"iChannel3", "uniform sampler2D"},
-      {"iChannelResolution", "textureSize"},
-      {"iChannelTime", "'time'"},
-      {"iGlobalTime", "'time'"},
-      // The Book of Shaders, GLSL Sandbox
-      {"u_time", "'time'"},
-      {"u_resolution", "'viewport'"},
-      {"u_mouse", "'mouse_state[0].position'"},
-
-      {"backbuffer", "\"history\""},
-      // ISF
-      {"TIME", "'time'"},
-      {"TIMEDELTA", "'delta_time'"},
-      {"FRAMEINDEX", "'frame'"},
-      {"RENDERSIZE", "'viewport'"},
-      {"PASSINDEX", "\"defines\""},
-      {"DATE", "parameter"},
-      {"isf_FragNormCoord", "'in vec2 uv;'"},
-      {"IMG_PIXEL", "texelFetch"},
-      {"IMG_NORM_PIXEL", "texture("},
-      {"IMG_THIS_PIXEL", "texelFetch"},
-      {"IMG_THIS_NORM_PIXEL", "texture("},
-      {"IMG_SIZE", "textureSize"},
-      // three.js
-      {"vUv", "'in vec2 uv;'"},
-      {"tDiffuse", "uniform sampler2D"},
-      {"cameraPosition", "'eye'"},
-      {"viewMatrix", "'view'"},
-      {"projectionMatrix", "'projection'"},
-      {"uTime", "'time'"},
-      {"uMouse", "@mouse"},
-      {"texture2DLodEXT", "textureLod"},
-      // Unity
-      {"_Time", "'time'"},
-      {"unity_DeltaTime", "'delta_time'"},
-      {"_ScreenParams", "'viewport'"},
-      {"_MainTex", "uniform sampler2D"},
-      {"_MainTex_TexelSize", "textureSize"},
-      {"_WorldSpaceCameraPos", "'eye'"},
-      {"_CameraDepthTexture", "depth"},
-      {"UNITY_MATRIX_VP", "'view_projection'"},
-      {"SAMPLE_TEXTURE2D", "texture("},
-      {"texCUBE", "texture("},
-      {"saturate", "clamp"},
-      // Godot
-      {"UV", "'in vec2 uv;'"},
-      {"SCREEN_UV", "'in vec2 uv;'"},
-      {"COLOR", "out vec4"},
-      {"FRAGCOORD", "gl_FragCoord"},
-      {"TEXTURE", "uniform sampler2D"},
-      {"TEXTURE_PIXEL_SIZE", "textureSize"},
-      {"SCREEN_PIXEL_SIZE", "1.0 / viewport"},
-      {"VIEWPORT_SIZE", "'viewport'"},
-      {"SCREEN_TEXTURE", "uniform sampler2D"},
-      {"INV_PROJECTION_MATRIX", "'inverse_view_projection'"},
-      // Bonzomatic
-      {"fGlobalTime", "'time'"},
-      {"fFrameTime", "'delta_time'"},
-      {"v2Resolution", "'viewport'"},
-      {"texFFT", "sound"},
-      {"texPreviousFrame", "\"history\""},
-      {"texNoise", "uniform sampler2D"},
-      {"out_color", "out vec4"},
-  };
-  for (const auto& [name, says] : kRows) {
-    const std::string hint = hintForForeign(Foreign::shader_name, name);
-    CHECK_MESSAGE(hint.find(says) != std::string::npos, name, ": ", hint);
-  }
 }
 
 TEST_CASE("words that GLSL keeps for itself") {

@@ -1,5 +1,6 @@
 // Words that authors bring from other engines, APIs and shading languages, with what Weft and GLSL call the same thing.
-// For hints: nothing is accepted that is not spelled as the format says.
+// For hints: nothing is accepted that is not spelled as the format says. The table is words/foreign.json of the data folder,
+// read when the first hint is asked for; without it there are no such hints.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +10,26 @@
 namespace weft::base {
 
 enum class Foreign : std::uint8_t {
-  pass_key,     // of a pass stanza: "inputs"
-  texture_key,  // of a texture: "format"
-  graph_key,    // of a file: "nodes"
-  state_word,   // of "state": "lequal"
-  state_key,    // in "state": "ztest"
-  value_type,   // of a parameter: "float4"
-  value_key,    // in a parameter: "value"
-  sampling,     // behind "as": "repeat"
-  expression,   // a function in an expression: "round"
-  shader_name,  // in GLSL: "saturate", "gl_FragColor"
-  value,        // a name in an expression, or of an import: "time"
-  import_type,  // of "import": "texture"
+  graph_key,        // of a file: "nodes"
+  pass_key,         // of a pass stanza: "inputs"
+  texture_key,      // of a texture: "format"
+  state_key,        // in "state": "ztest"
+  state_word,       // of "state": "lequal"
+  value_key,        // in a parameter: "value"
+  value_type,       // of a parameter: "float4"
+  sampling,         // behind "as": "repeat"
+  expression,       // a function in an expression: "round"
+  value,            // a name in an expression, or of an import: "time"
+  import_type,      // of "import": "texture"
+  import_argument,  // of an import that reads a file: "url"
+  shader_name,      // in GLSL: "saturate", "gl_FragColor"
 };
 
 // What is to be written instead, as a hint ("write \"read\""), or "".
 std::string hintForForeign(Foreign where, std::string_view word);
+
+// The texture format that another API's name for it means ("R16G16B16A16_FLOAT": "rgba16f"), or "". One that Weft does not
+// have becomes the nearest that it has: three channels become four.
+std::string formatMeantBy(std::string_view word);
 
 }  // namespace weft::base

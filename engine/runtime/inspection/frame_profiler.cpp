@@ -44,16 +44,10 @@ void FrameProfiler::end(const FrameReport& report) {
   complete();
 }
 
-void FrameProfiler::finish() {
-  timers_.finish();
-  complete();
-}
-
 void FrameProfiler::complete() {
   while (!pending_.empty() && pending_.front().done && pending_.front().profile.end > 0) {
     history_.push_back(std::move(pending_.front().profile));
     pending_.pop_front();
-    if (sink_) sink_(history_.back());
     if (history_.size() > capacity_) history_.pop_front();
   }
 }

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,13 +33,8 @@ class FrameProfiler {
   // Around Execution::frame() of this plan.
   void begin(const graph::Plan& plan, std::uint64_t frame);
   void end(const FrameReport& report);
-  // Waits for times that are still to come.
-  void finish();
-
   // Frames whose times are complete, the newest last.
   const std::deque<FrameProfile>& history() const { return history_; }
-  // Called with each of them once, in order. Empty: nobody.
-  void setSink(std::function<void(const FrameProfile&)> sink) { sink_ = std::move(sink); }
 
  private:
   struct Pending {
@@ -54,7 +48,6 @@ class FrameProfiler {
   std::size_t capacity_;
   std::deque<Pending> pending_;
   std::deque<FrameProfile> history_;
-  std::function<void(const FrameProfile&)> sink_;
   std::shared_ptr<const graph::FlatGraph>
       named_;  // whose steps names_ are; held so that no other takes its place
   std::shared_ptr<const std::vector<std::string>> names_;

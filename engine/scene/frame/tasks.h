@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,12 +34,6 @@ class FrameTasks {
 
   const std::vector<FrameTask>& tasks() const { return tasks_; }
   const TaskEdges& edges() const { return edges_; }
-  // How long each task took in the last run, by the clock on the wall.
-  std::span<const double> seconds() const { return seconds_; }
-  // How much time of processors each took, of all threads together. Only measured after a call with `on`: asking for it
-  // costs a system call per range.
-  void measureProcessors(bool on) { measures_ = on; }
-  std::span<const double> processorSeconds() const { return processorSeconds_; }
 
  private:
   struct Flow;
@@ -48,20 +41,8 @@ class FrameTasks {
 
   std::vector<FrameTask> tasks_;
   TaskEdges edges_;
-  std::vector<double> seconds_, processorSeconds_;
-  bool measures_ = false;
   std::unique_ptr<Flow> flow_;  // from the first run on several threads on
 };
-
-// Tasks that run together; groups run in their order, or beside each other where they share no table.
-struct TaskGroup {
-  std::string name;
-  std::span<const FrameTask> tasks;
-};
-// For Graphviz: a cluster per group; a node per task, with the tables that it reads and writes; an edge for each wait, with
-// the tables that are waited for. `lines` stand below the title.
-std::string taskDot(const std::string& title, std::span<const std::string> lines,
-                    std::span<const TaskGroup> groups);
 
 // What forRanges() calls for each range: a function by reference.
 class RangeFunction {

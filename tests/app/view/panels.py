@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """The viewer's panels in a window of a virtual display: each opens, at content scales 1 and 2, and the picture under them
-stays the same to the bit; a trace of the session holds its frames; a value and a pass changed on the command line are
+stays the same to the bit; a value and a pass changed on the command line are
 written into the files with F8, comments and all, and what was changed is the file's from then on. A drag that comes with the key
 that hides the panels is the picture's, one with the key that shows them is theirs; whose a drag is, is judged where it begins, however fast
 the mouse got there; at rest in idle mode a drag turns the picture."""
-import json
 import os
 import pathlib
 import re
@@ -18,7 +17,7 @@ KEYS = ["F4", "F5", "F6", "F7"]
 
 
 def panels(weft, folder, report, scale):
-    live = Session(weft, folder, "--ui-scale", scale, "--panels", "inspector,profiler,storage,histogram", "--trace", "session.json")
+    live = Session(weft, folder, "--ui-scale", scale, "--panels", "inspector,profiler,storage,histogram")
     try:
         first = live.opened(report)
         if not first:
@@ -27,19 +26,8 @@ def panels(weft, folder, report, scale):
             live.key(key)
             beside = live.shot()
             report.check(beside and beside.read_bytes() == first.read_bytes(), f"scale {scale}: {key} changes the picture under the panels")
-        live.act("F9", "trace")  # ends the trace that --trace began
-        live.act("F9", "trace")  # begins another
-        live.shot()
-        live.act("F9", "trace")
-        traces = list(folder.glob("weft_*.trace.json"))
         live.leave(report)
         report.check(not live.said(), live.said())
-        for path in [folder / "session.json", *(traces or [])]:
-            events = json.loads(path.read_text())["traceEvents"]
-            frames = [e for e in events if e.get("cat") == "frame"]
-            report.check(frames and all(any(e.get("cat") == "pass" and e["args"]["frame"] == f["args"]["frame"] for e in events) for f in frames),
-                         f"{path.name}: {len(frames)} frames")
-        report.check(traces, "F9 wrote no trace")
     finally:
         live.stop()
 
@@ -148,7 +136,7 @@ def main():
         copy_of_tree(folder)
         for scale in ("1", "2"):
             panels(weft, folder, report, scale)
-            for old in [*folder.glob("weft_*"), *folder.glob("session.json")]:
+            for old in folder.glob("weft_*"):
                 old.unlink()
         write_back(weft, folder, report)
         hidden(weft, folder, report)

@@ -29,47 +29,6 @@ TEST_CASE("a task waits for those that write what it reads, and lets nobody chan
   CHECK(tasks.edges() == Edges{{0, 1}, {0, 2}, {1, 3}, {2, 3}, {3, 4}});
 }
 
-TEST_CASE("a drawing has groups of tasks with their tables, and what each waits for, across groups too") {
-  const auto nothing = [] {};
-  const std::vector<FrameTask> first = {{"a", {}, {"x"}, nothing}, {"b", {"x"}, {"y", "z"}, nothing}};
-  const std::vector<FrameTask> second = {{"c", {"y", "z"}, {}, nothing}, {"d", {}, {"x"}, nothing}};
-  const TaskGroup groups[] = {{"one", first}, {"the \"other\"", second}};
-  const std::string lines[] = {"12 nodes", "a\\b"};
-  const std::string dot = taskDot("frame", lines, groups);
-  for (const char* part :
-       {"digraph \"frame\" {", "label=\"frame\\n12 nodes\\na\\\\b\"", "subgraph cluster_0 {", "label=\"one\"",
-        "label=\"the \\\"other\\\"\"", "t1 [label=\"b\\nreads x\\nwrites y, z\"]", "t0 -> t1 [label=\"x\"]",
-        "t1 -> t2 [label=\"y\\nz\"]", "t1 -> t3 [label=\"x\"]"})
-    CHECK_MESSAGE(dot.find(part) != std::string::npos, part << " is not in\n" << dot);
-  CHECK(dot.find("t0 -> t3") == std::string::npos);  // follows from t1 -> t3
-}
-
-TEST_CASE("time of processors counts what other threads did of a task") {
-  std::vector<double> sums(64);
-  const auto work = [&] {
-    forRanges(sums.size(), 1, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i)
-        for (int k = 1; k < 200000; ++k) sums[i] += 1.0 / k;
-    });
-  };
-  FrameTasks tasks({{"a", {}, {"x"}, work}});
-  tasks.run(2);
-  CHECK(tasks.processorSeconds()[0] == 0);  // nobody asked
-  tasks.measureProcessors(true);
-  double alone = 1e9, both = 0;  // a machine that does other things only adds to a run
-  for (int i = 0; i < 5; ++i) {
-    tasks.run(1);
-    CHECK(tasks.processorSeconds()[0] > 0);
-    CHECK(tasks.processorSeconds()[0] <= tasks.seconds()[0] * 1.01 + 1e-4);
-    alone = std::min(alone, tasks.processorSeconds()[0]);
-    tasks.run(2);
-    // On two threads at most twice what the clock says.
-    CHECK(tasks.processorSeconds()[0] <= 2 * tasks.seconds()[0] * 1.01 + 1e-4);
-    both = std::max(both, tasks.processorSeconds()[0]);
-  }
-  CHECK(both > 0.5 * alone);  // about as much work, whoever did it
-}
-
 TEST_CASE("random tasks give the same tables on 1, 2 and 4 threads, run after run") {
   std::mt19937 random(5);
   for (int round = 0; round < 30; ++round) {

@@ -57,13 +57,6 @@ bool evaluateArgument(Model& model, Names& names, const Entity& entity, const Im
                 "");
 }
 
-// What others call the argument "file".
-bool isPathName(std::string_view name) {
-  constexpr std::string_view kNames[] = {"path",     "url",       "uri",      "src",      "source",
-                                         "filename", "file_name", "filepath", "file_path"};
-  return std::ranges::find(kNames, name) != std::end(kNames);
-}
-
 }  // namespace
 
 std::string hintForImport(std::string_view name, const std::vector<std::string>& types) {
@@ -104,8 +97,9 @@ bool evaluateImport(Model& model, Entity& entity) {
                                 fmt::format("import '{}' has no argument '{}'", typeName, argument.name));
     d.resource = entity.name;
     d.hint = base::nearestHint(argument.name, known);
-    if (isPathName(argument.name) && std::ranges::find(known, "file") != known.end())
-      d.hint = "write \"file\"";
+    if (std::string theirs = base::hintForForeign(base::Foreign::import_argument, argument.name);
+        !theirs.empty() && std::ranges::find(known, "file") != known.end())
+      d.hint = std::move(theirs);
     good = false;
   }
   for (const ImportArgument& argument : type->arguments) {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "engine/base/nearest.h"
-#include "engine/base/words/foreign_formats.h"
+#include "engine/base/words/foreign_words.h"
 #include "engine/graph/expand/names/limits.h"
 #include "engine/graph/language/expr_node.h"
 
