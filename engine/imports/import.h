@@ -51,21 +51,12 @@ class Provider {
   // Whether it is made of FrameInput::pointer: then a window has the mouse for the picture.
   virtual bool followsPointer() const { return false; }
 
-  // For a texture that appears together with what a graph makes of it, and so later than it changes. shown() is the texture
-  // that was the newest one at the last publish(). Types that appear at once do not override these functions.
-  virtual gl::TextureRef shown(const Frame& frame, base::Diagnostics& said) { return texture(frame, said); }
-  virtual void publish(const Frame&) {}
-  virtual bool isPublished(const Frame&) const { return true; }
-  virtual std::uint64_t publications(const Frame&) const { return 0; }
-  // Takes a texture that the graph itself made and used in place of this import. Until publish() it is shown().
-  virtual void adopt(gl::Texture) {}
+  // For a texture that appears together with what a group of passes makes of it, and so later than it changes: what texture()
+  // gave last, which the executor keeps alive until the group has made it of a newer one. Null: it appears at once.
+  virtual std::shared_ptr<const gl::Texture> hold() const { return nullptr; }
 
   // Whether it is still being loaded: pictures of graphs that read it are black until it is there.
   virtual bool isPending(const World&) const { return false; }
-  // Whether the world lacks it, so that the picture of Import::standInGraph() is needed.
-  virtual bool needsStandIn(const World&) const { return false; }
-  // The picture of that graph. Not owned; it lives as long as the provider.
-  virtual void setStandIn(gl::TextureRef) {}
 
   // Called before a graph is prepared, because files may have changed. `used`: some graph asked for the import since the
   // last call. False: the provider is not needed any more and is destroyed.

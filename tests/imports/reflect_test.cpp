@@ -287,7 +287,7 @@ TEST_CASE("an embedder's import stands behind the built-in ones; what it leaves 
   const World world{scene::Scene{}};
   CHECK_FALSE(provider->isStill(world));
   CHECK_FALSE(provider->isPending(world));
-  CHECK_FALSE(provider->needsStandIn(world));
+  CHECK_FALSE(provider->hold());
   CHECK(provider->renew(true));
   CHECK_FALSE(provider->renew(false));
   CHECK_FALSE(registry().find("clouds"));

@@ -27,39 +27,9 @@ std::unique_ptr<Provider> Environment::provide(const graph::ImportRequest&) cons
 }
 
 gl::TextureRef EnvironmentProvider::texture(const Frame& frame, base::Diagnostics& diagnostics) {
-  if (!frame.world.environment()) return standIn_;
+  if (!frame.world.environment()) return {};
   textures_.use(frame.world.environment(), diagnostics);
-  return textures_.current();
-}
-
-// A stand-in is shown at once: nothing is ever published instead of it.
-gl::TextureRef EnvironmentProvider::shown(const Frame& frame, base::Diagnostics& diagnostics) {
-  return frame.world.environment() ? textures_.shown() : texture(frame, diagnostics);
-}
-
-void EnvironmentProvider::publish(const Frame& frame) {
-  if (frame.world.environment()) textures_.publish();
-}
-
-bool EnvironmentProvider::isPublished(const Frame& frame) const {
-  return !frame.world.environment() || textures_.isPublished();
-}
-
-std::uint64_t EnvironmentProvider::publications(const Frame& frame) const {
-  return frame.world.environment() ? textures_.publications() : 0;
-}
-
-void EnvironmentProvider::adopt(gl::Texture shown) {
-  textures_.adopt(std::move(shown));
-}
-
-std::uint64_t EnvironmentProvider::generation(const Frame& frame) {
-  if (frame.world.environment()) return frame.world.environmentGeneration();
-  return standIn_.id ? std::uint64_t{1} << 32 : 0;
-}
-
-bool EnvironmentProvider::needsStandIn(const World& world) const {
-  return !world.environment() && !world.environmentPending() && !standIn_.id;
+  return textures_.current() ? textures_.current()->ref() : gl::TextureRef{};
 }
 
 void EnvironmentProvider::dropUploaded(World& world) const {

@@ -20,23 +20,16 @@ class EnvironmentProvider : public Provider {
   EnvironmentTextures& textures() { return textures_; }
 
   gl::TextureRef texture(const Frame& frame, base::Diagnostics& diagnostics) override;
-  std::uint64_t generation(const Frame& frame) override;
+  std::uint64_t generation(const Frame& frame) override { return frame.world.environmentGeneration(); }
   bool isStill(const World&) const override { return true; }
-  gl::TextureRef shown(const Frame& frame, base::Diagnostics& diagnostics) override;
-  void publish(const Frame& frame) override;
-  bool isPublished(const Frame& frame) const override;
-  std::uint64_t publications(const Frame& frame) const override;
-  void adopt(gl::Texture shown) override;
+  std::shared_ptr<const gl::Texture> hold() const override { return textures_.current(); }
   bool isPending(const World& world) const override { return world.environmentPending(); }
-  bool needsStandIn(const World& world) const override;
-  void setStandIn(gl::TextureRef texture) override { standIn_ = texture; }
   // Always kept, because what the world has dropped cannot be uploaded again.
   bool renew(bool) override { return true; }
   void dropUploaded(World& world) const override;
 
  private:
   EnvironmentTextures textures_;
-  gl::TextureRef standIn_;
 };
 
 }  // namespace weft::imports

@@ -67,13 +67,6 @@ std::optional<float> EnvironmentTextures::send(const Map& map, base::Diagnostics
 bool EnvironmentTextures::use(const Map& map, base::Diagnostics& diagnostics) {
   if (isNewest(*map)) return true;
   assert(!map->texels.empty() && "dropped before they were used here");
-  if (!black_) {
-    auto black = gl::Texture::create({.format = GL_RGBA16F}, "@environment, none", diagnostics);
-    if (!black) return false;
-    const std::uint16_t texel[4] = {0, 0, 0, 0x3c00};
-    gl::uploadTexture(black->ref(), 0, 0, GL_RGBA, GL_HALF_FLOAT, std::as_bytes(std::span(texel)));
-    black_ = std::move(*black);
-  }
   gl::Texture next;
   if (incoming_.map == map && incoming_.last) {
     next = std::move(incoming_.texture);

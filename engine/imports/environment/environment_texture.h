@@ -1,7 +1,6 @@
-// The environment on the GPU: the newest, which lighting is made of; the one shown, which is the newest of
-// the last publish(); and one being sent beside them. A
-// new one is sent in portions, one per frame, and taken into use whole: with all its levels, and when the GPU
-// has them. Does not: decode files (assets::Loader does), or decide when to switch or to publish.
+// The environment on the GPU, and one being sent beside it. A new one is sent in portions, one per frame, and taken into use
+// whole: with all its levels, and when the GPU has them. Does not: decode files (assets::Loader does), or decide when to
+// switch.
 #pragma once
 
 #include <cstdint>
@@ -39,19 +38,7 @@ class EnvironmentTextures {
   // the newest stays. Cheap when it is the newest already; then `map` needs no texels any more.
   bool isNewest(const assets::EnvironmentMap& map) const { return current_ && currentId_ == map.id; }
   bool use(const Map& map, base::Diagnostics& diagnostics);
-  gl::TextureRef current() const { return current_ ? current_->ref() : gl::TextureRef{}; }
-
-  // The newest is shown from now on.
-  void publish() {
-    shown_ = current_;
-    ++publications_;
-  }
-  // Until publish(), something else is shown().
-  void adopt(gl::Texture shown) { shown_ = std::make_shared<const gl::Texture>(std::move(shown)); }
-  bool isPublished() const { return current_ == shown_; }
-  std::uint64_t publications() const { return publications_; }
-  // Black, one texel, when there is none.
-  gl::TextureRef shown() const { return shown_ ? shown_->ref() : black(); }
+  const std::shared_ptr<const gl::Texture>& current() const { return current_; }  // null: none was used yet
 
  private:
   struct Incoming {
@@ -62,12 +49,8 @@ class EnvironmentTextures {
     gl::Fence last;                         // behind the last level
   };
   Incoming incoming_;
-  gl::TextureRef black() const { return black_ ? black_.ref() : gl::TextureRef{}; }
-
   std::uint64_t currentId_ = 0;
-  std::shared_ptr<const gl::Texture> current_, shown_;
-  gl::Texture black_;
-  std::uint64_t publications_ = 0;
+  std::shared_ptr<const gl::Texture> current_;
 };
 
 }  // namespace weft::imports

@@ -16,46 +16,28 @@ std::unique_ptr<Execution> Execution::create(Device& device, std::shared_ptr<con
                                              base::Diagnostics& diagnostics) {
   auto prepared =
       preparePlan(device, std::move(plan), before ? &before->prepared_ : nullptr, files, diagnostics);
-  if (!prepared) return nullptr;
-  std::unique_ptr<Execution> made(new Execution(device, *std::move(prepared)));
-  if (made->start(before, diagnostics)) return made;
-  if (before) giveBack(made->prepared_, before->prepared_);
-  return nullptr;
+  if (!prepared || diagnostics.hasErrors()) return nullptr;
+  std::unique_ptr<Execution> made(new Execution(device, *std::move(prepared), before));
+  std::vector<PreparedPass*> passes;
+  for (PreparedPass& pass : made->prepared_.passes) passes.push_back(&pass);
+  const bool good = made->readBack_.prepare(made->plan(), made->prepared_.passes,
+                                            before ? &before->readBack_ : nullptr, diagnostics) &&
+                    made->uniforms_.layOut(passes, diagnostics);
+  return good ? std::move(made) : nullptr;
 }
 
-Execution::Execution(Device& device, PreparedPlan prepared)
+Execution::Execution(Device& device, PreparedPlan prepared, const Execution* before)
     : device_(device),
       prepared_(std::move(prepared)),
       uniforms_(
           plan(), device.imports,
-          static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment))),
-      steps_(plan(), *prepared_.pool, device.imports, prepared_.passes),
-      publications_(plan(), *prepared_.pool, device.imports, steps_.cadence(), prepared_.passes),
+          static_cast<std::uint32_t>(std::max(16, device.context.device().limits.uniformOffsetAlignment)),
+          before ? &before->uniforms_ : nullptr),
+      steps_(plan(), *prepared_.pool, device.imports, prepared_.passes, before ? &before->steps_ : nullptr),
+      publications_(plan(), *prepared_.pool, device.imports, steps_.cadence(), prepared_.passes,
+                    before ? &before->publications_ : nullptr),
       runner_(plan(), device, *prepared_.pool, uniforms_.arena()),
       followsPointer_(readsPointer(plan(), device.imports)) {}
-
-// Goes on where the execution before stopped. Its storage is in prepared_ already; the rest is found by name or storage.
-// The steps that can fail come first; after a failure they give back what they took.
-bool Execution::start(Execution* before, base::Diagnostics& diagnostics) {
-  publications_.listWritten();
-  if (diagnostics.hasErrors() ||
-      !readBack_.prepare(plan(), prepared_.passes, before ? &before->readBack_ : nullptr, diagnostics))
-    return false;
-  if (before) uniforms_.takeOver(before->uniforms_);
-  std::vector<PreparedPass*> passes;
-  for (PreparedPass& pass : prepared_.passes) passes.push_back(&pass);
-  if (!uniforms_.layOut(passes, diagnostics)) {
-    if (before) uniforms_.giveBack(before->uniforms_);
-    return false;
-  }
-  // From here on nothing can fail.
-  if (!before) return true;
-  readBack_.takeOver(before->readBack_);
-  runner_.framebuffers().takeOver(before->runner_.framebuffers(), prepared_.pool->textureNames());
-  steps_.takeOver(before->steps_);
-  publications_.takeOver(before->publications_);
-  return true;
-}
 
 FrameReport Execution::frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics) {
   FrameReport report;
@@ -64,7 +46,7 @@ FrameReport Execution::frame(const World& world, const FrameInput& input, base::
   refreshUniforms(false);
   steps_.refreshHashes(uniforms_.arena());
   if (input.headless) runAhead(report, diagnostics);
-  chooseSteps(diagnostics);
+  chooseSteps();
   runSteps(watch_, report, diagnostics);
   endFrame(report, diagnostics);
   return report;
@@ -95,7 +77,6 @@ void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
     if (!steps_.chooseAhead(publications_.generations())) break;
     runSteps({}, report, diagnostics);
     publications_.publishFinished();
-    publications_.viewImports(diagnostics);
     runner_.forgetState();  // an upload may have changed it
     any = true;
   }
@@ -104,10 +85,9 @@ void Execution::runAhead(FrameReport& report, base::Diagnostics& diagnostics) {
 }
 
 // All steps of the frame see what its steps will publish as new, of age 0.
-void Execution::chooseSteps(base::Diagnostics& diagnostics) {
+void Execution::chooseSteps() {
   steps_.choose(publications_.generations());
   if (!publications_.announce()) return;
-  publications_.viewImports(diagnostics);
   refreshUniforms(true);
 }
 

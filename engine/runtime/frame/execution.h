@@ -1,7 +1,8 @@
 // Execution: runs a Plan on the GPU, frame after frame. Each part has one job: PreparedPlan has the storage, and knows what
 // each step binds; VariantChoice chooses the variant of a pass, StepChoice the steps that run; FrameUniforms has their
 // uniforms; Publications decides what other passes see; StepRunner makes the GL calls; ReadBack brings outputs to the CPU.
-// A new plan is prepared beside the running one, and takes over persistent storage only when it has no error.
+// A new execution is made beside the running one and shares with it the storage that both have, so the running one goes on
+// when the new one has an error.
 // Does not: read files, decide the order (the plan has it), or own the context. A frame of an unchanged plan allocates
 // nothing on the heap.
 #pragma once
@@ -31,8 +32,8 @@ struct FrameReport {
 
 class Execution {
  public:
-  // Prepares `plan`, see preparePlan(). Null after errors; then `before` is as it was. Otherwise `before` (which may be null)
-  // has given up its storage and must not run again.
+  // Prepares `plan`, see preparePlan(), and goes on where `before` (which may be null) has stopped. Null after errors.
+  // Otherwise `before` must not run again: its storage is shared.
   static std::unique_ptr<Execution> create(Device& device, std::shared_ptr<const graph::Plan> plan,
                                            Execution* before, ShaderFiles files,
                                            base::Diagnostics& diagnostics);
@@ -40,7 +41,7 @@ class Execution {
   FrameReport frame(const World& world, const FrameInput& input, base::Diagnostics& diagnostics);
 
   const graph::Plan& plan() const { return *prepared_.plan; }
-  // How many passes were prepared for this plan; the others were taken over.
+  // How many passes were prepared for this plan; the others were kept.
   std::uint32_t passesPrepared() const { return prepared_.passesPrepared; }
   // The parameters. Live ones can be set between two frames.
   FrameUniforms& uniforms() { return uniforms_; }
@@ -80,14 +81,13 @@ class Execution {
   bool watched() const { return watch_.isSet(); }
 
  private:
-  Execution(Device& device, PreparedPlan prepared);
-  bool start(Execution* before, base::Diagnostics& diagnostics);
+  Execution(Device& device, PreparedPlan prepared, const Execution* before);
 
   // The parts of a frame.
   void beginFrame(const World& world, const FrameInput& input);
   void publishFinished(base::Diagnostics& diagnostics);
   void runAhead(FrameReport& report, base::Diagnostics& diagnostics);
-  void chooseSteps(base::Diagnostics& diagnostics);
+  void chooseSteps();
   void runSteps(const StepWatch& watch, FrameReport& report, base::Diagnostics& diagnostics);
   void endFrame(FrameReport& report, base::Diagnostics& diagnostics);
 

@@ -33,19 +33,12 @@ base::Place placeOfResource(const graph::FlatGraph& graph, const std::string& la
 // Prepares one plan, beside a running one if there is one.
 class Preparation {
  public:
-  Preparation(Device& device, PreparedPlan& made, PreparedPlan* before, ShaderFiles files,
+  Preparation(Device& device, PreparedPlan& made, const PreparedPlan* before, ShaderFiles files,
               base::Diagnostics& diagnostics)
       : device_(device), made_(made), before_(before), files_(files), diagnostics_(diagnostics) {
     if (before) findSame();
   }
-  // A failure must leave the running plan as it was. So programs come first, which take nothing; after a later failure the
-  // storage goes back.
-  bool run() {
-    if (!findVariants() || !createPool()) return false;
-    if (preparePasses()) return true;
-    if (before_) made_.pool->giveBack(*before_->pool);
-    return false;
-  }
+  bool run() { return findVariants() && createPool() && preparePasses(); }
 
  private:
   void findSame();
@@ -58,7 +51,7 @@ class Preparation {
 
   Device& device_;
   PreparedPlan& made_;
-  PreparedPlan* before_;
+  const PreparedPlan* before_;
   const ShaderFiles files_;
   base::Diagnostics& diagnostics_;
   std::optional<PassKeeper> keeper_;
@@ -122,12 +115,10 @@ bool Preparation::preparePasses() {
     const std::uint32_t old = sameOf(step);
     if (old != graph::kNone && before_->passes[old].variant == variants_[step] &&
         keeper_->isInPlace(step, old, *made_.pool, *before_->pool))
-      made_.taken.push_back({static_cast<std::uint32_t>(step), old});
+      made_.passes[step] = keeper_->keep(step, old, before_->passes[old]);
     else if (!preparePassOf(step, context))
       return false;
   }
-  for (const PreparedPlan::TakenPass& each : made_.taken)
-    made_.passes[each.step] = keeper_->take(each.step, each.before, std::move(before_->passes[each.before]));
   return true;
 }
 
@@ -150,18 +141,11 @@ bool Preparation::preparePassOf(std::size_t step, PrepareContext& context) {
 }  // namespace
 
 std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
-                                        PreparedPlan* before, ShaderFiles files,
+                                        const PreparedPlan* before, ShaderFiles files,
                                         base::Diagnostics& diagnostics) {
   PreparedPlan made{.plan = std::move(plan), .pool = nullptr, .passes = {}};
   if (!Preparation(device, made, before, files, diagnostics).run()) return std::nullopt;
   return made;
-}
-
-void giveBack(PreparedPlan& made, PreparedPlan& before) {
-  PassKeeper keeper(*before.plan, *made.plan);
-  for (const PreparedPlan::TakenPass& each : made.taken)
-    before.passes[each.before] = keeper.take(each.before, each.step, std::move(made.passes[each.step]));
-  made.pool->giveBack(*before.pool);
 }
 
 }  // namespace weft::runtime

@@ -1,6 +1,6 @@
 // A plan that can run on a device: its storage, and for each step what runs it. A new plan is prepared beside the one that
-// runs; passes that are the same, in the same storage, are taken over from that. Does not: lay out uniforms, or run
-// anything (Execution does).
+// runs, and shares with it storage that fits and passes that are the same. Does not: lay out uniforms, or run anything
+// (Execution does).
 #pragma once
 
 #include <cstdint>
@@ -23,21 +23,12 @@ struct PreparedPlan {
   std::shared_ptr<const graph::Plan> plan;
   std::unique_ptr<ResourcePool> pool;
   std::vector<PreparedPass> passes;  // per step, of the variant in use; at first the one for large ages
-  std::uint32_t passesPrepared = 0;  // how many were prepared for this plan; the others were taken over
-  struct TakenPass {
-    std::uint32_t step, before;  // steps of the two plans
-  };
-  std::vector<TakenPass> taken;
+  std::uint32_t passesPrepared = 0;  // how many were prepared for this plan; the others were kept
 };
 
-// A pass that differs from those of `before` (which may be null) is prepared whole; of an equal pass only what has other
-// storage now. Empty after errors; then `before` is as it was. Otherwise it has given up its storage and passes, as far as
-// they fit.
+// A pass that differs from those of `before` (which may be null), or has other storage, is prepared. Empty after errors.
 std::optional<PreparedPlan> preparePlan(Device& device, std::shared_ptr<const graph::Plan> plan,
-                                        PreparedPlan* before, ShaderFiles files,
+                                        const PreparedPlan* before, ShaderFiles files,
                                         base::Diagnostics& diagnostics);
-
-// Puts what `made` took out of `before` where it was: `made` is not to be used after all. No frame of `made` may have run.
-void giveBack(PreparedPlan& made, PreparedPlan& before);
 
 }  // namespace weft::runtime

@@ -35,7 +35,8 @@ base::Where placeOfFile(const graph::FlatGraph& graph, const graph::ImportSpec& 
 }  // namespace
 
 Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
-                           FrameCadence& cadence, const std::vector<PreparedPass>& passes)
+                           FrameCadence& cadence, const std::vector<PreparedPass>& passes,
+                           const Publications* before)
     : plan_(plan),
       pool_(pool),
       imports_(imports),
@@ -48,10 +49,18 @@ Publications::Publications(const graph::Plan& plan, ResourcePool& pool, Imports&
   generationsBefore_.resize(resources);
   publishing_.assign(resources, 0);
   turned_.assign(resources, 0);
-  made_.assign(resources, 0);
+  for (std::size_t r = 0; r < resources; ++r) made_.push_back(plan.graph->resources[r].import != kNone);
+  for (const PreparedPass& pass : passes)
+    for (const std::uint32_t r : pass.written) made_[r] = 1;
   resetState_.assign(plan.graph->histories.size(), 0);
   for (std::uint64_t& generation : generations_) generation = nextGeneration_++;
   findPublishers();
+  if (!before) return;
+  framesRun_ = before->framesRun_;
+  continueGenerations(*before);
+  continueGroups();
+  continueHistories(*before);
+  continueImports(*before);
 }
 
 // An import that an `on_change` pass of a group reads is shown with what the group makes of it; a time-sliced
@@ -72,12 +81,6 @@ void Publications::findPublishers() {
         resource.publisher = group;
     }
   }
-}
-
-void Publications::listWritten() {
-  for (std::size_t r = 0; r < made_.size(); ++r) made_[r] = plan_.graph->resources[r].import != kNone;
-  for (const PreparedPass& pass : passes_)
-    for (const std::uint32_t r : pass.written) made_[r] = 1;
 }
 
 void Publications::beginFrame(const FrameInput& input) {
@@ -114,7 +117,15 @@ void Publications::publish(std::uint32_t r) {
 
 void Publications::publishImports(std::uint32_t group) {
   for (std::size_t r = 0; r < generations_.size(); ++r)
-    if (pool_[r].publisher == group) imports_.publish(importOf(r));
+    if (pool_[r].publisher == group) show(r);
+}
+
+void Publications::show(std::size_t r) {
+  GpuResource& resource = pool_[r];
+  auto held = imports_.hold(importOf(r));
+  if (held != resource.held) ++resource.shows;
+  resource.held = std::move(held);
+  resource.shown = resource.imported;
 }
 
 void Publications::refreshImports(base::Diagnostics& diagnostics) {
@@ -134,17 +145,9 @@ void Publications::refreshImports(base::Diagnostics& diagnostics) {
         if (each.resource.empty()) each.resource = plan_.graph->resourceNames[r];
         diagnostics.add(std::move(each));
       }
-      if (pool_[r].publisher == kNone && !imports_.isPublished(import)) imports_.publish(import);
+      if (pool_[r].publisher == kNone || !imports_.hold(import)) show(r);
     }
     generations_[r] = imports_.generation(import);
-  }
-  viewImports(diagnostics);
-}
-
-void Publications::viewImports(base::Diagnostics& diagnostics) {
-  for (std::size_t r = 0; r < generations_.size(); ++r) {
-    if (plan_.graph->resources[r].kind != ResourceKind::imported_texture) continue;
-    pool_[r].shown = imports_.shown(importOf(r), diagnostics);
   }
 }
 
@@ -215,16 +218,8 @@ double Publications::ageOf(std::uint32_t r) const {
   return std::max(0.0, input_.time - resource.publishedAt);
 }
 
-void Publications::takeOver(Publications& before) {
-  framesRun_ = before.framesRun_;
-  takeGenerations(before);
-  takeGroups();
-  takeHistories(before);
-  adoptStandIns(before);
-}
-
 // Generations go with storage: a resource that lies where it lay before holds what it held.
-void Publications::takeGenerations(const Publications& before) {
+void Publications::continueGenerations(const Publications& before) {
   for (std::uint64_t& generation : generations_) generation += before.nextGeneration_;
   nextGeneration_ += before.nextGeneration_;
   std::unordered_map<std::string_view, std::size_t> resourceOf;
@@ -240,7 +235,7 @@ void Publications::takeGenerations(const Publications& before) {
 }
 
 // A group counts as published when everything that it writes is.
-void Publications::takeGroups() {
+void Publications::continueGroups() {
   std::vector<std::uint8_t> published(plan_.groups.sliced.begin(), plan_.groups.sliced.end());
   for (std::uint32_t r = 0; r < generations_.size(); ++r) {
     const GpuResource& resource = pool_[r];
@@ -251,7 +246,7 @@ void Publications::takeGroups() {
     if (published[group]) cadence_.restorePublished(group);
 }
 
-void Publications::takeHistories(const Publications& before) {
+void Publications::continueHistories(const Publications& before) {
   const graph::FlatGraph &mine = *plan_.graph, &theirs = *before.plan_.graph;
   std::unordered_map<std::string_view, std::size_t> historyOf;
   for (std::size_t h = 0; h < before.resetState_.size(); ++h)
@@ -262,18 +257,28 @@ void Publications::takeHistories(const Publications& before) {
       resetState_[h] = before.resetState_[old->second];
 }
 
-// An import may have taken the place of a texture that stood in for it; then that texture is what was shown.
-void Publications::adoptStandIns(const Publications& before) {
-  const graph::FlatGraph& graph = *plan_.graph;
-  for (const graph::FlatResource& mine : graph.resources) {
-    if (mine.kind != ResourceKind::imported_texture) continue;
-    const graph::ImportSpec& import = graph.imports[mine.import];
+// An import shows what it showed; one that has taken the place of a texture, that texture.
+void Publications::continueImports(const Publications& before) {
+  const graph::FlatGraph &graph = *plan_.graph, &theirs = *before.plan_.graph;
+  for (std::size_t r = 0; r < graph.resources.size(); ++r) {
+    if (graph.resources[r].kind != ResourceKind::imported_texture) continue;
+    GpuResource& mine = pool_[r];
+    const graph::ImportSpec& import = importOf(r);
+    for (std::size_t old = 0; old < theirs.resources.size(); ++old) {
+      if (theirs.resources[old].import == kNone || before.importOf(old).key != import.key) continue;
+      const GpuResource& theirsOf = before.pool_[old];
+      mine.shown = theirsOf.shown;
+      mine.held = theirsOf.held;
+      mine.shows = theirsOf.shows;
+    }
     for (const std::string& name : import.standIns) {
       const std::uint32_t old = lastVersionOf(before.plan_, name);
       if (old == kNone || lastVersionOf(plan_, name) != kNone) continue;
-      GpuResource& stoodIn = before.pool_[old];
+      const GpuResource& stoodIn = before.pool_[old];
       if (!stoodIn.texture || stoodIn.publications == 0) continue;
-      imports_.adopt(import, stoodIn.texture->take(stoodIn.copyOf(0)));
+      const gl::Texture& texture = stoodIn.texture->texture(stoodIn.copyOf(0));
+      mine.held = std::shared_ptr<const gl::Texture>(stoodIn.texture, &texture);
+      mine.shown = texture.ref();
       break;
     }
   }

@@ -1,7 +1,8 @@
 // Publications: decides when all passes see the new contents of a resource. Each resource has a generation, which rises
 // with every change, and an age, the time since it was published. A pass that runs publishes what it writes and rotates
 // its history by one. A time-sliced group publishes all it wrote at once, in the frame after its last slice. An import
-// appears together with what a group makes of it. Histories are reset when what they depend on changes.
+// that Provider::hold() keeps appears together with what a group makes of it. Histories are reset when what they depend on
+// changes.
 // Does not: decide which passes run (FrameCadence), or own storage (ResourcePool). A frame allocates nothing.
 #pragma once
 
@@ -22,17 +23,12 @@ namespace weft::runtime {
 
 class Publications {
  public:
-  // Everything is given by reference and must outlive this; `passes` may still be empty.
+  // All but `before` must outlive this. What the execution before, if there is one, has published stays published where the
+  // storage is shared; the texture that an import takes the place of is shown until the import is.
   Publications(const graph::Plan& plan, ResourcePool& pool, Imports& imports, FrameCadence& cadence,
-               const std::vector<PreparedPass>& passes);
+               const std::vector<PreparedPass>& passes, const Publications* before = nullptr);
   Publications(const Publications&) = delete;
   Publications& operator=(const Publications&) = delete;
-
-  // Takes over what the running plan has published, by storage; an import takes over the texture that stood in for it. To
-  // be called when the passes are prepared.
-  void takeOver(Publications& before);
-  // Finds the resources that some pass writes. To be called when the passes are prepared.
-  void listWritten();
 
   void beginFrame(const FrameInput& input);
   void endFrame() { ++framesRun_; }
@@ -44,8 +40,6 @@ class Publications {
   void publishFinished();
   // Asks each import for its newest texture or buffer and its generation.
   void refreshImports(base::Diagnostics& diagnostics);
-  // Finds which texture of each import passes see.
-  void viewImports(base::Diagnostics& diagnostics);
   // Sets histories back to their first value when what resets them has changed.
   void resetHistories(base::Diagnostics& diagnostics);
   // Sets the age of what the passes of this frame will publish to 0. True when there is something. To be called when the
@@ -69,10 +63,11 @@ class Publications {
   void findPublishers();
   void publish(std::uint32_t resource);
   void publishImports(std::uint32_t group);
-  void takeGenerations(const Publications& before);
-  void takeGroups();
-  void takeHistories(const Publications& before);
-  void adoptStandIns(const Publications& before);
+  void show(std::size_t resource);
+  void continueGenerations(const Publications& before);
+  void continueGroups();
+  void continueHistories(const Publications& before);
+  void continueImports(const Publications& before);
   graph::Cadence cadenceOf(std::size_t step) const {
     return plan_.graph->passes[plan_.steps[step].pass].cadence;
   }

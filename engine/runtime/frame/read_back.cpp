@@ -85,7 +85,7 @@ double Output::number(std::size_t index) const {
   return std::bit_cast<float>(bits);
 }
 
-bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, const ReadBack* before,
+bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
                        base::Diagnostics& diagnostics) {
   std::uint64_t total = 0;
   const graph::FlatGraph& graph = *plan.graph;
@@ -107,36 +107,28 @@ bool ReadBack::prepare(const graph::Plan& plan, std::span<const PreparedPass> pa
     total += (output.bytes.size() + 15) / 16 * 16;
     outputs_.push_back(std::move(output));
   }
-  return total == 0 || (before && fits(*before)) || createRing(total, diagnostics);
-}
-
-bool ReadBack::fits(const ReadBack& before) const {
-  return std::ranges::equal(outputs_, before.outputs_, sameShape);
-}
-
-void ReadBack::takeOver(ReadBack& before) {
-  before.collect();
-  if (fits(before)) {
-    for (std::size_t i = 0; i < outputs_.size(); ++i) before.outputs_[i].kind = outputs_[i].kind;
-    outputs_ = std::move(before.outputs_);
-    ring_ = std::move(before.ring_);
-    next_ = before.next_;
-    before.outputs_.clear();
-    return;
+  if (before) {
+    before->collect();
+    for (Output& mine : outputs_)
+      for (const Output& old : before->outputs_)
+        if (sameShape(mine, old)) {
+          const NumberKind kind = mine.kind;
+          mine = old;
+          mine.kind = kind;
+        }
+    if (std::ranges::equal(outputs_, before->outputs_, sameShape)) {
+      ring_ = before->ring_;
+      return true;
+    }
   }
-  for (Output& mine : outputs_)
-    for (const Output& old : before.outputs_)
-      if (sameShape(mine, old)) {
-        const NumberKind kind = mine.kind;
-        mine = old;
-        mine.kind = kind;
-      }
+  return total == 0 || createRing(total, diagnostics);
 }
 
 bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {
   // The mapping is coherent: what a copy wrote is visible once its fence has signalled, without another barrier.
   constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-  for (Slot& slot : ring_) {
+  ring_ = std::make_shared<Ring>();
+  for (Slot& slot : ring_->slots) {
     auto buffer = gl::Buffer::create(bytes, kAccess | GL_CLIENT_STORAGE_BIT, "read-back", diagnostics);
     if (!buffer) return false;
     slot.buffer = std::move(*buffer);
@@ -152,8 +144,8 @@ bool ReadBack::createRing(std::uint64_t bytes, base::Diagnostics& diagnostics) {
 
 void ReadBack::copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers,
                     std::uint32_t frame, base::Diagnostics& diagnostics) {
-  Slot& slot = ring_[next_];
-  if (outputs_.empty() || slot.fence) return;
+  if (!ring_ || ring_->at(0).fence) return;
+  Slot& slot = ring_->at(0);
   for (const Source& source : sources_) {
     const FlatUse& use = plan.graph->outputs[source.use];
     const GpuResource& from = pool[use.resource];
@@ -166,7 +158,7 @@ void ReadBack::copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCach
   }
   slot.fence = gl::Fence::insert();
   slot.frame = frame;
-  next_ = (next_ + 1) % kRing;
+  ring_->next = (ring_->next + 1) % kRing;
 }
 
 // The copy goes through a framebuffer, as the plan's barriers expect (barrier_rules.h).
@@ -201,9 +193,10 @@ void ReadBack::copyTexture(const graph::Plan& plan, const FlatUse& use, Resource
 }
 
 void ReadBack::collect() {
+  if (!ring_) return;
   const Slot* newest = nullptr;
   for (std::size_t i = 0; i < kRing; ++i) {
-    Slot& slot = ring_[(next_ + i) % kRing];
+    Slot& slot = ring_->at(i);
     if (!slot.fence) continue;
     if (!slot.fence.isSignalled()) break;
     slot.fence.reset();
@@ -213,7 +206,8 @@ void ReadBack::collect() {
 }
 
 void ReadBack::finish() {
-  const Slot& last = ring_[(next_ + kRing - 1) % kRing];
+  if (!ring_) return;
+  const Slot& last = ring_->at(kRing - 1);
   if (last.fence) last.fence.wait(std::numeric_limits<std::uint64_t>::max());
   collect();
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,13 +45,11 @@ class ReadBack {
   // behind.
   static constexpr std::size_t kRing = 4;
 
-  // Finds the outputs of a plan, and makes buffers for them unless those of `before` (which may be null) fit. Takes nothing.
-  // False after W117.
-  bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, const ReadBack* before,
+  // Finds the outputs of a plan, and makes buffers for them. When they are those of `before` (which may be null), shares its
+  // buffers with the copies that are on their way; else has the values that have arrived of outputs of the same name and
+  // shape. False after W117.
+  bool prepare(const graph::Plan& plan, std::span<const PreparedPass> passes, ReadBack* before,
                base::Diagnostics& diagnostics);
-  // To be called once after prepare(), with the same `before`. When the outputs are the same, takes over its buffers with the
-  // copies that are on their way; else the values that have arrived of outputs of the same name and shape.
-  void takeOver(ReadBack& before);
   // Starts the copies of a frame. To be called at its end, after the plan's last barriers.
   void copy(const graph::Plan& plan, ResourcePool& pool, FramebufferCache& framebuffers, std::uint32_t frame,
             base::Diagnostics& diagnostics);
@@ -75,7 +74,11 @@ class ReadBack {
     gl::Fence fence;  // behind the copies of `frame`; none: the slot is free
     std::uint32_t frame = 0;
   };
-  bool fits(const ReadBack& before) const;
+  struct Ring {
+    std::array<Slot, kRing> slots;
+    std::size_t next = 0;  // the oldest
+    Slot& at(std::size_t i) { return slots[(next + i) % kRing]; }
+  };
   bool createRing(std::uint64_t bytes, base::Diagnostics& diagnostics);
   void copyTexture(const graph::Plan& plan, const graph::FlatUse& use, ResourcePool& pool,
                    FramebufferCache& framebuffers, const Slot& slot, std::uint64_t offset,
@@ -84,8 +87,7 @@ class ReadBack {
 
   std::vector<Output> outputs_;
   std::vector<Source> sources_;  // parallel
-  std::array<Slot, kRing> ring_;
-  std::size_t next_ = 0;  // the oldest
+  std::shared_ptr<Ring> ring_;   // null: there is no output
 };
 
 }  // namespace weft::runtime

@@ -12,7 +12,7 @@ namespace weft::runtime {
 using graph::kNone;
 
 StepChoice::StepChoice(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
-                       const std::vector<PreparedPass>& passes)
+                       const std::vector<PreparedPass>& passes, const StepChoice* before)
     : plan_(plan),
       pool_(pool),
       imports_(imports),
@@ -20,15 +20,14 @@ StepChoice::StepChoice(const graph::Plan& plan, ResourcePool& pool, Imports& imp
       cadence_(plan),
       hashes_(plan.steps.size()),
       lasting_(findLastingSteps(plan)),
-      ran_(plan.steps.size()) {}
-
-void StepChoice::takeOver(const StepChoice& before) {
+      ran_(plan.steps.size()) {
+  if (!before) return;
   std::unordered_map<std::string_view, std::size_t> stepOf;
-  for (std::size_t step = 0; step < before.plan_.steps.size(); ++step)
-    stepOf[before.plan_.graph->specs[before.plan_.steps[step].pass].name] = step;
+  for (std::size_t step = 0; step < before->passes_.size(); ++step)
+    stepOf[before->passes_[step].context.spec->name] = step;
   for (std::size_t step = 0; step < passes_.size(); ++step)
     if (const auto old = stepOf.find(passes_[step].context.spec->name); old != stepOf.end())
-      cadence_.memories()[step] = before.cadence_.memories()[old->second];
+      cadence_.memories()[step] = before->cadence_.memories()[old->second];
 }
 
 void StepChoice::beginFrame() {
@@ -50,8 +49,7 @@ std::uint64_t StepChoice::hashOf(const PreparedPass& pass, const UniformArena& a
   for (const std::uint32_t resource : pass.read)
     if (const std::uint32_t publisher = pool_[resource].publisher;
         publisher != kNone && publisher != pass.group)
-      hash = base::hashCombine(
-          hash, imports_.publications(plan_.graph->imports[plan_.graph->resources[resource].import]));
+      hash = base::hashCombine(hash, pool_[resource].shows);
   for (const std::uint32_t axis : pass.context.spec->threads) hash = base::hashCombine(hash, axis);
   if (pass.list >= 0)
     hash = base::hashCombine(

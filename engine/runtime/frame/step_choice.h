@@ -19,12 +19,10 @@ namespace weft::runtime {
 
 class StepChoice {
  public:
-  // All must outlive this. `passes` are those of the steps of `plan`.
+  // All but `before` must outlive this. `passes` are those of the steps of `plan`, and remember the last run of passes of the
+  // same name of the execution before, if there is one.
   StepChoice(const graph::Plan& plan, ResourcePool& pool, Imports& imports,
-             const std::vector<PreparedPass>& passes);
-
-  // Takes over what passes of the same name remember of their last run.
-  void takeOver(const StepChoice& before);
+             const std::vector<PreparedPass>& passes, const StepChoice* before = nullptr);
 
   // To be called first in a frame: no step has run in it.
   void beginFrame();

@@ -63,7 +63,9 @@ bool Imports::isPending(const graph::FlatGraph& graph, const World& world) {
 
 std::string Imports::standInGraph(const graph::ImportSpec& import, const World& world) {
   const Held& held = heldOf(import);
-  return held.provider->needsStandIn(world) ? held.import->standInGraph() : std::string{};
+  const std::string graph = held.standIn.id == 0 ? held.import->standInGraph() : std::string{};
+  return graph.empty() || held.import->facts(import.request, world.facts(), files_).exists ? std::string{}
+                                                                                           : graph;
 }
 
 void Imports::dropUploaded(World& world) const {

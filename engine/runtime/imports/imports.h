@@ -43,15 +43,10 @@ class Imports {
 
   // The functions of imports::Provider, which says what they mean.
   gl::TextureRef texture(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
-    return of(import).texture(frame(), diagnostics);
+    const gl::TextureRef texture = of(import).texture(frame(), diagnostics);
+    return texture.id != 0 ? texture : heldOf(import).standIn;
   }
-  gl::TextureRef shown(const graph::ImportSpec& import, base::Diagnostics& diagnostics) {
-    return of(import).shown(frame(), diagnostics);
-  }
-  void publish(const graph::ImportSpec& import) { of(import).publish(frame()); }
-  bool isPublished(const graph::ImportSpec& import) { return of(import).isPublished(frame()); }
-  std::uint64_t publications(const graph::ImportSpec& import) { return of(import).publications(frame()); }
-  void adopt(const graph::ImportSpec& import, gl::Texture shown) { of(import).adopt(std::move(shown)); }
+  std::shared_ptr<const gl::Texture> hold(const graph::ImportSpec& import) { return of(import).hold(); }
   BufferRef buffer(const graph::ImportSpec& import, const RowLayout& layout, base::Diagnostics& diagnostics) {
     return of(import).buffer(frame(), layout, diagnostics);
   }
@@ -79,7 +74,10 @@ class Imports {
   bool isPending(const graph::FlatGraph& graph, const World& world);
   // The graph whose picture is to stand in for an import that the world lacks; empty: none is needed.
   std::string standInGraph(const graph::ImportSpec& import, const World& world);
-  void setStandIn(const graph::ImportSpec& import, gl::TextureRef texture) { of(import).setStandIn(texture); }
+  // `texture` must live as long as the provider.
+  void setStandIn(const graph::ImportSpec& import, gl::TextureRef texture) {
+    heldOf(import).standIn = texture;
+  }
 
   // Frees what the world holds and the device has.
   void dropUploaded(World& world) const;
@@ -98,6 +96,7 @@ class Imports {
     std::uint64_t key = 0;
     const imports::Import* import = nullptr;
     std::unique_ptr<imports::Provider> provider;
+    gl::TextureRef standIn;  // id 0: there is none
     bool used = false;
   };
   Held& hold(const graph::ImportRequest& request, std::uint64_t key);

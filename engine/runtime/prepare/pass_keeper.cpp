@@ -138,8 +138,8 @@ bool PassKeeper::isSame(std::size_t step, std::uint32_t old) {
   return true;
 }
 
-bool PassKeeper::isInPlace(std::size_t step, std::uint32_t old, ResourcePool& pool,
-                           ResourcePool& poolBefore) const {
+bool PassKeeper::isInPlace(std::size_t step, std::uint32_t old, const ResourcePool& pool,
+                           const ResourcePool& poolBefore) const {
   const FlatPass& now = plan_.graph->passes[plan_.steps[step].pass];
   const FlatPass& then = before_.graph->passes[before_.steps[old].pass];
   for (std::uint32_t i = 0; i < now.useCount; ++i) {
@@ -150,7 +150,7 @@ bool PassKeeper::isInPlace(std::size_t step, std::uint32_t old, ResourcePool& po
   return true;
 }
 
-PreparedPass PassKeeper::take(std::size_t step, std::uint32_t old, PreparedPass prepared) {
+PreparedPass PassKeeper::keep(std::size_t step, std::uint32_t old, PreparedPass prepared) {
   [[maybe_unused]] const bool paired = pairUp(step, old);
   assert(paired && "isSame() held");
   const auto nowOf = [&](std::uint32_t resource) {

@@ -25,9 +25,10 @@ class PassKeeper {
   // Whether everything that the program is made of, and is checked against, is the same. `old`: stepBefore(step).
   bool isSame(std::size_t step, std::uint32_t old);
   // Whether the two steps also use the same storage. isSame() must hold.
-  bool isInPlace(std::size_t step, std::uint32_t old, ResourcePool& pool, ResourcePool& poolBefore) const;
-  // Makes what was prepared for `old` that of `step`. isSame() and isInPlace() must hold.
-  PreparedPass take(std::size_t step, std::uint32_t old, PreparedPass prepared);
+  bool isInPlace(std::size_t step, std::uint32_t old, const ResourcePool& pool,
+                 const ResourcePool& poolBefore) const;
+  // What was prepared for `old`, for `step`. isSame() and isInPlace() must hold.
+  PreparedPass keep(std::size_t step, std::uint32_t old, PreparedPass prepared);
 
  private:
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // resources: before, now

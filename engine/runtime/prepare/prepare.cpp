@@ -86,7 +86,7 @@ class Preparer {
   }
 
   // Null when the use is of a texture of the graph itself, or of a whole import.
-  std::unique_ptr<ImportPart> importPartOf(const FlatUse& use, GLenum target) {
+  std::shared_ptr<ImportPart> importPartOf(const FlatUse& use, GLenum target) {
     const FlatResource& resource = graph_.resources[use.resource];
     if (resource.kind != graph::ResourceKind::imported_texture) return nullptr;
     const GLenum own = glTargetOf(resource.target);
@@ -100,7 +100,7 @@ class Preparer {
                             .layer = use.layer,
                             .layers = use.layers,
                             .stencil = use.planes == 2};
-    return std::make_unique<ImportPart>(part, graph_.resourceNames[use.resource]);
+    return std::make_shared<ImportPart>(part, graph_.resourceNames[use.resource]);
   }
 
   static bool complete(const std::vector<GLuint>& views) {
@@ -320,7 +320,7 @@ class Preparer {
     if (!spec_.list.empty()) out_.list = static_cast<int>(*scene::findDrawList(spec_.list));
     out_.context.instances = spec_.instances;
     if (spec_.meshes) {
-      out_.meshes = std::make_unique<imports::MeshPass>(out_.variant->program.reflection(), spec_.name);
+      out_.meshes = std::make_shared<imports::MeshPass>(out_.variant->program.reflection(), spec_.name);
       return;
     }
     out_.context.geometry = c_.geometries.get(spec_.geometry, spec_.geometryArguments,

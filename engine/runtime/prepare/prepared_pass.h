@@ -35,7 +35,7 @@ struct TextureBinding {
   GLuint sampler = 0;
   std::vector<GLuint>
       views;  // per copy; empty for an import, which is bound by the current texture of its resource
-  std::unique_ptr<ImportPart> part{};  // of an import; null: the whole
+  std::shared_ptr<ImportPart> part{};  // of an import; null: the whole
   FirstOf firstOf{};                   // a binding with one stands behind the binding that it replaces
 };
 
@@ -45,7 +45,7 @@ struct ImageBinding {
   GLenum access = GL_READ_WRITE, format = GL_NONE;
   GLboolean layered = GL_FALSE;
   std::vector<GLuint> views;           // per copy, of exactly the level and layers
-  std::unique_ptr<ImportPart> part{};  // as above
+  std::shared_ptr<ImportPart> part{};  // as above
   FirstOf firstOf{};
 };
 
@@ -78,7 +78,7 @@ struct FixedBinding {
   std::int32_t layer = -1;  // -1: all
   std::uint8_t history = 0;
   std::vector<GLuint> views;           // per copy, of exactly the levels and layers
-  std::unique_ptr<ImportPart> part{};  // as above; of types without framebuffers
+  std::shared_ptr<ImportPart> part{};  // as above; of types without framebuffers
   std::vector<GLuint>
       textures;  // per copy, the whole, for framebuffers: Mesa's blits do not see where a view begins
   FirstOf firstOf{};
@@ -117,7 +117,7 @@ struct PreparedPass {
   std::uint32_t group = graph::kNone;             // as Plan::groups
   bool framebuffers = false, fromSource = false;  // as graph::PassType
   int list = -1;  // scene::DrawList whose rows are the instances of a draw; -1: none
-  std::unique_ptr<imports::MeshPass> meshes;  // of a draw of the list's meshes
+  std::shared_ptr<imports::MeshPass> meshes;  // of a draw of the list's meshes
   // The uniform blocks of the program, null for one that it does not have. The bytes of all passes lie in one buffer;
   // UniformArena gives the offsets in it, which are aligned.
   const gl::Block* parametersBlock = nullptr;

@@ -17,12 +17,4 @@ GLuint FramebufferCache::get(std::span<const gl::Attachment> attachments, const 
   return entries_.back().framebuffer.id();
 }
 
-void FramebufferCache::takeOver(FramebufferCache& other, const std::unordered_set<GLuint>& alive) {
-  for (Entry& entry : other.entries_)
-    if (std::ranges::all_of(entry.attachments,
-                            [&](const gl::Attachment& a) { return alive.contains(a.texture); }))
-      entries_.push_back(std::move(entry));
-  other.entries_.clear();
-}
-
 }  // namespace weft::runtime

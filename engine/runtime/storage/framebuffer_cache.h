@@ -1,11 +1,10 @@
-// Framebuffers, found by their attachments. They are derived from slots; no author names them. Does not: notice that an
-// attached texture is deleted (takeOver() is told).
+// Framebuffers, found by their attachments. They are derived from slots; no author names them. Lives no longer than the
+// textures that are attached.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -18,8 +17,6 @@ class FramebufferCache {
   // The GL name; 0 after an error. Without attachments, width and height give the area that is rasterised.
   GLuint get(std::span<const gl::Attachment> attachments, const std::string& label,
              base::Diagnostics& diagnostics, std::uint32_t width = 0, std::uint32_t height = 0);
-  // Takes the framebuffers of `other` whose attachments all still exist; `alive` has the names of textures and views that do.
-  void takeOver(FramebufferCache& other, const std::unordered_set<GLuint>& alive);
   std::size_t size() const { return entries_.size(); }
 
  private:

@@ -6,9 +6,9 @@
 #include <atomic>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
-#include "engine/base/hash.h"
 #include "engine/runtime/storage/formats.h"
 
 namespace weft::runtime {
@@ -45,10 +45,12 @@ bool isTexture(const FlatResource& r) {
 
 }  // namespace
 
-std::unique_ptr<PhysicalTexture> PhysicalTexture::create(const Storage& storage, const std::string& label,
+std::shared_ptr<PhysicalTexture> PhysicalTexture::create(const Storage& storage, std::string owner,
+                                                         const std::string& label,
                                                          base::Diagnostics& diagnostics) {
-  auto made = std::make_unique<PhysicalTexture>();
+  auto made = std::make_shared<PhysicalTexture>();
   made->desc_ = descOf(storage);
+  made->owner_ = std::move(owner);
   made->label_ = label;
   made->serial_ = nextSerial();
   for (std::uint32_t copy = 0; copy < storage.copies; ++copy) {
@@ -59,30 +61,8 @@ std::unique_ptr<PhysicalTexture> PhysicalTexture::create(const Storage& storage,
   return made;
 }
 
-namespace {
-
-std::uint64_t hashOf(const gl::TextureDesc& desc, std::uint32_t copies, const std::string& owner) {
-  std::uint64_t hash = base::hashBytes(owner);
-  for (const std::uint64_t part :
-       {std::uint64_t{desc.target}, std::uint64_t{desc.format}, std::uint64_t{desc.width},
-        std::uint64_t{desc.height}, std::uint64_t{desc.depth}, std::uint64_t{desc.layers},
-        std::uint64_t{desc.mips}, std::uint64_t{desc.samples}, std::uint64_t{copies}})
-    hash = base::hashCombine(hash, part);
-  return hash;
-}
-
-}  // namespace
-
-std::uint64_t PhysicalTexture::key() const {
-  return hashOf(desc_, copies(), owner);
-}
-
-std::uint64_t PhysicalTexture::keyOf(const Storage& storage, const std::string& owner) {
-  return hashOf(descOf(storage), storage.copies, owner);
-}
-
-bool PhysicalTexture::fits(const Storage& storage) const {
-  return storage.copies == copies() && descOf(storage) == desc_;
+bool PhysicalTexture::fits(const Storage& storage, const std::string& owner) const {
+  return owner == owner_ && storage.copies == copies() && descOf(storage) == desc_;
 }
 
 gl::TextureRef PhysicalTexture::view(std::uint32_t copy, const gl::ViewDesc& desc,
@@ -137,41 +117,16 @@ bool checkBlocks(const Plan& plan, base::Diagnostics& diagnostics) {
 
 }  // namespace
 
-void PhysicalTexture::collectNames(std::unordered_set<GLuint>& names) const {
-  for (const gl::Texture& texture : textures_) names.insert(texture.id());
-  for (const View& view : views_) names.insert(view.view.id());
-}
-
-std::unordered_set<GLuint> ResourcePool::textureNames() const {
-  std::unordered_set<GLuint> names;
-  for (const auto& texture : textures_) texture->collectNames(names);
-  return names;
-}
-
-std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePool* before,
+std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, const ResourcePool* before,
                                                    base::Diagnostics& diagnostics) {
   if (!checkBlocks(plan, diagnostics)) return nullptr;
   auto pool = std::make_unique<ResourcePool>();
   pool->resources_.resize(plan.graph->resources.size());
   pool->names_ = plan.graph->resourceNames;
-  if (!pool->createTextures(plan, before, diagnostics) || !pool->createBuffers(plan, before, diagnostics)) {
-    if (before) pool->giveBack(*before);
+  if (!pool->createTextures(plan, before, diagnostics) || !pool->createArena(plan, before, diagnostics) ||
+      !pool->createBuffers(plan, before, diagnostics))
     return nullptr;
-  }
-  // Publication state follows persistent storage.
-  if (before) {
-    std::unordered_map<std::uint64_t, const GpuResource*> bySerial;
-    for (const GpuResource& old : before->resources_) bySerial[old.serial] = &old;
-    for (GpuResource& mine : pool->resources_) {
-      if (mine.fresh || mine.serial == 0) continue;
-      const auto old = bySerial.find(mine.serial);
-      if (old == bySerial.end() || old->second->copies != mine.copies) continue;
-      mine.current = old->second->current;
-      mine.publications = old->second->publications;
-      mine.resets = old->second->resets;
-      mine.publishedAt = old->second->publishedAt;
-    }
-  }
+  if (before) pool->continueFrom(*before);
   std::unordered_map<std::uint32_t, const graph::Value*> clearOf;
   for (const graph::ClearSpec& clear : plan.graph->clears) clearOf[clear.resource] = &clear.value;
   for (const graph::HistorySpec& history : plan.graph->histories)
@@ -187,6 +142,21 @@ std::unique_ptr<ResourcePool> ResourcePool::create(const Plan& plan, ResourcePoo
   // A plan does not know these clears; its first steps may store to the same memory.
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   return pool;
+}
+
+// What was published lies in the shared storage.
+void ResourcePool::continueFrom(const ResourcePool& before) {
+  std::unordered_map<std::uint64_t, const GpuResource*> bySerial;
+  for (const GpuResource& old : before.resources_) bySerial[old.serial] = &old;
+  for (GpuResource& mine : resources_) {
+    if (mine.fresh || mine.serial == 0) continue;
+    const auto old = bySerial.find(mine.serial);
+    if (old == bySerial.end() || old->second->copies != mine.copies) continue;
+    mine.current = old->second->current;
+    mine.publications = old->second->publications;
+    mine.resets = old->second->resets;
+    mine.publishedAt = old->second->publishedAt;
+  }
 }
 
 void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::Value& value,
@@ -205,113 +175,104 @@ void ResourcePool::fill(const Plan& plan, std::uint32_t resource, const graph::V
   }
 }
 
-void ResourcePool::giveBack(ResourcePool& before) {
-  for (const Taken& taken : takenTextures_) before.textures_[taken.theirs] = std::move(textures_[taken.mine]);
-  for (const Taken& taken : takenBuffers_) before.buffers_[taken.theirs] = std::move(buffers_[taken.mine]);
-  if (arenaTaken_) before.arena_ = std::move(arena_);
+// First shares the storage of resources of the same name, so that passes find their textures where they were; then whatever
+// fits.
+void ResourcePool::shareTextures(const Plan& plan, const std::vector<std::string>& owners,
+                                 const ResourcePool& before, Textures& textures) const {
+  std::unordered_map<std::string_view, const GpuResource*> byName;
+  std::unordered_set<const PhysicalTexture*> shared;
+  for (std::size_t r = 0; r < before.resources_.size(); ++r)
+    if (before.resources_[r].texture) byName[before.names_[r]] = &before.resources_[r];
+  const auto share = [&](std::size_t s, const std::shared_ptr<PhysicalTexture>& old) {
+    if (!textures[s] && old && old->fits(plan.storages[s], owners[s]) && shared.insert(old.get()).second)
+      textures[s] = old;
+  };
+  for (std::size_t r = 0; r < resources_.size(); ++r)
+    if (const std::uint32_t s = plan.storageOf[r]; s != kNone)
+      if (const auto old = byName.find(names_[r]); old != byName.end()) share(s, old->second->texture);
+  for (std::size_t s = 0; s < textures.size(); ++s)
+    for (std::size_t r = 0; r < before.resources_.size() && !textures[s]; ++r)
+      share(s, before.resources_[r].texture);
 }
 
-// First takes the storage of resources of the same name, so that passes find their textures where they were; then whatever
-// fits.
-void ResourcePool::takeTextures(const Plan& plan, const std::vector<std::string>& owners,
-                                ResourcePool& before) {
-  std::unordered_map<std::string_view, const PhysicalTexture*> byName;
-  std::unordered_map<const PhysicalTexture*, std::size_t> indexOf;
-  for (std::size_t i = 0; i < before.textures_.size(); ++i)
-    if (before.textures_[i]) indexOf[before.textures_[i].get()] = i;
-  for (std::size_t r = 0; r < before.resources_.size(); ++r)
-    if (before.resources_[r].texture) byName[before.names_[r]] = before.resources_[r].texture;
-  const auto take = [&](std::size_t s, std::size_t i) {
-    std::unique_ptr<PhysicalTexture>& old = before.textures_[i];
-    if (!old || old->owner != owners[s] || !old->fits(plan.storages[s])) return false;
-    textures_[s] = std::move(old);
-    takenTextures_.push_back({s, i});
-    return true;
-  };
+bool ResourcePool::createTextures(const Plan& plan, const ResourcePool* before,
+                                  base::Diagnostics& diagnostics) {
+  std::vector<std::string> owners(plan.storages.size()), labels(plan.storages.size());
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const std::uint32_t s = plan.storageOf[r];
-    if (s == kNone || textures_[s]) continue;
-    const auto old = byName.find(names_[r]);
-    if (old == byName.end()) continue;
-    if (const auto index = indexOf.find(old->second); index != indexOf.end()) take(s, index->second);
-  }
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> left;  // by shape and owner
-  for (std::size_t i = 0; i < before.textures_.size(); ++i)
-    if (before.textures_[i]) left[before.textures_[i]->key()].push_back(i);
-  for (std::size_t s = 0; s < plan.storages.size(); ++s) {
-    if (textures_[s]) continue;
-    const auto found = left.find(PhysicalTexture::keyOf(plan.storages[s], owners[s]));
-    if (found == left.end()) continue;
-    std::vector<std::size_t>& fitting = found->second;
-    while (!fitting.empty() && !textures_[s]) {
-      take(s, fitting.back());
-      fitting.pop_back();
-    }
-  }
-}
-
-bool ResourcePool::createTextures(const Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics) {
-  std::vector<std::string> owners(plan.storages.size()), labels(plan.storages.size());
-  const auto forEachShared = [&](const auto& f) {
-    for (std::size_t r = 0; r < resources_.size(); ++r)
-      if (const std::uint32_t s = plan.storageOf[r]; s != kNone) f(r, s);
-  };
-  forEachShared([&](std::size_t r, std::uint32_t s) {
+    if (s == kNone) continue;
     if (plan.storages[s].persistent) owners[s] = names_[r];
-  });
-  textures_.resize(plan.storages.size());
-  if (before) takeTextures(plan, owners, *before);
-  forEachShared([&](std::size_t r, std::uint32_t s) {
-    if (!textures_[s]) labels[s].append(labels[s].empty() ? "" : " | ").append(names_[r]);
-  });
-  std::vector<std::uint8_t> reused(plan.storages.size(), 0);
-  for (std::size_t s = 0; s < plan.storages.size(); ++s) {
-    reused[s] = textures_[s] != nullptr;
-    if (!textures_[s]) textures_[s] = PhysicalTexture::create(plan.storages[s], labels[s], diagnostics);
-    if (!textures_[s]) return false;
-    textures_[s]->owner = owners[s];
+    labels[s].append(labels[s].empty() ? "" : " | ").append(names_[r]);
+  }
+  Textures textures(plan.storages.size());
+  if (before) shareTextures(plan, owners, *before, textures);
+  const Textures shared = textures;
+  for (std::size_t s = 0; s < textures.size(); ++s) {
+    if (!textures[s])
+      textures[s] = PhysicalTexture::create(plan.storages[s], owners[s], labels[s], diagnostics);
+    if (!textures[s]) return false;
   }
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const std::uint32_t s = plan.storageOf[r];
     if (s == kNone || !isTexture(plan.graph->resources[r])) continue;
     GpuResource& mine = resources_[r];
-    mine.texture = textures_[s].get();
+    mine.texture = textures[s];
     mine.copies = mine.texture->copies();
     mine.serial = mine.texture->serial();
-    mine.fresh = !reused[s];
+    mine.fresh = !shared[s];
   }
   return true;
 }
 
-bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::Diagnostics& diagnostics) {
-  constexpr GLbitfield kFlags = GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT;
-  bool arenaFresh = true;
-  if (plan.arenaBytes > 0) {
-    if (before && before->arena_ && before->arena_.bytes() == plan.arenaBytes) {
-      arena_ = std::move(before->arena_);
-      arenaTaken_ = true;
-      arenaSerial_ = before->arenaSerial_;
-      arenaFresh = false;
-    } else {
-      base::Diagnostics refused;
-      auto arena = gl::Buffer::create(plan.arenaBytes, kFlags, "transient buffers", refused);
-      // The message names the largest of the buffers, which gives it a place.
-      for (base::Diagnostic each : refused.items()) {
-        if (const std::uint32_t largest = largestTransientOf(plan); largest != kNone) {
-          each.resource = names_[largest];
-          each.hint = fmt::format("'{}' is the largest of them, {} bytes: make it smaller", names_[largest],
-                                  plan.graph->resources[largest].bytes);
-        }
-        diagnostics.add(std::move(each));
-      }
-      if (!arena) return false;
-      arena_ = std::move(*arena);
-      arenaSerial_ = nextSerial();
-    }
+namespace {
+
+constexpr GLbitfield kBufferFlags = GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT;
+
+bool fits(const PhysicalBuffer& buffer, std::size_t copies, std::uint64_t bytes) {
+  return buffer.copies.size() == copies && buffer.copies[0].bytes() == bytes;
+}
+
+std::shared_ptr<PhysicalBuffer> createBuffer(std::size_t copies, std::uint64_t bytes,
+                                             const std::string& label, base::Diagnostics& diagnostics) {
+  auto made = std::make_shared<PhysicalBuffer>();
+  made->serial = nextSerial();
+  while (made->copies.size() < copies) {
+    auto copy = gl::Buffer::create(bytes, kBufferFlags, label, diagnostics);
+    if (!copy) return nullptr;
+    made->copies.push_back(std::move(*copy));
   }
-  std::unordered_map<std::string_view, std::size_t> buffersBefore;
+  return made;
+}
+
+}  // namespace
+
+bool ResourcePool::createArena(const Plan& plan, const ResourcePool* before, base::Diagnostics& diagnostics) {
+  if (plan.arenaBytes == 0) return true;
+  if (before && before->arena_ && fits(*before->arena_, 1, plan.arenaBytes)) {
+    arena_ = before->arena_;
+    return true;
+  }
+  base::Diagnostics refused;
+  arena_ = createBuffer(1, plan.arenaBytes, "transient buffers", refused);
+  // The message names the largest of the buffers, which gives it a place.
+  for (base::Diagnostic each : refused.items()) {
+    if (const std::uint32_t largest = largestTransientOf(plan); largest != kNone) {
+      each.resource = names_[largest];
+      each.hint = fmt::format("'{}' is the largest of them, {} bytes: make it smaller", names_[largest],
+                              plan.graph->resources[largest].bytes);
+    }
+    diagnostics.add(std::move(each));
+  }
+  return arena_ != nullptr;
+}
+
+bool ResourcePool::createBuffers(const Plan& plan, const ResourcePool* before,
+                                 base::Diagnostics& diagnostics) {
+  std::unordered_map<std::string_view, std::shared_ptr<PhysicalBuffer>> byName;  // persistent ones
   if (before)
-    for (std::size_t i = 0; i < before->buffers_.size(); ++i) buffersBefore[before->buffers_[i].owner] = i;
+    for (std::size_t r = 0; r < before->resources_.size(); ++r)
+      if (const auto& old = before->resources_[r].buffer; old && old != before->arena_)
+        byName[before->names_[r]] = old;
   for (std::size_t r = 0; r < resources_.size(); ++r) {
     const FlatResource& desc = plan.graph->resources[r];
     GpuResource& mine = resources_[r];
@@ -319,33 +280,17 @@ bool ResourcePool::createBuffers(const Plan& plan, ResourcePool* before, base::D
     mine.bytes = desc.bytes;
     if (plan.bufferOffsetOf[r] != Plan::kNoOffset) {
       mine.offset = plan.bufferOffsetOf[r];
-      mine.buffers = {arena_.id()};
-      mine.serial = arenaSerial_;
-      mine.fresh = arenaFresh;
-      continue;
+      mine.buffer = arena_;
+      mine.fresh = !before || before->arena_ != arena_;
+    } else {
+      mine.copies = plan.copiesOf(static_cast<std::uint32_t>(r));
+      const auto old = byName.find(names_[r]);
+      mine.fresh = old == byName.end() || !fits(*old->second, mine.copies, desc.bytes);
+      mine.buffer = mine.fresh ? createBuffer(mine.copies, desc.bytes, names_[r], diagnostics) : old->second;
+      if (!mine.buffer) return false;
     }
-    const std::uint32_t copies = plan.copiesOf(static_cast<std::uint32_t>(r));
-    PersistentBuffer buffer;
-    if (const auto found = buffersBefore.find(names_[r]); found != buffersBefore.end()) {
-      PersistentBuffer& old = before->buffers_[found->second];
-      if (old.copies.size() == copies && old.copies[0].bytes() == desc.bytes) {
-        buffer.copies = std::exchange(old.copies, {});
-        buffer.serial = old.serial;
-        takenBuffers_.push_back({buffers_.size(), found->second});
-        mine.fresh = false;
-      }
-    }
-    while (buffer.copies.size() < copies) {
-      auto copy = gl::Buffer::create(desc.bytes, kFlags, names_[r], diagnostics);
-      if (!copy) return false;
-      buffer.copies.push_back(std::move(*copy));
-    }
-    if (mine.fresh) buffer.serial = nextSerial();
-    buffer.owner = names_[r];
-    for (const gl::Buffer& copy : buffer.copies) mine.buffers.push_back(copy.id());
-    mine.copies = copies;
-    mine.serial = buffer.serial;
-    buffers_.push_back(std::move(buffer));
+    mine.serial = mine.buffer->serial;
+    for (const gl::Buffer& copy : mine.buffer->copies) mine.buffers.push_back(copy.id());
   }
   return true;
 }

@@ -5,12 +5,12 @@
 
 namespace weft::runtime {
 
-FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment)
-    : plan_(plan), imports_(imports), arena_(alignment), values_(*plan.graph) {}
-
-void FrameUniforms::takeOver(FrameUniforms& before) {
-  arena_.takeOver(before.arena_);
-}
+FrameUniforms::FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment,
+                             const FrameUniforms* before)
+    : plan_(plan),
+      imports_(imports),
+      arena_(before ? before->arena_ : UniformArena(alignment)),
+      values_(*plan.graph) {}
 
 bool FrameUniforms::layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics) {
   if (!arena_.layOut(passes, diagnostics)) return false;

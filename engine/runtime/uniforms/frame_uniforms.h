@@ -21,13 +21,11 @@ namespace weft::runtime {
 
 class FrameUniforms {
  public:
-  // `plan` and `imports` must outlive this. `alignment` of blocks in bytes, as the device wants it.
-  FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment);
+  // `plan` and `imports` must outlive this. `alignment` of blocks in bytes, as the device wants it. Shares the buffer of the
+  // execution before, if there is one, some of whose passes are laid out next.
+  FrameUniforms(const graph::Plan& plan, Imports& imports, std::uint32_t alignment,
+                const FrameUniforms* before = nullptr);
 
-  // Takes over buffer and bytes of the execution before, some of whose passes are laid out next.
-  void takeOver(FrameUniforms& before);
-  // Gives the buffer back to `before`, from which it was taken: this is not to be used after all.
-  void giveBack(FrameUniforms& before) { arena_.giveBack(before.arena_); }
   // Gives the blocks of all prepared passes their places, and writes the values that do not change with time. False when the
   // buffer cannot be made; see UniformArena::layOut().
   bool layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);

@@ -20,17 +20,6 @@ struct Gap {
 
 }  // namespace
 
-void UniformArena::takeOver(UniformArena& before) {
-  buffer_ = std::move(before.buffer_);
-  bytes_ = before.bytes_;  // whose frames may go on, if what comes next fails
-  changed_ = before.changed_;
-}
-
-void UniformArena::giveBack(UniformArena& before) {
-  before.buffer_ = std::move(buffer_);
-  before.changed_ = true;
-}
-
 std::vector<UniformArena::Place> UniformArena::placesOf(std::span<PreparedPass* const> passes) const {
   std::vector<Place> places;
   const auto add = [&](const gl::Block* block, std::uint32_t& offset) {
@@ -69,10 +58,10 @@ bool UniformArena::layOut(std::span<PreparedPass* const> passes, base::Diagnosti
   const bool grows = end > bytes_.size(), together = grows && end / 2 > used;
   const std::size_t needed = together ? used : std::max<std::size_t>(end, bytes_.size());
   bool made = true;
-  if (needed > buffer_.bytes()) {
+  if (needed > (buffer_ ? buffer_->bytes() : 0)) {
     auto buffer = gl::Buffer::create(needed, GL_DYNAMIC_STORAGE_BIT, "uniforms", diagnostics);
     made = buffer.has_value();
-    if (made) buffer_ = std::move(*buffer);
+    if (made) buffer_ = std::make_shared<const gl::Buffer>(std::move(*buffer));
     changed_ = true;
   }
   if (grows) bytes_.resize(end);
@@ -115,7 +104,7 @@ std::uint64_t UniformArena::hash(std::uint32_t block, const gl::Block* layout, s
 
 void UniformArena::upload() {
   if (!changed_ || bytes_.empty()) return;
-  gl::uploadBuffer(buffer_.id(), 0, bytes_);
+  gl::uploadBuffer(buffer(), 0, bytes_);
   changed_ = false;
 }
 

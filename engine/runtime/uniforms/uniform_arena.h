@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,11 +26,6 @@ class UniformArena {
   // be free: then blocks move together, with their bytes. Room of passes that are not named is free. False when the buffer
   // cannot be made: blocks that had an offset keep it, and the buffer is the one before, which is too small for the others.
   bool layOut(std::span<PreparedPass* const> passes, base::Diagnostics& diagnostics);
-  // Takes over buffer and bytes of the execution before, some of whose passes are laid out next.
-  void takeOver(UniformArena& before);
-  // Gives the buffer back to `before`, from which it was taken; all its bytes will be sent again.
-  void giveBack(UniformArena& before);
-
   // Writes the bytes of one member. `value` must fit it (memberTakes). `block` is the offset of the block.
   void write(std::uint32_t block, const gl::BlockMember& member, const graph::Value& value);
   void writeView(std::uint32_t block, const gl::Block& layout, const scene::ViewData& view,
@@ -38,7 +34,7 @@ class UniformArena {
   // The hash of `seed` and the bytes of a block; `seed` itself when `layout` is null.
   std::uint64_t hash(std::uint32_t block, const gl::Block* layout, std::uint64_t seed) const;
   std::span<const std::byte> bytes() const { return bytes_; }
-  GLuint buffer() const { return buffer_.id(); }
+  GLuint buffer() const { return buffer_ ? buffer_->id() : 0; }
   // Sends the bytes when one has changed since the last call.
   void upload();
 
@@ -52,7 +48,7 @@ class UniformArena {
 
   std::uint32_t alignment_;
   std::vector<std::byte> bytes_;
-  gl::Buffer buffer_;
+  std::shared_ptr<const gl::Buffer> buffer_;
   bool changed_ = true;
 };
 

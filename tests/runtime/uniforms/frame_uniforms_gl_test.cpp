@@ -53,12 +53,11 @@ TEST_CASE("a frame writes what depends on time; a parameter is written when it i
   CHECK(live.amountOf("timed") == 20);
 }
 
-TEST_CASE("what takes over from the uniforms before starts with their bytes") {
+TEST_CASE("what follows an execution starts with its bytes") {
   const CleanScope clean;
   Filled live("tests/runtime/graphs/live.json");
   live.uniforms.refresh(live.on.passes, agedBy(3), false);
-  runtime::FrameUniforms next(*live.on.plan, live.on.device.imports, 256);
-  next.takeOver(live.uniforms);
+  const runtime::FrameUniforms next(*live.on.plan, live.on.device.imports, 256, &live.uniforms);
   CHECK(std::ranges::equal(next.arena().bytes(), live.uniforms.arena().bytes()));
 }
 

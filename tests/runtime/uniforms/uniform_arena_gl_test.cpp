@@ -128,8 +128,7 @@ TEST_CASE("a pass that stays keeps offset and bytes, a new one gets the room tha
   all.arena.write(all.a.parametersOffset, all.first.members[1], graph::Value::number(3));
   PreparedPass c, d;
   c.parametersBlock = d.parametersBlock = &all.first;
-  UniformArena next{kAlignment};
-  next.takeOver(all.arena);
+  UniformArena next = all.arena;
   const std::array<PreparedPass*, 3> passes = {&c, &all.b, &d};  // a is gone
   next.layOut(passes, all.diagnostics);
   next.upload();
@@ -143,12 +142,11 @@ TEST_CASE("a pass that stays keeps offset and bytes, a new one gets the room tha
   CHECK(all.diagnostics.empty());
 }
 
-TEST_CASE("taken over with the same passes, nothing is sent") {
+TEST_CASE("a copy with the same passes sends nothing") {
   const CleanScope clean;
   Arena all;
   all.arena.upload();
-  UniformArena next{kAlignment};
-  next.takeOver(all.arena);
+  UniformArena next = all.arena;
   const std::array<PreparedPass*, 2> passes = {&all.b, &all.a};
   next.layOut(passes, all.diagnostics);
   const float foreign = -1;
