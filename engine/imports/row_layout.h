@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,27 +26,5 @@ struct RowLayout {
 // False, with the problem, when the block is no array of a struct with fields among `columns`.
 bool rowLayoutOf(const gl::Block& block, std::span<const graph::TableColumn> columns, RowLayout& layout,
                  std::string& problem);
-
-// Fills the bytes of a table. What a layout leaves out is dropped, padding is zero.
-class RowWriter {
- public:
-  // `out` becomes `rows` rows of zeros, and at least one.
-  RowWriter(const RowLayout& layout, std::size_t rows, std::vector<std::byte>& out)
-      : layout_(layout), out_(out) {
-    out.assign((rows > 0 ? rows : 1) * layout.stride, std::byte{0});
-  }
-  // `value` has the size of the column's type, or more: a vec3 takes 12 bytes of it.
-  template <class T>
-  void put(std::size_t row, std::size_t column, const T& value) {
-    const std::int32_t offset = layout_.offsets[column];
-    if (offset >= 0)
-      std::memcpy(out_.data() + row * layout_.stride + static_cast<std::size_t>(offset), &value,
-                  sizeof value);
-  }
-
- private:
-  const RowLayout& layout_;
-  std::vector<std::byte>& out_;
-};
 
 }  // namespace weft::imports

@@ -1,9 +1,18 @@
-// A table of rows on the device, in as many layouts as shaders ask for; each is filled when its generation is not the wanted one.
+// Tables of rows on the device. A column is written in one place: its name, what graphs are told of it, and how its value is
+// found in a row. A table is held in as many layouts as shaders ask for; each is filled when it is older than the rows.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <functional>
+#include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -13,34 +22,104 @@
 
 namespace weft::imports {
 
-class RowTable {
- public:
-  explicit RowTable(std::string label) : label_(std::move(label)) {}
+template <class Value>
+constexpr const char* glslTypeOf() {
+  if constexpr (std::is_same_v<Value, float>) return "float";
+  if constexpr (std::is_same_v<Value, std::int32_t>) return "int";
+  if constexpr (std::is_same_v<Value, std::uint32_t>) return "uint";
+  if constexpr (std::is_same_v<Value, glm::vec2>) return "vec2";
+  if constexpr (std::is_same_v<Value, glm::vec3>) return "vec3";
+  if constexpr (std::is_same_v<Value, glm::vec4>) return "vec4";
+  if constexpr (std::is_same_v<Value, glm::mat4>) return "mat4";
+}
 
-  // `fill(layout, bytes)` writes all rows. Id 0 after an error.
-  template <class Fill>
-  BufferRef get(const RowLayout& layout, std::uint64_t generation, const Fill& fill,
-                base::Diagnostics& diagnostics) {
-    Copy& copy = copyOf(layout);
-    if (copy.generation != generation) {
-      fill(copy.layout, bytes_);
-      if (!send(copy, diagnostics)) return {};
-      copy.generation = generation;
-    }
-    return {copy.buffer.id(), copy.buffer.bytes()};
+template <class Row>
+struct Column {
+  graph::TableColumn told;
+  void (*write)(std::span<const Row> rows, std::byte* out, std::size_t stride) = nullptr;
+};
+
+// `Get` is a member of Row or a function of a row. What it gives says the type of the column.
+template <class Row, auto Get>
+Column<Row> column(std::string name, std::string doc) {
+  using Value = std::remove_cvref_t<std::invoke_result_t<decltype(Get), const Row&>>;
+  return {{std::move(name), glslTypeOf<Value>(), std::move(doc)},
+          [](std::span<const Row> rows, std::byte* out, std::size_t stride) {
+            for (const Row& row : rows) {
+              const Value value = std::invoke(Get, row);
+              std::memcpy(out, &value, sizeof value);
+              out += stride;
+            }
+          }};
+}
+
+template <class Row>
+using Columns = std::vector<Column<Row>>;
+
+// For reflect().
+template <class Row>
+std::vector<graph::TableColumn> tell(const Columns<Row>& columns) {
+  std::vector<graph::TableColumn> all;
+  for (const Column<Row>& each : columns) all.push_back(each.told);
+  return all;
+}
+
+// `out` becomes the rows, and at least one. What a layout leaves out is dropped, padding is zero.
+template <class Row>
+void writeRows(const RowLayout& layout, const Columns<Row>& columns, std::span<const Row> rows,
+               std::vector<std::byte>& out) {
+  constexpr std::size_t kTogether = 256;  // these stay in the cache while their columns are written
+  out.assign(std::max<std::size_t>(rows.size(), 1) * layout.stride, std::byte{0});
+  for (std::size_t first = 0; first < rows.size(); first += kTogether) {
+    const auto some = rows.subspan(first, std::min(kTogether, rows.size() - first));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (layout.offsets[c] >= 0)
+        columns[c].write(some,
+                         out.data() + first * layout.stride + static_cast<std::size_t>(layout.offsets[c]),
+                         layout.stride);
   }
+}
 
- private:
+// The buffers of a table, one for each layout.
+class RowBuffers {
+ public:
+  explicit RowBuffers(std::string label) : label_(std::move(label)) {}
   struct Copy {
     RowLayout layout;
     gl::Buffer buffer;
     std::uint64_t generation = 0;
   };
   Copy& copyOf(const RowLayout& layout);
-  bool send(Copy& copy, base::Diagnostics& diagnostics);
+  bool send(Copy& copy, std::vector<std::byte>& bytes, base::Diagnostics& diagnostics);
 
+ private:
   std::string label_;
   std::vector<std::unique_ptr<Copy>> copies_;
+};
+
+template <class Row>
+class RowTable {
+ public:
+  // `columns` must outlive this.
+  RowTable(std::string label, const Columns<Row>& columns) : columns_(&columns), buffers_(std::move(label)) {}
+
+  // `rows()` gives all rows; it is called when a layout is of another generation. Id 0 after an error.
+  template <class Rows>
+  BufferRef get(const RowLayout& layout, std::uint64_t generation, const Rows& rows,
+                base::Diagnostics& diagnostics) {
+    RowBuffers::Copy& copy = buffers_.copyOf(layout);
+    if (copy.generation != generation) {
+      const auto& all = rows();
+      writeRows(copy.layout, *columns_, std::span<const Row>(all), bytes_);
+      if (!buffers_.send(copy, bytes_, diagnostics)) return {};
+      copy.generation = generation;
+    }
+    return {copy.buffer.id(), copy.buffer.bytes()};
+  }
+
+ private:
+  const Columns<Row>* columns_;
+  RowBuffers buffers_;
   std::vector<std::byte> bytes_;
 };
 

@@ -4,29 +4,32 @@
 
 namespace weft::imports {
 
-std::span<const graph::TableColumn> sphereColumns() {
-  static const std::vector<graph::TableColumn> columns = {{"center", "vec3", "world"},
-                                                          {"radius", "float", "world units"},
-                                                          {"previous_center", "vec3", "of the frame before"},
-                                                          {"roughness", "float", "perceptual"},
-                                                          {"albedo", "vec3", "linear; F0 of a metal"},
-                                                          {"metallic", "float", "0 to 1"}};
+const Columns<scene::Instance>& sphereColumns() {
+  using Row = scene::Instance;
+  static const Columns<Row> columns = {
+      column<Row, &Row::center>("center", "world"),
+      column<Row, &Row::radius>("radius", "world units"),
+      column<Row, &Row::previous_center>("previous_center", "of the frame before"),
+      column<Row, &Row::roughness>("roughness", "perceptual"),
+      column<Row, &Row::albedo>("albedo", "linear; F0 of a metal"),
+      column<Row, &Row::metallic>("metallic", "0 to 1")};
   return columns;
 }
 
-std::span<const graph::TableColumn> meshColumns() {
-  static const std::vector<graph::TableColumn> columns = {
-      {"transform", "mat4", "model to world"},
-      {"previous_transform", "mat4", "of the frame before"},
-      {"material", "uint", "row of @materials"},
-      {"first_joint", "uint", "of @joints; of a mesh whose weights are not 0"}};
+const Columns<scene::MeshRow>& meshColumns() {
+  using Row = scene::MeshRow;
+  static const Columns<Row> columns = {
+      column<Row, &Row::transform>("transform", "model to world"),
+      column<Row, &Row::previous_transform>("previous_transform", "of the frame before"),
+      column<Row, &Row::material>("material", "row of @materials"),
+      column<Row, &Row::first_joint>("first_joint", "of @joints; of a mesh whose weights are not 0")};
   return columns;
 }
 
 SceneTables::SceneTables() {
   for (const std::string& name : scene::drawListNames()) {
-    sphereTables_.emplace_back(name);
-    meshTables_.emplace_back(name + " meshes");
+    sphereTables_.emplace_back(name, sphereColumns());
+    meshTables_.emplace_back(name + " meshes", meshColumns());
   }
 }
 
@@ -69,19 +72,8 @@ const std::vector<scene::Instance>& SceneTables::rows(scene::DrawList list) {
 
 BufferRef SceneTables::spheres(scene::DrawList list, const RowLayout& layout,
                                base::Diagnostics& diagnostics) {
-  const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-    const std::vector<scene::Instance>& all = rows(list);
-    RowWriter writer(wanted, all.size(), bytes);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      writer.put(i, 0, all[i].center);
-      writer.put(i, 1, all[i].radius);
-      writer.put(i, 2, all[i].previous_center);
-      writer.put(i, 3, all[i].roughness);
-      writer.put(i, 4, all[i].albedo);
-      writer.put(i, 5, all[i].metallic);
-    }
-  };
-  return sphereTables_[static_cast<std::size_t>(list)].get(layout, generation(list), fill, diagnostics);
+  const auto all = [&] { return std::span(rows(list)); };
+  return sphereTables_[static_cast<std::size_t>(list)].get(layout, generation(list), all, diagnostics);
 }
 
 const scene::MeshFrame& SceneTables::meshFrame() {
@@ -98,17 +90,8 @@ std::uint64_t SceneTables::meshGeneration(scene::DrawList list) {
 }
 
 BufferRef SceneTables::meshes(scene::DrawList list, const RowLayout& layout, base::Diagnostics& diagnostics) {
-  const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-    const std::span<const scene::MeshRow> all = meshFrame().rows(list);
-    RowWriter writer(wanted, all.size(), bytes);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      writer.put(i, 0, all[i].transform);
-      writer.put(i, 1, all[i].previous_transform);
-      writer.put(i, 2, all[i].material);
-      writer.put(i, 3, all[i].first_joint);
-    }
-  };
-  return meshTables_[static_cast<std::size_t>(list)].get(layout, meshGeneration(list), fill, diagnostics);
+  const auto all = [&] { return meshFrame().rows(list); };
+  return meshTables_[static_cast<std::size_t>(list)].get(layout, meshGeneration(list), all, diagnostics);
 }
 
 void SceneTables::see(std::span<scene::MeshView* const> views) {

@@ -22,8 +22,8 @@
 namespace weft::imports {
 
 // The columns of a list's spheres, and of its meshes.
-std::span<const graph::TableColumn> sphereColumns();
-std::span<const graph::TableColumn> meshColumns();
+const Columns<scene::Instance>& sphereColumns();
+const Columns<scene::MeshRow>& meshColumns();
 
 class SceneTables {
  public:
@@ -75,7 +75,8 @@ class SceneTables {
   std::uint64_t moments_ = 0;
   ListFacts facts_[scene::kDrawListCount];
   Rows rows_[scene::kDrawListCount];
-  std::vector<RowTable> sphereTables_, meshTables_;  // per draw list
+  std::vector<RowTable<scene::Instance>> sphereTables_;  // per draw list
+  std::vector<RowTable<scene::MeshRow>> meshTables_;
   scene::MeshFrame meshFrame_;
   std::uint64_t meshFrameNumber_ = 0;
   scene::MeshViews meshViews_;

@@ -2,17 +2,27 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstring>
+
+#include "engine/imports/row_table.h"
 
 using namespace weft;
 
 namespace {
 
-const std::vector<graph::TableColumn> kColumns = {{"center", "vec3", ""},
-                                                  {"radius", "float", ""},
-                                                  {"turned", "mat4", ""},
-                                                  {"albedo", "vec3", ""},
-                                                  {"metallic", "float", ""}};
+struct Ball {
+  glm::vec3 center{0};
+  float radius = 1;
+  glm::mat4 turned{1};
+  glm::vec3 albedo{0};
+  float metallic = 0;
+};
+const imports::Columns<Ball> kBall = {
+    imports::column<Ball, &Ball::center>("center", ""), imports::column<Ball, &Ball::radius>("radius", ""),
+    imports::column<Ball, &Ball::turned>("turned", ""), imports::column<Ball, &Ball::albedo>("albedo", ""),
+    imports::column<Ball, [](const Ball& ball) { return ball.metallic / 2; }>("metallic", "")};
+const std::vector<graph::TableColumn> kColumns = tell(kBall);
 
 gl::BlockMember fieldOf(const char* name, GLenum type, std::uint32_t offset) {
   return {.name = std::string("instance[0].") + name,
@@ -44,18 +54,21 @@ TEST_CASE("rows follow the layout that introspection reports, whatever the shade
   CHECK(layout.stride == 32);
   CHECK(layout.offsets == std::vector<std::int32_t>{0, -1, -1, 16, 12});
   std::vector<std::byte> bytes;
-  imports::RowWriter writer(layout, 2, bytes);
-  const float center[3] = {4, 5, 6}, albedo[3] = {0.1f, 0.2f, 0.3f};
-  writer.put(1, 0, center);
-  writer.put(1, 1, 7.0f);  // nobody wants it
-  writer.put(1, 3, albedo);
-  writer.put(1, 4, 0.75f);
+  const std::array rows = {
+      Ball{}, Ball{.center = {4, 5, 6}, .radius = 7, .albedo = {0.1f, 0.2f, 0.3f}, .metallic = 1.5f}};
+  imports::writeRows(layout, kBall, std::span<const Ball>(rows), bytes);
   REQUIRE(bytes.size() == 64);
   CHECK(at(bytes, 32 + 8) == 6.0f);
   CHECK(at(bytes, 32 + 12) == 0.75f);
   CHECK(at(bytes, 32 + 24) == 0.3f);
   CHECK(at(bytes, 32 + 28) == 0.0f);
   CHECK(at(bytes, 0) == 0.0f);
+}
+
+TEST_CASE("the type of a column is that of its values") {
+  std::vector<std::string> types;
+  for (const graph::TableColumn& column : kColumns) types.push_back(column.type);
+  CHECK(types == std::vector<std::string>{"vec3", "float", "mat4", "vec3", "float"});
 }
 
 TEST_CASE("a uniform block has the first row of a table, and no more") {
@@ -73,7 +86,7 @@ TEST_CASE("a uniform block has the first row of a table, and no more") {
 
 TEST_CASE("a table without rows has room for one, of zeros") {
   std::vector<std::byte> bytes(3, std::byte{1});
-  imports::RowWriter writer({.stride = 48, .offsets = {}}, 0, bytes);
+  imports::writeRows({.stride = 48, .offsets = {0, -1, -1, -1, -1}}, kBall, {}, bytes);
   CHECK(bytes == std::vector<std::byte>(48, std::byte{0}));
 }
 

@@ -1,28 +1,35 @@
 #include "engine/imports/ground/ground.h"
 
+#include <array>
+
 #include "engine/imports/row_table.h"
 
 namespace weft::imports {
 
 namespace {
 
+const Columns<scene::Ground>& groundColumns() {
+  using Row = scene::Ground;
+  static const Columns<Row> columns = {
+      column<Row, &Row::height>("height", "world Y"),
+      column<Row, [](const Row& row) { return row.albedo.value_or(glm::vec3(0)); }>("albedo",
+                                                                                    "linear, of its surface"),
+      column<Row, [](const Row& row) { return row.albedo ? row.radius : 0.0f; }>(
+          "radius", "of its surface; 0: it has none and shows the environment")};
+  return columns;
+}
+
 class GroundProvider : public Provider {
  public:
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
-    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-      const scene::Ground ground = frame.world.scene().ground.value_or(scene::Ground{});
-      RowWriter writer(wanted, 1, bytes);
-      writer.put(0, 0, ground.height);
-      writer.put(0, 1, ground.albedo.value_or(glm::vec3(0)));
-      writer.put(0, 2, ground.albedo ? ground.radius : 0.0f);
-    };
-    return table_.get(layout, generation(frame), fill, diagnostics);
+    const auto row = [&] { return std::array{frame.world.scene().ground.value_or(scene::Ground{})}; };
+    return table_.get(layout, generation(frame), row, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override { return frame.world.sceneGeneration(); }
   bool isStill(const World&) const override { return true; }
 
  private:
-  RowTable table_{"ground"};
+  RowTable<scene::Ground> table_{"ground", groundColumns()};
 };
 
 }  // namespace
@@ -32,9 +39,7 @@ graph::ImportType Ground::reflect() const {
           .kind = graph::ImportKind::buffer,
           .doc = "The plane that the scene stands on: one row.",
           .arguments = {},
-          .columns = {{"height", "float", "world Y"},
-                      {"albedo", "vec3", "linear, of its surface"},
-                      {"radius", "float", "of its surface; 0: it has none and shows the environment"}}};
+          .columns = tell(groundColumns())};
 }
 
 graph::ImportFacts Ground::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {

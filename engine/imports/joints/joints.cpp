@@ -7,24 +7,24 @@ namespace weft::imports {
 
 namespace {
 
+const Columns<scene::Joint>& jointColumns() {
+  using Row = scene::Joint;
+  static const Columns<Row> columns = {column<Row, &Row::now>("now", "bind pose to world"),
+                                       column<Row, &Row::previous>("previous", "of the frame before")};
+  return columns;
+}
+
 class JointsProvider : public Provider {
  public:
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
-    const std::span<const glm::mat4> joints = frame.tables.meshFrame().joints();
-    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-      RowWriter writer(wanted, joints.size() / 2, bytes);
-      for (std::size_t i = 0; i < joints.size() / 2; ++i) {
-        writer.put(i, 0, joints[2 * i]);
-        writer.put(i, 1, joints[2 * i + 1]);
-      }
-    };
-    return table_.get(layout, frame.tables.jointGeneration(), fill, diagnostics);
+    const auto rows = [&] { return frame.tables.meshFrame().joints(); };
+    return table_.get(layout, frame.tables.jointGeneration(), rows, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override { return frame.tables.jointGeneration(); }
   bool isStill(const World& world) const override { return world.scene().skins.size() == 0; }
 
  private:
-  RowTable table_{"joints"};
+  RowTable<scene::Joint> table_{"joints", jointColumns()};
 };
 
 }  // namespace
@@ -35,7 +35,7 @@ graph::ImportType Joints::reflect() const {
           .doc =
               "Of the joints of skinned meshes: bind pose to world, so that a vertex is the mean of its "
               "joints' matrices, by weight, times its position.",
-          .columns = {{"now", "mat4", "bind pose to world"}, {"previous", "mat4", "of the frame before"}}};
+          .columns = tell(jointColumns())};
 }
 
 graph::ImportFacts Joints::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {

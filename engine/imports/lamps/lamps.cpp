@@ -16,14 +16,40 @@ bool isCasting(const graph::ImportRequest& request) {
   return request.arguments[0].second.truth();
 }
 
+struct LampRow {
+  const scene::Lamp* lamp = nullptr;
+  std::int32_t shadow = -1;
+};
+
+const Columns<LampRow>& lampColumns() {
+  using Row = LampRow;
+  static const Columns<Row> columns = {
+      column<Row, [](const Row& row) { return row.lamp->position; }>("position", "world"),
+      column<Row, [](const Row& row) { return row.lamp->range; }>("range",
+                                                                  "world units; nothing beyond is lit"),
+      column<Row, [](const Row& row) { return row.lamp->intensity; }>(
+          "intensity", "linear RGB; irradiance times squared distance, scene-referred"),
+      column<Row, [](const Row& row) { return row.lamp->cosInner; }>(
+          "cos_inner", "of a spot: cosine within which it is full; -1 all round"),
+      column<Row, [](const Row& row) { return row.lamp->direction; }>("direction",
+                                                                      "unit, away from it, of a spot"),
+      column<Row, [](const Row& row) { return row.lamp->cosOuter; }>("cos_outer",
+                                                                     "cosine beyond which nothing is lit"),
+      column<Row, [](const Row& row) { return scene::nearPlaneOf(*row.lamp); }>("near_plane", "of its views"),
+      column<Row, [](const Row& row) { return row.lamp->radius; }>("radius",
+                                                                   "world units: its own, for soft shadows"),
+      column<Row, &Row::shadow>("shadow", "index among those that cast shadows, or -1")};
+  return columns;
+}
+
 class LampsProvider : public Provider {
  public:
   explicit LampsProvider(bool casting) : casting_(casting) {}
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     follow(frame);
-    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) { write(wanted, bytes); };
-    return table_.get(layout, generation_, fill, diagnostics);
+    return table_.get(
+        layout, generation_, [this] { return tableRows(); }, diagnostics);
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
     follow(frame);
@@ -62,21 +88,12 @@ class LampsProvider : public Provider {
       if (lamps_[row].shadow || !casting_) rows_.push_back(row);
   }
 
-  void write(const RowLayout& layout, std::vector<std::byte>& bytes) const {
-    RowWriter writer(layout, rows_.size(), bytes);
+  std::vector<LampRow> tableRows() const {
+    std::vector<LampRow> rows;
     std::int32_t casters = 0;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const scene::Lamp& lamp = lamps_[rows_[i]];
-      writer.put(i, 0, lamp.position);
-      writer.put(i, 1, lamp.range);
-      writer.put(i, 2, lamp.intensity);
-      writer.put(i, 3, lamp.cosInner);
-      writer.put(i, 4, lamp.direction);
-      writer.put(i, 5, lamp.cosOuter);
-      writer.put(i, 6, scene::nearPlaneOf(lamp));
-      writer.put(i, 7, lamp.radius);
-      writer.put(i, 8, lamp.shadow ? casters++ : -1);
-    }
+    for (const std::uint32_t row : rows_)
+      rows.push_back({.lamp = &lamps_[row], .shadow = lamps_[row].shadow ? casters++ : -1});
+    return rows;
   }
 
   bool casting_;
@@ -86,7 +103,7 @@ class LampsProvider : public Provider {
   std::span<const scene::Lamp> lamps_;  // of this frame
   std::vector<std::uint32_t> rows_;     // of lamps_ that the import has
   scene::ViewData view_;
-  RowTable table_{"lamps"};
+  RowTable<LampRow> table_{"lamps", lampColumns()};
 };
 
 }  // namespace
@@ -101,15 +118,7 @@ graph::ImportType Lamps::reflect() const {
                          .initial = graph::Value::boolean(false),
                          .choices = {},
                          .doc = "only those that cast shadows"}},
-          .columns = {{"position", "vec3", "world"},
-                      {"range", "float", "world units; nothing beyond is lit"},
-                      {"intensity", "vec3", "linear RGB; irradiance times squared distance, scene-referred"},
-                      {"cos_inner", "float", "of a spot: cosine within which it is full; -1 all round"},
-                      {"direction", "vec3", "unit, away from it, of a spot"},
-                      {"cos_outer", "float", "cosine beyond which nothing is lit"},
-                      {"near_plane", "float", "of its views"},
-                      {"radius", "float", "world units: its own, for soft shadows"},
-                      {"shadow", "int", "index among those that cast shadows, or -1"}},
+          .columns = tell(lampColumns()),
           .views = true};
 }
 

@@ -7,70 +7,72 @@ namespace weft::imports {
 
 namespace {
 
-std::vector<graph::TableColumn> columns() {
-  return {{"albedo", "vec3", "linear; factor of its map; F0 of a metal"},
-          {"metallic", "float", "factor of its map"},
-          {"emissive", "vec3", "radiance, scene-referred; factor of its map"},
-          {"roughness", "float", "perceptual; factor of its map"},
-          {"specular", "vec3", "Blinn–Phong: linear"},
-          {"shininess", "float", "Blinn–Phong: exponent"},
-          {"alpha", "float", "factor of the map's"},
-          {"alpha_cutoff", "float", "over 0: holes where alpha is below"},
-          {"normal_scale", "float", "of the map's x and y"},
-          {"occlusion_strength", "float", "0 to 1"},
-          {"albedo_map", "uint", "array << 16 | layer of @material_maps; 0xffffffff: none"},
-          {"normal_map", "uint", "tangent space"},
-          {"metallic_roughness_map", "uint", "metallic in b, roughness in g"},
-          {"occlusion_map", "uint", "in r"},
-          {"emissive_map", "uint", ""},
-          {"blinn_phong", "uint", "1: specular and shininess are what the file has"},
-          {"double_sided", "uint", "0 or 1"}};
+struct MaterialRow {
+  const scene::Material* material = nullptr;
+  std::uint32_t albedoMap = kNoMap, normalMap = kNoMap, metallicRoughnessMap = kNoMap, occlusionMap = kNoMap,
+                emissiveMap = kNoMap;
+};
+
+const Columns<MaterialRow>& materialColumns() {
+  using Row = MaterialRow;
+  static const Columns<Row> columns = {
+      column<Row, [](const Row& row) { return row.material->albedo; }>(
+          "albedo", "linear; factor of its map; F0 of a metal"),
+      column<Row, [](const Row& row) { return row.material->metallic; }>("metallic", "factor of its map"),
+      column<Row, [](const Row& row) { return row.material->emissive; }>(
+          "emissive", "radiance, scene-referred; factor of its map"),
+      column<Row, [](const Row& row) { return row.material->roughness; }>("roughness",
+                                                                          "perceptual; factor of its map"),
+      column<Row, [](const Row& row) { return row.material->specular; }>("specular", "Blinn–Phong: linear"),
+      column<Row, [](const Row& row) { return row.material->shininess; }>("shininess",
+                                                                          "Blinn–Phong: exponent"),
+      column<Row, [](const Row& row) { return row.material->alpha; }>("alpha", "factor of the map's"),
+      column<Row, [](const Row& row) { return row.material->alphaCutoff; }>(
+          "alpha_cutoff", "over 0: holes where alpha is below"),
+      column<Row, [](const Row& row) { return row.material->normalScale; }>("normal_scale",
+                                                                            "of the map's x and y"),
+      column<Row, [](const Row& row) { return row.material->occlusionStrength; }>("occlusion_strength",
+                                                                                  "0 to 1"),
+      column<Row, &Row::albedoMap>("albedo_map", "array << 16 | layer of @material_maps; 0xffffffff: none"),
+      column<Row, &Row::normalMap>("normal_map", "tangent space"),
+      column<Row, &Row::metallicRoughnessMap>("metallic_roughness_map", "metallic in b, roughness in g"),
+      column<Row, &Row::occlusionMap>("occlusion_map", "in r"),
+      column<Row, &Row::emissiveMap>("emissive_map", ""),
+      column<Row, [](const Row& row) { return std::uint32_t{row.material->blinnPhong}; }>(
+          "blinn_phong", "1: specular and shininess are what the file has"),
+      column<Row, [](const Row& row) { return std::uint32_t{row.material->doubleSided}; }>("double_sided",
+                                                                                           "0 or 1")};
+  return columns;
+}
+
+std::vector<MaterialRow> rowsOf(const scene::Scene& scene) {
+  const std::vector<std::uint32_t> maps = mapsOf(batchTextures(scene), scene.textures.size());
+  const auto mapOf = [&](scene::TextureId id) {
+    const scene::Texture* texture = scene.textures.find(id);
+    return texture ? maps[static_cast<std::size_t>(texture - scene.textures.rows().data())] : kNoMap;
+  };
+  std::vector<MaterialRow> rows;
+  for (const scene::Material& material : scene.materials.rows())
+    rows.push_back({.material = &material,
+                    .albedoMap = mapOf(material.albedoMap),
+                    .normalMap = mapOf(material.normalMap),
+                    .metallicRoughnessMap = mapOf(material.metallicRoughnessMap),
+                    .occlusionMap = mapOf(material.occlusionMap),
+                    .emissiveMap = mapOf(material.emissiveMap)});
+  return rows;
 }
 
 class MaterialsProvider : public Provider {
  public:
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
-    const scene::Scene& scene = frame.world.scene();
-    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-      write(scene, wanted, bytes);
-    };
-    return table_.get(layout, frame.world.sceneGeneration(), fill, diagnostics);
+    const auto rows = [&] { return rowsOf(frame.world.scene()); };
+    return table_.get(layout, frame.world.sceneGeneration(), rows, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override { return frame.world.sceneGeneration(); }
   bool isStill(const World&) const override { return true; }
 
  private:
-  static void write(const scene::Scene& scene, const RowLayout& layout, std::vector<std::byte>& bytes) {
-    const std::vector<std::uint32_t> maps = mapsOf(batchTextures(scene), scene.textures.size());
-    const auto mapOf = [&](scene::TextureId id) {
-      const scene::Texture* texture = scene.textures.find(id);
-      return texture ? maps[static_cast<std::size_t>(texture - scene.textures.rows().data())] : kNoMap;
-    };
-    const std::span<const scene::Material> rows = scene.materials.rows();
-    RowWriter writer(layout, rows.size(), bytes);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const scene::Material& material = rows[i];
-      std::size_t column = 0;
-      const auto put = [&](const auto& value) { writer.put(i, column++, value); };
-      put(material.albedo);
-      put(material.metallic);
-      put(material.emissive);
-      put(material.roughness);
-      put(material.specular);
-      put(material.shininess);
-      put(material.alpha);
-      put(material.alphaCutoff);
-      put(material.normalScale);
-      put(material.occlusionStrength);
-      for (const scene::TextureId id : {material.albedoMap, material.normalMap, material.metallicRoughnessMap,
-                                        material.occlusionMap, material.emissiveMap})
-        put(mapOf(id));
-      put(std::uint32_t{material.blinnPhong});
-      put(std::uint32_t{material.doubleSided});
-    }
-  }
-
-  RowTable table_{"materials"};
+  RowTable<MaterialRow> table_{"materials", materialColumns()};
 };
 
 }  // namespace
@@ -79,7 +81,7 @@ graph::ImportType Materials::reflect() const {
   return {.name = "materials",
           .kind = graph::ImportKind::buffer,
           .doc = "The scene's materials, one row each; shaders/scene/materials.glsl reads them.",
-          .columns = columns()};
+          .columns = tell(materialColumns())};
 }
 
 graph::ImportFacts Materials::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {

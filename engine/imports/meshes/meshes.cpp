@@ -41,7 +41,7 @@ graph::ImportType Meshes::reflect() const {
                          .choices = {},
                          .doc = "a draw list",
                          .drawList = true}},
-          .columns = {meshColumns().begin(), meshColumns().end()}};
+          .columns = tell(meshColumns())};
 }
 
 graph::ImportFacts Meshes::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {

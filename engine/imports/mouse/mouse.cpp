@@ -1,24 +1,32 @@
 #include "engine/imports/mouse/mouse.h"
 
+#include <array>
+
 #include "engine/imports/row_table.h"
 
 namespace weft::imports {
 
 namespace {
 
+const Columns<Pointer>& mouseColumns() {
+  using Row = Pointer;
+  static const Columns<Row> columns = {
+      column<Row, &Row::position>("position", "pixels, where it was last over the picture"),
+      column<Row, &Row::dragged>("dragged", "pixels, where it was last while the button was held"),
+      column<Row, &Row::pressed>("pressed", "pixels, where the button last went down"),
+      column<Row, [](const Row& row) { return std::uint32_t{row.down}; }>(
+          "down", "1 while the button is held, else 0"),
+      column<Row, [](const Row& row) { return std::uint32_t{row.clicked}; }>(
+          "clicked", "1 in the frame in which the button went down, else 0")};
+  return columns;
+}
+
 class MouseProvider : public Provider {
  public:
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     const std::uint64_t current = generation(frame);
-    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-      RowWriter writer(wanted, 1, bytes);
-      writer.put(0, 0, shown_.position);
-      writer.put(0, 1, shown_.dragged);
-      writer.put(0, 2, shown_.pressed);
-      writer.put(0, 3, std::uint32_t{shown_.down});
-      writer.put(0, 4, std::uint32_t{shown_.clicked});
-    };
-    return table_.get(layout, current, fill, diagnostics);
+    return table_.get(
+        layout, current, [this] { return std::array{shown_}; }, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override {
     if (generation_ == 0 || frame.input.pointer != shown_) {
@@ -32,7 +40,7 @@ class MouseProvider : public Provider {
  private:
   Pointer shown_;
   std::uint64_t generation_ = 0;
-  RowTable table_{"mouse"};
+  RowTable<Pointer> table_{"mouse", mouseColumns()};
 };
 
 }  // namespace
@@ -44,11 +52,7 @@ graph::ImportType Mouse::reflect() const {
               "Where the mouse points in the presented picture, and its left button: one row. Points are in "
               "pixels from the lower left corner, as gl_FragCoord counts them.",
           .arguments = {},
-          .columns = {{"position", "vec2", "pixels, where it was last over the picture"},
-                      {"dragged", "vec2", "pixels, where it was last while the button was held"},
-                      {"pressed", "vec2", "pixels, where the button last went down"},
-                      {"down", "uint", "1 while the button is held, else 0"},
-                      {"clicked", "uint", "1 in the frame in which the button went down, else 0"}}};
+          .columns = tell(mouseColumns())};
 }
 
 graph::ImportFacts Mouse::facts(const graph::ImportRequest&, const WorldFacts&, Files&) const {

@@ -24,7 +24,7 @@ graph::ImportType Spheres::reflect() const {
           .kind = graph::ImportKind::buffer,
           .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
           .arguments = {},
-          .columns = {sphereColumns().begin(), sphereColumns().end()}};
+          .columns = tell(sphereColumns())};
 }
 
 graph::ImportFacts Spheres::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {

@@ -1,6 +1,7 @@
 #include "engine/imports/sun/sun.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -24,6 +25,28 @@ std::optional<glm::vec3> directionOf(const graph::ImportRequest& request) {
   return glm::vec3(towards / length);
 }
 
+struct SunRow {
+  scene::Sun sun;
+  scene::SunView fitted;
+};
+
+const Columns<SunRow>& sunColumns() {
+  using Row = SunRow;
+  static const Columns<Row> columns = {
+      column<Row, [](const Row& row) { return row.sun.direction; }>("direction", "unit, towards it, world"),
+      column<Row,
+             [](const Row& row) {
+               return static_cast<float>(std::cos(row.sun.angle / 2 * std::numbers::pi / 180));
+             }>("cos_angle", "of half its diameter in the sky"),
+      column<Row, [](const Row& row) { return row.sun.irradiance; }>(
+          "irradiance", "linear RGB on what faces it, scene-referred"),
+      column<Row, [](const Row& row) { return row.fitted.texel; }>("texel",
+                                                                   "world units across a texel of its map"),
+      column<Row, [](const Row& row) { return row.fitted.shadowMatrix; }>(
+          "shadow_matrix", "world to u, v and reversed-Z depth of its map, 0 to 1")};
+  return columns;
+}
+
 class SunProvider : public Provider {
  public:
   SunProvider(std::uint32_t texels, std::optional<glm::vec3> direction)
@@ -31,15 +54,12 @@ class SunProvider : public Provider {
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     follow(frame);
-    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-      RowWriter writer(wanted, 1, bytes);
-      writer.put(0, 0, sun_.direction);
-      writer.put(0, 1, static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180)));
-      writer.put(0, 2, sun_.irradiance);
-      writer.put(0, 3, fitted_.texel);
-      writer.put(0, 4, fitted_.shadowMatrix);
-    };
-    return table_.get(layout, generation_, fill, diagnostics);
+    return table_.get(
+        layout, generation_,
+        [this] {
+          return std::array{SunRow{sun_, fitted_}};
+        },
+        diagnostics);
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart&) override {
     follow(frame);
@@ -79,7 +99,7 @@ class SunProvider : public Provider {
   scene::SunView fitted_;
   scene::Box bounds_;
   std::uint64_t frame_ = 0, scene_ = 0, sceneSeen_ = 0, generation_ = 0;
-  RowTable table_{"sun"};
+  RowTable<SunRow> table_{"sun", sunColumns()};
 };
 
 }  // namespace
@@ -103,11 +123,7 @@ graph::ImportType Sun::reflect() const {
             .initial = graph::Value::boolean(false),
             .choices = {},
             .doc = "true: there only if the scene's sun casts shadows"}},
-      .columns = {{"direction", "vec3", "unit, towards it, world"},
-                  {"cos_angle", "float", "of half its diameter in the sky"},
-                  {"irradiance", "vec3", "linear RGB on what faces it, scene-referred"},
-                  {"texel", "float", "world units across a texel of its map"},
-                  {"shadow_matrix", "mat4", "world to u, v and reversed-Z depth of its map, 0 to 1"}},
+      .columns = tell(sunColumns()),
       .views = true};
 }
 

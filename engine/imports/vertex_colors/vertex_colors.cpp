@@ -6,22 +6,24 @@ namespace weft::imports {
 
 namespace {
 
+const Columns<glm::vec4>& colorColumns() {
+  static const Columns<glm::vec4> columns = {
+      column<glm::vec4, std::identity{}>("color", "linear; a factor of the material's albedo and alpha")};
+  return columns;
+}
+
 class VertexColorsProvider : public Provider {
  public:
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     const scene::MeshData* data = frame.world.scene().meshData.get();
-    const auto fill = [&](const RowLayout& wanted, std::vector<std::byte>& bytes) {
-      const std::size_t count = data ? data->colors.size() : 0;
-      RowWriter writer(wanted, count, bytes);
-      for (std::size_t i = 0; i < count; ++i) writer.put(i, 0, data->colors[i]);
-    };
-    return table_.get(layout, frame.world.sceneGeneration(), fill, diagnostics);
+    const auto rows = [&] { return data ? std::span(data->colors) : std::span<const glm::vec4>(); };
+    return table_.get(layout, frame.world.sceneGeneration(), rows, diagnostics);
   }
   std::uint64_t generation(const Frame& frame) override { return frame.world.sceneGeneration(); }
   bool isStill(const World&) const override { return true; }
 
  private:
-  RowTable table_{"vertex colours"};
+  RowTable<glm::vec4> table_{"vertex colours", colorColumns()};
 };
 
 }  // namespace
@@ -33,7 +35,7 @@ graph::ImportType VertexColors::reflect() const {
       .doc =
           "A row for each vertex of the scene's meshes, which a vertex shader of geometry `mesh` finds by "
           "gl_VertexID. It exists where a mesh has vertex colours; those of the others are white.",
-      .columns = {{"color", "vec4", "linear; a factor of the material's albedo and alpha"}}};
+      .columns = tell(colorColumns())};
 }
 
 graph::ImportFacts VertexColors::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {

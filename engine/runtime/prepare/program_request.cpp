@@ -41,8 +41,8 @@ std::span<const graph::TableColumn> columnsOf(const FlatGraph& graph, const Flat
   return graph.imports[import].columns;
 }
 
-std::span<const graph::TableColumn> instanceColumnsOf(const PassSpec& spec) {
-  return spec.meshes ? imports::meshColumns() : imports::sphereColumns();
+std::vector<graph::TableColumn> instanceColumnsOf(const PassSpec& spec) {
+  return spec.meshes ? tell(imports::meshColumns()) : tell(imports::sphereColumns());
 }
 
 bool givesRasterAlone(const Plan& plan, std::uint32_t pass, std::uint32_t use) {

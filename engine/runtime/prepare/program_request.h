@@ -25,6 +25,6 @@ std::string presenceDefineOf(std::string_view name);
 // The columns of the table that a use reads; empty when the use reads no table.
 std::span<const graph::TableColumn> columnsOf(const graph::FlatGraph& graph, const graph::FlatUse& use);
 // The columns of the rows of the list that a draw pass draws.
-std::span<const graph::TableColumn> instanceColumnsOf(const graph::PassSpec& spec);
+std::vector<graph::TableColumn> instanceColumnsOf(const graph::PassSpec& spec);
 
 }  // namespace weft::runtime

@@ -35,7 +35,7 @@ void MeshFrame::rebuild(const Scene& scene) {
     }
     skinMoves_.push_back(moves ? 1 : 0);
   }
-  joints_.assign(jointNodes_.size() * 2, glm::mat4(1));
+  joints_.assign(jointNodes_.size(), {});
 
   facts_.clear();
   for (const MeshInstance& instance : scene.meshInstances.rows()) {
@@ -89,8 +89,8 @@ void MeshFrame::fillSkin(const Scene& scene, std::size_t row) {
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {
     const std::size_t joint = firstJoint_[row] + j;
     const std::uint32_t node = jointNodes_[joint];
-    joints_[2 * joint] = transforms_.now()[node] * skin.inverseBind[j];
-    joints_[2 * joint + 1] = transforms_.previous()[node] * skin.inverseBind[j];
+    joints_[joint].now = transforms_.now()[node] * skin.inverseBind[j];
+    joints_[joint].previous = transforms_.previous()[node] * skin.inverseBind[j];
   }
 }
 
@@ -109,7 +109,7 @@ void MeshFrame::fillRow(const Scene& scene, ListTable& table, std::uint32_t row)
   out.first_joint = firstJoint_[facts.skin];
   Box box;
   for (std::size_t j = 0; j < mesh.jointBounds.size(); ++j)
-    box.add(transformBox(joints_[2 * (out.first_joint + j)], mesh.jointBounds[j]));
+    box.add(transformBox(joints_[out.first_joint + j].now, mesh.jointBounds[j]));
   table.bounds[row] = box;
 }
 

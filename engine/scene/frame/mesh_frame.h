@@ -21,8 +21,13 @@ namespace weft::scene {
 struct MeshRow {
   glm::mat4 transform{1}, previous_transform{1};
   std::uint32_t material = 0;     // row of Scene::materials
-  std::uint32_t first_joint = 0;  // of a skinned mesh: counts joints, not matrices
+  std::uint32_t first_joint = 0;  // of a skinned mesh
   std::uint32_t mesh = 0;         // row of Scene::meshes
+};
+
+// Of a skinned mesh: takes a vertex from the bind pose to the world, in this frame and in the one before.
+struct Joint {
+  glm::mat4 now{1}, previous{1};
 };
 
 class MeshFrame {
@@ -39,7 +44,7 @@ class MeshFrame {
   // World space, parallel to rows.
   std::span<const Box> bounds(DrawList list) const { return tableOf(list).bounds; }
   // Two per joint: now, previous. From the mesh to the world.
-  std::span<const glm::mat4> joints() const { return joints_; }
+  std::span<const Joint> joints() const { return joints_; }
   // Moves when a row may be another.
   std::uint64_t generation(DrawList list) const { return tableOf(list).generation; }
   std::uint64_t jointsGeneration() const { return jointsGeneration_; }
@@ -101,7 +106,7 @@ class MeshFrame {
   std::uint32_t tableOf_[kDrawListCount] = {};
   std::vector<std::uint32_t> firstJoint_;  // by row of Scene::skins
   std::vector<std::uint32_t> jointNodes_;  // rows, of all skins one after another
-  std::vector<glm::mat4> joints_;
+  std::vector<Joint> joints_;
   std::vector<std::uint8_t> skinMoves_;  // by row of Scene::skins
   std::uint64_t jointsGeneration_ = 0, count_ = 0;
   bool spheresMove_ = false;
