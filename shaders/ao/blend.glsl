@@ -1,10 +1,10 @@
-// Which neighbours of a surface point lie on the same surface, for filters of ambient occlusion.
+// Which neighbors of a surface point lie on the same surface, for filters of ambient occlusion.
 #ifndef AO_BLEND_GLSL
 #define AO_BLEND_GLSL
 
 #include "surface.glsl"
 
-// Weight of a neighbour by its distance from the tangent plane, 0 at `thickness`; `pixel` is the neighbour's in the depth.
+// Weight of a neighbor by its distance from the tangent plane, 0 at `thickness`; `pixel` is the neighbor's in the depth.
 float onPlane(vec3 place, vec3 n, float thickness, ivec2 pixel, float neighbour_distance) {
   if (neighbour_distance <= 0.0) return 0.0;
   vec3 other = axisRay(vec2(pixel) + 0.5) * neighbour_distance;

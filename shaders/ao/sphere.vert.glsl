@@ -3,7 +3,7 @@
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 
-flat out vec4 sphere;  // centre in view space, radius
+flat out vec4 sphere;  // center in view space, radius
 
 const vec2 kCorner = vec2(1.0, 0.41421356);  // of an octagon around the unit circle: tan(pi / 8)
 

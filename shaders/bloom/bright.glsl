@@ -12,7 +12,7 @@ vec3 brightOf(float threshold, float knee) {
 
 float peakOf(vec3 color) { return max(max(color.r, color.g), max(color.b, 1e-6)); }
 
-// Of a colour with this peak: its bright part is color * brightPeak / peak.
+// Of a color with this peak: its bright part is color * brightPeak / peak.
 float brightPeak(float peak, vec3 bright) {
   float ramp = clamp(peak - bright.x + bright.y, 0.0, 2.0 * bright.y);
   return max(ramp * ramp * bright.z, peak - bright.x);

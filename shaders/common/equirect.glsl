@@ -6,7 +6,7 @@
 
 const float kPi = 3.14159265358979;
 
-// The direction need not be normalised. As fastAtan of common/fast_atan.glsl, for both angles; the second is between -pi/2 and pi/2.
+// The direction need not be normalized. As fastAtan of common/fast_atan.glsl, for both angles; the second is between -pi/2 and pi/2.
 vec2 equirectUv(vec3 direction) {
   vec2 ax = vec2(abs(direction.x), length(direction.xz)), ay = abs(direction.zy);
   vec2 t = min(ax, ay) / max(max(ax, ay), 1e-30);

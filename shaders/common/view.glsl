@@ -19,7 +19,7 @@ layout(std140) uniform View {
   float delta_time;
 };
 
-// World direction of the ray through a point of the target, 0..1 from its lower left corner. Not normalised: its
+// World direction of the ray through a point of the target, 0..1 from its lower left corner. Not normalized: its
 // component along the view axis is 1. Perspective views only; exact (no general inverse is involved).
 vec3 viewRay(vec2 target_uv) {
   vec2 ndc = target_uv * 2.0 - 1.0;
@@ -33,7 +33,7 @@ vec3 towardsEye(vec3 position) {
   return projection[3].w == 0.0 ? normalize(eye - position) : transpose(mat3(view))[2];
 }
 
-// Radians that one pixel covers at the centre of the view.
+// Radians that one pixel covers at the center of the view.
 float pixelAngle() { return 2.0 / (projection[1].y * viewport.y); }
 
 // How wide a lookup for one pixel has to be. Jitter means that the mean of many frames is shown, which blurs by itself.

@@ -1,4 +1,4 @@
-// A table of colours, as the import cube_lut gives it. Takes and gives display-referred, encoded values. Bound `as linear`.
+// A table of colors, as the import cube_lut gives it. Takes and gives display-referred, encoded values. Bound `as linear`.
 // A 3D table is as deep as it is wide. A 1D table (three curves) is not, and has its entries along rows.
 #ifndef COMPOSITE_LUT_GLSL
 #define COMPOSITE_LUT_GLSL
@@ -30,7 +30,7 @@ vec3 applyLut(sampler3D table, vec3 encoded) {
                    texelFetch(table, ivec3(1, 0, 1), 0).a);
   vec3 at = clamp((encoded - low) / (high - low), 0.0, 1.0);
   float n = float(size.x);
-  return textureLod(table, (at * (n - 1.0) + 0.5) / n, 0.0).rgb;  // first and last entries are at texel centres
+  return textureLod(table, (at * (n - 1.0) + 0.5) / n, 0.0).rgb;  // first and last entries are at texel centers
 }
 
 #endif

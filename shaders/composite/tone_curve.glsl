@@ -37,7 +37,7 @@ vec3 agx(vec3 color) {
 #endif
 
 #if CURVE == CURVE_NEUTRAL
-// Khronos PBR Neutral tone mapper, 2024: base colours up to 0.8 are kept, highlights are compressed and lose colour.
+// Khronos PBR Neutral tone mapper, 2024: base colors up to 0.8 are kept, highlights are compressed and lose color.
 vec3 neutral(vec3 color) {
   const float start = 0.8 - 0.04, desaturation = 0.15;
   float low = min(color.r, min(color.g, color.b));
@@ -51,7 +51,7 @@ vec3 neutral(vec3 color) {
 }
 #endif
 
-const float kFilmicGain = 3.0;  // puts middle grey, 0.18, near 0.18 for whites around 4 to 10
+const float kFilmicGain = 3.0;  // puts middle gray, 0.18, near 0.18 for whites around 4 to 10
 
 // What toneCurve takes of `white`: the same for all pixels.
 float curveWhite(float white) {

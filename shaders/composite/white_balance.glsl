@@ -2,7 +2,7 @@
 // temperature  of that light in K, 2000..15000. A higher value says that the light was bluer, so the picture becomes warmer
 // tint         -100..100. A value above 0 says that the light was greener, so the picture becomes more magenta; 1 is 0.0003 Duv
 //              across the locus
-// Lights lie on the black-body locus (Krystek, "An algorithm to calculate correlated colour temperature", 1985; CIE 1960 uv),
+// Lights lie on the black-body locus (Krystek, "An algorithm to calculate correlated color temperature", 1985; CIE 1960 uv),
 // moved by the constant that brings it through D65 at 6504 K: there, with tint 0, nothing changes. Adaptation: Bradford.
 #ifndef COMPOSITE_WHITE_BALANCE_GLSL
 #define COMPOSITE_WHITE_BALANCE_GLSL

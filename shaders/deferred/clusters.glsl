@@ -15,6 +15,8 @@ const float kSlicesPerOctave = 2.5;  // of distance, from the near plane on; the
 
 int wordsOf(int lamp_count) { return (lamp_count + 31) / 32; }
 ivec2 tilesOf(ivec2 size) { return (size + LAMP_TILE - 1) / LAMP_TILE; }
+// Number of the tile that a pixel of a target of that size is in.
+int tileAt(ivec2 pixel, ivec2 size) { return pixel.y / LAMP_TILE * tilesOf(size).x + pixel.x / LAMP_TILE; }
 
 int sliceOf(float view_distance) {
   return clamp(int(floor(log2(max(view_distance / near_plane, 1e-6)) * kSlicesPerOctave)), 0, LAMP_SLICES - 1);

@@ -2,7 +2,7 @@
 //   normal    rg16             world normal, octahedral (Cigolle et al., "A survey of efficient representations for independent
 //                              unit vectors", JCGT 3(2), 2014), scaled so that the six axes are exact
 //   base      srgb8_a8         albedo, linear in the shader; F0 of a metal
-//   mro       rgba8            metallic, perceptual roughness, occlusion of the material; a: 0 Cook-Torrance, else Blinn-Phong
+//   metallic_roughness   rgba8   metallic, perceptual roughness, occlusion of the material; a: 0 Cook-Torrance, else Blinn-Phong
 //                              with the exponent exp2(10 a)
 //   emissive  r11f_g11f_b10f   radiance, scene-referred
 //   velocity  rg16f            screen UV per frame

@@ -1,6 +1,6 @@
 // The surface of a mesh as the G-buffer holds it, see deferred/gbuffer.glsl. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
-// modify  normal, base, mro, emissive?, velocity?, position? (rgba16f, world: to compare with what depth says), depth
+// modify  normal, base, metallic_roughness, emissive?, velocity?, position? (rgba16f, world: to compare with what depth says), depth
 // define  SPECULAR_AA                 see meshes/surface.glsl
 #include "deferred/gbuffer.glsl"
 #include "meshes/surface.glsl"
@@ -11,8 +11,8 @@ out vec2 normal;
 #ifdef HAS_BASE
 out vec4 base;
 #endif
-#ifdef HAS_MRO
-out vec4 mro;
+#ifdef HAS_METALLIC_ROUGHNESS
+out vec4 metallic_roughness;
 #endif
 #ifdef HAS_EMISSIVE
 out vec3 emissive;
@@ -32,8 +32,8 @@ void main() {
 #ifdef HAS_BASE
   base = vec4(self.albedo, 1.0);
 #endif
-#ifdef HAS_MRO
-  mro = vec4(self.metallic, self.roughness, self.occlusion, self.shininess > 0.0 ? encodeExponent(self.shininess) : 0.0);
+#ifdef HAS_METALLIC_ROUGHNESS
+  metallic_roughness = vec4(self.metallic, self.roughness, self.occlusion, self.shininess > 0.0 ? encodeExponent(self.shininess) : 0.0);
 #endif
 #ifdef HAS_EMISSIVE
   emissive = self.emissive;

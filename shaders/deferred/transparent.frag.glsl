@@ -1,37 +1,31 @@
-// A mesh that one sees through, lit by all that lights the G-buffer, occlusion from depth aside. Behind meshes/surface.vert.glsl.
+// A transparent mesh, lit by the lights of the G-buffer; without screen-space occlusion. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
 //         air?                        see fog/fog.glsl
-//         what light comes from       see shading/light.glsl
+//         the lights: shading/light.glsl
 // modify  radiance   scene-referred, premultiplied by the material's alpha: blend "premultiplied"
-// params, defines    see shading/light.glsl and light.glsl
+// params, defines    see shading/light.glsl and shading_model.glsl
 #include "fog/fog.glsl"
 #include "meshes/surface.glsl"
-#include "light.glsl"
+#include "shading_model.glsl"
+#include "shading/light.glsl"
+#include "shading/lobe.glsl"
 
 #ifdef HAS_RADIANCE
 out vec4 radiance;
 #endif
 
-vec3 emitted = vec3(0.0);
-float alpha = 1.0;
-
-void findPoint(out Point point) {
+void main() {
   MeshSurface self = meshSurface();
-  point.at = world_position;
-  point.n = self.normal;
-  point.surface = Surface(self.albedo, self.metallic, self.roughness);
-  finishPoint(point, self.shininess);
-  seen = self.occlusion;
-  emitted = self.emissive;
-  alpha = self.alpha;
-}
-
-void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
 #ifdef HAS_RADIANCE
-  vec3 light = from_around + from_lights + emitted;
+  Point point = pointAt(world_position, self.normal, self.occlusion);
+  Response response = modelResponse(Surface(self.albedo, self.metallic, self.roughness), self.shininess, point.nv);
+
+  LightsSeen seen = lightsSeen(point);
+  Ambient ambient = ambientOf(point, response, lobeOf(response.roughness, 0.0), seen);
+  vec3 light = lightOf(point, response, ambient, seen).radiance + self.emissive;
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif
-  radiance = vec4(light * alpha, alpha);
+  radiance = vec4(light * self.alpha, self.alpha);
 #endif
 }

@@ -1,9 +1,9 @@
 // One bit a pixel, or a channel: ordered dither by the 4 x 4 matrix of Bayer ("An optimum method for two-level rendition of continuous-tone
-// pictures", IEEE ICC 1973). Light is compared, not its encoding, so that a grey and its pattern are equally bright.
+// pictures", IEEE ICC 1973). Light is compared, not its encoding, so that a gray and its pattern are equally bright.
 // read    source   the encoded picture, nearest
 // write   result   0 or 1
 // params  pixel    side of a dot, pixels of the picture
-// defines COLOR    1: each channel by itself, eight colours; 0: luminance, black and white
+// defines COLOR    1: each channel by itself, eight colors; 0: luminance, black and white
 #ifndef COLOR
 #define COLOR 0
 #endif

@@ -59,7 +59,7 @@ float fillVariance(float radius, float gap) {
                         : clamp(min(1.6 * gap - 0.98, 0.5 * (radius - EACH_TEXEL)), 0.0, 0.6 * gap);
 }
 
-// The fill takes its mean of lookups this many texels apart, and gives the neighbours along an axis this weight beside the middle's 1: so the
+// The fill takes its mean of lookups this many texels apart, and gives the neighbors along an axis this weight beside the middle's 1: so the
 // texels of even and of odd distance have equal weight from a variance of a half on, where a lookup between two texels counts for both.
 float fillStride(float variance) {
   return max((4.0 * variance + 2.0) / (2.0 * variance + 3.0), 1.0);

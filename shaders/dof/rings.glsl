@@ -1,5 +1,5 @@
 // The places on a disc at which the bokeh passes sample. In small discs each texel is one, so that the disc is as true as the size of the fields allows.
-// In others they are rings of 5, 10, 15 ... around the middle, so that each place stands for the same area. Four neighbouring pixels have four sets of places, and the mean of the fill takes as much of each: so its pixels see four times as
+// In others they are rings of 5, 10, 15 ... around the middle, so that each place stands for the same area. Four neighboring pixels have four sets of places, and the mean of the fill takes as much of each: so its pixels see four times as
 // many places (interleaved sampling; Keller and Heidrich, EGWR 2001). Whoever includes this defines takePlace().
 #ifndef DOF_RINGS_GLSL
 #define DOF_RINGS_GLSL

@@ -1,7 +1,7 @@
 // Where a display-referred picture has edges.
 // read    source   encoded picture, the target's size, not `as linear`
-// write   edges    depth: 0 where the contrast to a neighbour is high, else 1
-// params  edge_threshold       contrast, relative to the brightest neighbour, from which on a pixel is an edge
+// write   edges    depth: 0 where the contrast to a neighbor is high, else 1
+// params  edge_threshold       contrast, relative to the brightest neighbor, from which on a pixel is an edge
 //         edge_threshold_min   the same, absolute: there are no edges in the dark
 #include "luma.glsl"
 
@@ -13,7 +13,7 @@ layout(std140) uniform Parameters {
 noperspective in vec2 uv;
 
 void main() {
-  // Of its four neighbours a pixel shares its 2x2 quad with two: a fine derivative is the difference to those, exactly.
+  // Of its four neighbors a pixel shares its 2x2 quad with two: a fine derivative is the difference to those, exactly.
   vec2 size = vec2(textureSize(source, 0));
   vec2 side = mix(vec2(-1.0), vec2(1.0), greaterThan(fract(0.5 * uv * size), vec2(0.5))), beside = uv + side / size;
   float m = luma(textureLod(source, uv, 0.0).rgb);

@@ -1,5 +1,5 @@
 // Reads a grid of light probes (gi/grid.glsl) at a point: irradiance in units of an environment of radiance 1.
-// probes   buffer: of the import `probes`, or of gi/bake.comp.glsl
+// probes   buffer: of the import `probes`, or of spheres/probes/bake.comp.glsl
 // sh?      a 3D texture that gi/textures.comp.glsl makes of it, `as linear`: seven parts along z, of which channel c of part i has number
 //          4 i + c of the 27 (coefficient * 3 + channel); the last channel is zero. No lookup reaches from one part into another
 #ifndef GI_PROBES_GLSL

@@ -1,27 +1,27 @@
 // The ground: where it has a surface, that, lit by sky, sun and the brightest spot; else what is behind, darkened by as much as light is
 // missing. Spheres drawn before have left what light arrives.
 // read    ground       see scene/ground.glsl
-//         irradiance?, brightest?, sun?   light, see shading/ibl.glsl, ibl/brightest.glsl, scene/sun.glsl
+//         irradiance?, brightest?, sun?   light, see shading/material.glsl, ibl/brightest.glsl, scene/sun.glsl
 //         sky?         rgb: share of the sky's light that arrives; the target's size, not `as linear`
 //         lights?      x, y: shares of the sun's and of the brightest spot's; as sky
-//         light_maps?, light_depths?, ball?   what meshes hide of sun and spot, see shading/mesh_shadow.glsl
-//         mesh_sky?    the share of the sky's light that meshes leave, see ground/mesh_sky.frag.glsl; `as linear`, with ball
+//         light_maps?, light_depths?, scene_bounds?   what meshes hide of sun and spot, see shading/mesh_shadow.glsl
+//         mesh_sky?    the share of the sky's light that meshes leave, see ground/mesh_sky.frag.glsl; `as linear`, with scene_bounds
 //         air?         see fog/fog.glsl
 // modify  radiance     scene-referred; blend "premultiplied"
 //         velocity     screen UV per frame
 //         depth        near / distance along the view axis (reversed-Z)
 // params  sky_turn     by how much of a full turn the environment is rotated
 #include "fog/fog.glsl"
-#if defined HAS_RADIANCE && defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_BALL
+#if defined HAS_RADIANCE && defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_SCENE_BOUNDS
 #define SEES_MESHES 1
 layout(std140) uniform Parameters { float sky_turn; };
 #include "shading/mesh_shadow.glsl"
 #else
 #define SEES_MESHES 0
 #endif
-#if defined HAS_MESH_SKY && defined HAS_BALL
+#if defined HAS_MESH_SKY && defined HAS_SCENE_BOUNDS
 #include "ground/plain.glsl"
-#include "shadow/ball.glsl"
+#include "shadow/scene_bounds.glsl"
 uniform sampler2D mesh_sky;
 #endif
 
@@ -70,11 +70,12 @@ void main() {
   lights_seen = textureLod(lights, uv, 0.0).xy;
 #endif
 #if SEES_MESHES
-  lights_seen = min(lights_seen, seenOfLights(at, vec3(0.0, 1.0, 0.0), sky_turn));
+  LightsSeen past_meshes = lightsPastMeshes(at, vec3(0.0, 1.0, 0.0), sky_turn);
+  lights_seen = min(lights_seen, vec2(past_meshes.sun, past_meshes.spot));
 #endif
-#if defined HAS_MESH_SKY && defined HAS_BALL
-  vec4 middle_radius = ballAround();
-  sky_seen *= textureLod(mesh_sky, plainUv((at.xz - middle_radius.xz) / middle_radius.w), 0.0).r;
+#if defined HAS_MESH_SKY && defined HAS_SCENE_BOUNDS
+  vec4 bounds = boundingSphere();
+  sky_seen *= textureLod(mesh_sky, plainUv((at.xz - bounds.xz) / bounds.w), 0.0).r;
 #endif
   const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
   vec3 arrives = from_sky * sky_seen + from_sun * lights_seen.x + from_spot * lights_seen.y;

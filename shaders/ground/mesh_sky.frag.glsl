@@ -8,22 +8,22 @@ const int kDirections = 32, kSteps = 32;
 #include "ground/plain.glsl"
 
 uniform sampler2D heights;
-#include "shadow/ball.glsl"
+#include "shadow/scene_bounds.glsl"
 
 in vec2 uv;
 out float sky;
 
 void main() {
-  float radius = ballAround().w;
+  float radius = boundingSphere().w;
   float side = float(textureSize(heights, 0).x), texel = 2.0 / side;
-  // In radii of the ball.
+  // In radii of the bounding sphere.
   vec2 at = plainAt(uv);
   float away = length(at), spread = away > 1.0 ? asin(1.0 / away) : 3.14159265;
   float towards = atan(-at.y, -at.x), hidden = 0.0;
   for (int i = 0; i < kDirections; ++i) {
     float angle = towards + spread * (2.0 * (float(i) + 0.5) / float(kDirections) - 1.0);
     vec2 along = vec2(cos(angle), sin(angle));
-    // Where the ray enters the ball and leaves it.
+    // Where the ray enters the sphere and leaves it.
     float middle = -dot(at, along), across2 = away * away - middle * middle, half_chord = sqrt(max(1.0 - across2, 0.0));
     float first = max(middle - half_chord, 0.5 * texel), last = middle + half_chord, factor = pow(last / first, 1.0 / float(kSteps));
     vec2 angles = vec2(1.0, 0.0);  // sine squared of the lowest and of the highest

@@ -1,8 +1,8 @@
-// A map of the whole ground: fine near the ball around everything, coarse far away.
+// A map of the whole ground: fine near the bounding sphere of the scene, coarse far away.
 #ifndef GROUND_PLAIN_GLSL
 #define GROUND_PLAIN_GLSL
 
-// From the middle of the ball, in its radii, to texture coordinates and back.
+// From the center of the sphere, in its radii, to texture coordinates and back.
 vec2 plainUv(vec2 at) { return 0.5 + 0.5 * at / (1.0 + abs(at)); }
 vec2 plainAt(vec2 uv) {
   vec2 side = uv * 2.0 - 1.0;

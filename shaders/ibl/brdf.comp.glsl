@@ -1,9 +1,9 @@
 // Directional albedo of the GGX microfacet BRDF for the split sum (Karis, SIGGRAPH 2013): with Schlick's Fresnel,
-// albedo(F0) = F0 * r + g. x is N.V, y is perceptual roughness, both at texel centres (i + 1/2) / size.
+// albedo(F0) = F0 * r + g. x is N.V, y is perceptual roughness, both at texel centers (i + 1/2) / size.
 // threads: a work group of 8 x 16 makes 8 columns of 13 rows per 128 of the table's, [width, 16 * ceil(height / (13 * ceil(height / 128)))]
 // write  table  rgba16f, any size
 //          r, g  of the albedo
-//          b     how far the lobe leans from the mirror direction to the normal: its axis is mix(mirror, normal, b), not normalised
+//          b     how far the lobe leans from the mirror direction to the normal: its axis is mix(mirror, normal, b), not normalized
 //          a     what to add to its place among the levels of the prefiltered map, as a share of all of them (roughness_level.glsl)
 //
 // Smith's height-correlated masking (Heitz, JCGT 2014). Normals visible from V are integrated on the spherical cap of
@@ -16,7 +16,7 @@
 // mean of its variances in the plane and across it.
 //
 // Of four rows (where there are 512) one is integrated, and the others lie on the cubic through the four nearest of these (Catmull and Rom, 1974). All is
-// even in the roughness, and goes on beyond 1, so that the first and the last rows have neighbours, too.
+// even in the roughness, and goes on beyond 1, so that the first and the last rows have neighbors, too.
 #include "roughness_level.glsl"
 
 layout(local_size_x = 8, local_size_y = 16) in;

@@ -3,7 +3,7 @@
 //         luminance    the mean luminance over the sphere, vec4
 // write   brightest    two vec4, see brightest.glsl; the light is 0 when nothing stands out, or more than one compact spot does
 //
-// One work group. What is above kStandsOut times the mean within 5 degrees of the brightest texel counts; colours are cut in proportion.
+// One work group. What is above kStandsOut times the mean within 5 degrees of the brightest texel counts; colors are cut in proportion.
 // It is a spot when the ring around it, as wide again, has less than a tenth of that. Otherwise the environment stays whole.
 #include "common/equirect_direction.glsl"
 

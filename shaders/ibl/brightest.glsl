@@ -23,20 +23,30 @@ vec3 towardsBrightest(float turn) {
   return vec3(c * brightest_at.x - s * brightest_at.z, brightest_at.y, s * brightest_at.x + c * brightest_at.z);
 }
 
-// For what hides it: its irradiance over pi on a surface that faces it; w: half of its disc, radians. The same for all pixels.
-vec4 spotAround() { return vec4(brightest_light.rgb / kPi, max(2.0 * sqrt(brightest_light.w), 0.002)); }
+// Its irradiance over pi on a surface that faces it; w: half the angle of its disc, radians. The same for all pixels.
+vec4 spotIrradiance() { return vec4(brightest_light.rgb / kPi, max(2.0 * sqrt(brightest_light.w), 0.002)); }
 
-// Half vectors of a GGX surface that sees a spot with the variance `spread` along each axis of a half vector. The tail is GGX's own; what
-// the spot's size takes from the peak is a rounder bump (1 + t / core)^-8, nearly a Gaussian. Both widths and the bump's share are such that a small spot
-// changes nothing up to second order, and a mirror shows the spot.
-vec4 spotWidths(float alpha, float spread) {
+// The spot's reflection in a GGX surface: the distribution of half vectors, a GGX tail with a bump on its peak.
+struct SpotShape {
+  float alpha2;    // squared width of the surface's own lobe
+  float tail;      // squared width of the tail
+  float bump;      // height of the bump
+  float per_core;  // 1 / squared width of the bump
+};
+
+// For a spot with the variance `spread` along each axis of a half vector. The tail is GGX's own; what the spot's size takes from the peak is a
+// rounder bump (1 + t / core)^-8, nearly a Gaussian. Both widths and the bump's share are such that a small spot changes nothing up to second
+// order, and a mirror shows the spot.
+SpotShape spotShape(float alpha, float spread) {
   float a2 = alpha * alpha, tail = a2 + 4.0 * spread, core = 7.0 * a2 + 12.0 * spread;
-  return vec4(a2, tail, (1.0 - a2 / tail) * 7.0 / core, 1.0 / core);
+  return SpotShape(a2, tail, (1.0 - a2 / tail) * 7.0 / core, 1.0 / core);
 }
-// pi times their density at an angle whose sine has the square sine2 / h2, times `factor` / `below`.
-float spotDistribution(vec4 widths, float sine2, float h2, float factor, float below) {
-  float d = sine2 * (1.0 - widths.y) + h2 * widths.y, bump = h2 / (h2 + sine2 * widths.w), bump2 = bump * bump, bump4 = bump2 * bump2;
-  return factor * (widths.x * h2 * h2 + widths.z * bump4 * bump4 * d * d) / (d * d * below);
+
+// pi times its density at an angle whose sine has the square sine2 / h2, times `factor` / `below`.
+float spotDistribution(SpotShape shape, float sine2, float h2, float factor, float below) {
+  float d = sine2 * (1.0 - shape.tail) + h2 * shape.tail;
+  float bump = h2 / (h2 + sine2 * shape.per_core), bump2 = bump * bump, bump4 = bump2 * bump2;
+  return factor * (shape.alpha2 * h2 * h2 + shape.bump * bump4 * bump4 * d * d) / (d * d * below);
 }
 
 #endif

@@ -5,7 +5,7 @@
 //                     a times the spot's irradiance / pi is what rgb has of it
 //
 // Direct integration over a grid of COLUMNS x COLUMNS / 2 cells of the environment, taken at the level where a texel is as large as a cell, with
-// the exact solid angle of each cell and normalised by the sum of the weights: a constant environment is kept exactly, and
+// the exact solid angle of each cell and normalized by the sum of the weights: a constant environment is kept exactly, and
 // the cosine's variation inside a cell costs less than 0.1 %. (Nine spherical harmonics would ring by several per cent
 // beside a sun.) Cells turn with the column of the result, so the weights of a row are computed once.
 #include "common/equirect.glsl"
@@ -28,7 +28,7 @@ void main() {
   float cos_phi = cos(float(column) * (2.0 * kPi / float(COLUMNS)));
   int rows = size.y > 0 ? kRows : 1;  // not a constant: unrolled, the loop takes longer to translate
   for (int y = 0; y < rows; ++y) {
-    // A cell is cos(top) - cos(bottom) high: the sine of its middle times a constant, which normalising takes out.
+    // A cell is cos(top) - cos(bottom) high: the sine of its middle times a constant, which normalizing takes out.
     float middle = (float(y) + 0.5) * (kPi / float(kRows)), cos_m = cos(middle), sin_m = sqrt(1.0 - cos_m * cos_m);
     weights[y * COLUMNS + column] = max(cos_n * cos_m + sin_n * sin_m * cos_phi, 0.0) * sin_m;
   }

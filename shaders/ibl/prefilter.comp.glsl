@@ -21,7 +21,7 @@ layout(std140) uniform Parameters {
 };
 
 const int kMaxSamples = 256;
-const float kSpread = -0.5;       // levels beyond a sample's share of the sphere, so that neighbours overlap
+const float kSpread = -0.5;       // levels beyond a sample's share of the sphere, so that neighbors overlap
 shared vec4 table[kMaxSamples];  // u offset, v, level of the environment, weight
 
 const float kGolden = 0.61803399;  // of a turn from sample to sample: any number of them is spread evenly

@@ -7,7 +7,7 @@
 //         channel           0: rgb, 1..4: red, green, blue, alpha
 //         low, high         values shown black and white
 //         ev                stops, before the range
-//         false_color       above 0: one value as colours, blue to red
+//         false_color       above 0: one value as colors, blue to red
 //         encode            above 0: sRGB curve, for linear light
 //         highlight         above 0: NaN magenta, infinite cyan, above the range yellow, below it blue, in stripes
 //         near              above 0: reversed depth d is shown as near / d, infinitely far as the largest

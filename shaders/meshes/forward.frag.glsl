@@ -1,6 +1,7 @@
-// A mesh lit by the environment, the sun and lamps, as spheres are. Behind meshes/surface.vert.glsl.
+// A mesh, lit as it is drawn. Behind meshes/surface.vert.glsl.
 // read    materials, material_maps?   see meshes/surface.glsl
-//         what light comes from       see shading/light.glsl; air?: fog/fog.glsl
+//         air?                        see fog/fog.glsl
+//         the lights: shading/light.glsl
 // modify  radiance   scene-referred; alpha 1, with BLEND premultiplied by the material's: blend "premultiplied"
 //         velocity   screen UV per frame
 //         depth      reversed-Z
@@ -8,7 +9,9 @@
 #include "common/view.glsl"
 #include "fog/fog.glsl"
 #include "meshes/surface.glsl"
-#include "spheres/shading.glsl"
+#include "shading/cook_torrance.glsl"
+#include "shading/light.glsl"
+#include "shading/lobe.glsl"
 
 #ifndef BLEND
 #define BLEND 0
@@ -21,34 +24,23 @@ out vec4 radiance;
 out vec2 velocity;
 #endif
 
-vec3 emitted = vec3(0.0);
-float occlusion = 1.0, share = 1.0;
-
-void findPoint(out Point point) {
+void main() {
   MeshSurface self = meshSurface();
 #ifdef HAS_RADIANCE
-  point.at = world_position;
-  point.n = self.normal;
-  point.v = normalize(eye - world_position);
-  point.nv = clamp(dot(point.n, point.v), 0.0, 1.0);
-  point.mirror = reflect(-point.v, point.n);
-  point.roughness = self.roughness;
-  point.surface = Surface(self.albedo, self.metallic, self.roughness);
-  emitted = self.emissive;
-  occlusion = self.occlusion;
-  share = BLEND == 1 ? self.alpha : 1.0;
-#endif
-#ifdef HAS_VELOCITY
-  velocity = meshVelocity(viewport);
-#endif
-}
+  vec3 v = normalize(eye - world_position), n = self.normal;
+  Point point = Point(world_position, n, v, reflect(-v, n), clamp(dot(n, v), 0.0, 1.0), self.occlusion);
+  Response response = responseOf(Surface(self.albedo, self.metallic, self.roughness), point.nv);
 
-void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
-#ifdef HAS_RADIANCE
-  vec3 light = from_around * occlusion + from_lights + emitted;
+  LightsSeen seen = lightsSeen(point);
+  Ambient ambient = ambientOf(point, response, lobeOf(self.roughness, 0.0), seen);
+  vec3 light = lightOf(point, response, ambient, seen).radiance + self.emissive;
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(world_position - eye));
 #endif
+  float share = BLEND == 1 ? self.alpha : 1.0;
   radiance = vec4(light * share, share);
+#endif
+#ifdef HAS_VELOCITY
+  velocity = meshVelocity(viewport);
 #endif
 }

@@ -1,7 +1,7 @@
-// Motion blur over an open shutter, centred on the frame, in the tiles that gather.vert.glsl picks. Scene-referred.
+// Motion blur over an open shutter, centered on the frame, in the tiles that gather.vert.glsl picks. Scene-referred.
 // read    still, streaks   from streaks.frag.glsl; all textures by any sampler (texels are fetched)
 //         tiles, more?     from motions
-//         still_behind?, streaks_behind?   the same two of the picture without what is seen first; both or neither
+//         second_still?, second_streaks?   the same two of the picture without what is seen first; both or neither
 // modify  result     radiance; alpha stays
 // params  shutter    degrees: 360 is open all the time between two frames
 //         samples    moments of the shutter's time at most; short streaks take two for each pixel of their length
@@ -19,8 +19,8 @@ uniform sampler2D still, streaks, tiles;
 #ifdef HAS_MORE
 uniform sampler2D more;
 #endif
-#ifdef HAS_STREAKS_BEHIND
-uniform sampler2D still_behind, streaks_behind;
+#ifdef HAS_SECOND_STREAKS
+uniform sampler2D second_still, second_streaks;
 #endif
 layout(std140) uniform Parameters {
   float shutter;
@@ -31,7 +31,7 @@ out vec4 result;
 
 const float kBehind = 0.95;  // depth of what counts as behind a surface of depth 1
 const float kGoesOn = 0.7;   // share of a change of light that is taken to go on where something is hidden
-const float kMiss = 0.6;     // pixels: a texel that passes so close to the pixel's centre arrives
+const float kMiss = 0.6;     // pixels: a texel that passes so close to the pixel's center arrives
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(still, 0) - 1;
@@ -68,7 +68,7 @@ void main() {
     float t = (float(i) + noise) / float(n) * 2.0 - 1.0, seen = -1.0;
     ivec2 seen_at = pixel, beyond = pixel;
     float goes_on = 0.0;
-#ifdef HAS_STREAKS_BEHIND
+#ifdef HAS_SECOND_STREAKS
     bool seen_behind = false;
 #endif
     // The pixel's own motion and that of the texel found so, the first of the others and that of the texel found so, the rest.
@@ -84,8 +84,8 @@ void main() {
       bool arrives = max(miss.x, miss.y) < kMiss && found.w > seen;
       seen = arrives ? found.w : seen;
       seen_at = arrives ? at : seen_at;
-#ifdef HAS_STREAKS_BEHIND
-      vec4 behind = texelFetch(streaks_behind, at, 0);
+#ifdef HAS_SECOND_STREAKS
+      vec4 behind = texelFetch(second_streaks, at, 0);
       miss = abs(behind.xy * t - way);
       bool arrives_behind = max(miss.x, miss.y) < kMiss && behind.w > seen;
       seen = arrives_behind ? behind.w : seen;
@@ -110,8 +110,8 @@ void main() {
       bool same = distance(beside_it.xy, beyond_it.xy) < 0.5 && beside_it.w >= kBehind * beyond_it.w && beyond_it.w >= kBehind * beside_it.w;
       goes_on = same ? kGoesOn : 0.0;
     }
-#ifdef HAS_STREAKS_BEHIND
-    vec3 light = seen_behind ? texelFetch(still_behind, seen_at, 0).rgb : texelFetch(still, seen_at, 0).rgb;
+#ifdef HAS_SECOND_STREAKS
+    vec3 light = seen_behind ? texelFetch(second_still, seen_at, 0).rgb : texelFetch(still, seen_at, 0).rgb;
 #else
     vec3 light = texelFetch(still, seen_at, 0).rgb;
 #endif

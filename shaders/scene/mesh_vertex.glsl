@@ -1,4 +1,4 @@
-// A vertex of a mesh in the world, now and in the frame before: by its row, or by its joints; and its colour. Slots:
+// A vertex of a mesh in the world, now and in the frame before: by its row, or by its joints; and its color. Slots:
 // skeleton? (@joints), vertex_colors? (@vertex_colors).
 #ifndef SCENE_MESH_VERTEX_GLSL
 #define SCENE_MESH_VERTEX_GLSL

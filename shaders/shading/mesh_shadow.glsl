@@ -2,14 +2,15 @@
 // shading/soft_shadow.glsl.
 // read    light_maps    `as compare`, an array: layer 0 of the sun, 1 of the spot
 //         light_depths  the same as numbers
-//         ball          see shadow/ball.glsl
+//         scene_bounds  see shadow/scene_bounds.glsl
 //         sun?, brightest?   see scene/sun.glsl, ibl/brightest.glsl; included before, as is sky_turn
 #ifndef SHADING_MESH_SHADOW_GLSL
 #define SHADING_MESH_SHADOW_GLSL
 
 #define SOFT_SUN 1
 #include "ibl/brightest.glsl"
-#include "shadow/ball.glsl"
+#include "shading/point.glsl"
+#include "shadow/scene_bounds.glsl"
 #ifdef HAS_SUN
 #include "scene/sun.glsl"
 #endif
@@ -23,8 +24,8 @@ float shadowHides(vec3 at) { return 1.0 - texture(light_maps, vec4(at.xy, light_
 float shadowDepth(vec2 at) { return textureLod(light_depths, vec3(at, light_layer), 0.0).r; }
 #include "shading/soft_shadow.glsl"
 
-// x of the sun, y of the spot. A loop, so that the filter stands in the program once.
-vec2 seenOfLights(vec3 position, vec3 n, float turn) {
+// Unit `n`. One loop over both lights, so that the program has the filter once.
+LightsSeen lightsPastMeshes(vec3 position, vec3 n, float turn) {
   vec2 seen = vec2(1.0);
 #ifdef HAS_SUN
   const int first = 0;
@@ -38,7 +39,7 @@ vec2 seenOfLights(vec3 position, vec3 n, float turn) {
 #endif
   for (int i = first; i <= last; ++i) {
     vec3 spot = towardsBrightest(turn);
-    ShadowedLight self = ShadowedLight(spot, tan(min(spotAround().w, 0.5)), ball_row[0].texel, mapFrom(spot));
+    ShadowedLight self = ShadowedLight(spot, tan(min(spotIrradiance().w, 0.5)), bounds_row[0].texel, mapFrom(spot));
     light_layer = float(i);
 #ifdef HAS_SUN
     if (i == 0) {
@@ -48,7 +49,7 @@ vec2 seenOfLights(vec3 position, vec3 n, float turn) {
     bool shines = i == 0 || brightest_light.r + brightest_light.g + brightest_light.b > 0.0;
     if (shines && dot(n, self.direction) > 0.0) seen[i] = seenInMap(self, position, n);
   }
-  return seen;
+  return LightsSeen(seen.x, seen.y);
 }
 
 #endif

@@ -1,13 +1,13 @@
 // Where a vertex lies in the map that the environment's brightest spot sees; without one it is what the pass's view says.
-// read    brightest?   `as uniform`, see ibl/brightest.glsl; with it ball, see shadow/ball.glsl
+// read    brightest?   `as uniform`, see ibl/brightest.glsl; with it scene_bounds, see shadow/scene_bounds.glsl
 // params  sky_turn     with it: by how much of a full turn the environment is rotated
 #ifndef SHADOW_FROM_SPOT_GLSL
 #define SHADOW_FROM_SPOT_GLSL
 
 #include "common/view.glsl"
-#if defined HAS_BRIGHTEST && defined HAS_BALL
+#if defined HAS_BRIGHTEST && defined HAS_SCENE_BOUNDS
 #include "ibl/brightest.glsl"
-#include "shadow/ball.glsl"
+#include "shadow/scene_bounds.glsl"
 
 layout(std140) uniform Parameters { float sky_turn; };
 

@@ -37,7 +37,7 @@ layout(std140) uniform Parameters {
 const float kUnit = 0.06;           // per kcd/m2
 const float kSunLuminance = 128.0;  // klx above the atmosphere
 
-// Luminance and x of the model at the angle theta from the zenith and `gamma` from the sun, not normalised.
+// Luminance and x of the model at the angle theta from the zenith and `gamma` from the sun, not normalized.
 vec2 perez(float cos_theta, float gamma, float cos_gamma) {
   float t = turbidity;
   vec2 a = vec2(0.1787 * t - 1.4630, -0.0193 * t - 0.2592);

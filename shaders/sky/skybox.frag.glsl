@@ -21,7 +21,7 @@ flat in vec2 blurred_lookup;
 flat in float blurred_share;
 #ifdef HAS_BRIGHTEST
 flat in vec3 spot;
-flat in vec4 spot_widths;
+flat in vec4 spot_shape;
 flat in vec3 spot_light;
 #endif
 #endif
@@ -40,7 +40,8 @@ void main() {
   vec3 soft = sampleEquirect(blurred, at, blurred_lookup).rgb;
 #ifdef HAS_BRIGHTEST
   float cosine = dot(normalize(direction), spot);
-  soft += spot_light * spotDistribution(spot_widths, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0);
+  SpotShape shape = SpotShape(spot_shape.x, spot_shape.y, spot_shape.z, spot_shape.w);
+  soft += spot_light * spotDistribution(shape, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0);
 #endif
   color = mix(color, soft, blurred_share);
 #endif

@@ -3,7 +3,7 @@
 #include "maps.glsl"
 #include "ibl/roughness_level.glsl"
 
-noperspective out vec3 direction;  // world, not normalised
+noperspective out vec3 direction;  // world, not normalized
 noperspective out vec2 uv;
 #ifdef HAS_VELOCITY
 noperspective out vec3 before;     // the direction in last frame's clip space: x, y, w
@@ -15,7 +15,7 @@ flat out vec2 blurred_lookup;
 flat out float blurred_share;
 #ifdef HAS_BRIGHTEST
 flat out vec3 spot;
-flat out vec4 spot_widths;
+flat out vec4 spot_shape;  // the members of a SpotShape, which would take four vectors
 flat out vec3 spot_light;  // times spotDistribution and the cosine: radiance
 #endif
 #endif
@@ -40,7 +40,8 @@ void main() {
 #ifdef HAS_BRIGHTEST
   spot = towardsBrightest(sky_turn);
   float alpha = min(alphaOfRoughness(roughness), 0.995), a2 = alpha * alpha;
-  spot_widths = spotWidths(alpha, 0.25 * brightest_light.w);
+  SpotShape shape = spotShape(alpha, 0.25 * brightest_light.w);
+  spot_shape = vec4(shape.alpha2, shape.tail, shape.bump, shape.per_core);
   // Lobes of the map are those of V = N, weighted by N.L: over their mean N.L, with cos^2 of the half vector's angle as in ibl/brdf.comp.
   float s = 1.0 + a2, mean = a2 / ((1.0 - a2) * (1.0 - a2)) * (s / a2 - 2.0 - 2.0 * log(0.5 * s / a2));
   spot_light = brightest_light.rgb * (0.25 / (kPi * mean));

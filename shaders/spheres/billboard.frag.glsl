@@ -1,36 +1,27 @@
 // One sphere, found by intersecting the ray of the pixel; lit by the environment, the sun and lamps.
-// read    what light comes from   see shading/light.glsl; air?: fog/fog.glsl
-//         silhouettes?  spheres before this one whose silhouettes meet its own, see spheres/silhouettes.glsl
-//         nearer?     a depth: only what is behind it is drawn; any sampler (texels are fetched)
+// read    air?: fog/fog.glsl; the lights: spheres/light.glsl
+//         silhouettes?   spheres in front of this one whose silhouettes meet its own, see spheres/silhouettes.glsl
+//         front_depth?   only what is behind this depth is drawn; any sampler (texels are fetched)
 // modify  radiance   scene-referred, premultiplied by coverage: blend "premultiplied"
 //         velocity   screen UV per frame; not blended, the nearest sphere's
 //         depth      near / distance along the view axis (reversed-Z)
 // params, defines    see shading/light.glsl
 //         SHOW_LAMPS    instead of light, how many lamps each pixel goes through, see shading/show_lamps.glsl
 //
-// Coverage comes from the signed distance in pixels from the pixel's centre to the silhouette, which is a conic: exact along
-// its normal, no derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette:
-// the test and the write of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
+// Coverage comes from the signed distance in pixels from the pixel's center to the silhouette, which is a conic: exact along its normal, no
+// derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette: the test and the write of
+// a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
 #include "common/view.glsl"
 #include "fog/fog.glsl"
-#define LOBE_IS_FLAT 1
-#include "shading.glsl"
-#ifndef SHOW_LAMPS
-#define SHOW_LAMPS 0
-#endif
-#if SHOW_LAMPS
 #include "shading/show_lamps.glsl"
-#endif
+#include "spheres/billboard_varyings.glsl"
+#include "spheres/light.glsl"
 
-#include "spheres/handed.glsl"
-mat3 to_world = mat3(right_eye.xyz, up_eye.xyz, cross(right_eye.xyz, up_eye.xyz));
-#ifdef HAS_VELOCITY
-// x, y and w in last frame's clip space of a direction in the world.
-mat3 before_turn = mat3(previous_view_projection[0].xyw, previous_view_projection[1].xyw, previous_view_projection[2].xyw);
-#endif
+mat3 to_world = mat3(right_eye.xyz, up_eye.xyz, back_eye.xyz);
+#include "spheres/silhouettes.glsl"
 
-#ifdef HAS_NEARER
-uniform sampler2D nearer;
+#ifdef HAS_FRONT_DEPTH
+uniform sampler2D front_depth;
 #endif
 #ifdef HAS_RADIANCE
 out vec4 radiance;
@@ -39,9 +30,7 @@ out vec4 radiance;
 out vec2 velocity;
 #endif
 
-#include "silhouettes.glsl"
-
-// Area of a unit square on the inner side of a straight edge: `inside` is the signed distance of its centre, `normal`
+// Area of a unit square on the inner side of a straight edge: `inside` is the signed distance of its center, `normal`
 // the edge's direction, both components positive. A ramp for edges along the axes, smoother for slanted ones.
 float halfPlane(float inside, vec2 normal) {
   float a = max(normal.x, normal.y), b = min(normal.x, normal.y);
@@ -51,89 +40,87 @@ float halfPlane(float inside, vec2 normal) {
   return inside > 0.0 ? 1.0 - beyond : beyond;
 }
 
-vec3 from_eye = vec3(0.0);
-#if SEES_NEIGHBOURS
-vec2 sphereOf() { return vec2(anchor_row.w, sphere.w); }
-#endif
-void findPoint(out Point point) {
+// Where the ray of the pixel meets the sphere.
+struct Hit {
+  float coverage;  // the sphere's share of the pixel
+  float distance;  // along the view axis
+  float along;     // the ray, up to the hit
+  vec3 normal;     // unit, in view space
+  vec3 to_eye;     // unit, in view space
+  float nv;        // cosine between the two
+};
+
+// Ends the fragment where the ray misses.
+Hit hitSphere() {
+  float near = abs(edge_metallic.w), silhouette_shift = edge_metallic.x, square_side = edge_metallic.y;
+  bool from_center = edge_metallic.w > 0.0;  // pixel offsets count from the sphere's center, else from the view's axis
   vec3 c = sphere.xyz;
-  vec2 edge = edge_metallic.xy, anchor = edge_metallic.z > 0.0 ? c.xy / -c.z : vec2(0.0);
-  float near_distance = anchor_row.z;
   float r = sphere.w, r2 = r * r, d2 = dot(c, c);
-  vec2 pixels = gl_FragCoord.xy - anchor_row.xy, offset = pixels * per_pixel.xy;
-  vec3 v = vec3(anchor + offset, -1.0);          // the ray; its parameter is the distance along the view axis
-  vec3 w = edge_metallic.z > 0.0 ? vec3(offset, 0.0) : v;  // c x w = c x v, without cancellation for distant spheres
+  vec2 per_pixel = anchor_slope.zw, pixels = gl_FragCoord.xy - anchor_slope.xy, offset = pixels * per_pixel;
+  vec2 anchor = from_center ? c.xy / -c.z : vec2(0.0);
+  vec3 v = vec3(anchor + offset, -1.0);               // the ray; its parameter is the distance along the view axis
+  vec3 w = from_center ? vec3(offset, 0.0) : v;       // c x w = c x v, without cancellation for distant spheres
   vec3 cw = cross(c, w);
   float vv = dot(v, v), cv = dot(c, v), per_length = inversesqrt(vv), per_vv = per_length * per_length;
-  float q = dot(cw, cw) - r2 * vv;                  // the silhouette's conic: negative inside
+  float q = dot(cw, cw) - r2 * vv;                    // the silhouette's conic: negative inside
 
   // Signed distance in pixels along the conic's gradient.
-  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) * per_pixel.xy;
+  vec2 slope = (2.0 * (d2 * w.xy - dot(c, w) * c.xy - r2 * v.xy)) * per_pixel;
   float steep = length(slope);
   vec2 outwards = slope * (1.0 / max(steep, 1e-30));
-  vec3 across = vec3(outwards * per_pixel.xy, 0.0);
-  vec3 c_across = cross(c, across);
+  vec3 across = vec3(outwards * per_pixel, 0.0), c_across = cross(c, across);
   float curve = dot(c_across, c_across) - r2 * dot(across, across);
   float outside = 2.0 * q / max(steep + sqrt(max(steep * steep - 4.0 * curve * q, 0.0)), 1e-30);
-  bool inside_sphere = d2 <= r2;
-  coverage = inside_sphere ? 1.0 : halfPlane(-outside - edge.x, abs(outwards));
+  float inside = -outside - silhouette_shift;
+  float coverage = d2 <= r2 ? 1.0 : halfPlane(inside, abs(outwards));
 #ifdef HAS_SILHOUETTES
-  if (coverage > 0.0 && coverage < 1.0 && edge.y == 0.0) coverage = min(coverage * leftBehind(-outside - edge.x, outwards, v, vv), 1.0);
+  if (coverage > 0.0 && coverage < 1.0 && square_side == 0.0) coverage = min(coverage * leftBehind(inside, outwards, v, vv), 1.0);
 #endif
-
-  if (edge.y > 0.0) {  // small ones only
-    vec2 lengths = clamp(0.5 * (edge.y + 1.0) - abs(pixels), 0.0, min(edge.y, 1.0));
-    coverage = mix(lengths.x * lengths.y, coverage, clamp(edge.y * inversesqrt(kPi) - 0.8, 0.0, 1.0));
+  if (square_side > 0.0) {  // small ones only
+    vec2 lengths = clamp(0.5 * (square_side + 1.0) - abs(pixels), 0.0, min(square_side, 1.0));
+    coverage = mix(lengths.x * lengths.y, coverage, clamp(square_side * inversesqrt(kPi) - 0.8, 0.0, 1.0));
   }
 
   // The nearer hit, or the farther one when the nearer is in front of the near plane: then the inside is seen.
   float root = sqrt(max(-q, 0.0));
-  float side = (cv - root) * per_vv >= near_distance ? -1.0 : 1.0;
+  float side = (cv - root) * per_vv >= near ? -1.0 : 1.0;
   float t = (cv + side * root) * per_vv;
-  if (coverage <= 0.0 || t < near_distance) discard;
-#ifdef HAS_NEARER
-  if (near_distance / t >= 0.9999 * texelFetch(nearer, ivec2(gl_FragCoord.xy), 0).r) discard;
+  if (coverage <= 0.0 || t < near) discard;
+#ifdef HAS_FRONT_DEPTH
+  if (near / t >= 0.9999 * texelFetch(front_depth, ivec2(gl_FragCoord.xy), 0).r) discard;
 #endif
 
-  // From the centre to the hit: the ray's foot is (c x v) x v / v.v away from it.
+  // From the center to the hit: the ray's nearest point to the center is (c x v) x v / v.v away from it.
   vec3 out_of = (cross(cw, v) + side * root * v) * per_vv;
-  vec3 normal_view = out_of * (-side * inversesqrt(max(dot(out_of, out_of), 1e-30)));  // a far speck has none
-  float nv = clamp(root * per_length / r, 0.0, 1.0);
-#ifdef HAS_RADIANCE
-  point.n = to_world * normal_view;
-  point.v = to_world * (v * -per_length);
-  from_eye = point.v * (-t / per_length);
-  point.mirror = 2.0 * nv * point.n - point.v;
-  point.nv = nv;
-  point.roughness = albedo_roughness.w;
-  point.surface = Surface(albedo_roughness.rgb, edge_metallic.w, albedo_roughness.w);
-#if defined HAS_PROBES || defined HAS_SUN || defined HAS_LAMPS || defined HAS_NEIGHBOURS || defined HAS_LIGHT_MAPS
-  point.at = from_eye + vec3(right_eye.w, up_eye.w, before_eye.w);
-#else
-  point.at = vec3(0.0);
-#endif
-#endif
-#ifdef HAS_VELOCITY
-#ifndef HAS_RADIANCE
-  from_eye = to_world * (v * t);
-#endif
-  vec3 before = before_turn * from_eye + before_eye.xyz;
-  velocity = gl_FragCoord.xy * per_pixel.zw - (before.xy / max(before.z, 1e-3) * 0.5 + 0.5);
-#endif
-#ifdef HAS_DEPTH
-  gl_FragDepth = near_distance / t;
-#endif
+  vec3 normal = out_of * (-side * inversesqrt(max(dot(out_of, out_of), 1e-30)));  // a far speck has none
+  return Hit(coverage, t, t / per_length, normal, v * -per_length, clamp(root * per_length / r, 0.0, 1.0));
 }
 
-void putLight(Point point, vec3 from_around, vec3 from_lights, int lamps_tried) {
+void main() {
+  Hit hit = hitSphere();
+  vec3 v = to_world * hit.to_eye, from_eye = v * -hit.along;
 #ifdef HAS_RADIANCE
-  vec3 light = from_around + from_lights;
+  vec3 n = to_world * hit.normal;
+  vec3 position = from_eye + vec3(right_eye.w, up_eye.w, back_eye.w);
+  Point point = Point(position, n, v, 2.0 * hit.nv * n - v, hit.nv, 1.0);
+  Surface surface = Surface(albedo_roughness.rgb, edge_metallic.z, albedo_roughness.w);
+  float glint = glintStrength(readGlint(), gl_FragCoord.xy, hit.coverage);
+  Light light = sphereLight(point, surface, readLobe(), glint, uint(before_row.w), sphere.w);
 #ifdef HAS_AIR
-  light = mix(fog_light.rgb, light, throughFog(from_eye));
+  light.radiance = mix(fog_light.rgb, light.radiance, throughFog(from_eye));
 #endif
 #if SHOW_LAMPS
-  light = colorOfLamps(lamps_tried);
+  light.radiance = colorOfLamps(light.lamps_tried);
 #endif
-  radiance = vec4(light * coverage, coverage);
+  radiance = vec4(light.radiance * hit.coverage, hit.coverage);
+#endif
+#ifdef HAS_VELOCITY
+  // x, y and w in last frame's clip space.
+  mat3 turn = mat3(previous_view_projection[0].xyw, previous_view_projection[1].xyw, previous_view_projection[2].xyw);
+  vec3 before = turn * from_eye + before_row.xyz;
+  velocity = gl_FragCoord.xy / viewport - (before.xy / max(before.z, 1e-3) * 0.5 + 0.5);
+#endif
+#ifdef HAS_DEPTH
+  gl_FragDepth = abs(edge_metallic.w) / hit.distance;
 #endif
 }

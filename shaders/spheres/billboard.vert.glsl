@@ -6,7 +6,9 @@
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
 #include "shading/lobe.glsl"
-#include "glint.glsl"
+#include "spheres/glint_of.glsl"
+#define VERTEX_STAGE
+#include "spheres/billboard_varyings.glsl"
 
 #ifndef OCTAGON
 #define OCTAGON 0
@@ -15,8 +17,6 @@
 #ifdef HAS_ORDER
 layout(std430) readonly buffer order { uvec2 order_element[]; };
 #endif
-
-#include "spheres/handed.glsl"
 
 // Slopes x / -z between the two tangents from the eye to the circle at (x, z = distance in front).
 vec2 slopeBounds(float x, float z, float r) {
@@ -48,12 +48,12 @@ void main() {
   float r = self.radius, z = -c.z;
   float bend = max(z, 0.0) / r;
   Lobe lobe = lobeOf(self.roughness, lookupAngle() * bend);
-  addGlint(lobe, self.center, r, pixelAngle() * bend);
-  handOn(lobe);
+  Glint glint = glintOf(lobe, self.center, r, pixelAngle() * bend);
+  writeLobe(lobe, glint);
 
   vec2 focal = vec2(projection[0].x, projection[1].y) * 0.5 * viewport;  // pixels per unit of slope
   bool in_front = z > r * 1.0001;
-  // Slope that pixel offsets count from: the centre's, or the axis.
+  // Slope that pixel offsets count from: the center's, or the axis.
   vec2 anchor = in_front ? c.xy / z : vec2(0.0), edge = vec2(0.0);
   float d2 = dot(c, c), r2 = r * r;
   if (in_front) {
@@ -61,17 +61,18 @@ void main() {
     edge = edgeOf(f * r * sqrt(d2 - r2) / depth2, f * r * inversesqrt(depth2));
   }
 
+  vec2 anchor_pixel = ((anchor * vec2(projection[0].x, projection[1].y) - projection[2].xy) * 0.5 + 0.5) * viewport;
+  mat3 to_world = transpose(mat3(view));
   sphere = vec4(c, r);
   albedo_roughness = vec4(self.albedo, self.roughness);
-  edge_metallic = vec4(edge, in_front ? 1.0 : 0.0, self.metallic);
-  anchor_row = vec4(((anchor * vec2(projection[0].x, projection[1].y) - projection[2].xy) * 0.5 + 0.5) * viewport, near_plane, float(row));
-  per_pixel = vec4(1.0 / focal, 1.0 / viewport);
-  mat3 to_world = transpose(mat3(view));
+  edge_metallic = vec4(edge, self.metallic, in_front ? near_plane : -near_plane);
+  anchor_slope = vec4(anchor_pixel, 1.0 / focal);
   right_eye = vec4(to_world[0], eye.x);
   up_eye = vec4(to_world[1], eye.y);
-  before_eye = vec4(0.0, 0.0, 0.0, eye.z);
+  back_eye = vec4(to_world[2], eye.z);
+  before_row = vec4(0.0, 0.0, 0.0, float(row));
 #ifdef HAS_VELOCITY
-  before_eye.xyz = (previous_view_projection * vec4(eye - (self.center - self.previous_center), 1.0)).xyw;
+  before_row.xyz = (previous_view_projection * vec4(eye - (self.center - self.previous_center), 1.0)).xyw;
 #endif
 
   // Slopes between the tangent planes along x and y, a pixel wider on each side.

@@ -1,41 +1,20 @@
-// The brightest spot in a small sphere: its reflection is smaller than a pixel, so each pixel gets the share of it that falls
-// into its own square. All shares add up to 1 wherever the spot is seen: a glint that moves keeps its light from frame to frame, and a
-// pixel has what supersampling would give it. A sphere of radius r scatters r^2 / 4 of what comes from one direction into each steradian.
-// Includes common/view.glsl and shading/lobe.glsl, whose Lobe this completes.
+// The brightest spot in a small sphere: its reflection is smaller than a pixel, so each pixel gets the share of it that falls into its own
+// square. All shares add up to 1 wherever the spot is seen: a glint that moves keeps its light from frame to frame, and a pixel has what
+// supersampling would give it. A sphere of radius r scatters r^2 / 4 of what comes from one direction into each steradian.
 #ifndef SPHERES_GLINT_GLSL
 #define SPHERES_GLINT_GLSL
 
-#include "common/view.glsl"
-#include "shading/lobe.glsl"
+// The share of a pixel at the distance d along each axis is  strength g.x g.y / ((1 + middle g.x + g.x^2) (1 + middle g.y + g.y^2)),
+// g = exp2(-falloff |d|).
+struct Glint {
+  vec2 at;  // pixels
+  float falloff, middle, strength;
+};
 
-const float kLeastBlur = 0.1;  // of the border between two pixels, pixels
-
-// `bend` as in lobeOf. The spot's size and the surface's roughness blur the reflection, measured here in pixels. Up to one the pixels' squares
-// count, from two on the lobe is smooth enough by itself. The square's share of a spot with the blur s at the distance x along an axis
-// is (tanh(a (x + 1/2)) - tanh(a (x - 1/2))) / 2 = sinh(a) / (cosh(a) + cosh(2 a x)), with a = 0.907 / s. With g = exp(-2 a |x|) that is
-// 2 sinh(a) g / (1 + 2 cosh(a) g + g^2).
-void addGlint(inout Lobe lobe, vec3 center, float radius, float bend) {
-#if defined HAS_BRIGHTEST && SPECULAR_AA
-  vec3 away = eye - center;
-  float far2 = dot(away, away);
-  // Where the normal is halfway between the eye and the spot.
-  vec3 n = normalize(normalize(away) + lobe.spot);
-  for (int i = 0; i < 3; ++i) n = normalize(normalize(away - radius * n) + lobe.spot);
-  vec4 clip = view_projection * vec4(center + radius * n, 1.0);
-  // From outside, in perspective. Not earlier: behind a condition software reads the view's members for each lane by itself.
-  if (far2 < 4.0 * radius * radius || projection[3].w != 0.0 || clip.w <= 0.0) return;
-  // Normals of a pixel span more there, in the plane of incidence.
-  float facing = max(dot(normalize(away - radius * n), n), 0.05), alpha = sqrt(lobe.widths.x), spread = 0.25 * brightest_light.w;
-  float blur = max(facing, 2.0 / 3.0) * sqrt(7.0 / 12.0 * alpha * alpha + spread) / max(bend, 1e-6), share = clamp(2.0 - blur, 0.0, 1.0);
-  if (share <= 0.0) return;
-  lobe.widths = mix(lobe.widths, spotWidths(alpha, min(spread + bend * bend / (12.0 * facing * facing), 0.25)), share);
-  lobe.glint = (clip.xy / clip.w * 0.5 + 0.5) * viewport;
-  float steep = 0.907 / max(blur, kLeastBlur), e = exp(steep), sh = 0.5 * (e - 1.0 / e);
-  float slant = sqrt(far2) / max(dot(away, transpose(mat3(view))[2]), 1e-6);  // pixels off the axis see less of a solid angle
-  float strength = share * (1.0 - lobe.widths.x / lobe.widths.y) * 0.5 * kPi * slant / (bend * bend);
-  lobe.shares = vec3(2.0 * steep / log(2.0), e + 1.0 / e, 4.0 * strength * sh * sh);
-  lobe.widths.z *= 1.0 - share;
-#endif
+// What it adds to spotStrength() of shading/ambient.glsl. `coverage`: the sphere's share of the pixel.
+float glintStrength(Glint glint, vec2 pixel, float coverage) {
+  vec2 g = exp2(-abs(pixel - glint.at) * glint.falloff), by = 1.0 + g * (glint.middle + g);
+  return glint.strength * g.x * g.y / (by.x * by.y * max(coverage, 0.1));
 }
 
 #endif

@@ -3,24 +3,26 @@
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "shading/parameters.glsl"
-#include "shading/handed.glsl"
-#include "glint.glsl"
+#include "shading/lobe.glsl"
+#include "spheres/glint_of.glsl"
+#define VERTEX_STAGE
+#include "spheres/lobe_varyings.glsl"
 
 in vec3 position;
 in vec3 normal;
 
 out vec3 from_eye;          // world, eye to surface
-out vec3 outwards;          // world, not normalised
+out vec3 outwards;          // world, not normalized
 flat out vec4 albedo_roughness;
 flat out vec4 motion_metallic;
-#ifdef HAS_NEIGHBOURS
-flat out vec2 row_radius;       // row in the draw list
+#ifdef HAS_NEIGHBORS
+flat out vec2 row_radius;       // row in the draw list; radius
 #endif
 out float gl_CullDistance[1];   // a triangle goes when all of its corners are below 0
 
 void main() {
   Instance self = instance[gl_InstanceID];
-#ifdef HAS_NEIGHBOURS
+#ifdef HAS_NEIGHBORS
   row_radius = vec2(gl_InstanceID, self.radius);
 #endif
   from_eye = self.center - eye + self.radius * position;
@@ -30,8 +32,8 @@ void main() {
   float depth = -(view * vec4(self.center, 1.0)).z;
   float bend = max(depth, 0.0) / self.radius;
   Lobe lobe = lobeOf(self.roughness, lookupAngle() * bend);
-  addGlint(lobe, self.center, self.radius, pixelAngle() * bend);
-  handOn(lobe);
+  Glint glint = glintOf(lobe, self.center, self.radius, pixelAngle() * bend);
+  writeLobe(lobe, glint);
   // The inside of a sphere is seen when the eye is in it, or the near plane cuts it. Of all others no triangle that faces away is drawn.
   float near_corner = near_plane * length(vec3(1.0 / projection[0].x, 1.0 / projection[1].y, 1.0));
   bool open = length(self.center - eye) < self.radius + near_corner;

@@ -1,29 +1,28 @@
-// What of a sphere's share of a pixel the spheres before it leave.
-// read    silhouettes?   uvec4(first, number, 0, 0) per instance, then per sphere before it the bits of vec4(centre from the eye, radius): the import
-//                        silhouettes.
+// The part of a sphere's share of a pixel that the spheres in front of it leave. Included after to_world and spheres/billboard_varyings.glsl.
+// read    silhouettes?   the import silhouettes: uvec4(first, number, 0, 0) per instance, then per sphere in front of it the bits of
+//                        vec4(center from the eye, radius)
 #ifndef SPHERES_SILHOUETTES_GLSL
 #define SPHERES_SILHOUETTES_GLSL
 
 #ifdef HAS_SILHOUETTES
 layout(std430) readonly buffer silhouettes { uvec4 silhouette[]; };
 
-// Spheres are blended back to front, so that of a share `a` of the pixel that lies behind another share `b` the part a (1 - b) is left, as if
-// the two edges had nothing to do with each other. This is what `a` must be multiplied by so that what lies outside of `b` is left. `inside`: of the
-// sphere's own edge, which is `outwards`. Both edges are straight within a pixel; eight rows of it are exact. Where several spheres
-// are before it, each takes its part of what the others leave.
+// Spheres are blended back to front: of a share `a` of the pixel that lies behind another share `b`, blending leaves a (1 - b), as if the two
+// edges were independent. This is the factor of `a` by which exactly what lies outside of `b` is left. `inside`: signed distance in pixels from
+// the sphere's own edge, whose normal is `outwards`; `v` is the ray, `vv` its squared length. Both edges are straight within a pixel; eight rows
+// of it are exact. Where several spheres are in front, each takes its part of what the others leave.
 float leftBehind(float inside, vec2 outwards, vec3 v, float vv) {
   float left = 1.0;
-  // First and number of the spheres before it. Of another list than that which is drawn the rows would be others.
+  // First and number of the spheres in front. They are not valid when the buffer belongs to another list than the one drawn.
   uint rows = uint(silhouette.length());
-  uvec2 before = silhouette[min(uint(anchor_row.w), rows - 1u)].xy;
-  if (before.x >= rows || before.y > min(rows - before.x, 32u)) before.y = 0u;
-  for (uint i = 0u; i < before.y; ++i) {
-    vec4 other = uintBitsToFloat(silhouette[before.x + i]);
-    // to_world turns only: its columns are the view's axes.
-    vec3 c = vec3(dot(other.xyz, to_world[0]), dot(other.xyz, to_world[1]), dot(other.xyz, to_world[2])), cv = cross(c, v);
+  uvec2 in_front = silhouette[min(uint(before_row.w), rows - 1u)].xy;
+  if (in_front.x >= rows || in_front.y > min(rows - in_front.x, 32u)) in_front.y = 0u;
+  for (uint i = 0u; i < in_front.y; ++i) {
+    vec4 other = uintBitsToFloat(silhouette[in_front.x + i]);
+    vec3 c = transpose(to_world) * other.xyz, cv = cross(c, v);  // in view space
     // The other silhouette is a conic, too: half its gradient, and the signed distance in pixels to first order.
     float along_c = dot(c, v), r2 = other.w * other.w;
-    vec2 others = ((dot(c, c) - r2) * v.xy - along_c * c.xy) * per_pixel.xy;
+    vec2 others = ((dot(c, c) - r2) * v.xy - along_c * c.xy) * anchor_slope.zw;
     float per_steep = 1.0 / max(length(others), 1e-30), outside = 0.5 * (dot(cv, cv) - r2 * vv) * per_steep;
     others *= per_steep;
     if (abs(outside) > 0.70710678 || along_c <= 0.0) continue;

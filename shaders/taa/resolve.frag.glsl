@@ -16,7 +16,7 @@
 // something out of its range has changed and begins anew; so lights and shadows that move over still things are followed.
 // As long as that is not certain the history is clipped to what is around the pixel now.
 //
-// Karis, "High-quality temporal supersampling" (SIGGRAPH 2014 courses): the nearest velocity of a neighbourhood, clipping in YCoCg; Salvi, "An
+// Karis, "High-quality temporal supersampling" (SIGGRAPH 2014 courses): the nearest velocity of a neighborhood, clipping in YCoCg; Salvi, "An
 // excursion in temporal supersampling" (GDC 2016): clipping by variance; Jimenez, "Filmic SMAA" (SIGGRAPH 2016 courses): Catmull-Rom in
 // five lookups. All of it in linear light: compressed by a tone curve or with less weight for bright texels, as both say, the glint in
 // a moving mirror of 16 pixels loses nearly all of its light.

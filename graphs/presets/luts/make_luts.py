@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The colour tables of the presets, from a few lines of arithmetic each.
+"""The color tables of the presets, from a few lines of arithmetic each.
 
     make_luts.py            write the .cube files beside this script
     make_luts.py --check    exit 1 when one of them is not what would be written
@@ -32,8 +32,8 @@ def luma(color, weights=WEIGHTS):
 
 
 def saturate(color, amount):
-    grey = luma(color)
-    return each(lambda c: mix(grey, c, amount), color)
+    gray = luma(color)
+    return each(lambda c: mix(gray, c, amount), color)
 
 
 def s_curve(x, strength):
@@ -42,9 +42,9 @@ def s_curve(x, strength):
 
 
 def split_tone(color, shadows, highlights):
-    """Adds one colour to the shadows and another to the highlights; black and white keep their place."""
-    grey = clamp(luma(color))
-    dark, light = grey * (1 - grey) ** 2 * 4, grey * grey * (1 - grey) * 4
+    """Adds one color to the shadows and another to the highlights; black and white keep their place."""
+    gray = clamp(luma(color))
+    dark, light = gray * (1 - gray) ** 2 * 4, gray * gray * (1 - gray) * 4
     return tuple(c + dark * s + light * h for c, s, h in zip(color, shadows, highlights))
 
 
@@ -57,14 +57,14 @@ def cinema(color):
 
 
 def warm_negative(color):
-    """A print from colour negative: open shadows that stay neutral, long highlights from orange to a pink white, milder colours."""
+    """A print from color negative: open shadows that stay neutral, long highlights from orange to a pink white, milder colors."""
     color = each(lambda c: mix(c, c ** 0.9, 0.5), saturate(color, 0.95))
     color = split_tone(color, (0.005, -0.005, 0.005), (0.04, 0.0, -0.03))
     return tuple(low + (high - low) * c for c, low, high in zip(color, (0.03, 0.028, 0.034), (0.99, 0.955, 0.92)))
 
 
 def slide(color):
-    """Reversal film: steep from deep, cool blacks on, strong colours; a short shoulder keeps the highlights apart."""
+    """Reversal film: steep from deep, cool blacks on, strong colors; a short shoulder keeps the highlights apart."""
     color = each(lambda c: s_curve(c, 0.75), saturate(color, 1.15))
     color = each(lambda c: c - 0.12 * clamp(c) ** 6, color)
     return split_tone(color, (-0.02, -0.005, 0.03), (0.012, 0.0, -0.008))
@@ -72,19 +72,19 @@ def slide(color):
 
 def black_and_white(color):
     """Panchromatic film behind a yellow filter: blue skies darken, skin and sand lighten."""
-    grey = s_curve(clamp(luma(color, (0.42, 0.5, 0.08))), 0.5)
-    return (grey, grey, grey)
+    gray = s_curve(clamp(luma(color, (0.42, 0.5, 0.08))), 0.5)
+    return (gray, gray, gray)
 
 
 def bleach_bypass(color):
-    """Silver left in the print: a grey picture laid over the coloured one, hard and pale."""
-    grey = luma(color)
-    over = each(lambda c: 2 * c * grey if grey < 0.5 else 1 - 2 * (1 - c) * (1 - grey), color)
+    """Silver left in the print: a gray picture laid over the colored one, hard and pale."""
+    gray = luma(color)
+    over = each(lambda c: 2 * c * gray if gray < 0.5 else 1 - 2 * (1 - c) * (1 - gray), color)
     return saturate(tuple(mix(c, o, 0.75) for c, o in zip(color, over)), 0.6)
 
 
 def day_for_night(color):
-    """A day scene taken for night: dark, blue, most colours gone, highlights dimmed."""
+    """A day scene taken for night: dark, blue, most colors gone, highlights dimmed."""
     r, g, b = saturate(color, 0.45)
     return each(lambda c: 0.62 * c ** 1.35, (0.7 * r, 0.88 * g, 1.15 * b))
 

@@ -336,8 +336,8 @@ TEST_CASE("random tweaks of the bundled graph come back from its files, and only
   for (int round = 0; round < 12; ++round) {
     const OverlayFolder folder;
     for (const char* name :
-         {"ibl.json", "daylight.json", "daylight_sun.json", "lit.json", "mesh_shadows.json",
-          "neighbours.json", "fade.json", "post.json", "effects/fog.json", "effects/depth_of_field.json",
+         {"ibl.json", "daylight.json", "daylight_sun.json", "lit.json", "mesh_shadows.json", "neighbors.json",
+          "fade.json", "post.json", "effects/fog.json", "effects/depth_of_field.json",
           "effects/motion_blur.json", "effects/bloom.json", "effects/exposure.json", "effects/composite.json",
           "effects/fxaa.json", "effects/taa.json", "effects/light_clusters.json"})
       folder.copy(name);

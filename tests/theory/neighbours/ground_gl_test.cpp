@@ -174,7 +174,7 @@ TEST_CASE("ground: in the studio spheres are drawn before it and take nothing of
     setup.sets.back() = {"occlusion", "false"};
     Lab off(setup);
     off.frame();
-    CHECK(lab.passNames().find("neighbours.neighbour_lists") != std::string::npos);
+    CHECK(lab.passNames().find("neighbors.neighbor_lists") != std::string::npos);
     CHECK(off.passNames().find("neighbour") == std::string::npos);
     const Picture a = lab.read("hdr"), b = off.read("hdr");
     int darker = 0, brighter = 0;

@@ -1,4 +1,4 @@
-// The lists of graphs/neighbours.json, made with a grid and without one, against all pairs of spheres.
+// The lists of graphs/neighbors.json, made with a grid and without one, against all pairs of spheres.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ std::vector<Candidate> bruteList(const std::vector<Ball>& balls, std::size_t sel
 
 Setup labOf(std::vector<Ball> balls, const char* reach, bool grid) {
   return {.graph = "tests/theory/neighbours/neighbours.json",
-          .sets = {{"neighbours.reach", reach}, {"neighbours.grid_from", grid ? "1" : "65537"}},
+          .sets = {{"neighbors.reach", reach}, {"neighbors.grid_from", grid ? "1" : "65537"}},
           .balls = std::move(balls)};
 }
 
@@ -108,8 +108,8 @@ void checkListsOf(bool grid, const std::vector<Ball>& balls, std::size_t step, d
   CAPTURE(grid);
   Lab lab(labOf(balls, std::to_string(reach).c_str(), grid));
   lab.frame();
-  CHECK((lab.passNames().find("neighbour_grid") != std::string::npos) == grid);
-  const Picture lists = lab.read("neighbours.lists");
+  CHECK((lab.passNames().find("neighbor_grid") != std::string::npos) == grid);
+  const Picture lists = lab.read("neighbors.lists");
   CHECK(double(lists.at(0, 0)[0]) == reach);
   std::size_t entries = 0, wrong = 0;
   for (std::size_t self = 0; self < balls.size(); self += step) {
@@ -187,7 +187,7 @@ TEST_CASE("neighbours: the studio makes lists of up to 65,536 spheres, and none 
                       .sets = {{"occlusion", "true"}},
                       .balls = randomBalls(count, 100, 0.1f, 0.2f, 7)};
     const Lab lab(setup);
-    const bool listed = lab.passNames().find("neighbours.neighbour_lists") != std::string::npos;
+    const bool listed = lab.passNames().find("neighbors.neighbor_lists") != std::string::npos;
     CHECK(listed == (count >= 1 && count <= 65536));
   }
 }

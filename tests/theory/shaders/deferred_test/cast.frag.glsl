@@ -1,11 +1,11 @@
 // An analytic G-buffer: the spheres of the scene and a horizontal plane, met by the ray through each pixel's centre.
 // read    instances   @spheres
-// write   normal, base, mro, emissive, position, depth   as deferred/gbuffer.glsl has them; position is world, alpha 1
+// write   normal, base, metallic_roughness, emissive, position, depth   as deferred/gbuffer.glsl has them; position is world, alpha 1
 //         back        depth where the ray leaves what it has met; 0 for the plane
 // params  count       spheres
 //         floor_y     height of the plane
 //         floor_mro   its metallic, roughness, occlusion, and which model
-//         ball_model  mro.a of the spheres
+//         ball_model  metallic_roughness.a of the spheres
 //         floor_albedo, glow (emissive of the spheres)
 // FLOOR   0: no plane
 #include "deferred/gbuffer.glsl"
@@ -26,8 +26,8 @@ out vec2 normal;
 #ifdef HAS_BASE
 out vec4 base;
 #endif
-#ifdef HAS_MRO
-out vec4 mro;
+#ifdef HAS_METALLIC_ROUGHNESS
+out vec4 metallic_roughness;
 #endif
 #ifdef HAS_EMISSIVE
 out vec4 emissive;
@@ -68,8 +68,8 @@ void main() {
 #ifdef HAS_BASE
   base = vec4(albedo, 1.0);
 #endif
-#ifdef HAS_MRO
-  mro = kind;
+#ifdef HAS_METALLIC_ROUGHNESS
+  metallic_roughness = kind;
 #endif
 #ifdef HAS_EMISSIVE
   emissive = vec4(light, 1.0);

@@ -1,8 +1,8 @@
-// Direct light from everywhere: the integral over the hemisphere of what shading/direct.glsl gives for light of radiance 1.
+// Direct light from everywhere: the integral over the hemisphere of what shading/brdf.glsl gives for light of radiance 1.
 // read    brdf      `as linear`
 // write   result    x: Cook-Torrance, y: Blinn-Phong, of a white metal; z, w: of a white dielectric. Along x the cosine of the normal to the
 //                   eye, (i + 1) / size, along y roughness, (i + 1/2) / size
-#include "shading/direct.glsl"
+#include "shading/brdf.glsl"
 
 in vec2 uv;
 out vec4 result;
@@ -17,7 +17,7 @@ void main() {
   for (int white = 0; white < 2; ++white) {
     Surface surface = Surface(vec3(1.0), white == 0 ? 1.0 : 0.0, roughness);
     Response response = responseOf(surface, nv);
-    Phong phong = phongOf(surface, exponentOfRoughness(roughness));
+    Response phong = phongResponse(surface, exponentOfRoughness(roughness));
     vec3 d = response.multiple + response.diffuse;
     vec2 total = vec2(0.0);
     for (int i = 0; i < kHeights; ++i) {
@@ -30,7 +30,7 @@ void main() {
         float share = 4.0 * max(dot(v, h), 0.0) * sh * width * 2.0 * kPi / float(kAzimuths);
         if (l.z <= 0.0) continue;
         // The even parts are integrated in closed form: pi times themselves.
-        total.x += share * (cookTorrance(response, roughness, n, v, l).r - l.z * d.r / kPi);
+        total.x += share * (cookTorrance(response, n, v, l).r - l.z * d.r / kPi);
         total.y += share * (blinnPhong(phong, n, v, l).r - l.z * phong.diffuse.r / kPi);
       }
     }

@@ -1,5 +1,5 @@
 // What surrounds points spread evenly over a sphere, by the pixel.
-// read   neighbours, irradiance, brdf, sun?; spheres
+// read   neighbors, irradiance, brdf, sun?; spheres
 // write  shares (of the sky, the mirrored lobe and the sun that are seen), around (light from everywhere), place, facing (normal)
 // params row, roughness
 #include "common/view.glsl"
@@ -7,7 +7,9 @@ layout(std140) uniform Parameters {
   int row;
   float roughness;
 };
-#include "neighbours/surround.glsl"
+#include "shading/ambient.glsl"
+#include "shading/lobe.glsl"
+#include "spheres/neighbors/irradiance.glsl"
 
 struct Instance {
   vec3 center;
@@ -26,13 +28,15 @@ void main() {
   vec3 n = vec3(sqrt(1.0 - z * z) * vec2(cos(2.0 * kPi * at.x), sin(2.0 * kPi * at.x)), z);
   vec3 position = instance[row].center + n * instance[row].radius;
   vec3 v = normalize(eye - position);
+  Surface surface = Surface(vec3(1.0), 1.0, roughness);
+  Point point = Point(position, n, v, reflect(-v, n), clamp(dot(n, v), 0.0, 1.0), 1.0);
   Lobe lobe = lobeOf(roughness, 0.0);
-  float lean = responseOf(Surface(vec3(1.0), 1.0, roughness), clamp(dot(n, v), 0.0, 1.0)).lobe.x;
-  Surround all = surroundOf(listedOf(uint(row)), position, n, mix(reflect(-v, n), n, lean), roughness, vec3(1.0), lobe);
-  shares = vec4(all.seen, all.mirror_seen, all.sun_seen, 1.0);
-  vec2 lookup = vec2(0.0, 0.5 / float(textureSize(irradiance, 0).y));
-  vec3 sky = sampleEquirect(irradiance, equirectUv(all.bent), lookup).rgb, below = sampleEquirect(irradiance, vec2(0.0, 1.0), lookup).rgb;
-  around = vec4(aroundSeen(all, n, lobe, sky, 0.0, below, below), 1.0);
+  vec3 axis = mix(point.mirror, n, responseOf(surface, point.nv).lean);
+  Occlusion all = occlusionOf(listOf(uint(row)), point, surface, axis, lobe);
+  shares = vec4(all.sky.seen, all.lobe.seen, all.lights.sun, 1.0);
+  vec4 below = irradianceTowards(vec3(0.0, -1.0, 0.0), lobe);
+  vec4 sky = vec4(irradianceTowards(all.sky.bent, lobe).rgb, 0.0);
+  around = vec4(irradianceSeen(all.sky, n, lobe, sky, all.lights.spot, below.rgb, below.rgb), 1.0);
   place = vec4(position, 1.0);
   facing = vec4(n, 0.0);
 }

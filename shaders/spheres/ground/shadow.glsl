@@ -15,7 +15,7 @@ layout(std140) uniform Parameters { float sky_turn; };
 // Unit, towards the light; radians of half its disc. A disc of radius s has the variance s^2 / 4 along an axis.
 vec4 lightAndAngle() {
 #if SPOT
-  return vec4(towardsBrightest(sky_turn), spotAround().w);
+  return vec4(towardsBrightest(sky_turn), spotIrradiance().w);
 #else
   return vec4(sun_light[0].direction, max(acos(clamp(sun_light[0].cos_angle, 0.0, 1.0)), 0.002));
 #endif

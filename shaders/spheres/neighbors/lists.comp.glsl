@@ -1,12 +1,12 @@
-// Makes the lists of neighbours/lists.glsl, with one thread for each sphere. Another sphere is a candidate when some point of this one lies within its
+// Makes the lists of spheres/neighbors/lists.glsl, with one thread for each sphere. Another sphere is a candidate when some point of this one lies within its
 // reach. The widest kCandidates are kept, equally wide ones by their rows. A nearer candidate may hide a farther one; how much of it, the caps say that
 // both are from this sphere's middle. A candidate that is hidden nearly whole is left out.
 // read    instances   the spheres
-//         grid?       of neighbours/grid.comp.glsl; without it each sphere looks at all
+//         grid?       of spheres/neighbors/grid.comp.glsl; without it each sphere looks at all
 //         ground?     see scene/ground.glsl
-// write   neighbours
+// write   neighbors
 // params  count       of spheres
-//         cells       as in neighbours/grid.comp.glsl
+//         cells       as in spheres/neighbors/grid.comp.glsl
 //         reach       how far a sphere hides anything, in its radii
 #include "common/fast_atan.glsl"
 #ifdef HAS_GRID
@@ -20,7 +20,7 @@
 #include "scene/instances.glsl"
 
 layout(local_size_x = 32) in;
-layout(rgba32f) uniform writeonly image2D neighbours;
+layout(rgba32f) uniform writeonly image2D neighbors;
 layout(std140) uniform Parameters {
   uint count;
   uint cells;
@@ -62,7 +62,7 @@ float angleOf(uint sine_bits) {
 }
 
 // The share that nearer spheres leave of the cap of a sphere. `angle` is half the cap's; `axis` goes from `center`, where it is seen from, to the
-// sphere's centre.
+// sphere's center.
 float leftOf(float angle, vec3 axis, vec3 center) {
   float left = 1.0, distance_to = length(axis);
   axis /= distance_to;
@@ -115,7 +115,7 @@ void main() {
 
   // Round -2 writes the two texels for all lists, round -1 the image in the ground, and round `found` the end of a list that is shorter.
   int listed = 0;
-  for (int i = self == 0u ? -2 : -1; i <= found && listed < MOST_NEIGHBOURS; ++i) {
+  for (int i = self == 0u ? -2 : -1; i <= found && listed < MOST_NEIGHBORS; ++i) {
     vec4 ball = vec4(0.0), light = vec4(0.0);
     if (i == -2) {
       ball = vec4(radii, 0.0, 0.0, 0.0);
@@ -137,10 +137,10 @@ void main() {
       ball = vec4(instance[candidate.y].center, instance[candidate.y].radius);
       float left = leftOf(angleOf(candidate.x), ball.xyz - own.xyz, own.xyz);
       if (left < kHidden) continue;
-      light = vec4(instance[candidate.y].albedo, packMatter(left, instance[candidate.y].roughness, instance[candidate.y].metallic));
+      light = vec4(instance[candidate.y].albedo, packMaterial(left, instance[candidate.y].roughness, instance[candidate.y].metallic));
     }
-    ivec2 texel = i == -2 ? ivec2(0) : neighbourTexel(self, listed++);
-    imageStore(neighbours, texel, ball);
-    imageStore(neighbours, texel + ivec2(1, 0), light);
+    ivec2 texel = i == -2 ? ivec2(0) : neighborTexel(self, listed++);
+    imageStore(neighbors, texel, ball);
+    imageStore(neighbors, texel + ivec2(1, 0), light);
   }
 }

@@ -1,4 +1,4 @@
-// Makes the grid of neighbours/grid.glsl by a counting sort, in one group of 256 threads. The order of the spheres within a cell is not defined.
+// Makes the grid of spheres/neighbors/grid.glsl by a counting sort, in one group of 256 threads. The order of the spheres within a cell is not defined.
 // read    instances   the spheres
 // write   grid        room for `cells` + 1 words, and one word for each sphere
 // params  count       of spheres

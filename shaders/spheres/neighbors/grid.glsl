@@ -1,9 +1,9 @@
-// Spheres sorted by the cells of a grid over the box of their centres. A shader finds the spheres near a place without a look at all spheres.
-// Cells are cubes. A sphere stands in the cell of its centre, unless it is large: its radius is over twice the geometric mean of all radii. Large
+// Spheres sorted by the cells of a grid over the box of their centers. A shader finds the spheres near a place without a look at all spheres.
+// Cells are cubes. A sphere stands in the cell of its center, unless it is large: its radius is over twice the geometric mean of all radii. Large
 // spheres stand in one more cell, the last, which every search goes through.
 // grid   buffer; the define GRID_ACCESS is its qualifier, readonly by default
-#ifndef NEIGHBOURS_GRID_GLSL
-#define NEIGHBOURS_GRID_GLSL
+#ifndef NEIGHBORS_GRID_GLSL
+#define NEIGHBORS_GRID_GLSL
 
 #ifndef GRID_ACCESS
 #define GRID_ACCESS readonly

@@ -1,7 +1,7 @@
 // What a sphere leaves of the disc of a light far away, as the ground sees it: two circles, as if the sky were flat there.
 // modify  lights   x: of the sun; with SPOT y: of the brightest spot; "multiply"
 #include "common/fast_atan.glsl"
-#include "neighbours/overlap.glsl"
+#include "spheres/neighbors/overlap.glsl"
 
 in vec3 at;
 flat in vec4 sphere;

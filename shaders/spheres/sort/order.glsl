@@ -8,7 +8,7 @@ const uvec2 kPadding = uvec2(0xffffffffu);
 // Farther first. -0 equals +0; NaN comes last.
 uint depthKey(float depth) {
   uint bits = depth == 0.0 ? 0u : floatBitsToUint(depth);
-  bool no_number = (bits & 0x7fffffffu) > 0x7f800000u;  // isnan() may be optimised away
+  bool no_number = (bits & 0x7fffffffu) > 0x7f800000u;  // isnan() may be optimized away
   bits = (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
   return no_number ? 0xffffffffu : ~bits;
 }

@@ -1,6 +1,6 @@
 // How much caps of directions, and discs in the sky, cover of each other.
-#ifndef NEIGHBOURS_OVERLAP_GLSL
-#define NEIGHBOURS_OVERLAP_GLSL
+#ifndef NEIGHBORS_OVERLAP_GLSL
+#define NEIGHBORS_OVERLAP_GLSL
 
 #include "common/equirect.glsl"
 
@@ -11,7 +11,7 @@ float capOverlap(float over, float wide, float apart) {
   return size * size * x * x * (3.0 - 2.0 * x);
 }
 
-// The share of a disc of radius `wide` that a disc of radius `over` covers. Their centres are `apart`. It is the area that two flat circles share, which
+// The share of a disc of radius `wide` that a disc of radius `over` covers. Their centers are `apart`. It is the area that two flat circles share, which
 // is right for small angles.
 float discOverlap(float over, float wide, float apart) {
   if (apart >= over + wide) return 0.0;

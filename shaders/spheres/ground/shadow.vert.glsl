@@ -1,10 +1,10 @@
 // The rectangle around the shadow of a sphere on the ground, with its penumbra.
 // read    ground   see scene/ground.glsl
-//         sun or brightest, params: see ground/shadow.glsl
+//         sun or brightest, params: see spheres/ground/shadow.glsl
 #include "common/view.glsl"
 #include "scene/ground.glsl"
 #include "scene/instances.glsl"
-#include "shadow.glsl"
+#include "spheres/ground/shadow.glsl"
 
 out vec3 at;  // world
 flat out vec4 sphere;

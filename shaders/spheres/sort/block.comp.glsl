@@ -3,7 +3,7 @@
 // write   keys       uvec2 per element, pow2ceil(count) of them; the rest is padded with the greatest key
 // params  count      instances
 // define  HALF   0 to 9, default 9; less for fewer elements than 1024, which then cost less
-// threads: half the elements. Merges of larger blocks follow in sort/merge.comp.glsl.
+// threads: half the elements. Merges of larger blocks follow in spheres/sort/merge.comp.glsl.
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 #include "order.glsl"

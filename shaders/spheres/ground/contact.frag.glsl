@@ -1,7 +1,7 @@
 // What a sphere leaves of the sky's light on the ground, in closed form, and what it throws back of it: light goes to and fro between the
 // two. Both see about as much of the sky, so that ground = seen + hidden albedo sphere, sphere = seen + hidden ground_albedo ground.
 // modify  sky   "multiply"
-#include "neighbours/caps.glsl"
+#include "spheres/neighbors/caps.glsl"
 
 in vec3 to_center;
 flat in vec2 window;

@@ -1,0 +1,91 @@
+// Light of the environment: what a lobe reflects of its maps, its brightest spot in closed form, and irradiance.
+// read    irradiance?, specular?, environment?, brightest?   see shading/environment.glsl; without one its light is missing
+//         probes?, sh?   light that other things reflect, see gi/bounce.glsl
+#ifndef SHADING_AMBIENT_GLSL
+#define SHADING_AMBIENT_GLSL
+
+#include "shading/environment.glsl"
+#include "shading/material.glsl"
+#include "shading/point.glsl"
+#ifdef HAS_PROBES
+#include "gi/bounce.glsl"
+#endif
+
+// Axis of the reflected lobe, not normalized.
+vec3 lobeAxis(Point point, Response response) { return mix(point.mirror, point.normal, response.lean); }
+
+#ifdef HAS_SPECULAR
+// Mean radiance of the environment in the lobe around `axis`.
+vec3 reflectedEnvironment(Point point, Response response, Lobe lobe, vec3 axis) {
+  float level = min(lobe.specular_level + response.level_shift * lobe.level_per_shift, lobe.last_level);
+  vec2 uv = equirectUv(axis) - vec2(sky_turn, 0.0);
+  vec3 radiance = sampleEquirect(specular, uv, equirectLookup(level, lobe.specular_pole)).rgb;
+#ifdef HAS_ENVIRONMENT
+  vec3 sharp = sampleEquirect(environment, uv, vec2(lobe.environment_level, lobe.environment_pole)).rgb;
+  // The spot is not to be seen twice.
+  float cut = dot(point.mirror, lobe.spot) > kNearCosine ? lobe.spot_cut : 0.0;
+  sharp -= cut * max(sharp - brightest_at.w, 0.0);
+  radiance = mix(sharp, radiance, lobe.specular_weight);
+#endif
+  return radiance;
+}
+
+// |V + L|^2 for light from the spot.
+float spotHalf2(Point point, Lobe lobe) {
+  float nl = max(dot(point.normal, lobe.spot), 0.0);
+  return max(2.0 + 4.0 * point.nv * nl - 2.0 * dot(point.mirror, lobe.spot), 1e-6);
+}
+
+// Distribution over masking, for light from the spot: GGX with Smith's height-correlated masking (Heitz, JCGT 2014).
+float spotStrength(Point point, Lobe lobe) {
+  float nv = point.nv, nl = max(dot(point.normal, lobe.spot), 0.0), a2 = lobe.spot_shape.alpha2, h2 = spotHalf2(point, lobe);
+  float masking = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
+  return spotDistribution(lobe.spot_shape, max(h2 - (nv + nl) * (nv + nl), 0.0), h2, nl, max(masking, 1e-6));
+}
+
+// Radiance towards the eye of the spot's reflection, with Schlick's Fresnel.
+vec3 reflectedSpot(Point point, Response response, Lobe lobe, float strength) {
+  float m = 1.0 - 0.5 * sqrt(spotHalf2(point, lobe)), m2 = m * m;
+  vec3 fresnel = response.f0 + (1.0 - response.f0) * (m2 * m2 * m);
+  return fresnel * brightest_light.rgb * (lobe.spot_share * strength);
+}
+#endif
+
+#ifdef HAS_IRRADIANCE
+// Irradiance over pi of a surface that faces a direction; alpha: its part of spotIrradiance().
+vec4 irradianceTowards(vec3 facing, Lobe lobe) {
+  return sampleEquirect(irradiance, equirectUv(facing) - vec2(sky_turn, 0.0), vec2(0.0, lobe.irradiance_pole));
+}
+
+#ifdef HAS_PROBES
+// The part of it that other things reflect.
+vec3 bouncedIrradiance(Point point, Lobe lobe) {
+  vec3 coefficients[9];
+  float left = probeAt(point.position, coefficients);
+  Bounce bounce = bounceOf(coefficients, left, point.normal);
+  vec2 lookup = vec2(0.0, lobe.irradiance_pole);
+  vec2 front = equirectUv(bounce.facing) - vec2(sky_turn, 0.0), back = vec2(front.x + 0.5, 1.0 - front.y);
+  return bounced(bounce, sampleEquirect(irradiance, front, lookup).rgb, sampleEquirect(irradiance, back, lookup).rgb);
+}
+#endif
+#endif
+
+Ambient ambientOf(Point point, Response response, Lobe lobe, LightsSeen seen) {
+  Ambient ambient = Ambient(vec3(0.0), vec3(0.0));
+#ifdef HAS_SPECULAR
+  ambient.reflected = reflectedEnvironment(point, response, lobe, lobeAxis(point, response)) * response.single;
+#ifdef HAS_BRIGHTEST
+  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * seen.spot);
+#endif
+#endif
+#ifdef HAS_IRRADIANCE
+  vec4 mean = irradianceTowards(point.normal, lobe);
+  ambient.mean = max(mean.rgb - spotIrradiance().rgb * (mean.a * (1.0 - seen.spot)), vec3(0.0));
+#ifdef HAS_PROBES
+  ambient.mean += bouncedIrradiance(point, lobe);
+#endif
+#endif
+  return ambient;
+}
+
+#endif

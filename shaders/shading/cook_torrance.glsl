@@ -1,0 +1,18 @@
+// The shading model of what is drawn forward: Cook-Torrance. Include it before shading/light.glsl.
+#ifndef SHADING_COOK_TORRANCE_GLSL
+#define SHADING_COOK_TORRANCE_GLSL
+
+#include "shading/brdf.glsl"
+#include "shading/point.glsl"
+
+// Radiance towards the eye of the environment's light.
+vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
+  return (ambient.reflected + (response.multiple + response.diffuse) * ambient.mean) * point.sky_visible;
+}
+
+// Radiance towards the eye for an irradiance of 1 from the unit direction `l`.
+vec3 directRadiance(Point point, Response response, vec3 l) {
+  return cookTorrance(response, point.normal, point.to_eye, l);
+}
+
+#endif

@@ -1,0 +1,32 @@
+// Light that leaves a sphere towards the eye: as other surfaces, and a glint of the brightest spot in small ones.
+// read    neighbors?    what spheres hide of each other, see spheres/neighbors/ambient.glsl
+//         the lights: shading/light.glsl
+#ifndef SPHERES_LIGHT_GLSL
+#define SPHERES_LIGHT_GLSL
+
+#include "shading/cook_torrance.glsl"
+#include "shading/light.glsl"
+#ifdef HAS_NEIGHBORS
+#include "spheres/neighbors/ambient.glsl"
+#endif
+
+// `glint`: see glintStrength(). `row` and `radius` are the sphere's.
+Light sphereLight(Point point, Surface surface, Lobe lobe, float glint, uint row, float radius) {
+  Response response = responseOf(surface, point.nv);
+  LightsSeen seen = lightsSeen(point);
+#ifdef HAS_NEIGHBORS
+  Occlusion occlusion = occlusionOf(listOf(row), point, surface, lobeAxis(point, response), lobe);
+  // Spheres may stand in the shadow maps, too.
+  seen.sun = min(seen.sun, occlusion.lights.sun);
+  seen.spot = min(seen.spot, occlusion.lights.spot);
+  Ambient ambient = ambientAmongSpheres(occlusion, point, surface, response, lobe, seen, radius);
+#else
+  Ambient ambient = ambientOf(point, response, lobe, seen);
+#endif
+#if defined HAS_SPECULAR && defined HAS_BRIGHTEST
+  ambient.reflected += reflectedSpot(point, response, lobe, glint * seen.spot);
+#endif
+  return lightOf(point, response, ambient, seen);
+}
+
+#endif

@@ -1,0 +1,41 @@
+// Light of the environment on a sphere among others: what they hide of it, and the light that they and the ground reflect in its place. In
+// place of ambientOf() of shading/ambient.glsl.
+// read    neighbors   see spheres/neighbors/listed.glsl
+#ifndef SPHERES_NEIGHBORS_AMBIENT_GLSL
+#define SPHERES_NEIGHBORS_AMBIENT_GLSL
+
+#include "shading/ambient.glsl"
+#include "spheres/lobe_varyings.glsl"
+#include "spheres/neighbors/irradiance.glsl"
+#ifdef HAS_SPECULAR
+#include "spheres/neighbors/occluder_light.glsl"
+#endif
+
+// `radius`: of the sphere that has the point.
+Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, Response response, Lobe lobe, LightsSeen seen, float radius) {
+  Ambient ambient = Ambient(vec3(0.0), vec3(0.0));
+  GroundPlane plane = occlusion.plane;
+  LobeGround ground = occlusion.ground;
+  GroundLight ground_light = groundLight(lobe, sky_above.rgb);
+#ifdef HAS_SPECULAR
+  vec3 axis = overGround(lobeAxis(point, response), occlusion.lobe.width, ground.surface);
+  vec3 sky = reflectedEnvironment(point, response, lobe, axis);
+  vec3 below = groundRadiance(plane, ground_light, sky, ground.surface, ground.hidden, ground.lights);
+  vec3 occluders = occluderRadiance(occlusion, point, surface, radius, lobe, ground_light);
+  ambient.reflected = (mix(sky, below, ground.share) * occlusion.lobe.seen + occluders) * response.single;
+#ifdef HAS_BRIGHTEST
+  ambient.reflected += reflectedSpot(point, response, lobe, spotStrength(point, lobe) * seen.spot);
+#endif
+#endif
+#ifdef HAS_IRRADIANCE
+  vec4 mean = irradianceTowards(occlusion.sky.bent, lobe);
+  vec3 open_ground = mix(sky_below.rgb, plane.albedo * totalOf(ground_light), surfaceOf(plane, point.position));
+  ambient.mean = irradianceSeen(occlusion.sky, point.normal, lobe, mean, seen.spot, sky_below.rgb, open_ground);
+#ifdef HAS_PROBES
+  ambient.mean += bouncedIrradiance(point, lobe);
+#endif
+#endif
+  return ambient;
+}
+
+#endif
