@@ -4,6 +4,7 @@ include(CMakePackageConfigHelpers)
 
 install(DIRECTORY engine DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/weft FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY graphs shaders materials scenes words DESTINATION ${CMAKE_INSTALL_DATADIR}/weft)
+install(FILES docs/errors.md DESTINATION ${CMAKE_INSTALL_DATADIR}/weft/docs)
 set(weft_package ${CMAKE_INSTALL_LIBDIR}/cmake/weft)
 install(EXPORT weft_core NAMESPACE weft:: FILE weftCore.cmake DESTINATION ${weft_package})
 if(WEFT_GL)

@@ -227,9 +227,11 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   check->add_flag("--watch", options.watch, "check again whenever a file that was read changes, until ended");
 
   CLI::App* explain = app.add_subcommand(
-      "explain", "say what is known of one pass, resource or parameter: order, storage, barriers, readers");
+      "explain",
+      "say what is known of one pass, resource or parameter: order, storage, barriers, readers; or, with a "
+      "code such as W053 alone, what it means");
   addGraphOptions(*explain, options, raw);
-  explain->add_option("name", options.name, "any unique suffix of its name")->required();
+  explain->add_option("name", options.name, "any unique suffix of its name");
 
   CLI::App* expand =
       app.add_subcommand("expand", "print the expanded graph as a graph file that gives the same plan");

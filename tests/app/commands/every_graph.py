@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Every command on every file of graphs/ and on every broken graph of tests/bad_graphs: none crashes, each exits as docs/limits.md says, and what is
-wrong is said with a place. Prints a line for each file: what each command ended with, and the codes of what it said; then the table of docs/checking.md.
+wrong is said with a place. Prints a line for each file: what each command ended with, and the codes of what it said; then a table of exit codes.
 
     every_graph.py WEFT [--all] [--cpu] [--only PART] [--jobs N]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`weft params` and `weft presets`: every parameter with its type, value, range and label, every bundled preset with a line.
+"""`weft params` and `weft presets`: every parameter with its type, value, range and label, every bundled preset with a line. And `weft explain CODE`.
 
     lists.py WEFT
 """
@@ -55,6 +55,12 @@ def main():
     lines = run(weft, "presets").out.splitlines()
     report.check([line.split()[0] for line in lines] == files, f"presets: {lines}")
     report.check(all(p["description"] in line for p, line in zip(presets, lines)), f"presets: {lines}")
+
+    explained = run(weft, "explain", "w053")
+    report.check(explained.code == 0 and explained.out.startswith("W053: ") and "selector" in explained.out and "w053_" in explained.out and "W054" not in explained.out and "```" not in explained.out, f"{explained}")
+    for words in (["W010"], ["graphs/glow.json"]):
+        wrong = run(weft, "explain", *words)
+        report.check(wrong.code == 2 and not wrong.out and "such as W053" in wrong.err, f"explain {words}: {wrong}")
     report.end()
 
 

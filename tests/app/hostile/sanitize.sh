@@ -19,7 +19,7 @@ export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:exitcode=86:suppression
 export LSAN_OPTIONS="suppressions=$top/tests/gl/lsan.supp:print_suppressions=0:exitcode=86"
 start=$SECONDS
 "$top/tests/ctest.sh" "$build" -L cpu -E '^app_hostile_'
-"$top/tests/ctest.sh" "$build" -R "^(${gl_tests// /|})(_binaries|_mesa_messages)?$"
+"$top/tests/ctest.sh" "$build" -R "^(${gl_tests// /|})(_binaries)?$"
 
 # The scripts: a report goes to a file and fails the script that caused it (tests/app/program.py), whatever became of the exit code and
 # the output. The viewer's driver stays loaded until leaks are looked for.

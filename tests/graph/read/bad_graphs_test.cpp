@@ -3,13 +3,11 @@
 // and fails when the expression is evaluated with the graph's own parameters.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "engine/graph/read/read.h"
 #include "tests/graph/expand/map_scope.h"
@@ -94,57 +92,4 @@ TEST_CASE("every code below W040 has a broken file, and every broken file is in 
     const std::string name = entry.path().filename().string();
     if (entry.is_regular_file() && name != "manifest.json") CHECK_MESSAGE(listed.count(name) == 1, name);
   }
-}
-
-TEST_CASE("docs/errors.md has a section for every code below W040, and its messages are the program's") {
-  std::ifstream in(std::filesystem::path(WEFT_SOURCE_DIR) / "docs/errors.md");
-  std::map<int, std::string> sections;
-  int section = -1;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("## W")) section = numberOf(line.substr(3, 4));
-    sections[section] += line + "\n";
-  }
-  for (const auto& [number, title] : codesOfReading()) {
-    CAPTURE(title);
-    CHECK(sections[number].find("## W0") == 0);
-    CHECK(sections[number].find(": " + title + "\n") == 7);
-  }
-
-  // What each section shows between its fences is a sequence of messages of files in tests/bad_graphs.
-  std::map<int, std::string> printed;
-  for (const auto& entry : manifest()) {
-    const int number = numberOf(entry.at("code"));
-    if (number >= 40) continue;
-    const Diagnostics said = diagnose(entry.at("file"), entry.value("stage", "read"));
-    std::string text = said.text();
-    const std::string folder = kFolder.string() + "/";
-    for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder))
-      text.erase(at, folder.size());
-    printed[number] += "\n" + text;
-  }
-  int shown = 0;
-  for (const auto& [number, text] : sections) {
-    if (number < 1 || number >= 40) continue;
-    const std::string fence = "```text\n";
-    const std::size_t from = text.find(fence), to = text.find("\n```", from + 1);
-    REQUIRE_MESSAGE(from != std::string::npos, number);
-    REQUIRE(to != std::string::npos);
-    std::string message;
-    std::istringstream lines(text.substr(from + fence.size(), to - from - fence.size()) + "\n");
-    const auto check = [&] {
-      if (message.empty()) return;
-      CHECK_MESSAGE(printed[number].find("\n" + message) != std::string::npos, message, "is none of",
-                    printed[number]);
-      ++shown;
-    };
-    for (std::string line; std::getline(lines, line);) {
-      if (!line.starts_with("    ")) {
-        check();
-        message.clear();
-      }
-      message += line + "\n";
-    }
-    check();
-  }
-  CHECK(shown >= 21);
 }
