@@ -12,7 +12,7 @@ float onPlane(vec3 place, vec3 n, float thickness, ivec2 pixel, float neighbour_
   return max(1.0 - off * off, 0.0);
 }
 
-// A tenth of the radius, and four pixels of what is seen there; distances are stored as halves.
+// A tenth of the radius, and the width of four pixels there; distances are stored as halves.
 float thicknessAt(float radius, float view_distance) {
   return 0.1 * radius + view_distance * (4.0 / focalPixels().y + 1e-3);
 }

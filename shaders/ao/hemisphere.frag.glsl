@@ -1,7 +1,7 @@
-// Ambient visibility by points in the hemisphere above each surface, those hidden behind something near count as blocked
-// (Mittring, "Finding next gen: CryEngine 2", SIGGRAPH 2007 courses; in the normal's hemisphere as Filion and McNaughton have
-// it, "StarCraft II effects and techniques", SIGGRAPH 2008). Directions are cosine-weighted. What is below the tangent plane
-// blocks nothing, so a plane is exactly 1.
+// Ambient visibility by sample points in the hemisphere above each surface; a point hidden by something near counts as blocked
+// (Mittring, "Finding next gen: CryEngine 2", SIGGRAPH 2007 courses; in the normal's hemisphere as in Filion and McNaughton,
+// "StarCraft II effects and techniques", SIGGRAPH 2008). Directions are cosine-weighted. Points below the tangent plane
+// are never blocked, so a plane is exactly 1.
 // read    depth, normal   the G-buffer's
 //         occluders?      see ao/surface.glsl
 // write   result          half size; x: visibility, y: distance along the view axis, 0 for the sky
@@ -16,7 +16,7 @@ layout(std140) uniform Parameters {
 out vec2 result;
 
 const float kTangent = 0.02;  // sine of the elevation below which a sample counts as part of the surface
-const float kSoftEnd = 0.4;   // share of the radius over which what blocks fades
+const float kSoftEnd = 0.4;   // share of the radius over which occluders fade
 
 float radicalInverse(uint bits) { return float(bitfieldReverse(bits)) * 2.3283064365386963e-10; }
 

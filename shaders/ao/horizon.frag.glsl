@@ -1,13 +1,14 @@
 // Ambient visibility by horizons: in slices through the view direction, the cosine-weighted integral between the highest
 // occluders on both sides (GTAO: Jimenez, Wu, Pesce and Jarabo, "Practical real-time strategies for accurate indirect
-// occlusion", SIGGRAPH 2016 courses). What is below the tangent plane occludes nothing, so a plane is exactly 1.
-// With `backs` each occluder ends where its back face is, so the sky between it and the surface behind it is seen: the occluders of one side
-// are one interval of angles. Without, everything behind an occluder is filled, which is too dark beside round things seen from low angles.
+// occlusion", SIGGRAPH 2016 courses). Nothing below the tangent plane occludes, so a plane is exactly 1.
+// With `backs`, an occluder ends at its back face and the sky between it and the surface behind it is visible: the occluders of one side
+// are one interval of angles. Without it, all space behind an occluder is solid, which is too dark beside round objects seen from low
+// angles.
 // read    depth, normal   the G-buffer's
 //         occluders?      see ao/surface.glsl
 //         backs?          depth of the nearest back faces; 0: there are none
 // write   result          half size; x: visibility, y: distance along the view axis, 0 for the sky
-// params  radius    world units within which things occlude, with a soft end
+// params  radius    world units: the reach of occluders, with a soft end
 //         slices    directions per pixel; 16 pixels next to each other take different ones
 //         steps     samples on each side of a slice
 #include "surface.glsl"
@@ -25,7 +26,7 @@ out vec2 result;
 const float kTangent = 0.02;  // sine of the elevation below which a sample counts as part of the surface
 const float kSoftEnd = 0.4;   // share of the radius over which occluders fade
 
-// How much of the hemisphere's cosine is seen between the normal's plane and a horizon: equation 7 of the paper.
+// Cosine-weighted visibility between the normal's plane and a horizon: equation 7 of the paper.
 float arc(float horizon, float tilt, float cos_tilt) {
   return 0.25 * (cos_tilt + 2.0 * horizon * sin(tilt) - cos(2.0 * horizon - tilt));
 }
@@ -38,7 +39,7 @@ void main() {
   vec3 place = placeAt(pixel, z), n = facing(pixel), v = normalize(-place);
   vec2 focal = focalPixels();
 
-  // Directions and first steps of 4 x 4 pixels, as the paper spreads them; ao/smooth takes their mean.
+  // Directions and first steps vary over 4 x 4 pixels as in the paper; ao/smooth averages them.
   float turn = float((((half_texel.x + half_texel.y) & 3) << 2) + (half_texel.x & 3)) / 16.0;
   float start = float((half_texel.y - half_texel.x) & 3) / 4.0;
   float visibility = 0.0, whole = 1e-6;
@@ -59,7 +60,7 @@ void main() {
       vec2 way = side == 0 ? reach : -reach;
       for (int j = 0; j < steps; ++j) {
         float t = (float(j) + start + 0.125) / float(steps);
-        float far = max(t * t, (float(j) + 1.0) / max(pixels, 1e-3));  // dense at first, never the pixel itself
+        float far = max(t * t, (float(j) + 1.0) / max(pixels, 1e-3));  // dense near the pixel, never the pixel itself
         vec2 to = vec2(pixel) + 0.5 + way * far;
         ivec2 at = ivec2(floor(to));
         if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) break;
@@ -72,7 +73,7 @@ void main() {
         horizon[side] = max(horizon[side], mix(lowest[side], dot(delta, v) * per_length, weight));
 #ifdef HAS_BACKS
         if (weight <= 0.0) continue;
-        // The end of the interval: the lowest back, of fading occluders by their share.
+        // The end of the interval: the lowest back face; a fading occluder counts by its share.
         float behind = texelFetch(backs, at, 0).r, end = lowest[side];
         if (behind > 0.0 && behind <= there) end = max(end, dot(normalize(placeAt(at, behind) - place), v));
         end = mix(lowest[side], end, weight);
@@ -91,7 +92,7 @@ void main() {
     if (strongest[1] > 0.0) seen += arc(tilt - 0.5 * kPi, tilt, cos_tilt) - arc(-acos(clamp(back[1], -1.0, 1.0)), tilt, cos_tilt);
 #endif
     visibility += share * seen;
-    whole += share * (cos_tilt + tilt * sin(tilt));  // without anything in the way; its mean over all directions is 1
+    whole += share * (cos_tilt + tilt * sin(tilt));  // without occluders; its mean over all directions is 1
   }
   result = vec2(min(max(visibility, 0.0) / whole, 1.0), -place.z);
 }

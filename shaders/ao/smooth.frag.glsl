@@ -1,5 +1,5 @@
-// The mean over 4 x 4 texels of ambient visibility, whose directions differ in just these, of those on one surface. The window is
-// 5 wide with halved borders, so that it is centered and each of the 16 counts the same.
+// The mean of ambient visibility over 4 x 4 texels, the period of its sample directions, among texels of the same surface. The window is
+// 5 wide with halved borders, so that it is centered and weighs each of the 16 equally.
 // read    source          half size: visibility, distance along the view axis
 //         depth, normal   the G-buffer's
 // write   result          as `source`

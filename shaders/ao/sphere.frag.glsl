@@ -1,6 +1,6 @@
 // Depth of a ray-traced sphere, for ambient occlusion.
 // modify  depth    near / distance along the view axis (reversed-Z)
-// define  BACK     where the ray leaves the sphere, in place of where it enters
+// define  BACK     1: where the ray leaves the sphere; 0: where it enters
 #include "common/view.glsl"
 
 flat in vec4 sphere;

@@ -1,5 +1,5 @@
-// An octagon around the circle in which the rays from the eye touch a sphere, a pixel wider. Perspective views only; a sphere that the eye is
-// in or nearly touches is not drawn.
+// An octagon around the outline of a sphere, a pixel wider. Perspective views only; a sphere is not drawn when the eye is in it or nearly
+// touches it.
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 

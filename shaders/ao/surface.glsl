@@ -1,5 +1,5 @@
-// What ambient occlusion needs of the G-buffer. It works at half size in view space: texel p of its textures is pixel 2p.
-// Slots: depth, normal; occluders? is the depth of all that hides the sky, where it is not `depth`. All nearest.
+// The G-buffer as ambient occlusion reads it. It works at half size in view space: texel p of its textures is pixel 2p.
+// Slots: depth, normal; occluders?: depth of all occluders, where `depth` lacks some. All nearest.
 #ifndef AO_SURFACE_GLSL
 #define AO_SURFACE_GLSL
 

@@ -1,9 +1,9 @@
-// Ambient visibility at full size: bilinear among the texels on this pixel's surface, where there is none, the nearest in depth.
+// Ambient visibility at full size: bilinear among the texels of this pixel's surface, or the nearest in depth.
 // read    source          half size: visibility, distance along the view axis
 //         depth, normal   the G-buffer's
 // write   result          full size, 0..1; the sky is 1
 // params  radius          world units
-//         strength        exponent of the visibility; 1 is what was found
+//         strength        exponent of the visibility; 1 leaves it unchanged
 #include "blend.glsl"
 
 uniform sampler2D source;

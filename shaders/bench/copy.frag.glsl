@@ -1,4 +1,4 @@
-// The unit of frame costs: one linear lookup per pixel, written as it is.
+// The unit of frame costs: one linear lookup per pixel.
 // read    source   `as linear`
 // write   result
 uniform sampler2D source;

@@ -1,10 +1,10 @@
-// The part of the picture that blooms. The pyramid begins with it and the composite takes it away again where its blur is
-// added, so that light moves and is not made or lost.
+// The bright part of the picture. The bloom pyramid starts from it, and the composite replaces it by its blur, so the total light is
+// kept.
 #ifndef BLOOM_BRIGHT_GLSL
 #define BLOOM_BRIGHT_GLSL
 
-// What lies above the threshold in the largest channel, the hue kept; `knee` is the width of the soft start as a fraction of
-// the threshold. At threshold 0 all of it. The threshold, half the width of the start, and how steep that is.
+// The part above the threshold, measured in the largest channel and with the hue kept; `knee` is the width of the soft start as a
+// fraction of the threshold. A threshold of 0 takes everything. Members: the threshold, half the width of the start, its slope.
 vec3 brightOf(float threshold, float knee) {
   float soft = threshold * knee;
   return vec3(threshold, soft, 1.0 / max(4.0 * soft, 1e-6));

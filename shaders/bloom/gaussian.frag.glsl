@@ -1,4 +1,4 @@
-// One axis of a Gaussian blur; both axes one after the other blur the picture. Scene-referred. What is constant stays as it is.
+// One axis of a separable Gaussian blur. Scene-referred; keeps constant pictures.
 // read    source    `as linear`
 // write   result    of the same size
 // params  sigma     standard deviation in texels

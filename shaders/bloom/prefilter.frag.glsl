@@ -1,10 +1,9 @@
-// First step of the bloom pyramid: what is bright enough, at half the size. Scene-referred. One texel that is not a number
-// stays one texel.
+// First step of the bloom pyramid: the bright part at half the size. Scene-referred. One NaN texel stays one texel.
 // read    source   full size, nearest
 // write   result   half size
 // params  threshold  luminance-like level (largest channel) where bloom begins; 0 lets everything through unchanged
 //         knee       width of the soft start as a fraction of the threshold, 0..1; 0 is a hard edge [0.5]
-//         firefly    define, default 1: texels weigh 1 / (1 + luminance), so that a single hot one cannot flash
+//         firefly    define, default 1: texels weigh 1 / (1 + luminance), so that a single bright one cannot flash
 //                    (Karis, "Next generation post processing in Call of Duty", SIGGRAPH 2014, slide 166)
 #include "common/finite.glsl"
 #include "bright.glsl"

@@ -1,12 +1,12 @@
 // Equirectangular maps: u = atan2(z, x) / 2pi + 1/2, v = 1/2 - asin(y) / pi, row 0 at the top (+Y).
 // Samplers are expected `as linear wrap`: u wraps, and v is kept half a texel inside so that the poles do not wrap too.
-// Every lookup names its level, so no derivative is taken where u jumps from 1 to 0 and there is no seam.
+// Every lookup has an explicit level, so no derivative is taken where u jumps from 1 to 0 and there is no seam.
 #ifndef COMMON_EQUIRECT_GLSL
 #define COMMON_EQUIRECT_GLSL
 
 const float kPi = 3.14159265358979;
 
-// The direction need not be normalized. As fastAtan of common/fast_atan.glsl, for both angles; the second is between -pi/2 and pi/2.
+// The direction need not be normalized. Both angles as in fastAtan() of common/fast_atan.glsl; the second is between -pi/2 and pi/2.
 vec2 equirectUv(vec3 direction) {
   vec2 ax = vec2(abs(direction.x), length(direction.xz)), ay = abs(direction.zy);
   vec2 t = min(ax, ay) / max(max(ax, ay), 1e-30);

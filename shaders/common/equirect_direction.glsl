@@ -1,4 +1,4 @@
-// Directions of equirectangular maps: for what fills them. What looks them up has common/equirect.glsl alone.
+// Directions of the texels of equirectangular maps, for shaders that fill them; common/equirect.glsl is for lookups.
 #ifndef COMMON_EQUIRECT_DIRECTION_GLSL
 #define COMMON_EQUIRECT_DIRECTION_GLSL
 

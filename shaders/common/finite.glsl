@@ -1,4 +1,4 @@
-// Makes radiance fit for filters: a value that is not a number becomes 0, an infinite one the largest half, a negative one 0.
+// Makes radiance safe to filter: NaN becomes 0, infinity the largest half float, negative values 0.
 #ifndef COMMON_FINITE_GLSL
 #define COMMON_FINITE_GLSL
 

@@ -1,4 +1,4 @@
-// The triangle of a fullscreen pass that has a vertex shader of its own.
+// The triangle of a fullscreen pass with its own vertex shader.
 #ifndef COMMON_FULLSCREEN_GLSL
 #define COMMON_FULLSCREEN_GLSL
 

@@ -4,9 +4,9 @@
 #define COMMON_MOUSE_GLSL
 
 struct Mouse {
-  vec2 position;  // where it was last over the picture
-  vec2 dragged;   // where it was last while the left button was held
-  vec2 pressed;   // where the left button last went down
+  vec2 position;  // last position over the picture
+  vec2 dragged;   // last position while the left button was held
+  vec2 pressed;   // position of the last press of the left button
   uint down;      // 1 while the left button is held, else 0
   uint clicked;   // 1 in the frame in which the left button went down, else 0
 };

@@ -20,7 +20,7 @@ layout(std140) uniform View {
 };
 
 // World direction of the ray through a point of the target, 0..1 from its lower left corner. Not normalized: its
-// component along the view axis is 1. Perspective views only; exact (no general inverse is involved).
+// component along the view axis is 1. Perspective views only; exact, without a matrix inverse.
 vec3 viewRay(vec2 target_uv) {
   vec2 ndc = target_uv * 2.0 - 1.0;
   vec2 slope = (ndc + projection[2].xy) / vec2(projection[0].x, projection[1].y);
@@ -36,7 +36,7 @@ vec3 towardsEye(vec3 position) {
 // Radians that one pixel covers at the center of the view.
 float pixelAngle() { return 2.0 / (projection[1].y * viewport.y); }
 
-// How wide a lookup for one pixel has to be. Jitter means that the mean of many frames is shown, which blurs by itself.
+// Angle that a lookup for one pixel covers. With jitter, frames are averaged, which blurs already.
 float lookupAngle() { return (jitter == vec2(0.0) ? 1.0 : 0.5) * pixelAngle(); }
 
 #endif

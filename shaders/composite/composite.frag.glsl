@@ -1,4 +1,4 @@
-// Turns scene-referred into display-referred values. This is the last pass that sees radiance; later ones work on encoded values.
+// Turns scene-referred into display-referred values. The last pass that reads radiance; later ones work on encoded values.
 // The order: aberration, bloom, exposure, white balance, vignette, grading (saturation, contrast); tone curve; grading (lift,
 // gamma, gain), sRGB encoding, table, grain, dither. Steps that are off are not compiled. docs/effects.md has the details.
 // read    color   scene-referred radiance, the target's size, not `as linear`: one texel per pixel
@@ -7,13 +7,13 @@
 //         exposure?  buffer of exposure/adapt.comp.glsl, `as uniform`: a factor beside `ev`; without it, or below 0, there is none
 //         lut?    3D table on encoded values, `as linear`; see lut.glsl. With it the parameter lut_strength, 0..1
 // write   result  display-referred, sRGB encoded
-// params  the first three all together, or none of them for the values in brackets:
+// params  the first three together, or none for the defaults in brackets:
 //         ev              exposure in stops; +1 doubles [0]
 //         bloom_strength  share of the bright part that its blur replaces, 0..1 [0.05]
 //         white           radiance, after exposure, that becomes white [8]
 //         threshold, knee what the bright part is, as in bloom/prefilter; both or none [0, 0: everything]
 //         curve           CURVE, see tone_curve.glsl
-//         aberration      define: aberration_px, how far the middles of red and blue part from green at the corners, in pixels
+//         aberration      define: aberration_px, shift of red and blue against green at the corners, in pixels
 //         white_balance   define: temperature, tint; see white_balance.glsl
 //         vignette        define: vignette_stops lost in the corners, growing with the square of the distance
 //         grading         define: saturation, contrast, lift, gamma, gain; see grading.glsl
@@ -69,13 +69,13 @@ void main() {
   vec3 c = textureLod(color, uv, 0.0).rgb;
   vec2 size = vec2(textureSize(color, 0)), pixel = floor(uv * size) + 0.5;  // gl_FragCoord would cost more in software
 #if ABERRATION || VIGNETTE
-  vec2 from_centre = (pixel - 0.5 * size) / (0.5 * length(size));  // length 1 at the corners
+  vec2 from_center = (pixel - 0.5 * size) / (0.5 * length(size));  // length 1 at the corners
 #endif
 #if ABERRATION && defined(HAS_SHIFTED)
-  // A spectrum: each wavelength draws the picture larger or smaller. Red stands for those around `aberration_px`, green around 0, blue around
-  // its negative, each with weights that fall to nothing at the middle of the next; read at places a pixel apart or less.
-  vec2 apart = from_centre * aberration_px / size;
-  int places = clamp(int(ceil(length(from_centre) * abs(aberration_px))), 1, 8);  // from one middle to the next
+  // A spectrum: the scale of the picture varies with the wavelength. Red is centered at a shift of `aberration_px`, green at 0, blue at its
+  // negative; the weights of each fall to 0 at the center of the next. Samples are at most a pixel apart.
+  vec2 apart = from_center * aberration_px / size;
+  int places = clamp(int(ceil(length(from_center) * abs(aberration_px))), 1, 8);  // from one center to the next
   vec3 spectrum = vec3(0.0);
   for (int i = 1 - 2 * places; i < 2 * places; ++i) {
     float shift = float(i) / float(places);
@@ -93,7 +93,7 @@ void main() {
   c = whiteBalance(c, temperature, tint);
 #endif
 #if VIGNETTE
-  c *= exp2(-vignette_stops * dot(from_centre, from_centre));
+  c *= exp2(-vignette_stops * dot(from_center, from_center));
 #endif
 #if WHITE_BALANCE || defined HAS_BLOOM
   c = max(c, vec3(0.0));

@@ -1,4 +1,4 @@
-// What is the same for all pixels of composite.frag.glsl, for SETTINGS_ARE_FLAT.
+// Computes the values of composite.frag.glsl that are the same for all pixels, for SETTINGS_ARE_FLAT.
 #include "common/fullscreen.glsl"
 #include "settings.glsl"
 

@@ -1,4 +1,4 @@
-// The parameters of composite.frag.glsl, which says what they mean, and what is the same for all pixels.
+// The parameters of composite.frag.glsl (documented there), and the values derived from them for all pixels.
 #ifndef COMPOSITE_SETTINGS_GLSL
 #define COMPOSITE_SETTINGS_GLSL
 

@@ -53,7 +53,7 @@ vec3 neutral(vec3 color) {
 
 const float kFilmicGain = 3.0;  // puts middle gray, 0.18, near 0.18 for whites around 4 to 10
 
-// What toneCurve takes of `white`: the same for all pixels.
+// The factors of toneCurve() that depend on `white`: the same for all pixels.
 float curveWhite(float white) {
 #if CURVE == CURVE_REINHARD
   return 1.0 / (white * white);

@@ -1,9 +1,8 @@
-// Which lamps reach where: a bit per lamp for each tile of LAMP_TILE x LAMP_TILE pixels, and for each slice of depth. The lamps of a
-// pixel are those that are in the masks of both its tile and its slice (after Drobot, "Improved culling for tiled and clustered
-// rendering", SIGGRAPH 2017 courses). Bits are in the lamps' order and there is one for each, so no list can be full. A
-// bit that is set says that its lamp does not reach there: of what was only cleared nothing is left out. There are two masks of
-// a tile: `clusters` is of the surfaces that the G-buffer has in it, `columns` of all that is seen through its pixels, whatever
-// its depth: for what is drawn forward.
+// Light lists as bit masks: one bit per lamp for each tile of LAMP_TILE x LAMP_TILE pixels, and for each slice of depth. A pixel is lit by
+// the lamps in the masks of both its tile and its slice (after Drobot, "Improved culling for tiled and clustered rendering", SIGGRAPH 2017
+// courses). There is a bit for each lamp, in the lamps' order, so no list can overflow. A set bit means that the lamp does not reach: a
+// mask that was only cleared leaves out no lamp. A tile has two masks: `clusters` for the depths of the G-buffer in it, and `columns` for
+// any depth, for forward passes.
 // defines LAMP_TILE    8 or 16, so that the lanes of a tile fill whole words of 32 lamps
 //         LAMP_SLICES
 #ifndef DEFERRED_CLUSTERS_GLSL
@@ -11,7 +10,7 @@
 
 #include "common/view.glsl"
 
-const float kSlicesPerOctave = 2.5;  // of distance, from the near plane on; the last of LAMP_SLICES is endless
+const float kSlicesPerOctave = 2.5;  // of distance, from the near plane; the last of LAMP_SLICES has no end
 
 int wordsOf(int lamp_count) { return (lamp_count + 31) / 32; }
 ivec2 tilesOf(ivec2 size) { return (size + LAMP_TILE - 1) / LAMP_TILE; }

@@ -1,7 +1,7 @@
-// For each tile, the lamps that may reach what is seen through it; see clusters.glsl. A work group is a tile.
-// read    depth?     the G-buffer's; without it `clusters` is what `columns` is
+// For each tile, the lamps that may light what is visible in it; see clusters.glsl. A work group is a tile.
+// read    depth?     the G-buffer's; without it `clusters` equals `columns`
 //         lamps      see scene/lamps.glsl
-// modify  clusters?  uints: words of each tile, row by row; a word has 32 lamps. Of the surfaces that have these depths
+// modify  clusters?  uints: words of each tile, row by row; a word has 32 lamps. For the depths of the G-buffer
 //         columns?   the same for any depth
 // params  lamp_count
 //         picture    size in pixels
@@ -12,7 +12,7 @@
 layout(local_size_x = LAMP_TILE, local_size_y = LAMP_TILE) in;
 #ifdef HAS_DEPTH
 uniform sampler2D depth;
-shared uint nearest, farthest;  // depths as bits: positive floats are ordered as they are
+shared uint nearest, farthest;  // depths as bits: the bits of positive floats have the order of the floats
 #endif
 #ifdef HAS_CLUSTERS
 layout(std430) buffer clusters { uint cluster[]; };
@@ -28,7 +28,8 @@ layout(std140) uniform Parameters {
 const int kLanes = LAMP_TILE * LAMP_TILE, kWords = kLanes / 32;
 shared uint of_surfaces[kWords], of_all[kWords];
 
-// Signed distance of `at` (view space) from the plane through all points of the target at `ndc` of one axis; positive to the right or above.
+// Signed distance of `at` (view space) from the plane through all points of the target at `ndc` of one axis; positive to the right or
+// above.
 float beside(vec3 at, int axis, float ndc) {
   if (projection[3].w == 0.0) {
     float slope = (ndc + projection[2][axis]) / projection[axis][axis];
@@ -64,7 +65,7 @@ void main() {
   }
 #endif
 
-  // As many lamps at a time as there are lanes, one for each.
+  // One lamp per lane at a time.
   for (int first = 0; first < count; first += kWords) {
     if (lane < kWords) of_surfaces[lane] = of_all[lane] = 0u;
     barrier();

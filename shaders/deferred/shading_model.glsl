@@ -1,5 +1,6 @@
 // The shading model of surfaces in the G-buffer: Cook-Torrance or Blinn-Phong. Include it before shading/light.glsl.
-// define  MODEL   MODEL_MATERIAL: what each material says; MODEL_COOK_TORRANCE or MODEL_BLINN_PHONG: one for all, with lobes of the same width
+// define  MODEL   MODEL_MATERIAL: what each material says; MODEL_COOK_TORRANCE or MODEL_BLINN_PHONG: one for all, with lobes of the same
+//                 width
 #ifndef DEFERRED_SHADING_MODEL_GLSL
 #define DEFERRED_SHADING_MODEL_GLSL
 
@@ -34,8 +35,8 @@ Response modelResponse(Surface surface, float exponent, float nv) {
   return response;
 }
 
-// Radiance towards the eye of the environment's light. Occlusion of the lobe: Lagarde and de Rousiers, "Moving Frostbite to physically based
-// rendering", SIGGRAPH 2014 courses, 4.10.2.
+// Radiance towards the eye of the environment's light. Occlusion of the lobe: Lagarde and de Rousiers, "Moving Frostbite to physically
+// based rendering", SIGGRAPH 2014 courses, 4.10.2.
 vec3 ambientRadiance(Point point, Response response, Ambient ambient) {
   float visible = point.sky_visible, width = exp2(-16.0 * response.roughness - 1.0);
   float lobe_visible = clamp(pow(point.nv + visible, width) - 1.0 + visible, 0.0, 1.0);

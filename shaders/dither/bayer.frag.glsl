@@ -1,5 +1,5 @@
-// One bit a pixel, or a channel: ordered dither by the 4 x 4 matrix of Bayer ("An optimum method for two-level rendition of continuous-tone
-// pictures", IEEE ICC 1973). Light is compared, not its encoding, so that a gray and its pattern are equally bright.
+// One bit per pixel, or per channel: ordered dither by the 4 x 4 matrix of Bayer ("An optimum method for two-level rendition of
+// continuous-tone pictures", IEEE ICC 1973). Linear values are compared, so that a gray and its pattern are equally bright.
 // read    source   the encoded picture, nearest
 // write   result   0 or 1
 // params  pixel    side of a dot, pixels of the picture

@@ -10,8 +10,8 @@ float cocRadius(float depth, float infinity, float focus, float largest) {
   return clamp(infinity * (1.0 - focus * depth / near_plane), -largest, largest);
 }
 
-// The reversed-Z depth at which the radius is `radius`, but at least that of the sky. A depth test against it leaves out pixels that
-// are blurred less.
+// The reversed-Z depth at which the radius is `radius`, but at least that of the sky. A depth test against it skips pixels that are
+// blurred less.
 float cocDepth(float radius, float infinity, float focus) {
   return max(near_plane / focus * (1.0 - radius / max(infinity, 1e-6)), 0.0);
 }
@@ -24,7 +24,7 @@ float cocDepth(float radius, float infinity, float focus) {
 // Radius in texels of the fields up to which nothing is blurred.
 const float kLeastRadius = 0.5 / float(SCALE);
 
-// How much a radius in pixels of the full picture counts as blur: below half a pixel the picture stays sharp.
+// The weight of the blur for a radius in pixels of the full picture: below half a pixel the picture stays sharp.
 float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
 
 #endif

@@ -1,4 +1,4 @@
-// The tiles that far_field.frag.glsl works on with NEAR, at the depth from which on the far field can show; parameters as there.
+// The tiles of far_field.frag.glsl with NEAR, at the depth from which the far field can be visible; parameters as there.
 #include "far_field.glsl"
 #include "coc.glsl"
 #include "work.glsl"

@@ -1,9 +1,10 @@
-// The far field at the size of the fields, each surface spread over its discs but for what fill will add. Scene-referred; result premultiplied.
+// The far field at the size of the fields, each surface blurred over its discs, except for the part that fill adds. Scene-referred; result
+// premultiplied.
 // read    source   from split, layer 1, with levels, `as linear`
 //         discs    from split, with levels, `as linear`
 //         flat_source, flat_discs   instead of these, without levels, when no disc needs them: see the graph
-// write   result   the surfaces before the pixel's own, as much as their discs cover; in the rest its own and what is seen behind it. Alpha: how reliable
-//                  that is. A depth test leaves out what split says is idle, and what is behind the near field: see far_hidden.frag.glsl
+// write   result   the surfaces in front of the pixel's own, by what their discs cover; in the rest its own and what shows behind it.
+//                  Alpha: confidence. A depth test skips pixels that split marked idle, or behind the near field: see far_hidden.frag.glsl
 // params  see parameters.glsl
 // defines POLYGON
 #include "far_layer.glsl"
@@ -11,8 +12,8 @@
 out vec4 result;
 #include "rings.glsl"
 
-// Nearer things have smaller discs: how much a disc lies over one of another radius, and how much behind it; `ratio` of their radii. In between is one
-// surface.
+// Nearer surfaces have smaller discs. How much a disc counts as in front of another, and how much as behind; `ratio` of their radii.
+// Similar radii are one surface.
 float liesOver(float ratio) {
   return 1.0 - smoothstep(0.75, 0.92, ratio);
 }
@@ -22,12 +23,12 @@ float liesBehind(float ratio) {
 
 float own_radius = 0.0, per_radius = 0.0;
 vec4 over = vec4(0.0), own = vec4(0.0), behind = vec4(0.0);  // premultiplied light of the discs that reach here
-float unseen = 0.0;  // what is hidden in texels that nearer surfaces share: see split
+float unseen = 0.0;  // the part hidden in texels shared with nearer surfaces: see split
 
 void takePlace(Search search, bool each, vec2 at, float across, float share) {
   vec4 c = readPlace(source, search, each, at);
   float disc = readPlace(discs, search, each, at).g / max(c.a, 1e-4);
-  // What is behind is seen through the same gap of the lens as what hides it: so it counts as if its disc were no larger.
+  // A hidden surface is seen through the same part of the lens as what hides it, so it counts as if its disc were no larger.
   float reach = reachOf(search, min(disc, own_radius)), light = share;
   if (each) {
     Texels texels = texelsOf(reach);
@@ -62,8 +63,8 @@ void main() {
   float shape = takePlaces(search);
   over *= shape;
   over /= max(over.a, 1.0);
-  // What the own surface leaves is what is behind it, as far as that is seen. In a gap between things so narrow that they share each texel of it,
-  // that is seen farther away only: of the texels two away, eight.
+  // The rest shows what is behind the own surface, as far as that is visible. In a gap so narrow that surfaces share each of its texels, it
+  // is visible only farther away: in the eight texels at a distance of two.
   float rest = 1.0 - over.a, seen = shape * (behind.a + unseen);
   for (int i = 0; i < (unseen > 0.0 && behind.a <= 0.0 && search.texels >= 0 && liesBehind(largest_far * per_radius) > 0.0 ? 9 : 0); ++i) {
     ivec2 at = clamp(pixel + 2 * ivec2(i % 3, i / 3) - 2, ivec2(0), textureSize(source, 0) - 1);

@@ -1,5 +1,5 @@
-// Lays the blurred far field over the sharp picture, at full size, also where near_field.frag.glsl covers it. Scene-referred.
-// It is drawn at a depth (far_field.vert.glsl), so that pixels in focus cost only a depth test and do not change by a bit.
+// Blends the blurred far field over the sharp picture, at full size, also below the near field. Scene-referred.
+// Drawn at a depth (far_field.vert.glsl), so that pixels in focus cost only a depth test and stay exactly as they are.
 // read    source   radiance, nearest: own texel of what `result` modifies, with "feedback"
 //         depth    reversed-Z, nearest
 //         blurred  from fill, `as linear`
@@ -24,7 +24,7 @@ void main() {
   vec4 own = textureLod(source, at, 0.0);
   float radius = lens.x - lens.y * textureLod(depth, at, 0.0).r;
 #if NEAR
-  // Small discs of the near field lie on the sharp picture, because their surface runs on into the focus and nothing else is behind.
+  // Small discs of the near field are blended over the sharp picture: their surface continues into the focus.
   float blur = smoothstep(kNearStart, 3.0, -radius);
 #else
   float blur = blurOf(radius);

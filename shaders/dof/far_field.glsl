@@ -1,9 +1,9 @@
-// Shared by far_field.frag.glsl and its vertex shaders. The vertex shaders pass on what fragments need, because each number that
-// fragments read from a uniform block costs time in every pixel.
+// Shared by far_field.frag.glsl and its vertex shaders, which pass uniforms on as varyings: in software a read of a uniform block costs
+// time in every pixel.
 #ifndef DOF_FAR_FIELD_GLSL
 #define DOF_FAR_FIELD_GLSL
 
-// Radius in the near field from which on the far field shows beside it.
+// Radius in the near field from which the far field is visible beside it.
 const float kNearStart = 1.0;
 
 #endif

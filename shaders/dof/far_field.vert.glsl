@@ -1,4 +1,4 @@
-// A triangle over the picture at the depth from which on the sharp picture is not enough.
+// A triangle over the picture at the depth from which the picture is blurred.
 #include "coc.glsl"
 
 uniform sampler2D blurred;

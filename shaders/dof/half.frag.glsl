@@ -1,7 +1,7 @@
-// The next coarser level of the two fields and of the discs: a mean of four by four texels that weighs 1, 3, 3, 1, so that what is small stays
-// exactly where it is, and nothing beats with the pixels that read it.
+// The next coarser level of the two fields and of the discs: a 4 x 4 filter with the weights 1, 3, 3, 1, so that small
+// things keep their exact position and there is no beat with the pixels that read it.
 // read    near_source, far_source?, disc_source   a level, `as linear`
-// write   near, far?, disc                        the next one, half as wide and high; far only where something reads it
+// write   near, far?, disc                        the next one, half as wide and high
 uniform sampler2D near_source, disc_source;
 #ifdef HAS_FAR_SOURCE
 uniform sampler2D far_source;

@@ -1,4 +1,4 @@
-// The tiles of a coarser level that the near field reaches; elsewhere the level holds nothing of it.
+// The tiles of a coarser level that the near field reaches; elsewhere the level is empty.
 // read    tiles?   from reach; without it all of the level
 // params  tile     texels of the fields along a tile's side
 //         level    each texel of which is 2^level of these wide

@@ -1,4 +1,5 @@
-// The near field at the size of the fields, each surface spread over its discs but for what fill will add. Scene-referred; result premultiplied.
+// The near field at the size of the fields, each surface blurred over its discs, except for the part that fill adds. Scene-referred; result
+// premultiplied.
 // read    source   from split, layer 0, with levels, `as linear`
 //         discs    from split, with levels, `as linear`
 //         tiles?   from reach: how far the near field reaches here; without it every pixel is searched as far as a tile
@@ -11,7 +12,8 @@ uniform sampler2D source, discs;
 out vec4 result;
 #include "rings.glsl"
 
-// Nearer things have larger discs: how much a disc lies over one of the radius `own`, and how much behind it. In between is one surface.
+// Nearer surfaces have larger discs. How much a disc counts as in front of one of the radius `own`, and how much as behind. Similar radii
+// are one surface.
 float liesOver(float disc, float own) {
   return own > 0.0 ? smoothstep(1.3 * own, 1.8 * own, disc) : step(1e-6, disc);
 }
@@ -21,8 +23,8 @@ float liesBehind(float disc, float own) {
 
 float per_ring = 1.0;
 
-// Does a disc reach so far? Gradually over the gap between two rings, of which there are `per_ring` to a texel: else discs would jump from
-// ring to ring where the searched radius changes.
+// Whether a disc reaches this far, gradually over the gap between two rings (`per_ring` to a texel): else discs would jump from ring to
+// ring where the search radius changes.
 float reachesRing(Search search, float disc, float across) {
   return clamp((disc - across) * per_ring + search.half_share, 0.0, 1.0);
 }
@@ -32,13 +34,13 @@ float reaches(Search search, bool each, Texels disc, float across) {
 
 struct Gathered {
   vec4 spread;    // premultiplied light of the discs that reach here; alpha may be above 1
-  vec4 behind;    // what lies behind the own surface and is seen beside it: sum of what is in the near field
-  float farther;  // the same of what is not: a number of places
+  vec4 behind;    // visible behind or beside the own surface, in the near field: a sum
+  float farther;  // the same outside of the near field: a number of samples
   float places;   // within the own disc
 };
 
-// What is gathered, and for what: a pixel whose own disc has the radius `own_radius` (0: not in the near field). `over`: what lies over the own
-// surface, else this surface.
+// The gathered light of a pixel whose own disc has the radius `own_radius` (0: not in the near field). `over`: of surfaces in front of the
+// own surface, else of this surface.
 Gathered all;
 float own_radius = 0.0;
 Texels own_disc = Texels(0.0, 0.0, 0.0, 0.0);
@@ -48,7 +50,7 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   vec4 c = readPlace(source, search, each, at);
   float disc = readPlace(discs, search, each, at).r / max(c.a, 1e-4);
   Texels spread = texelsOf(reachOf(search, disc));
-  // How many of the samples reach as far: those share the light of one texel, so that none is made or lost.
+  // The number of samples that reach this far: they share the light of one texel, so the total is kept.
   float sharing = each ? spread.sum : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
     sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, spread.radius, ringRadius(search, k));
@@ -82,8 +84,8 @@ void main() {
       result = all.spread / max(all.spread.a, 1.0);
       continue;
     }
-    // The shares add up as long as they fit, as those of one slanted surface do. Where the own surface does not fill the rest, what is seen
-    // beside it stands in for what it hides: no more than is seen.
+    // The shares add up as long as they fit, as for one slanted surface. Where the own surface does not fill the rest, what is visible
+    // beside it replaces what it hides.
     float rest = 1.0 - result.a, beside = all.behind.a + all.farther;
     float hidden = min(rest - min(all.spread.a, rest), beside / all.places), own_share = rest - hidden;
     result += all.spread * (own_share / max(all.spread.a, 1e-6)) + all.behind * (hidden / max(beside, 1e-6));

@@ -1,4 +1,4 @@
-// The tiles that something in the near field reaches, for far_hidden, near_bokeh, fill and near_field.
+// The tiles that the near field reaches, for far_hidden, near_bokeh, fill and near_field.
 // params  see parameters.glsl
 // defines FULL_SIZE   default 0; 1: the target is the full picture, not of the size of the fields
 //         DEPTH       of the tiles, default 0

@@ -1,9 +1,9 @@
-// Of the passes that spread a field over its discs; both stages of a draw have the same block.
+// Parameters of the passes that blur a field over its discs, for both stages.
 #ifndef DOF_PARAMETERS_GLSL
 #define DOF_PARAMETERS_GLSL
 
 layout(std140) uniform Parameters {
-  int rings;    // of samples around the middle one, 5, 10, 15 ... in each, so that each stands for the same area; small discs take
+  int rings;    // of samples around the center, 5, 10, 15 ... in each, so that each covers the same area; small discs take
                 // fewer, large ones coarser levels
   int blades;   // of the aperture, for POLYGON
   int tile;     // texels of the fields along a tile's side

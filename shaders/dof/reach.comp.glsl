@@ -1,6 +1,5 @@
-// How far to search for the near field: the largest disc in a tile and the eight around it (no other can reach into
-// the tile), at the tile's corners that of the four tiles that meet there, so that interpolation between the corners is never
-// less and knows no tile borders.
+// The search radius for the near field at the corners of each tile: the largest disc of the tiles around a corner. A tile sees the eight
+// tiles around it (no other can reach it); interpolation between corners is never too small and continuous across tiles.
 // read    tiles    from tiles; any sampler
 // write   reach    the same size: the corners (0, 0), (1, 0), (0, 1) and (1, 1) of the tile; 0 where nothing reaches
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,6 +1,7 @@
-// The places on a disc at which the bokeh passes sample. In small discs each texel is one, so that the disc is as true as the size of the fields allows.
-// In others they are rings of 5, 10, 15 ... around the middle, so that each place stands for the same area. Four neighboring pixels have four sets of places, and the mean of the fill takes as much of each: so its pixels see four times as
-// many places (interleaved sampling; Keller and Heidrich, EGWR 2001). Whoever includes this defines takePlace().
+// The sample positions of the bokeh passes on a disc. In small discs each texel is one, as exact as the size of the fields allows. In
+// others they are rings of 5, 10, 15 ... around the center, so that each sample covers the same area. Four neighboring pixels have four
+// sets of samples, which the mean of the fill weighs equally: it sees four times as many samples (interleaved sampling; Keller and
+// Heidrich, EGWR 2001). The includer defines takePlace().
 #ifndef DOF_RINGS_GLSL
 #define DOF_RINGS_GLSL
 
@@ -13,12 +14,12 @@
 #define COARSEST 16.0
 #endif
 
-// A disc over texels of which each is a place. One of hardly more than a texel gives to the eight around it as much as its variance asks for, four times
-// as much along the axes as along the diagonals: by areas it would be a cross. Here once for all places, because each division costs in every one.
+// A disc that samples each texel. One of hardly more than a texel weighs the eight around it by its variance, four times as much along the
+// axes as along the diagonals: by areas it would be a cross. Computed once for all samples, because each division would cost in every one.
 struct Texels {
   float radius;
-  float large;   // 0: as its variance asks for; 1: by areas
-  float beside;  // what each texel beside the middle has, of the middle's 1, where it is not large
+  float large;   // 0: weights by variance; 1: by areas
+  float beside;  // weight of each texel beside the center, whose weight is 1, where it is not large
   float sum;     // of all texels
 };
 Texels texelsOf(float radius) {
@@ -28,7 +29,7 @@ Texels texelsOf(float radius) {
   return texels;
 }
 
-// How much of a texel `across` from its middle a disc holds.
+// The share of a texel at the distance `across` that a disc covers.
 float texelWithin(Texels texels, float across) {
   float small = across < 0.5 ? 1.0 : texels.beside * (across < 1.2 ? 1.0 : across < 1.6 ? 0.25 : 0.0);
   return mix(small, clamp(texels.radius - across + 0.5, 0.0, 1.0), texels.large);
@@ -36,22 +37,22 @@ float texelWithin(Texels texels, float across) {
 
 // How a disc is searched.
 struct Search {
-  int texels;             // each texel so far to either side; -1: rings
+  int texels;             // each texel up to this distance to either side; -1: rings
   int outermost;          // ring; -1: each texel
   float samples;          // in all rings, or about as many texels
   float level;            // to read: its texels are as large as the gaps between the places of four pixels
   float shared_variance;  // four times what filtering adds to the variance of a disc
   float differs;          // 1: the four sets differ, else 0
-  float shift;            // of this pixel's set: across its ring, as a share of the ring's area
-  float half_share;  // what a disc counts that ends where the place is: a half, in small discs more, so that they are flatter
-  float span;  // radius of the area that the places stand for, texels of the fields
+  float shift;            // of this pixel's set across its ring, as a share of the ring's area
+  float half_share;  // weight of a disc that ends at the sample: a half, in small discs more, so that they are flatter
+  float span;  // radius of the area that the samples cover, texels of the fields
   ivec2 last;  // texel of the fields
   float roundness;  // radius of a round disc that has the area of the aperture's outline, of the radius of its corners
   Texels whole;     // the disc itself, where each texel is a place
 };
 
-// What the pass does with a place `across` texels of the fields from the pixel; `share` is its area, 1 for a round aperture. `each`: it is a texel,
-// with its middle at `at`.
+// Takes a sample `across` texels of the fields from the pixel; `share` is its area, 1 for a round aperture. `each`: it is a texel, with its
+// center at `at`.
 void takePlace(Search search, bool each, vec2 at, float across, float share);
 
 vec4 readPlace(sampler2D field, Search search, bool each, vec2 at) {
@@ -60,31 +61,31 @@ vec4 readPlace(sampler2D field, Search search, bool each, vec2 at) {
 }
 
 #if POLYGON
-// Behind the focus a disc is the aperture's outline, before it the same upside down: there its rays have not yet crossed. A pixel that is
-// up in a disc looks for its light below.
+// Behind the focus a disc has the aperture's outline, in front of it the same upside down, because there the rays have not yet crossed. A
+// pixel in the upper part of a disc finds its light below.
 const float kUpright = NEAR == 1 ? 1.0 : -1.0;
 
-// How far out the polygon of the blades is in this direction, of the radius of its corners.
+// Radius of the polygon of the blades in this direction, relative to that of its corners.
 float outline(vec2 direction) {
   float sector = 6.28318530717959 / float(blades), angle = atan(direction.y, direction.x);
   return cos(sector * 0.5) / cos(mod(angle, sector) - sector * 0.5);
 }
 #endif
 
-// The radius at which a disc ends in the samples, for what filtering adds; where each texel is one, of a round disc of the same area.
+// The radius at which a disc ends in the samples, less what filtering adds; where each texel is one, of a round disc of the same area.
 float reachOf(Search search, float radius) {
   if (search.texels < 0) return sqrt(max(radius * radius - search.shared_variance, 0.25));
   float equal = radius * search.roundness;
   return sqrt(max(equal * equal - (SCALE == 2 ? clamp(0.85 * equal - 0.275, 0.75, 1.0) : 0.0), 1e-4));
 }
 
-// How far to either side texels may lie in a disc.
+// Distance to either side at which texels may lie in a disc.
 int texelsFor(Search search) {
   return int(ceil(search.span / search.roundness)) - 1;
 }
 
-// The set of this pixel, two numbers of 0 or 1. The first: in the outer half of the rings, and turned by a quarter of the step around the ring; as the
-// fields of a chessboard, because along rows or columns its rings and the pixels of a set would beat. The second: turned by two quarters.
+// The set of this pixel, two numbers of 0 or 1. The first: in the outer half of the rings, and turned by a quarter of the step around the
+// ring; in a checkerboard, because along rows or columns the rings and the pixels of a set would beat. The second: turned by two quarters.
 vec2 whichSet() {
   vec2 at = floor(gl_FragCoord.xy);
   return step(0.25, fract(0.5 * vec2(at.x + at.y, at.y)));
@@ -100,8 +101,8 @@ Search searchOver(float radius, int rings) {
   search.roundness = 1.0;
 #endif
   bool each = RINGS == 0 || radius <= EACH_TEXEL;
-  // Where a pixel's own places are too far apart, the sets differ. Then no level is finer than two pixels: the pixels of one set are as far
-  // apart, and only so a texel counts for all sets alike.
+  // Where a pixel's own samples are too far apart, the sets differ. Then no level is finer than two pixels, the distance between pixels of
+  // one set: so a texel counts equally in all sets.
   float gap = RINGS == 1 ? gapOf(radius, rings) : 0.0, variance = RINGS == 1 ? fillVariance(radius, gap) : 0.0;
   search.differs = gap > FINE_GAP ? 1.0 : 0.0;
   search.level = gap > FINE_GAP ? min(gap > kCoarseGap ? 2.0 : 1.0, COARSEST) : 0.0;
@@ -124,7 +125,7 @@ Search searchOver(float radius, int rings) {
 #endif
 // Directions of 18 degrees, and of a step around the n-th ring.
 const vec2 kStart = vec2(0.951056516, 0.309016994);
-// From the fourth ring on each ring begins at another angle (the golden angle on), because equal beginnings would make spokes.
+// From the fourth ring on, each ring starts at another angle (by the golden angle), because equal starts would make spokes.
 const vec2 kGolden = vec2(-0.737368878, 0.675490294);
 const vec2 kStep[9] =
     vec2[9](vec2(1.0, 0.0), vec2(0.309016994, 0.951056516), vec2(0.809016994, 0.587785252),
@@ -141,14 +142,15 @@ const vec2 kQuarter[9] = vec2[9](
     vec2(0.994521895, 0.104528463), vec2(0.996917334, 0.0784590957), vec2(0.998026728, 0.0627905195),
     vec2(0.998629535, 0.0523359562), vec2(0.998993067, 0.0448648304), vec2(0.999229036, 0.0392598158));
 
-// The n-th ring is this far out.
+// Radius of the n-th ring.
 float ringRadius(Search search, int ring) {
   float area = ring == 0 ? 0.5 * search.differs + search.shift
                          : 1.0 + float(FIRST_RING * ring) * (0.5 * float(ring) + search.shift);
   return search.span * sqrt(area / search.samples);
 }
 
-// Calls takePlace for all places; in the far field, where each texel is one, not for the pixel's own, whose share is nothing. Returns the number of places over what their shares add up to: by so much a disc is too dark else.
+// Calls takePlace() for all samples; in the far field, where each texel is one, not for the pixel's own, whose share is 0. Returns the
+// number of samples over the sum of their shares, the factor by which a disc would be too dark.
 float takePlaces(Search search) {
 #if NEAR
   float area = 0.0;

@@ -1,11 +1,11 @@
-// The picture at the size of the fields, half or full, in two layers, near field and far field, so that they never mix. Scene-referred.
+// The picture at the size of the fields, half or full, in two layers, near field and far field, which never mix. Scene-referred.
 // read    color   radiance; both nearest
 //         depth   reversed-Z; the sky, 0, is infinitely far
 // write   near    radiance of the near field, premultiplied, and its share of the texel: 0, a quarter, ... 1
 //         disc    radius of the disc in texels of the fields, times the share, of either field
-//         far     radiance of the nearest blurred surface of the rest, premultiplied, and its share of the pixel. What is in focus has next to
-//                 none, so that it is no part of a mean with blurred surfaces; 0 where the near field hides all of it
-//         idle    depth: 0 where far_bokeh has anything to do for `far`, 1 where far_hidden has, else a half
+//         far     radiance of the nearest blurred surface of the rest, premultiplied, and its share of the pixel. Surfaces in focus have
+//                 next to none, so that they do not count in a mean with blurred ones; 0 where the near field hides all of it
+//         idle    depth: 0 where far_bokeh has work, 1 where far_hidden has, else a half
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
 //         largest   limit of the radius, pixels of the full picture
@@ -22,8 +22,8 @@ out vec4 near;
 out vec2 disc;
 out vec4 far;
 
-// A surface of the far field ends where radii are larger than this, of the least radius in the pixel. What lies farther away has larger discs, and is
-// seen in other pixels, too: so small things keep their own discs.
+// A surface of the far field ends where radii exceed this multiple of the least radius in the pixel. What is farther away has larger discs
+// and is also visible in other pixels, so small objects keep their own discs.
 float endOfSurface(float radius) { return 1.3 * radius + 0.5; }
 
 void main() {

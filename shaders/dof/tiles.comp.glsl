@@ -15,7 +15,7 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(tiles)))) return;
   ivec2 size = textureSize(discs, 0), first = at * tile, end = min(first + tile, size);
-  // Four texels at a time: sizes and tiles are even. The share is read only in rows that hold something of the near field.
+  // Four texels at a time: sizes and tiles are even. The share is read only in rows with a part of the near field.
   int low = end.y, high = first.y;
   for (int y = first.y; y < end.y; y += 2) {
     vec4 radii = vec4(0.0);

@@ -1,5 +1,5 @@
-// The tiles that the near field reaches; shared by the vertex shaders of that layer, which draw a quad for each.
-// read    tiles?   from reach; without it all of them
+// The tiles that the near field reaches, a quad each; for the vertex shaders of that layer.
+// read    tiles?   from reach; without it, all tiles
 // params  tile     texels of the fields along a tile's side
 #ifndef DOF_WORK_GLSL
 #define DOF_WORK_GLSL

@@ -1,14 +1,14 @@
-// Exposure from the histogram, followed in time. One group, a thread for each bin.
+// Auto-exposure: follows the histogram in time. One group, a thread for each bin.
 // read    histogram   of histogram.comp.glsl
-//         previous    the last frame's `exposure`; x below 0: there is none, so the target is taken at once
+//         previous    the last frame's `exposure`; x below 0: there is none, the factor starts at its target
 // write   exposure    vec4: the factor for radiance, its target, the mean luminance, and, after black, the seconds until the factor
 //                     reaches its target
-// After black the target is known at once, and the factor rises to it within kOpening. So a picture that fades in is seen to fade
-// in, instead of being exposed for its dimmest frame.
-// params  key         the luminance that the mean is brought to
-//         low, high   share of the texels below which, and above which, they do not count, 0..1
+// After black, the target is taken from the first picture and the factor reaches it within kOpening, so that a picture that fades in is not
+// exposed for its dimmest frame.
+// params  key         target of the mean luminance
+//         low, high   percentiles between which texels count, 0..1
 //         speed_up, speed_down  1 / s, for a scene that has become brighter or darker: in 1 / speed seconds the distance to the
-//                     target, in stops, falls to 1/e of itself; so the target is never passed, whatever the frame rate
+//                     target, in stops, falls to 1/e; the target is never passed, at any frame rate
 //         min_ev, max_ev  bounds of the exposure in stops
 #include "common/view.glsl"
 #include "histogram.glsl"

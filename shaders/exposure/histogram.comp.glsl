@@ -1,4 +1,4 @@
-// How bright the picture is: a histogram of log2 luminance, from the mean of the middle 2 x 2 of every 4 x 4 texels. Scene-referred.
+// A histogram of log2 luminance, of the mean of the central 2 x 2 of every 4 x 4 texels. Scene-referred.
 // read    source      `as linear`; one thread for each 4 x 4 texels of it
 // modify  histogram   BINS counts, see histogram.glsl; cleared to 0 before
 #include "histogram.glsl"
@@ -17,7 +17,7 @@ void main() {
     // A NaN fails the comparison, and so counts as black.
     float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
     float bin = luminance > exp2(kDarkest) ? binOf(min(luminance, 65504.0)) : 0.0;
-    // A sample counts in the two nearest bins, so that the mean moves steadily with the picture.
+    // A sample is split between the two nearest bins, so that the mean changes continuously.
     uint upper = uint(fract(bin) * float(kUnit) + 0.5);
     atomicAdd(group_counts[uint(bin)], kUnit - upper);
     if (upper > 0u) atomicAdd(group_counts[min(uint(bin) + 1u, kBins - 1u)], upper);

@@ -1,11 +1,11 @@
-// What the air between the eye and the scene is like, for all shaders that include fog/fog.glsl.
+// Fills the fog constants of a frame, for all shaders that include fog/fog.glsl.
 // write   air           buffer of 32 bytes
 // params  fog_color     radiance of endless fog
 //         fog_density   extinction per world unit at the height `fog_base`
 //         fog_falloff   in 1 / fog_falloff world units of height the extinction falls to 1/e; 0: it is the same everywhere
 //         fog_base      world units
-//         fog_layer     the fog before the sky ends so many world units above and below the eye
-//         fog_sky       how much of that layer counts
+//         fog_layer     world units above and below the eye at which the fog in front of the sky ends
+//         fog_sky       weight of that layer
 #include "common/view.glsl"
 
 layout(local_size_x = 1) in;

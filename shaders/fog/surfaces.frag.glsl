@@ -1,4 +1,4 @@
-// The fog before a picture whose pixels show one surface or the sky each: of a G-buffer, before anything that blends is drawn over it.
+// Fogs a picture in which each pixel shows one surface or the sky: that of a G-buffer, before blended surfaces are drawn.
 // read    depth    reversed-Z, nearest
 //         air      see fog.glsl
 // modify  result   radiance, with "blend": "premultiplied"

@@ -1,7 +1,7 @@
-// Where a display-referred picture has edges.
+// Finds the edges of a display-referred picture.
 // read    source   encoded picture, the target's size, not `as linear`
 // write   edges    depth: 0 where the contrast to a neighbor is high, else 1
-// params  edge_threshold       contrast, relative to the brightest neighbor, from which on a pixel is an edge
+// params  edge_threshold       contrast, relative to the brightest neighbor, from which a pixel is an edge
 //         edge_threshold_min   the same, absolute: there are no edges in the dark
 #include "luma.glsl"
 

@@ -4,7 +4,7 @@
 //         texels   the same, not `as linear`: a nearest lookup costs less than a fetch in software
 // modify  result   the picture
 //         edges    depth: 0 at edges; "depth_test": "equal" keeps every other pixel from being shaded at all
-// params  subpixel   how much single pixels are softened, 0..1
+// params  subpixel   softening of single pixels, 0..1
 #include "luma.glsl"
 
 uniform sampler2D source, texels;
@@ -47,7 +47,7 @@ void main() {
   vec2 start = uv + across * toward * 0.5;
   float reach_back = 0.0, reach_on = 0.0, end_back = 0.0, end_on = 0.0;
   bool done_back = false, done_on = false;
-  // Ends at a sum, not at a number of rounds, so that no compiler writes the rounds one after the other: then all would run for all pixels.
+  // Ends at a sum, not at a number of rounds, so that no compiler unrolls it: then every round would run for all pixels.
   for (int i = 0; max(reach_back, reach_on) < kReach && !(done_back && done_on); ++i) {
     if (!done_back) {
       reach_back += kStride[i];

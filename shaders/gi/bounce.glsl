@@ -1,7 +1,7 @@
-// One bounce of light from other spheres: the light of the probes, in units of the environment, times the environment. Light from
-// a direction was thrown back by surfaces that face the opposite direction, so the environment's irradiance there counts. Only the
-// mean of these directions is known, and how far the light is spread; so a mix of the irradiance in two opposite directions stands
-// for all. It is exact where irradiance is linear in the direction, as under a constant environment; a black one gives no bounce.
+// One bounce of light: the light of the probes, in units of the environment, times the environment. Light from a direction was reflected by
+// surfaces that face the opposite direction, so it is multiplied by the environment's irradiance there. Only the mean of these directions
+// and their spread are known, so the irradiance is a mix of two opposite directions. This is exact where irradiance is linear in the
+// direction, as under a constant environment; a black one gives no bounce.
 // Needs the slots of gi/probes.glsl.
 #ifndef GI_BOUNCE_GLSL
 #define GI_BOUNCE_GLSL
@@ -10,11 +10,11 @@
 
 struct Bounce {
   vec3 share;   // irradiance / pi of a surface, in units of the environment
-  vec3 facing;  // unit: mean direction that the surfaces face which throw the light back
-  float sure;   // nearly 1 where light comes along the normal alone, less where it comes from many sides, 1/2 at least
+  vec3 facing;  // unit: mean direction that the reflecting surfaces face
+  float sure;   // near 1 where light comes along the normal alone, less where it comes from many sides, at least 1/2
 };
 
-// Of the coefficients that probeAt() gives, and of what it returns.
+// `c` and `left`: from probeAt().
 // Cosine-weighted mean direction of the light by its moments up to band 2 (w n = cosine, F, D, T the integrals of the radiance times
 // 1, w, w w'): 3/16 D + 1/2 T n + 3/16 n (n.D). See bounceOf in engine/scene/probes.
 Bounce bounceOf(vec3 c[9], float left, vec3 normal) {
@@ -39,7 +39,7 @@ Bounce bounceOf(vec3 c[9], float left, vec3 normal) {
   return Bounce(max(irradiance_here, vec3(0.0)) * (left / kShPi), facing, 0.5 + 0.5 * clamp(size / max(all, 1e-6), 0.0, 1.0));
 }
 
-// The light to add to the irradiance map's value in the normal. `there` and `behind` are that map in `facing` and opposite to it.
+// The light to add to the irradiance. `there` and `behind`: the irradiance map in the direction `facing` and opposite to it.
 vec3 bounced(Bounce bounce, vec3 there, vec3 behind) { return bounce.share * mix(behind, there, bounce.sure); }
 
 #endif

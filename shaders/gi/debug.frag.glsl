@@ -1,11 +1,11 @@
-// A light probe as a white sphere that it lights: each direction has what a surface there would get.
+// Shows a light probe as a white sphere lit by it.
 // read    probes      see gi/probes.glsl
 //         irradiance  of the environment, `as linear wrap`
 // modify  radiance    scene-referred; alpha 1
 //         velocity?   screen UV per frame
 //         depth?      near / distance along the view axis (reversed-Z)
 // params  gain        factor of what is shown
-//         sky_turn    by how much of a full turn the environment is rotated
+//         sky_turn    rotation of the environment, in full turns
 #include "common/equirect.glsl"
 #include "common/view.glsl"
 #include "gi/bounce.glsl"

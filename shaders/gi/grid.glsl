@@ -8,13 +8,13 @@
 #endif
 
 layout(std430) PROBES_ACCESS buffer probes {
-  vec4 probes_low;     // xyz: world, where the first probe stands
-  vec4 probes_high;    // where the last one does
+  vec4 probes_low;     // xyz: world position of the first probe
+  vec4 probes_high;    // of the last one
   uvec4 probes_count;  // along x, y and z
-  vec4 probe_sh[];     // nine a probe, rgb in xyz; probe (i, j, k) is number i + count.x * (j + count.y * k)
+  vec4 probe_sh[];     // nine per probe, rgb in xyz; probe (i, j, k) is number i + count.x * (j + count.y * k)
 };
 
-// Where probe (i, j, k) stands. Along an axis with one probe it stands in the middle.
+// Position of probe (i, j, k). A single probe along an axis is in the middle.
 vec3 probePosition(vec3 low, vec3 high, uvec3 count, uvec3 probe) {
   vec3 share = vec3(probe) / vec3(max(count, uvec3(2u)) - 1u);
   return mix(low + (high - low) * share, 0.5 * (low + high), equal(count, uvec3(1u)));

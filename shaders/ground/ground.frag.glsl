@@ -1,16 +1,16 @@
-// The ground: where it has a surface, that, lit by sky, sun and the brightest spot; else what is behind, darkened by as much as light is
-// missing. Spheres drawn before have left what light arrives.
+// The ground: its surface, lit by sky, sun and the brightest spot; beyond that the environment, darkened by the share of light that is
+// blocked. Spheres have drawn what they block before.
 // read    ground       see scene/ground.glsl
-//         irradiance?, brightest?, sun?   light, see shading/material.glsl, ibl/brightest.glsl, scene/sun.glsl
+//         irradiance?, brightest?, sun?   see shading/environment.glsl, ibl/brightest.glsl, scene/sun.glsl
 //         sky?         rgb: share of the sky's light that arrives; the target's size, not `as linear`
 //         lights?      x, y: shares of the sun's and of the brightest spot's; as sky
-//         light_maps?, light_depths?, scene_bounds?   what meshes hide of sun and spot, see shading/mesh_shadow.glsl
+//         light_maps?, light_depths?, scene_bounds?   shadows of meshes, see shading/mesh_shadow.glsl
 //         mesh_sky?    the share of the sky's light that meshes leave, see ground/mesh_sky.frag.glsl; `as linear`, with scene_bounds
 //         air?         see fog/fog.glsl
 // modify  radiance     scene-referred; blend "premultiplied"
 //         velocity     screen UV per frame
 //         depth        near / distance along the view axis (reversed-Z)
-// params  sky_turn     by how much of a full turn the environment is rotated
+// params  sky_turn     rotation of the environment, in full turns
 #include "fog/fog.glsl"
 #if defined HAS_RADIANCE && defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_SCENE_BOUNDS
 #define SEES_MESHES 1
@@ -81,14 +81,14 @@ void main() {
   vec3 arrives = from_sky * sky_seen + from_sun * lights_seen.x + from_spot * lights_seen.y;
   float all = dot(from_sky + from_sun + from_spot, luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
   float radius = albedo_radius.w, surface = radius > 0.0 ? 1.0 - smoothstep(0.5 * radius, radius, length(at.xz)) : 0.0;
-  float kept = min(left, 1.0);  // of the light of the environment behind
-  vec3 thrown = albedo_radius.rgb * arrives;
+  float kept = min(left, 1.0);  // of the environment behind
+  vec3 reflected = albedo_radius.rgb * arrives;
 #ifdef HAS_AIR
   float through = throughFog(at - from);
   kept = mix(1.0, kept, through);
-  thrown = mix(fog_light.rgb, thrown, through);
+  reflected = mix(fog_light.rgb, reflected, through);
 #endif
-  radiance = vec4(thrown * surface, 1.0 - (1.0 - surface) * kept);
+  radiance = vec4(reflected * surface, 1.0 - (1.0 - surface) * kept);
 #endif
 #ifdef HAS_VELOCITY
   vec3 clip = before * vec4(at, 1.0);

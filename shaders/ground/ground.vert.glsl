@@ -1,4 +1,4 @@
-// The light that reaches the ground, and what its pixels need of the view: an input costs less in software than a member of a block.
+// The light that reaches the ground, and the view as varyings: in software an input costs less than a member of a block.
 #include "common/equirect.glsl"
 #include "common/fullscreen.glsl"
 #include "common/view.glsl"

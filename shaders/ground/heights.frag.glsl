@@ -1,4 +1,4 @@
-// Between which heights above the ground there is something.
+// The range of heights above the ground that meshes occupy.
 // read    ground   see scene/ground.glsl
 // modify  heights  x: the lowest, negative; y: the highest; "max"
 #include "scene/ground.glsl"

@@ -1,6 +1,5 @@
-// The share of the sky's light that meshes leave on the ground. In each direction along the ground they hide what lies between the lowest and
-// the highest of the angles under which their columns are seen, from the lowest to the highest height at a place. Of light
-// weighted by the cosine, what lies below the elevation e in one direction is sin^2 e.
+// Visibility of the sky on the ground past meshes. In each direction along the ground they hide the elevations between the lowest and the
+// highest point of their height range. Of the cosine-weighted sky, the share below the elevation e in one direction is sin^2 e.
 // read    heights   see ground/heights.frag.glsl; not `as linear`
 // write   sky       over ground/plain.glsl
 const int kDirections = 32, kSteps = 32;

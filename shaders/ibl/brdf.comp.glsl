@@ -4,7 +4,7 @@
 // write  table  rgba16f, any size
 //          r, g  of the albedo
 //          b     how far the lobe leans from the mirror direction to the normal: its axis is mix(mirror, normal, b), not normalized
-//          a     what to add to its place among the levels of the prefiltered map, as a share of all of them (roughness_level.glsl)
+//          a     what to add to the level of the prefiltered map, as a share of all levels (roughness_level.glsl)
 //
 // Smith's height-correlated masking (Heitz, JCGT 2014). Normals visible from V are integrated on the spherical cap of
 // Dupuy and Benyoub (HPG 2023), bounded below as Eto and Tokuyoshi (SIGGRAPH Asia 2023) do: 12 Gauss-Legendre nodes in
@@ -12,11 +12,11 @@
 // integrand is even in it). Against 300 x 300 nodes both channels are within 0.001, their sum within 0.13 %.
 //
 // The lobe of a slanted surface is longer in the plane of incidence than across it, and rough ones lean to the normal. The prefiltered
-// map has the lobes of V = N; the one that is read instead has the mean direction of the true lobe, and for variance the geometric
-// mean of its variances in the plane and across it.
+// map has the lobes of V = N; it is read with the mean direction of the true lobe and the geometric mean of its variances in the plane
+// and across it.
 //
-// Of four rows (where there are 512) one is integrated, and the others lie on the cubic through the four nearest of these (Catmull and Rom, 1974). All is
-// even in the roughness, and goes on beyond 1, so that the first and the last rows have neighbors, too.
+// Of four rows (where there are 512) one is integrated; the others are interpolated by the cubic through the four nearest (Catmull and Rom,
+// 1974). The table is even in the roughness and continues beyond 1, so that the first and the last rows have neighbors.
 #include "roughness_level.glsl"
 
 layout(local_size_x = 8, local_size_y = 16) in;

@@ -1,10 +1,10 @@
-// Finds the brightest spot of the environment, and how much of its light stands out.
+// Finds the brightest spot of the environment and the light of it that exceeds its surroundings.
 // read    environment  equirectangular with mips
 //         luminance    the mean luminance over the sphere, vec4
-// write   brightest    two vec4, see brightest.glsl; the light is 0 when nothing stands out, or more than one compact spot does
+// write   brightest    two vec4, see brightest.glsl; the light is 0 without a spot, or when it is not one compact spot
 //
-// One work group. What is above kStandsOut times the mean within 5 degrees of the brightest texel counts; colors are cut in proportion.
-// It is a spot when the ring around it, as wide again, has less than a tenth of that. Otherwise the environment stays whole.
+// One work group. The light above kStandsOut times the mean within 5 degrees of the brightest texel counts; colors are cut in proportion.
+// It is a spot when the ring around it, as wide again, has less than a tenth of that light. Otherwise nothing is cut out.
 #include "common/equirect_direction.glsl"
 
 layout(local_size_x = 256) in;
@@ -44,8 +44,8 @@ void main() {
   }
   part[lane] = vec4(best, 0.0, 0.0);
   barrier();
-  // One lane goes through the parts, and not ever fewer lanes in eight rounds: each barrier makes the program larger, and in software its
-  // translation takes longer than all of its work.
+  // One lane adds the parts, instead of a reduction in eight rounds: each barrier makes the program larger, and in software its translation
+  // takes longer than all of its work.
   if (lane == 0u) {
     for (uint other = 1u; other < 256u; ++other) {
       vec2 found = part[other].xy;
@@ -72,7 +72,8 @@ void main() {
   last.y = min(last.y, size.y - 1);
   last.x = min(last.x, first.x + size.x - 1);
   int columns = last.x - first.x + 1, count = columns * (last.y - first.y + 1);
-  // The solid angle of a texel is its width in radians times cos(a) - cos(b), of its upper and its lower edge: the sine of its middle times this.
+  // The solid angle of a texel is its width in radians times cos(a) - cos(b), of its upper and its lower edge: the sine of its middle times
+  // this.
   float row = 4.0 * kPi / float(size.x) * sin(0.5 * kPi / float(size.y));
   vec4 sum = vec4(0.0), moment = vec4(0.0);
   for (int i = int(lane); i < count; i += 256) {

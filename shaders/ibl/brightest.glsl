@@ -34,9 +34,9 @@ struct SpotShape {
   float per_core;  // 1 / squared width of the bump
 };
 
-// For a spot with the variance `spread` along each axis of a half vector. The tail is GGX's own; what the spot's size takes from the peak is a
-// rounder bump (1 + t / core)^-8, nearly a Gaussian. Both widths and the bump's share are such that a small spot changes nothing up to second
-// order, and a mirror shows the spot.
+// For a spot with the variance `spread` along each axis of a half vector. The tail is GGX's own; what the spot's size takes from the peak
+// is a rounder bump (1 + t / core)^-8, nearly a Gaussian. Both widths and the bump's share are such that a small spot changes nothing up to
+// second order, and a mirror shows the spot.
 SpotShape spotShape(float alpha, float spread) {
   float a2 = alpha * alpha, tail = a2 + 4.0 * spread, core = 7.0 * a2 + 12.0 * spread;
   return SpotShape(a2, tail, (1.0 - a2 / tail) * 7.0 / core, 1.0 / core);

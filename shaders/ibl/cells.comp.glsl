@@ -1,7 +1,7 @@
-// Mean radiance of the cells that the irradiance is summed over, by shares of the sphere: the levels of a loaded map are plain means, which
-// beside a pole are wrong: a sun there counts up to 16 times, or half.
+// Mean radiance of the cells of the irradiance sum, weighted by solid angle: the levels of a loaded map are plain means, which are wrong
+// near a pole, where a sun would count up to 16 times, or half.
 // read    environment  equirectangular with mips
-// write   result       rgba16f, a texel a cell
+// write   result       rgba16f, a texel per cell
 // Each cell is the mean of the texels in it, in a level with 16 to 31 of them from side to side at most; beside a pole, of all texels.
 #include "common/slice.glsl"
 

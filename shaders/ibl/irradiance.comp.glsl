@@ -1,13 +1,13 @@
 // Cosine-weighted mean radiance around each direction (irradiance / pi), equirectangular.
 // read   environment  equirectangular with mips, `as linear wrap`
 //        brightest?   see brightest.glsl
-// write  result       rgba16f; COLUMNS wide: every row is one work group. a: the mean cosine of the spot's light as the grid has it, whose cells are wide:
-//                     a times the spot's irradiance / pi is what rgb has of it
+// write  result       rgba16f; COLUMNS wide: every row is one work group. a: the mean cosine of the spot's light on the coarse grid: a
+//                     times the spot's irradiance / pi is its part of rgb
 //
-// Direct integration over a grid of COLUMNS x COLUMNS / 2 cells of the environment, taken at the level where a texel is as large as a cell, with
-// the exact solid angle of each cell and normalized by the sum of the weights: a constant environment is kept exactly, and
-// the cosine's variation inside a cell costs less than 0.1 %. (Nine spherical harmonics would ring by several per cent
-// beside a sun.) Cells turn with the column of the result, so the weights of a row are computed once.
+// Direct integration over a grid of COLUMNS x COLUMNS / 2 cells of the environment, taken at the level where a texel is as large as a cell,
+// with the exact solid angle of each cell and normalized by the sum of the weights: a constant environment is kept exactly, and the
+// variation of the cosine inside a cell costs less than 0.1 %. (Nine spherical harmonics would ring by several percent beside a sun.) Cells
+// rotate with the column of the result, so the weights of a row are computed once.
 #include "common/equirect.glsl"
 #include "common/slice.glsl"
 #include "brightest.glsl"

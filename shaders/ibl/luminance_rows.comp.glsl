@@ -1,4 +1,4 @@
-// Mean luminance (Rec. 709) of each row of an equirectangular map, times the row's share of the sphere.
+// Mean luminance (Rec. 709) of each row of an equirectangular map, times the row's share of the sphere's solid angle.
 // read   environment  level 0
 // write  rows         a float per row; each row is one work group. Their sum is the mean over the sphere
 //

@@ -5,8 +5,8 @@
 //         samples         per texel, at most 256
 //
 // Samples of the normal distribution, each read at the level whose texels match the sample's share of the sphere
-// (Krivanek and Colbert, EGSR 2008) and weighted by N.L. Around the axis all texels of a row see the same samples,
-// only turned: their map coordinates relative to the texel are computed once per work group.
+// (Krivanek and Colbert, EGSR 2008) and weighted by N.L. All texels of a row have the same samples but for a
+// rotation: their map coordinates relative to the texel are computed once per work group.
 #include "common/equirect.glsl"
 #include "common/slice.glsl"
 #include "roughness_level.glsl"
@@ -39,7 +39,7 @@ void fillTable(float theta, int count) {
     float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
     float d = cos2_h * (a2 - 1.0) + 1.0;
     float pdf = a2 / (kPi * d * d) * 0.25;         // D (N.H) / (4 V.H), and V = N
-    // N stands in the XY plane at longitude 0; the frame's other axes are the map's down and longitude.
+    // N is in the XY plane at longitude 0; the frame's other axes are the map's down and longitude.
     vec3 local = vec3(sin_l * cos(phi), sin_l * sin(phi), cos_l);
     vec3 direction = vec3(sin_n * local.z + cos_n * local.x, cos_n * local.z - sin_n * local.x, local.y);
     vec2 at = equirectUv(direction);

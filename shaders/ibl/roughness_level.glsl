@@ -1,6 +1,6 @@
 // The one mapping between a material's perceptual roughness and the levels of the prefiltered specular map, used by the
 // prefilter and by every lookup. Level 0 is roughness 0.1, the last one roughness 1, and from one to the next roughness grows by the
-// same factor, as texels do: so a lobe is always a few texels wide. What is smoother than level 0 reads the environment itself.
+// same factor, as texels do, so that a lobe is always a few texels wide. Smoother surfaces than level 0 read the environment itself.
 // The microfacet width is alpha = roughness^2.
 #ifndef IBL_ROUGHNESS_LEVEL_GLSL
 #define IBL_ROUGHNESS_LEVEL_GLSL
@@ -10,7 +10,7 @@ const float kOctaves = -log2(kSharpest);  // of roughness, from the first level 
 
 float alphaOfRoughness(float roughness) { return roughness * roughness; }
 
-// Where a lobe belongs among all levels: 0 the first, 1 the last one; below 0 it is sharper than any.
+// The level of a lobe as a share of all levels: 0 the first, 1 the last; below 0 it is sharper than any.
 float placeOfAlpha(float alpha) { return 1.0 + log2(max(alpha, 1e-6)) * (0.5 / kOctaves); }
 
 float levelOfAlpha(float alpha, int levels) { return placeOfAlpha(alpha) * float(levels - 1); }

@@ -1,9 +1,9 @@
-// A texture made visible for a person: a part of it, one channel or three, a range of values, marks where values are no
-// numbers. The viewer's texture inspector draws with it; a pass may as well.
+// Shows a texture: a part of it, one channel or three, a range of values, and marks for NaN and infinity. The viewer's texture inspector
+// draws with it, and a pass may too.
 // read    source   2D texture of any format; texels are fetched
 // write   result   display-referred
 // params  origin            texel at the lower left corner of the result
-//         texels_per_pixel  above 1: the nearest texel is shown, and marks are looked for in all that a pixel covers
+//         texels_per_pixel  above 1: the nearest texel is shown, and marks for any texel that the pixel covers
 //         channel           0: rgb, 1..4: red, green, blue, alpha
 //         low, high         values shown black and white
 //         ev                stops, before the range
@@ -38,7 +38,7 @@ layout(std140) uniform Parameters {
 };
 out vec4 result;
 
-// Turbo's course by polynomials: Mikhailov, "Turbo, an improved rainbow colormap for visualization", 2019.
+// The Turbo colormap by polynomials: Mikhailov, "Turbo, an improved rainbow colormap for visualization", 2019.
 vec3 colorOf(float x) {
   const vec4 kRed = vec4(0.13572138, 4.61539260, -42.66032258, 132.13108234);
   const vec4 kGreen = vec4(0.09140261, 2.19418839, 4.84296658, -14.18503333);

@@ -1,7 +1,7 @@
-// The surface of a mesh at a pixel: its material with its maps, and the normal with its map.
+// Evaluates the material and the normal of a mesh at a pixel, with their maps.
 // Slots: materials (@materials), material_maps? (@material_maps as linear wrap). Behind meshes/surface.vert.glsl.
-// define SPECULAR_AA: roughness takes up how much the normal turns within the pixel (Tokuyoshi and Kaplanyan, "Improved geometric specular
-// antialiasing", I3D 2019, listing 1).
+// define SPECULAR_AA: the variation of the normal within the pixel widens the roughness (Tokuyoshi and Kaplanyan, "Improved geometric
+// specular antialiasing", I3D 2019, listing 1).
 #ifndef MESHES_SURFACE_GLSL
 #define MESHES_SURFACE_GLSL
 
@@ -29,7 +29,7 @@ struct MeshSurface {
   float shininess;   // of Blinn–Phong; 0: none
 };
 
-// Ends the fragment in a hole of a mask, and on the back of what has one side: draw with "cull": "none".
+// Discards the fragment in a hole of a mask, and on the back of a single-sided material: draw with "cull": "none".
 MeshSurface meshSurface() {
   Material self = material[row];
   vec2 dx = dFdx(map_uv), dy = dFdy(map_uv);

@@ -1,18 +1,17 @@
 // Motion blur over an open shutter, centered on the frame, in the tiles that gather.vert.glsl picks. Scene-referred.
 // read    still, streaks   from streaks.frag.glsl; all textures by any sampler (texels are fetched)
 //         tiles, more?     from motions
-//         second_still?, second_streaks?   the same two of the picture without what is seen first; both or neither
+//         second_still?, second_streaks?   the same two of the second layer; both or neither
 // modify  result     radiance; alpha stays
 // params  shutter    degrees: 360 is open all the time between two frames
-//         samples    moments of the shutter's time at most; short streaks take two for each pixel of their length
+//         samples    most moments of the shutter's time; short streaks take two per pixel of their length
 //         tile       pixels along a tile's side; also limits the blur
 //
-// For each of some moments, what is at the pixel then? A texel that moves by a streak is at the pixel when it lies that far before it. Which
-// texel that is depends on its own motion, so it is searched for along the motion of the pixel and along up to four motions around it (tiles
-// after McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012). Of the texels that do arrive at the pixel the nearest is
-// seen. With a picture of what is behind, its texels count too. What reaches the picture's side goes on beyond it. Where no texel arrives,
-// something comes into view that nobody has drawn: of the surface behind, the texel stands in that is nearest to the place which is hidden, and
-// most of the change between it and the texel as far beyond is taken to go on.
+// For each of several moments, finds the texel that is at the pixel then: one whose streak leads there. This depends on the texel's own
+// motion, so it is searched along the motion of the pixel and up to four motions around it (tiles after McGuire et al., "A reconstruction
+// filter for plausible motion blur", I3D 2012). Of the texels that arrive at the pixel, the nearest is visible. With a second layer, its
+// texels count too. Edges of the picture are extended. Where no texel arrives, a surface comes into view that was not drawn: it is
+// extrapolated from the nearest visible texel of the surface behind, and from the change between that and the texel as far beyond.
 #include "blur.glsl"
 
 uniform sampler2D still, streaks, tiles;
@@ -30,7 +29,7 @@ layout(std140) uniform Parameters {
 out vec4 result;
 
 const float kBehind = 0.95;  // depth of what counts as behind a surface of depth 1
-const float kGoesOn = 0.7;   // share of a change of light that is taken to go on where something is hidden
+const float kGoesOn = 0.7;   // share of a change of light that is extrapolated where a surface is hidden
 const float kMiss = 0.6;     // pixels: a texel that passes so close to the pixel's center arrives
 
 void main() {
@@ -43,7 +42,7 @@ void main() {
 #endif
   vec2 longest = streakOf(two.xy, size, shutter, tile);
   int n = min(samples, int(ceil(4.0 * length(longest))) + 1);
-  // The middles of equal steps, which err least; where steps are longer than a pixel they would show as bands, and chance moves them.
+  // The middles of equal steps, which err least; where steps are longer than a pixel, noise moves them, because they would show as bands.
   float random = fract(52.9829189 * fract(dot(here, vec2(0.06711056, 0.00583715))));
   float noise = 0.5 + (random - 0.5) * clamp(1.0 - 0.5 * float(n) / length(longest), 0.0, 1.0);
   bool alike = two.xy == two.zw && two.xy == others.xy && two.xy == others.zw;
@@ -71,7 +70,7 @@ void main() {
 #ifdef HAS_SECOND_STREAKS
     bool seen_behind = false;
 #endif
-    // The pixel's own motion and that of the texel found so, the first of the others and that of the texel found so, the rest.
+    // The pixel's own motion and that of the texel found by it, the first of the others and that of the texel found by it, the rest.
     vec2 motion = own.xy;
     vec4 first = own;  // what the pixel's own motion leads to
     for (int k = 0; k < tries; ++k) {
@@ -96,8 +95,9 @@ void main() {
       first = k == 0 ? found : first;
     }
     if (seen < 0.0) {
-      // Either the pixel's surface leaves and what is behind comes into view, or the pixel is on what is behind, whose texel something nearer
-      // covers. That texel would be at `hidden`; what covers it ends at `beside` at the latest, since it is not at the pixel then.
+      // Either the pixel's surface leaves and the background comes into view, or the pixel is on the background, whose texel a nearer
+      // surface covers. That texel would be at `hidden`; the nearer surface ends at `beside` at the latest, since it is not at the pixel
+      // then.
       bool covered = own.w < kBehind * first.w;
       vec4 front = covered ? first : own, back = covered ? own : first;
       vec2 hidden = here - back.xy * t, beside = here - front.xy * t;
@@ -107,7 +107,8 @@ void main() {
       }
       beyond = clamp(2 * seen_at - ivec2(floor(hidden)), ivec2(0), last);
       vec4 beside_it = texelFetch(streaks, seen_at, 0), beyond_it = texelFetch(streaks, beyond, 0);
-      bool same = distance(beside_it.xy, beyond_it.xy) < 0.5 && beside_it.w >= kBehind * beyond_it.w && beyond_it.w >= kBehind * beside_it.w;
+      bool same_depth = beside_it.w >= kBehind * beyond_it.w && beyond_it.w >= kBehind * beside_it.w;
+        bool same = same_depth && distance(beside_it.xy, beyond_it.xy) < 0.5;
       goes_on = same ? kGoesOn : 0.0;
     }
 #ifdef HAS_SECOND_STREAKS

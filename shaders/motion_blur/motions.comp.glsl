@@ -1,7 +1,7 @@
-// Up to four motions in a tile and the eight around it: the longest, then always the one that is least like those before. All eight tiles count,
-// whatever their direction: a motion too many costs time, a missed one cuts a streak off.
+// Up to four motions in a tile and the eight around it: the longest, then each time the one least like those before. All eight tiles count,
+// whatever their direction: a superfluous motion costs time, a missed one cuts a streak off.
 // read    tiles    screen UV per frame, from tile_max; any sampler
-// write   result, more   the same size, two motions each; where there are fewer the first stands again
+// write   result, more   the same size, two motions each; where there are fewer, the first again
 // params  picture  pixels of the picture: tiles need not be square in UV
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -1,5 +1,5 @@
-// What gather.frag.glsl looks up again and again, in one place: a copy of the picture, and of each pixel its streak and how near it is. In the
-// tiles that streaks.vert.glsl picks.
+// Gathers what gather.frag.glsl reads often into two textures: a copy of the picture, and the streak and depth of each pixel. In the tiles
+// that streaks.vert.glsl picks.
 // read    source, velocity, depth   radiance, screen UV per frame, reversed-Z; all nearest
 // write   still     the radiance, scene-referred
 //         streaks   half the path while the shutter is open, in pixels; 0; depth

@@ -1,5 +1,5 @@
-// The longest motion in each tile (McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012), and the one that differs most
-// from it.
+// The longest motion in each tile (McGuire et al., "A reconstruction filter for plausible motion blur", I3D 2012), and the one that differs
+// most from it.
 // read    velocity   screen UV per frame; any sampler (texels are fetched)
 // write   result     screen UV per frame, one texel per tile: both motions
 // params  tile       pixels along a tile's side
@@ -9,8 +9,8 @@ uniform sampler2D velocity;
 layout(rgba16f) uniform writeonly image2D result;
 layout(std140) uniform Parameters { int tile; };
 
-// The motion in a tile that is farthest from `from`. Four texels at a time. At an odd end some are taken twice or from the next tile, which does
-// no harm.
+// The motion in a tile that is farthest from `from`. Four texels at a time. At an odd end some are read twice or from the next tile, which
+// is harmless.
 vec2 farthest(vec2 from, ivec2 first, ivec2 end, vec2 size) {
   vec2 found = from;
   float length2 = 0.0;
@@ -23,7 +23,9 @@ vec2 farthest(vec2 from, ivec2 first, ivec2 end, vec2 size) {
       if (most > length2) {
         length2 = most;
         vec4 is = vec4(equal(lengths, vec4(most)));
-        found = is.x > 0.0 ? vec2(across.x, up.x) : is.y > 0.0 ? vec2(across.y, up.y) : is.z > 0.0 ? vec2(across.z, up.z) : vec2(across.w, up.w);
+        found = is.x > 0.0 ? vec2(across.x, up.x)
+              : is.y > 0.0 ? vec2(across.y, up.y)
+              : is.z > 0.0 ? vec2(across.z, up.z) : vec2(across.w, up.w);
       }
     }
   return found;

@@ -9,7 +9,7 @@ struct Ground {
 };
 layout(std430) readonly buffer ground { Ground ground_row[]; };
 
-// Of what is there in truth, where the environment shows it: about that of gravel or dry grass.
+// Where the environment shows the ground, an estimate: about that of gravel or dry grass.
 vec3 groundAlbedo(Ground self) { return self.radius > 0.0 ? self.albedo : vec3(0.25); }
 
 #endif

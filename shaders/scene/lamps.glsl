@@ -1,4 +1,4 @@
-// Point and spot lights, the import @lamps under the slot `lamps`. Outside `range` and outside its cone a lamp gives exactly nothing.
+// Point and spot lights, the import @lamps under the slot `lamps`. Beyond `range` and outside its cone a lamp gives exactly 0.
 #ifndef SCENE_LAMPS_GLSL
 #define SCENE_LAMPS_GLSL
 
@@ -6,7 +6,7 @@ struct Lamp {
   vec3 position;    // world
   float range;      // world units
   vec3 intensity;   // radiant intensity, scene-referred: irradiance at distance 1
-  float cos_inner;  // within this angle of `direction` undimmed
+  float cos_inner;  // within this angle of `direction`, full intensity
   vec3 direction;   // of the spot's axis, away from the lamp
   float cos_outer;  // -1: all round
   float near_plane; // of its shadow map
@@ -28,7 +28,7 @@ vec3 lampIrradiance(Lamp self, vec3 position, out vec3 towards) {
   return self.intensity * window;
 }
 
-// A sphere around everything that the lamp lights: xyz and radius.
+// A bounding sphere of everything that the lamp lights.
 vec4 lampBounds(Lamp self) {
   if (self.cos_outer <= 0.0) return vec4(self.position, self.range);
   // A spot lights a cone with a round end. Its sphere goes through apex and rim, or around the rim when the cone is wide (Wronski,

@@ -1,8 +1,8 @@
 // The environment's maps, and where a specular lobe reads them.
 // read    irradiance?    `as linear wrap`: irradiance over pi; alpha: its part of spotIrradiance()
 //         specular?      `as linear wrap`, prefiltered, see ibl/prefilter.comp.glsl
-//         environment?   `as linear wrap`, with the mips of a box filter: for surfaces smoother than level 0 of `specular`; without it they are
-//                        as rough as that level
+//         environment?   `as linear wrap`, with the mips of a box filter: for surfaces smoother than level 0 of `specular`; without it they
+//                        are as rough as that level
 //         brightest?     `as uniform`: the spot that `specular` lacks, see ibl/brightest.glsl
 // params  sky_turn?      see shading/parameters.glsl, which is included before
 #ifndef SHADING_ENVIRONMENT_GLSL
@@ -39,7 +39,7 @@ struct Lobe {
   vec3 spot;              // unit, towards the brightest spot
   SpotShape spot_shape;
   float spot_share;       // share of the spot's light that is reflected in closed form, over 2 pi
-  float spot_cut;         // share by which what is too bright near the spot is cut out of what `environment` gives
+  float spot_cut;         // share by which the spot is cut out of lookups of `environment`
 };
 
 #endif

@@ -1,6 +1,6 @@
-// How much of a lamp a point sees, from a cube of reversed-Z depth per lamp: near_plane / distance along the face's axis.
+// Visibility of a lamp from a point, by a cube map of reversed-Z depth per lamp: near_plane / distance along the face's axis.
 // Slot: lamp_maps `as compare`, a cube array, by which 1 is lit.
-// Five linear lookups, one texel apart, each compared with where the receiver's plane is in its direction.
+// Five linear lookups, one texel apart, each compared with the depth of the receiver's plane in its direction.
 #ifndef SHADING_LAMP_SHADOW_GLSL
 #define SHADING_LAMP_SHADOW_GLSL
 

@@ -1,6 +1,6 @@
-// How a material answers light, whatever lights it: GGX split sum (Karis 2013) with the energy that single scattering loses put back
-// (Fdez-Aguera, JCGT 2019: exact for metals in a white furnace at any roughness) and a diffuse layer that gets what the specular one leaves.
-// A partial metal is that share of metal beside a dielectric.
+// Material evaluation, independent of the lights: GGX split sum (Karis 2013) with the energy that single scattering loses put back
+// (Fdez-Aguera, JCGT 2019: exact for metals in a white furnace at any roughness) and a diffuse layer that gets what the specular one
+// leaves. A partial metal is that share of metal beside a dielectric.
 // read    brdf           the table of ibl/brdf.comp.glsl, `as linear`
 // defines COMPENSATION   0 leaves the lost energy out
 #ifndef SHADING_MATERIAL_GLSL

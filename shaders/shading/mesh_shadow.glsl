@@ -1,4 +1,4 @@
-// How much of the sun and of the environment's brightest spot a point sees past what graphs/mesh_shadows.json has drawn, see
+// Visibility of the sun and of the environment's brightest spot, by the shadow maps of graphs/mesh_shadows.json, see
 // shading/soft_shadow.glsl.
 // read    light_maps    `as compare`, an array: layer 0 of the sun, 1 of the spot
 //         light_depths  the same as numbers

@@ -1,5 +1,5 @@
 // The block Parameters of shaders that light surfaces, the same in both stages.
-// params  sky_turn?     by how much of a full turn the environment is rotated
+// params  sky_turn?     rotation of the environment, in full turns
 //         lamp_count    with lamps
 #ifndef SHADING_PARAMETERS_GLSL
 #define SHADING_PARAMETERS_GLSL

@@ -1,11 +1,10 @@
-// How much of a light far away a point sees, from a shadow map of reversed-Z depth, larger nearer to the light. The includer says how its map
-// is read, before:
+// Visibility of a light far away from a point, by a shadow map of reversed-Z depth. The includer defines how the map is read, before:
 //   vec2 shadowSize()             of the map, texels
 //   float shadowHides(vec3 at)    u, v and depth: 1 in the shadow, 0 in the light, and between
 //   float shadowDepth(vec2 at)    with SOFT_SUN
 // SOFT_SUN: penumbrae grow with the distance from what casts them: percentage-closer soft shadows, Fernando, SIGGRAPH 2005 sketches.
-// A sample beside the point is compared with where the receiver's plane is there, so planes do not shadow themselves. A point may lie
-// behind all that the map holds, beyond its depth 0.
+// A sample beside the point is compared with the receiver's plane there, so planes do not shadow themselves. A point may lie beyond depth 0
+// of the map.
 #ifndef SHADING_SOFT_SHADOW_GLSL
 #define SHADING_SOFT_SHADOW_GLSL
 
@@ -17,7 +16,7 @@
 
 struct ShadowedLight {
   vec3 direction;  // unit, towards it
-  float spread;    // tangent of half the angle it is seen under
+  float spread;    // tangent of half its angular size
   float texel;     // world units
   MapRows map;
 };
@@ -61,14 +60,14 @@ float seenInMap(ShadowedLight self, vec3 position, vec3 n) {
   vec2 search = clamp(self.spread * (1.0 - at.z) / per_depth * per_unit, 2.0 * texel, vec2(kWidest));
   float blockers = 0.0, depths = 0.0;
   for (int i = 0; i < kBlockers; ++i) {
-    // Denser towards the middle: what is small and near must be met, too.
+    // Denser towards the middle, to find small near blockers too.
     vec2 offset = onDisc(i, kBlockers, turn) * search * ((float(i) + 0.5) / float(kBlockers));
     float there = shadowDepth(at.xy + offset), plane = at.z + dot(slope, offset);
     if (there <= 0.0 || there <= plane + bias + 0.5 * dot(abs(slope), texel)) continue;
     blockers += 1.0;
     depths += there - plane;
   }
-  // Where the search met nothing, what hides the point itself is so small that its penumbra is.
+  // Where the search found no blocker, one that hides the point itself is small, and so is its penumbra.
   if (blockers == 0.0 && shadowHides(vec3(at.xy, max(at.z + bias, kNothing))) == 0.0) return 1.0;
   vec2 width = clamp(self.spread * depths / max(blockers, 1.0) / per_depth * per_unit, texel, vec2(kWidest));
   float hidden = 0.0;

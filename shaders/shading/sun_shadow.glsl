@@ -1,4 +1,4 @@
-// How much of the sun a point sees, from a shadow map, see shading/soft_shadow.glsl.
+// Visibility of the sun from a point, by a shadow map, see shading/soft_shadow.glsl.
 // Slots: sun_map `as compare`, by which 1 is lit
 //        sun_depth?  the same texture as numbers; with it (SOFT_SUN) a sun of its angle
 #ifndef SHADING_SUN_SHADOW_GLSL

@@ -1,6 +1,6 @@
-// Where a vertex lies in the map that the environment's brightest spot sees; without one it is what the pass's view says.
+// Position of a vertex in the shadow map of the environment's brightest spot; without a spot, in the pass's view.
 // read    brightest?   `as uniform`, see ibl/brightest.glsl; with it scene_bounds, see shadow/scene_bounds.glsl
-// params  sky_turn     with it: by how much of a full turn the environment is rotated
+// params  sky_turn     with it: rotation of the environment, in full turns
 #ifndef SHADOW_FROM_SPOT_GLSL
 #define SHADOW_FROM_SPOT_GLSL
 

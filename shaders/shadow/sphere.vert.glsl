@@ -1,4 +1,4 @@
-// Spheres into a shadow map, as triangles, seen as meshes are: see shadow/from_spot.glsl.
+// Spheres into a shadow map, as triangles: see shadow/from_spot.glsl.
 #include "scene/instances.glsl"
 #include "shadow/from_spot.glsl"
 

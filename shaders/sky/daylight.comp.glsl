@@ -3,9 +3,10 @@
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
 // small map can hold it. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
-// write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near 1 at exposure 0
-//         rest, rest_1           the same without what of the sun stands out
-//         sun                    what of it stands out: two vec4, `brightest` of ibl/brightest.glsl
+// write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
+//                                1 at exposure 0
+//         rest, rest_1           the same without the sun
+//         sun                    two vec4, `brightest` of ibl/brightest.glsl
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
 //         turbidity  2 (clear) to 8 (hazy)
@@ -84,7 +85,7 @@ void main() {
   float haze = 0.01 + 0.01 * turbidity;
 
 #if defined HAS_REST || defined HAS_SUN
-  // What is brighter than this stands out. Near 16 times the mean luminance, as in ibl/brightest.comp, while the sun is not low in haze.
+  // Light above this belongs to the sun. Near 16 times the mean luminance, as in ibl/brightest.comp, while the sun is not low in haze.
   vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
   float limit = max(most(peak) * (0.005906 + 0.0000673 * elevation), 2.0 * most(around));
 #endif
@@ -92,7 +93,7 @@ void main() {
   vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
   int texels = imageSize(radiance).x > 1 ? 4 : 1;  // not a constant: unrolled, the loop takes longer to translate
   for (int i = 0; i < texels; ++i) {
-    // Row 0 of the map is the top. What lies outside is not stored.
+    // Row 0 of the map is the top. Texels outside are not stored.
     ivec2 texel = corner + ivec2(i & 1, i >> 1);
     vec3 direction = equirectDirection((vec2(texel) + 0.5) / vec2(imageSize(radiance)));
     float cos_gamma = clamp(dot(direction, to_sun), -1.0, 1.0), gamma = acos(cos_gamma);
@@ -116,9 +117,10 @@ void main() {
 
 #ifdef HAS_SUN
   if (corner != ivec2(0)) return;
-  // Sky and lobe, around + peak g with g = exp(-gamma^2 / kWidth2), cut in proportion where their largest channel is above the limit: for g from
-  // `least` to 1. Integrals over gamma^2 in closed form, in units of kWidth2.
-  float highest = most(peak), base = most(around), above = limit - base, least = clamp(above / highest, 0.0, 1.0), reach = -log(max(least, 1e-6));
+  // Sky and lobe, around + peak g with g = exp(-gamma^2 / kWidth2), cut in proportion where their largest channel is above the limit: for g
+  // from `least` to 1. Integrals over gamma^2 in closed form, in units of kWidth2.
+  float highest = most(peak), base = most(around), above = limit - base;
+  float least = clamp(above / highest, 0.0, 1.0), reach = -log(max(least, 1e-6));
   float lobe = 1.0 - least - reach * above / highest;
   float moment = 1.0 - (1.0 + reach) * least - 0.5 * reach * reach * above / highest;
   float share_of_sky = reach - limit / base * log(limit / (max(least, 1e-6) * (base + highest)));

@@ -1,12 +1,12 @@
-// The environment behind everything. Of a "fullscreen" pass, or a draw of one "triangle".
+// The environment as background: in a "fullscreen" pass, or a draw of one "triangle".
 // read    sky        equirectangular with mips, `as linear wrap`
 //         blurred?   the same, prefiltered for roughness in its levels (ibl/prefilter), from roughness 0.1 on instead of it
 //         brightest? the spot that `blurred` lacks, see ibl/brightest.glsl
 //         air?       see fog/sky.glsl
 // write   radiance   scene-referred, linear; alpha 1
 //         velocity   screen UV per frame of a point at infinity
-// params  sky_turn?  by how much of a full turn the environment is rotated, from +X towards +Z
-//         blur?      four times the roughness of the surface that would show it so; up to 0.4 a mixture with `sky`
+// params  sky_turn?  rotation of the environment, in full turns, from +X towards +Z
+//         blur?      four times the roughness of a mirror that would blur it so; up to 0.4 a mix with `sky`
 #include "fog/sky.glsl"
 #include "maps.glsl"
 

@@ -1,4 +1,4 @@
-// The environment behind everything. Directions are linear over the picture, and levels constant, so both are computed here.
+// The environment as background. Directions are linear over the picture, and levels constant, so both are computed here.
 #include "common/view.glsl"
 #include "maps.glsl"
 #include "ibl/roughness_level.glsl"

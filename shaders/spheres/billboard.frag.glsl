@@ -9,8 +9,8 @@
 //         SHOW_LAMPS    instead of light, how many lamps each pixel goes through, see shading/show_lamps.glsl
 //
 // Coverage comes from the signed distance in pixels from the pixel's center to the silhouette, which is a conic: exact along its normal, no
-// derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette: the test and the write of
-// a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
+// derivatives. Depth goes with every pixel that is covered at all, at the point of tangency outside the silhouette: the test and the write
+// of a fragment cannot be parted, and drawn back to front whatever lies behind is there already.
 #include "common/view.glsl"
 #include "fog/fog.glsl"
 #include "shading/show_lamps.glsl"

@@ -80,13 +80,14 @@ void main() {
   vec2 bounds_x = slopeBounds(c.x, z, r) + vec2(-pixel.x, pixel.x), bounds_y = slopeBounds(c.y, z, r) + vec2(-pixel.y, pixel.y);
   vec2 low = vec2(bounds_x.x, bounds_y.x), high = vec2(bounds_x.y, bounds_y.y);
 #if OCTAGON
-  // And along both diagonals, unless a plane is about beside the eye, or the sphere so small that in software the edges between
-  // the triangles cost more than the corners: pixels there are shaded in blocks of 4 x 2, twice where an edge goes through. So the
-  // long ones are horizontal, too. Pairs from bottom to top, the left one first: on the lower side, at the lower and the upper
-  // end of the left and right side, on the upper side.
+  // And along both diagonals, unless a plane is nearly beside the eye, or the sphere is so small that in software the edges between the
+  // triangles cost more than the corners: pixels are shaded in blocks of 4 x 2, twice where an edge crosses. So the long edges are
+  // horizontal. Pairs from bottom to top, the left one first: on the lower side, at the lower and the upper end of the left and right side,
+  // on the upper side.
   const float kHalf = 0.70710678, kFar = 8.0, kLeast = 56.0;  // kLeast: pixels across
   vec2 wider = vec2(-1.25, 1.25) * max(pixel.x, pixel.y);  // half a pixel of shift (edgeOf), 0.71 of a slanted ramp
-  vec2 sum = (slopeBounds((c.x + c.y) * kHalf, z, r) + wider) / kHalf, difference = (slopeBounds((c.x - c.y) * kHalf, z, r) + wider) / kHalf;
+  vec2 sum = (slopeBounds((c.x + c.y) * kHalf, z, r) + wider) / kHalf;
+  vec2 difference = (slopeBounds((c.x - c.y) * kHalf, z, r) + wider) / kHalf;
   vec4 far = max(max(abs(bounds_x), abs(bounds_y)).xyxy, abs(vec4(sum, difference)));
   bool octagon = max(max(far.x, far.y), max(far.z, far.w)) < kFar && all(greaterThan((high - low) * focal, vec2(kLeast)));
   if (!octagon) sum = difference = vec2(-1e30, 1e30);

@@ -9,9 +9,9 @@
 const float kLeastBlur = 0.1;  // of the border between two pixels, pixels
 
 // `bend` as in lobeOf; the lobe loses the light that the glint takes over. The spot's size and the surface's roughness blur the reflection,
-// measured here in pixels. Up to one the pixels' squares count, from two on the lobe is smooth enough by itself. The square's share of a spot
-// with the blur s at the distance x along an axis is (tanh(a (x + 1/2)) - tanh(a (x - 1/2))) / 2 = sinh(a) / (cosh(a) + cosh(2 a x)), with
-// a = 0.907 / s. With g = exp(-2 a |x|) that is 2 sinh(a) g / (1 + 2 cosh(a) g + g^2).
+// measured here in pixels. Up to one the pixels' squares count, from two on the lobe is smooth enough by itself. The square's share of a
+// spot with the blur s at the distance x along an axis is (tanh(a (x + 1/2)) - tanh(a (x - 1/2))) / 2 = sinh(a) / (cosh(a) + cosh(2 a x)),
+// with a = 0.907 / s. With g = exp(-2 a |x|) that is 2 sinh(a) g / (1 + 2 cosh(a) g + g^2).
 Glint glintOf(inout Lobe lobe, vec3 center, float radius, float bend) {
   Glint glint = Glint(vec2(0.0), 0.0, 1.0, 0.0);
 #if defined HAS_BRIGHTEST && SPECULAR_AA

@@ -1,4 +1,4 @@
-// Light that leaves a sphere towards the eye: as other surfaces, and a glint of the brightest spot in small ones.
+// Light that leaves a sphere towards the eye: as of other surfaces, and a glint of the brightest spot in small ones.
 // read    neighbors?    what spheres hide of each other, see spheres/neighbors/ambient.glsl
 //         the lights: shading/light.glsl
 #ifndef SPHERES_LIGHT_GLSL
@@ -16,7 +16,7 @@ Light sphereLight(Point point, Surface surface, Lobe lobe, float glint, uint row
   LightsSeen seen = lightsSeen(point);
 #ifdef HAS_NEIGHBORS
   Occlusion occlusion = occlusionOf(listOf(row), point, surface, lobeAxis(point, response), lobe);
-  // Spheres may stand in the shadow maps, too.
+  // The shadow maps may contain spheres too.
   seen.sun = min(seen.sun, occlusion.lights.sun);
   seen.spot = min(seen.spot, occlusion.lights.spot);
   Ambient ambient = ambientAmongSpheres(occlusion, point, surface, response, lobe, seen, radius);

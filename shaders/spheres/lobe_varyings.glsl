@@ -1,5 +1,5 @@
-// What the vertex shader of a sphere finds out once about its reflections, packed into seven vectors: OpenGL promises 15 in all. Values that are
-// the same for all spheres are read in the fragments, unless that costs more than a varying.
+// What the vertex shader of a sphere finds out once about its reflections, packed into seven vectors: OpenGL promises 15 in all. Values
+// that are the same for all spheres are read in the fragments, unless that costs more than a varying.
 // define  VERTEX_STAGE   in the vertex shader, which calls writeLobe(); fragments call readLobe() and readGlint()
 #ifndef SPHERES_LOBE_VARYINGS_GLSL
 #define SPHERES_LOBE_VARYINGS_GLSL
@@ -40,8 +40,8 @@ void writeLobe(Lobe lobe, Glint glint) {
 #else
 Lobe readLobe() {
   SpotShape shape = SpotShape(lobe_shape.x, lobe_shape.y, lobe_shape.z, lobe_shape.w);
-  return Lobe(lobe_levels.x, lobe_glint.w, lobe_levels.y, lobe_spot.w, sky_below.w, lobe_levels.w, lobe_levels.z, sky_above.w, lobe_spot.xyz,
-              shape, lobe_shares.x, lobe_shares.y);
+  return Lobe(lobe_levels.x, lobe_glint.w, lobe_levels.y, lobe_spot.w, sky_below.w, lobe_levels.w, lobe_levels.z, sky_above.w,
+              lobe_spot.xyz, shape, lobe_shares.x, lobe_shares.y);
 }
 Glint readGlint() { return Glint(lobe_shares.zw, lobe_glint.x, lobe_glint.y, lobe_glint.z); }
 #endif

@@ -1,4 +1,4 @@
-// A triangle mesh of the unit sphere, moved and scaled to each instance. Opaque: no order is needed. It culls what faces away by itself:
+// A triangle mesh of the unit sphere, moved and scaled to each instance. Opaque: no order is needed. It culls back faces itself, so
 // the graph draws it without "cull".
 #include "common/view.glsl"
 #include "scene/instances.glsl"
@@ -34,7 +34,7 @@ void main() {
   Lobe lobe = lobeOf(self.roughness, lookupAngle() * bend);
   Glint glint = glintOf(lobe, self.center, self.radius, pixelAngle() * bend);
   writeLobe(lobe, glint);
-  // The inside of a sphere is seen when the eye is in it, or the near plane cuts it. Of all others no triangle that faces away is drawn.
+  // The inside of a sphere is visible when the eye is in it or the near plane cuts it. Of all others, back faces are culled.
   float near_corner = near_plane * length(vec3(1.0 / projection[0].x, 1.0 / projection[1].y, 1.0));
   bool open = length(self.center - eye) < self.radius + near_corner;
   gl_CullDistance[0] = open ? 1.0 : -dot(normal, from_eye);

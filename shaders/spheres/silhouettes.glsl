@@ -1,4 +1,5 @@
-// The part of a sphere's share of a pixel that the spheres in front of it leave. Included after to_world and spheres/billboard_varyings.glsl.
+// The part of a sphere's share of a pixel that the spheres in front of it leave. Included after to_world and
+// spheres/billboard_varyings.glsl.
 // read    silhouettes?   the import silhouettes: uvec4(first, number, 0, 0) per instance, then per sphere in front of it the bits of
 //                        vec4(center from the eye, radius)
 #ifndef SPHERES_SILHOUETTES_GLSL
@@ -7,10 +8,10 @@
 #ifdef HAS_SILHOUETTES
 layout(std430) readonly buffer silhouettes { uvec4 silhouette[]; };
 
-// Spheres are blended back to front: of a share `a` of the pixel that lies behind another share `b`, blending leaves a (1 - b), as if the two
-// edges were independent. This is the factor of `a` by which exactly what lies outside of `b` is left. `inside`: signed distance in pixels from
-// the sphere's own edge, whose normal is `outwards`; `v` is the ray, `vv` its squared length. Both edges are straight within a pixel; eight rows
-// of it are exact. Where several spheres are in front, each takes its part of what the others leave.
+// Spheres are blended back to front: of a share `a` of the pixel that lies behind another share `b`, blending leaves a (1 - b), as if the
+// two edges were independent. This is the factor of `a` by which exactly what lies outside of `b` is left. `inside`: signed distance in
+// pixels from the sphere's own edge, whose normal is `outwards`; `v` is the ray, `vv` its squared length. Both edges are straight within a
+// pixel; eight rows of it are exact. Where several spheres are in front, each takes its part of what the others leave.
 float leftBehind(float inside, vec2 outwards, vec3 v, float vv) {
   float left = 1.0;
   // First and number of the spheres in front. They are not valid when the buffer belongs to another list than the one drawn.

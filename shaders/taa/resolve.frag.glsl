@@ -1,25 +1,25 @@
-// Temporal anti-aliasing: mixes each frame, whose camera is moved by less than a pixel, with what earlier frames showed of the same surface.
+// Temporal anti-aliasing: mixes each frame, whose camera is jittered within a pixel, with earlier frames of the same surface.
 // read    current         scene-referred radiance; any sampler (texels are fetched)
 //         velocity        screen UV per frame, free of jitter
 //         depth           reversed-Z, 0 is the sky
-//         previous        `as linear`, what this pass kept: radiance, and in alpha the pixel's state, see below
-//         previous_seen   what this pass wrote as `seen`
+//         previous        `as linear`, the last `kept`: radiance, and in alpha the pixel's state, see below
+//         previous_seen   the last `seen`
 // write   kept            radiance and state
-//         seen            least and greatest luma that the pixel showed, as x / (1 + x); depth; pixels per frame
+//         seen            least and greatest luma of the pixel, as x / (1 + x); depth; pixels per frame
 //         result          radiance; alpha is that of `current`
-// params  share           of a new frame while things move
-//         frames          so many frames are averaged when nothing does; then the picture stays as it is to the bit
+// params  share           weight of a new frame while things move
+//         frames          number of frames averaged while nothing moves; then the picture stays the same to the bit
 //
-// A pixel is in one of four states. 0: nothing is known. -1 .. -kYoung: it moves or has just come into view, and so many frames are mixed.
-// 1 .. kPeriod: it has stood still for so many frames and gets to know the range of what it shows while the camera's offsets
-// go round once. Above: it has shown nothing else since; frames count alike, until there are enough of them. A pixel that shows
-// something out of its range has changed and begins anew; so lights and shadows that move over still things are followed.
-// As long as that is not certain the history is clipped to what is around the pixel now.
+// A pixel is in one of four states. 0: unknown. -1 .. -kYoung: it moves or has just come into view; this many frames are mixed.
+// 1 .. kPeriod: it has been still for this many frames, and its range of values is recorded during one period of the jitter. Above: it has
+// stayed in that range; frames have equal weight, until there are enough. A pixel that leaves its range has changed and starts again, so
+// lights and shadows that move over still surfaces are followed. In the first three states the history is clipped to the neighborhood of
+// the pixel in the current frame.
 //
-// Karis, "High-quality temporal supersampling" (SIGGRAPH 2014 courses): the nearest velocity of a neighborhood, clipping in YCoCg; Salvi, "An
-// excursion in temporal supersampling" (GDC 2016): clipping by variance; Jimenez, "Filmic SMAA" (SIGGRAPH 2016 courses): Catmull-Rom in
-// five lookups. All of it in linear light: compressed by a tone curve or with less weight for bright texels, as both say, the glint in
-// a moving mirror of 16 pixels loses nearly all of its light.
+// Karis, "High-quality temporal supersampling" (SIGGRAPH 2014 courses): the nearest velocity of a neighborhood, clipping in YCoCg; Salvi,
+// "An excursion in temporal supersampling" (GDC 2016): clipping by variance; Jimenez, "Filmic SMAA" (SIGGRAPH 2016 courses): Catmull-Rom in
+// five lookups. All of it in linear light: compressed by a tone curve or with less weight for bright texels, as both say, the glint in a
+// moving mirror of 16 pixels loses nearly all of its light.
 #include "common/finite.glsl"
 
 uniform sampler2D current, velocity, depth, previous, previous_seen;
@@ -36,8 +36,8 @@ const float kPeriod = 16.0;  // of the camera's jitter
 const float kYoung = 8.0;
 const float kStill = 0.002;  // pixels per frame
 const float kWide = 1.25;    // of the box that the history is clipped to, standard deviations
-const float kSpot = 2.0, kGlint = 3.5;  // so many times brighter than the mean of 9 texels is a spot, of 21 a glint
-const float kEqual = 0.002;  // what differs by less, as x / (1 + x), is rounded otherwise
+const float kSpot = 2.0, kGlint = 3.5;  // this many times the mean of 9 texels is a spot, of 21 a glint
+const float kEqual = 0.002;  // differences below this, of x / (1 + x), are rounding
 
 float lumaOf(vec3 color) { return dot(color, vec3(0.25, 0.5, 0.25)); }
 vec3 toYcocg(vec3 c) { return vec3(lumaOf(c), 0.5 * (c.r - c.b), 0.5 * c.g - 0.25 * (c.r + c.b)); }
@@ -56,7 +56,7 @@ vec3 sharpHistory(vec2 at, vec2 size) {
   return max(sum.rgb / sum.a, 0.0);
 }
 
-// To a half float above or below, by chance, so that the mean of many frames does not drift.
+// Rounds to a half float above or below at random, so that the mean of many frames does not drift.
 vec3 toHalf(vec3 color, ivec2 pixel, float salt) {
   uvec3 bits = floatBitsToUint(color);
   uint chance = uint(pixel.x) * 1664525u + uint(pixel.y) * 22695477u + uint(salt) * 2891336453u;
@@ -96,10 +96,11 @@ void main() {
   bool inside = all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
   ivec2 from = clamp(ivec2(before * size), ivec2(0), last);
   vec4 history = texelFetch(previous, from, 0), range = texelFetch(previous_seen, from, 0);
-  // All that was there and around it stood well before what is here: it has gone. Edges that only the jitter moves stay nearer than that.
+  // Everything there and around it was well in front of this surface: it has gone. Edges that only the jitter moves differ less.
   vec2 around = 2.0 / size;
-  float covered = min(min(textureLod(previous_seen, before + vec2(around.x, 0.0), 0.0).b, textureLod(previous_seen, before - vec2(around.x, 0.0), 0.0).b),
-                      min(textureLod(previous_seen, before + vec2(0.0, around.y), 0.0).b, textureLod(previous_seen, before - vec2(0.0, around.y), 0.0).b));
+  vec2 x = vec2(around.x, 0.0), y = vec2(0.0, around.y);
+  float beside = min(textureLod(previous_seen, before + x, 0.0).b, textureLod(previous_seen, before - x, 0.0).b);
+  float covered = min(beside, min(textureLod(previous_seen, before + y, 0.0).b, textureLod(previous_seen, before - y, 0.0).b));
   bool uncovered = min(covered, range.b) > 1.2 * near + 1e-6 && max(range.a, speed) >= kStill;
   float state = inside && !uncovered ? history.a : 0.0;
 
@@ -117,8 +118,8 @@ void main() {
   vec3 offset = toYcocg(old) - mean, ratio = abs(offset) / wide;
   float beyond = max(ratio.x, max(ratio.y, ratio.z));
   if (!known && beyond > 1.0) {
-    // A glint in a moving mirror is a texel or four, and the jitter moves it by up to one: its history may be two texels away from it. So there
-    // the box is that of 21 texels, up to the brightest of them.
+    // A glint in a moving mirror is a texel or four, and the jitter moves it by up to one: its history may be two texels away from it. So
+    // there the box is that of 21 texels, up to the brightest of them.
     for (int i = 0; i < (still ? 0 : 12); ++i) {
       ivec2 side = ivec2(i % 3 - 1, i / 3 % 2 * 4 - 2), at = clamp(pixel + (i < 6 ? side : side.yx), ivec2(0), last);
       vec3 c = toYcocg(finite(texelFetch(current, at, 0).rgb));

@@ -1,5 +1,5 @@
-// Takes the light of the highlights out of the fields, because draw.frag.glsl draws it. The alpha of the fields stays, so that they go on covering
-// what they covered.
+// Removes the light of the highlights from the fields, because draw.frag.glsl draws it. The alpha of the fields stays, so their coverage
+// does not change.
 // read    highlights   from find
 // modify  near, far    from split
 // params  grid         tiles

@@ -20,9 +20,9 @@ vec4 radiiAround(vec2 at) {
   return infinity - (infinity * focus / near_plane) * depths;
 }
 
-// How much of the light that a highlight sends to this pixel passes what is nearer. It comes from one place on the lens. On its way, at the depth
-// where discs have the radius r, it is seen at `middle` + (pixel - middle) (1 - r / radius). Something hides it where what is seen there is at that depth.
-// `nearest`: radius of the largest disc of the near field that may do so.
+// The share of a highlight's light to this pixel that passes nearer surfaces. It comes through one place of the lens. At the depth where
+// discs have the radius r, its path projects to `middle` + (pixel - middle) (1 - r / radius); a surface hides it when that place has this
+// depth. `nearest`: radius of the largest disc of the near field that may do so.
 float passing(vec2 middle, float radius, float nearest) {
   vec2 way = gl_FragCoord.xy - middle;
   float size = abs(radius), first = radius < 0.0 ? -1.15 * size : 0.85 * size, last = -nearest;
@@ -35,11 +35,11 @@ float passing(vec2 middle, float radius, float nearest) {
     if (any(notEqual(at, clamp(at, vec2(0.0), viewport)))) continue;
     float scene = infinity - (infinity * focus / near_plane) * texelFetch(depth, min(ivec2(at), ivec2(viewport) - 1), 0).r;
     if (abs(scene - there) > step_size || scene > first) continue;
-    // As exact as the pixels are: there the light is at the depth of what was found.
+    // As exact as the pixels are: here the path is at the depth that was found.
     at = middle + way * (1.0 - scene / radius);
     vec4 hit = step(abs(radiiAround(at) - scene), vec4(step_size));
     vec2 part = fract(at - 0.5);
-    // Depth has a whole pixel where a thing covers any part of it: on average it ends half a pixel too far out.
+    // Depth has a whole pixel where a surface covers any part of it: on average it ends half a pixel too far out.
     seen = min(seen, 2.0 - 2.0 * mix(mix(hit.w, hit.z, part.x), mix(hit.x, hit.y, part.x), part.y));
   }
   return seen;
@@ -65,8 +65,8 @@ void main() {
       light += covered * seen * highlight.light.rgb;
     }
   }
-  // Discs may overlap. Where their sum comes near the largest half float, "premultiplied" takes away a share of what is there, so that both
-  // together stay below it. Dimmer ones leave it alone.
+  // Discs may overlap. Where their sum comes near the largest half float, "premultiplied" removes a share of the destination, so that the
+  // sum stays below it. Dimmer discs only add.
   light = min(light, vec3(kMost));
   float full = max(light.r, max(light.g, light.b)) / kMost;
   result = vec4(light, full * smoothstep(0.1, 0.3, full));

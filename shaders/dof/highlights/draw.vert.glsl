@@ -1,5 +1,5 @@
-// Draws the tiles that the disc of a highlight may reach: those that have highlights, and the eight around each of them. No disc goes beyond these,
-// because a tile is at least as wide as the radius of the largest disc.
+// Draws the tiles that the disc of a highlight may reach: those that have highlights, and the eight around each. No disc reaches
+// farther, because a tile is at least as wide as the radius of the largest disc.
 // read    highlights   from find
 // params  see draw.frag.glsl
 #include "common/tile_quad.glsl"

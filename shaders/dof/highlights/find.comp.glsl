@@ -1,12 +1,12 @@
-// Finds highlights out of focus: the few texels that are far brighter than all around them, so that the picture shows the aperture's outline there.
-// This shader lists them for each tile, dim.comp.glsl takes their light out of the fields, and draw.frag.glsl draws them at full size (scattering
-// beside gathering; Abadie, "A life of a bokeh", SIGGRAPH 2018). Where a nearer surface may hide a highlight from a part of the lens, the draw looks
-// for what does.
+// Finds highlights out of focus: the few texels far brighter than their surroundings, which show the outline of the aperture. This shader
+// lists them for each tile, dim.comp.glsl removes their light from the fields, and draw.frag.glsl draws them at full size (scattering
+// beside gathering; Abadie, "A life of a bokeh", SIGGRAPH 2018). Where a nearer surface may hide a highlight from a part of the lens, the
+// draw tests for it.
 // read    near, far    from split
 //         discs        from split
 //         tiles        from tiles
 //         color        radiance, any sampler
-// write   highlights   see list.glsl, one list for each tile; the list of a tile with more than fit is empty
+// write   highlights   see list.glsl, one list per tile; a tile with too many has an empty list
 // params  tile         texels of the fields along a tile's side
 //         blades       of the aperture
 //         largest      radius of the largest disc of the far field, pixels of the full picture
@@ -21,31 +21,32 @@ layout(std140) uniform Parameters {
   float largest;
 };
 
-// Radii in pixels: smaller discs than the first stay in the fields, larger ones than the second are drawn, in between a part of each.
+// Radii in pixels: discs below the first stay in the fields, those above the second are drawn, in between a part of each.
 const float kLeastDisc = 2.6, kWholeDisc = 2.95;
-const float kContrast = 4.0;       // a highlight is brighter than so many means of its tile
-// The same for the radiance of the disc, over the mean of the tile. Parts instead of a switch: else what moves or grows would switch from frame to frame.
+const float kContrast = 4.0;       // a highlight is brighter than this times the mean of its tile
+// The same for the radiance of the disc over the mean of the tile. A blend, so that moving highlights do not switch from frame to frame.
 const float kLeastVisible = 0.01, kWholeVisible = 0.03;
-// The brightest texel around, over that of the highlight: up to kAlone the highlight takes all light above that, from kNotAlone on none.
+// Ratio of the brightest texel around to the highlight: up to kAlone the highlight takes all light above it, from kNotAlone on none.
 const float kAlone = 0.1, kNotAlone = 0.3;
-const ivec2 kAround[8] = ivec2[8](ivec2(4, 0), ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3));
+const ivec2 kAround[8] =
+    ivec2[8](ivec2(4, 0), ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3));
 
-// Brightness of a texel of the fields, both together: green stands for it.
+// Brightness of a texel of both fields: their green.
 float greenAt(ivec2 at) {
   at = clamp(at, ivec2(0), textureSize(far, 0) - 1);
   return texelFetch(near, at, 0).g + texelFetch(far, at, 0).g;
 }
 
-// The same of four texels: `at`, the one to its right, and the two above these. `reached` 0: no disc of the near field reaches them, and `near` is not
-// read.
+// The same of four texels: `at`, the one to its right, and the two above these. `reached` 0: no disc of the near field reaches them, and
+// `near` is not read.
 vec4 greenAround(ivec2 at, float reached) {
   vec2 middle = vec2(at + 1) / vec2(textureSize(far, 0));
   vec4 green = textureGather(far, middle, 1);
   return reached > 0.0 ? green + textureGather(near, middle, 1) : green;
 }
 
-// Whether something of the near field may hide a disc of radius `disc` at `at` from a part of the lens; both in texels of the fields. Of discs of the
-// near field themselves only larger ones do: these are nearer.
+// Whether the near field may hide a disc of radius `disc` at `at` from a part of the lens; both in texels of the fields. A disc of the near
+// field is hidden by larger ones only: these are nearer.
 bool isOverlaid(ivec2 at, float disc, bool is_near) {
   bool overlaid = false;
   for (int i = 0; i < 25; ++i) {
@@ -56,7 +57,7 @@ bool isOverlaid(ivec2 at, float disc, bool is_near) {
   }
   return overlaid;
 }
-// Whether something nearer of the far field may, where nearer things have smaller discs.
+// Whether a nearer surface of the far field may; there nearer surfaces have smaller discs.
 bool isCovered(ivec2 at, float disc) {
   bool covered = false;
   for (int i = 0; i < 16; ++i) {
@@ -80,10 +81,10 @@ Highlight highlightAt(ivec2 at, float mean) {
   if (share <= 0.0) return found;
   bool partial = isOverlaid(at, radius, is_near) || (!is_near && isCovered(at, radius));
   radius *= float(SCALE);
-  // The place of the light within the texel, and the width of the disc's edge. Three things make the edge wider: the square of the pixel that gives the
-  // light, the square of the pixel that gets it, and how far the light is spread within the texel. An even slope must be a seventh wider to be as steep
-  // in its middle as the edge that squares make. The first of the three counts only a fifth: edges of lights are anti-aliased, so that a pixel mostly
-  // has its light from a part of it.
+  // The position of the light within the texel, and the width of the disc's edge. The edge is widened by the box of the source pixel, the
+  // box of the target pixel, and the extent of the light within the texel. A linear ramp must be a seventh wider to be as steep in its
+  // middle as the edge that boxes make. The first counts only a fifth: edges of lights are anti-aliased, so a pixel mostly has its light
+  // from a part of it.
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < SCALE * SCALE; ++i) {
@@ -109,7 +110,7 @@ void main() {
   ivec2 first = at * tile, end = min(first + tile, size);
   vec4 sum = vec4(0.0), most = vec4(0.0);
   float reached = texelFetch(tiles, at, 0).r;  // by discs of the near field
-  // No disc of this tile is large enough: there is nothing to look for.
+  // No disc of this tile is large enough.
   if (max(float(SCALE) * reached, largest) < kLeastDisc) end.y = first.y;
   // The loops take four texels at a time; the sizes of fields and tiles are even.
   for (int y = first.y; y < end.y; y += 2)
@@ -135,6 +136,9 @@ void main() {
       }
     }
   float nearest = 0.0;
-  for (int i = 0; i < (count > 0 ? 25 : 0); ++i) nearest = max(nearest, texelFetch(tiles, clamp(at + ivec2(i % 5, i / 5) - 2, ivec2(0), grid - 1), 0).r);
+  for (int i = 0; i < (count > 0 ? 25 : 0); ++i) {
+    ivec2 tile_at = clamp(at + ivec2(i % 5, i / 5) - 2, ivec2(0), grid - 1);
+    nearest = max(nearest, texelFetch(tiles, tile_at, 0).r);
+  }
   lists[list].count = vec4(count <= HIGHLIGHTS ? float(count) : 0.0, float(SCALE) * nearest, 0.0, 0.0);
 }

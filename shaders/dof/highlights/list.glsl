@@ -1,5 +1,5 @@
 // Highlights out of focus: the list that find.comp.glsl makes, and the disc or polygon that each highlight becomes.
-// defines HIGHLIGHTS  how many highlights the list of a tile has room for
+// defines HIGHLIGHTS  capacity of the list of a tile
 //         SCALE       see dof/coc.glsl
 //         POLYGON     the aperture has blades
 #ifndef DOF_HIGHLIGHTS_GLSL
@@ -13,16 +13,16 @@ struct Highlight {
   vec2 middle;   // of its disc, in pixels of the full picture
   float radius;  // of its disc, in the same pixels; negative in the near field
   float share;   // how much of the light of its texel it takes, 0 to 1
-  vec4 light;    // two things: rgb is the radiance of a pixel that its disc covers whole; a is the width of the disc's soft edge, in the same pixels,
-                 // negative where something nearer may hide a part of the disc
+  vec4 light;    // rgb: radiance of a pixel inside its disc; a: width of the disc's soft edge in the same pixels, negative where a
+                 // nearer surface may hide a part of the disc
 };
 struct TileHighlights {
-  vec4 count;  // x: how many of the highlights are there; y: radius in pixels of the largest disc of the near field around; zw have no meaning
+  vec4 count;  // x: number of highlights; y: radius in pixels of the largest disc of the near field around; zw: unused
   Highlight of[HIGHLIGHTS];
 };
 
-// A round disc has the area of the aperture's outline, and an edge that is `soft` pixels wide. This is the distance from its middle at which it is half as
-// bright as there. It is less than the radius by as much as keeps the area: the outer half of a round edge is larger than the inner half.
+// A round disc has the area of the aperture's outline and an edge `soft` pixels wide. This is the distance from its center at which it is
+// half as bright. It is below the radius, so that the area is kept: the outer half of a round edge is larger than the inner half.
 float halfwayOf(float radius, float soft, int blades) {
 #if POLYGON
   float sector = 6.28318530717959 / float(blades);
@@ -31,11 +31,12 @@ float halfwayOf(float radius, float soft, int blades) {
   return sqrt(radius * radius - soft * soft / 12.0);
 }
 
-// How much a disc shows of its corners, 0 to 1. A disc of a few pixels shows none, because corners would make it wider along rows or columns of pixels.
+// How much the corners of a disc show, 0 to 1. A disc of a few pixels has none: corners would make it wider along rows or columns of
+// pixels.
 float cornersOf(float radius) { return smoothstep(3.75, 4.75, radius); }
 
-// The share of a pixel that the disc covers; `offset` is from the disc's middle to the pixel's. In the near field the polygon is upside down, because the
-// rays of what is nearer than the focus have not yet crossed.
+// The share of a pixel that the disc covers; `offset` is from the disc's middle to the pixel's. In the near field the polygon is upside
+// down, because the rays of what is nearer than the focus have not yet crossed.
 float coveredBy(float radius, float soft, vec2 offset, int blades) {
   float away = length(offset), size = abs(radius), inside = halfwayOf(size, soft, blades) - away;
 #if POLYGON

@@ -1,4 +1,4 @@
-// Slot and parameters of the draw of highlights; its two stages have the same blocks.
+// Slot and parameters of the draw of highlights, for both stages.
 #ifndef DOF_HIGHLIGHTS_PARAMETERS_GLSL
 #define DOF_HIGHLIGHTS_PARAMETERS_GLSL
 

@@ -1,5 +1,5 @@
-// What a sphere leaves of the sky's light on the ground, in closed form, and what it throws back of it: light goes to and fro between the
-// two. Both see about as much of the sky, so that ground = seen + hidden albedo sphere, sphere = seen + hidden ground_albedo ground.
+// Visibility of the sky on the ground past a sphere, in closed form, with the light that the sphere reflects: light bounces between the
+// two. Both see about the same share of the sky, so that ground = seen + hidden albedo sphere, sphere = seen + hidden ground_albedo ground.
 // modify  sky   "multiply"
 #include "spheres/neighbors/caps.glsl"
 
@@ -13,8 +13,7 @@ out vec4 sky;
 void main() {
   float distance2 = max(dot(to_center, to_center), 1.0), per_distance = inversesqrt(distance2);
   float share = to_center.y * per_distance / distance2;
-  // Of a sphere that the ground's own horizon cuts, which costs thrice as much. A loop, since in software all pixels go through both
-  // sides of a condition.
+  // A sphere that intersects the ground costs three times as much. A loop, because in software all pixels run both branches of a condition.
   for (int i = 0; i < cut; ++i) share = capShare(distance2 * per_distance, to_center.y * per_distance);
   float ending = clamp(distance2 * per_distance * window.x + window.y, 0.0, 1.0);  // as withinReach has it
   float hidden = min(share * (1.0 - ending * ending * (3.0 - 2.0 * ending)), 1.0), seen = 1.0 - hidden;

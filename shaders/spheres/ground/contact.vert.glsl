@@ -1,6 +1,6 @@
-// The part of the ground from which a sphere takes light of the sky: an octagon around the point below it.
+// The part of the ground that a sphere darkens: an octagon around the point below it.
 // read    ground   see scene/ground.glsl
-// params  extent   in radii: how far away a sphere hides anything
+// params  extent   reach of a sphere, in radii
 #include "common/view.glsl"
 #include "scene/ground.glsl"
 #include "scene/instances.glsl"

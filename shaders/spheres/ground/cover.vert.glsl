@@ -1,5 +1,5 @@
-// What a ray-traced sphere certainly hides: an octagon in the circle in which the rays from the eye touch it, two pixels smaller. Every ray
-// through it enters the sphere before and leaves it behind, so that ground beyond it is not seen.
+// The part of the picture that a ray-traced sphere certainly hides: an octagon inside its outline, two pixels smaller. The ground behind it
+// need not be shaded.
 #include "common/view.glsl"
 #include "scene/instances.glsl"
 

@@ -1,4 +1,4 @@
-// What a sphere leaves of the disc of a light far away, as the ground sees it: two circles, as if the sky were flat there.
+// The visible share of the disc of a distant light past a sphere, as seen from the ground: two circles in a flat sky.
 // modify  lights   x: of the sun; with SPOT y: of the brightest spot; "multiply"
 #include "common/fast_atan.glsl"
 #include "spheres/neighbors/overlap.glsl"
@@ -11,7 +11,7 @@ out vec2 lights;
 void main() {
   vec3 to = sphere.xyz - at;
   float distance_to = length(to), sine = min(sphere.w / distance_to, 1.0);
-  // How far the two are apart, and how wide the sphere is.
+  // The angle between the two, and half the angular size of the sphere.
   vec2 angles = fastAtan(vec2(length(cross(to, light.xyz)), sine), vec2(dot(to, light.xyz), sqrt(1.0 - sine * sine)));
   float seen = 1.0 - discOverlap(angles.y, light.w, angles.x);
   lights = SPOT == 1 ? vec2(1.0, seen) : vec2(seen, 1.0);

@@ -1,6 +1,6 @@
 // A light far away whose shadows fall on the ground: the scene's sun, or the environment's brightest spot with SPOT.
 // read    sun or brightest   see scene/sun.glsl, ibl/brightest.glsl
-// params  sky_turn           by how much of a full turn the environment is rotated
+// params  sky_turn           rotation of the environment, in full turns
 #ifndef GROUND_SHADOW_GLSL
 #define GROUND_SHADOW_GLSL
 

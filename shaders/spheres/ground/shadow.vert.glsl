@@ -10,7 +10,7 @@ out vec3 at;  // world
 flat out vec4 sphere;
 flat out vec4 light;
 
-const float kLowest = 0.02;  // sine of its height over the horizon, below which shadows grow no longer
+const float kLowest = 0.02;  // sine of the elevation below which shadows do not get longer
 
 void main() {
   Instance self = instance[gl_InstanceID];
@@ -20,8 +20,9 @@ void main() {
   vec2 horizontal = light.xz, along = dot(horizontal, horizontal) > 1e-8 ? normalize(horizontal) : vec2(1.0, 0.0);
   vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   float across = self.radius + tan(min(light.w, 1.2)) * (max(above, 0.0) + self.radius) / rise;
-  vec2 foot = self.center.xz - horizontal * (above / rise) + along * (side.x * across / rise) + vec2(-along.y, along.x) * (side.y * across);
-  at = vec3(foot.x, height, foot.y);
+  vec2 center = self.center.xz - horizontal * (above / rise);
+  vec2 place = center + along * (side.x * across / rise) + vec2(-along.y, along.x) * (side.y * across);
+  at = vec3(place.x, height, place.y);
   bool visible = light.y > 0.0 && above > -self.radius;
   vec4 clip = view_projection * vec4(at, 1.0);
   gl_Position = visible ? clip : vec4(2.0, 2.0, 2.0, 1.0);

@@ -1,5 +1,5 @@
-// Light of the environment on a sphere among others: what they hide of it, and the light that they and the ground reflect in its place. In
-// place of ambientOf() of shading/ambient.glsl.
+// Light of the environment on a sphere among others: what they hide of it, and the light that they and the ground
+// reflect in its place. In place of ambientOf() of shading/ambient.glsl.
 // read    neighbors   see spheres/neighbors/listed.glsl
 #ifndef SPHERES_NEIGHBORS_AMBIENT_GLSL
 #define SPHERES_NEIGHBORS_AMBIENT_GLSL
@@ -12,7 +12,8 @@
 #endif
 
 // `radius`: of the sphere that has the point.
-Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, Response response, Lobe lobe, LightsSeen seen, float radius) {
+Ambient ambientAmongSpheres(Occlusion occlusion, Point point, Surface surface, Response response, Lobe lobe,
+                            LightsSeen seen, float radius) {
   Ambient ambient = Ambient(vec3(0.0), vec3(0.0));
   GroundPlane plane = occlusion.plane;
   LobeGround ground = occlusion.ground;

@@ -1,4 +1,5 @@
-// Makes the grid of spheres/neighbors/grid.glsl by a counting sort, in one group of 256 threads. The order of the spheres within a cell is not defined.
+// Makes the grid of spheres/neighbors/grid.glsl by a counting sort, in one group of 256 threads. The order of the
+// spheres within a cell is not defined.
 // read    instances   the spheres
 // write   grid        room for `cells` + 1 words, and one word for each sphere
 // params  count       of spheres
@@ -18,7 +19,8 @@ shared vec3 highs[256];
 shared vec2 radii[256];  // x: sum of the logarithms of radii; y: the greatest radius of a sphere that is not large
 shared uint sums[256];
 
-// Chooses a small side for the cubes, not below `least`, so that at most `most` of them fill the box. `many`: their number along x, y and z, and in all.
+// Chooses a small side for the cubes, not below `least`, so that at most `most` of them fill the box. `many`: their
+// number along x, y and z, and in all.
 void placeCells(vec3 low, vec3 high, float least, uint most, out float side, out uvec4 many) {
   vec3 size = high - low;
   float longest = max(max(size.x, size.y), size.z);
@@ -34,8 +36,10 @@ void placeCells(vec3 low, vec3 high, float least, uint most, out float side, out
 
 void main() {
   uint self = gl_LocalInvocationIndex;
-  // The last cell is that of the large spheres. In a loop software reads a uniform for each lane by itself, so loops use the sum `words`, not `cells`.
-  uint words = cells + 1u, part = (words + 255u) / 256u, first = min(self * part, words), last = min(first + part, words);
+  // The last cell holds the large spheres. In a loop, software reads a uniform separately for each lane, so loops use
+  // the sum `words`, not `cells`.
+  uint words = cells + 1u, part = (words + 255u) / 256u;
+  uint first = min(self * part, words), last = min(first + part, words);
   for (uint cell = first; cell < last; ++cell) grid_word[cell] = 0u;
 
   vec3 low = vec3(3.4e38), high = vec3(-3.4e38);
@@ -49,8 +53,8 @@ void main() {
   highs[self] = high;
   radii[self] = radius;
   barrier();
-  // Every thread goes through the values of all threads. To share that work would take more barriers; each of them makes the program larger, and in
-  // software the translation of the program takes longer than its work.
+  // Every thread adds the values of all threads. A reduction would take more barriers; each makes the program larger,
+  // and in software the translation of the program takes longer than its work.
   radius = vec2(0.0);
   for (uint other = 0u; other < 256u; ++other) {
     low = min(low, lows[other]);
@@ -73,8 +77,9 @@ void main() {
     grid_radii = vec4(radius.y, large, 0.0, 0.0);
   }
 
-  // The loop runs twice, so that the program has its code once. The first turn counts the spheres of each cell, from words that are 0. The second
-  // turn finds where each cell begins; each word moves on to the end of its cell as spheres take their places.
+  // The loop runs twice, so that the program has its code once. The first turn counts the spheres of each cell, from
+  // words that are 0. The second turn finds the start of each cell and stores the spheres; each word advances to the
+  // end of its cell.
   for (uint turn = 0u; turn < 2u; ++turn) {
     // Each thread adds up its part of the cells, then adds the sums of the threads before it.
     uint sum = 0u;

@@ -29,7 +29,9 @@ struct Neighbor {
 };
 
 // By a nearest sampler: in software a lookup with a level costs less than a fetch by integers.
-vec4 listTexel(NeighborList list, int i) { return textureLod(neighbors, vec2(list.first.x + float(i) * list.texel, list.first.y), 0.0); }
+vec4 listTexel(NeighborList list, int i) {
+  return textureLod(neighbors, vec2(list.first.x + float(i) * list.texel, list.first.y), 0.0);
+}
 
 Neighbor neighborOf(NeighborList list, int i) {
   vec4 ball = listTexel(list, 2 * i);

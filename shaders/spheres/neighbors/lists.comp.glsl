@@ -1,13 +1,14 @@
-// Makes the lists of spheres/neighbors/lists.glsl, with one thread for each sphere. Another sphere is a candidate when some point of this one lies within its
-// reach. The widest kCandidates are kept, equally wide ones by their rows. A nearer candidate may hide a farther one; how much of it, the caps say that
-// both are from this sphere's middle. A candidate that is hidden nearly whole is left out.
+// Makes the lists of spheres/neighbors/lists.glsl, with one thread for each sphere. Another sphere is a candidate when
+// some point of this one lies within its reach. The widest kCandidates are kept, equally wide ones by their rows. A
+// nearer candidate may hide a farther one, by the overlap of their caps as seen from this sphere's center. A candidate
+// that is nearly hidden is left out.
 // read    instances   the spheres
-//         grid?       of spheres/neighbors/grid.comp.glsl; without it each sphere looks at all
+//         grid?       of spheres/neighbors/grid.comp.glsl; without it each sphere tests all others
 //         ground?     see scene/ground.glsl
 // write   neighbors
 // params  count       of spheres
 //         cells       as in spheres/neighbors/grid.comp.glsl
-//         reach       how far a sphere hides anything, in its radii
+//         reach       reach of a sphere, in its radii
 #include "common/fast_atan.glsl"
 #ifdef HAS_GRID
 #include "grid.glsl"
@@ -29,10 +30,10 @@ layout(std140) uniform Parameters {
 
 const int kCandidates = 120;
 const float kHidden = 0.03;  // a sphere is left out when less than this share of its cap is left
-const float kImage = 1.3;    // a factor on how dark the ground is around a foot: fitted to traced paths
+const float kImage = 1.3;    // how dark the ground is around a contact point: fitted to path-traced pictures
 
-// Bits of the sine of the half angle, and row; ordered by both, the widest first. The array is in shared memory, where each thread has a column: software
-// would fill an array of the thread's own with zeros first, element by element.
+// Bits of the sine of the half angle, and row; ordered by both, the widest first. The array is in shared memory, a
+// column per thread: software would first clear a thread's own array, element by element.
 shared uvec2 candidates[kCandidates * 32];
 int found = 0;
 
@@ -61,8 +62,8 @@ float angleOf(uint sine_bits) {
   return fastAtan(vec2(sine), vec2(sqrt(max(1.0 - sine * sine, 0.0)))).x;
 }
 
-// The share that nearer spheres leave of the cap of a sphere. `angle` is half the cap's; `axis` goes from `center`, where it is seen from, to the
-// sphere's center.
+// The share that nearer spheres leave of the cap of a sphere. `angle` is half the cap's; `axis` goes from `center`,
+// where it is seen from, to the sphere's center.
 float leftOf(float angle, vec3 axis, vec3 center) {
   float left = 1.0, distance_to = length(axis);
   axis /= distance_to;
@@ -78,8 +79,9 @@ float leftOf(float angle, vec3 axis, vec3 center) {
   return left;
 }
 
-// In software the translation of this program takes far longer than its work, and every access in its text to a buffer, an array or an image makes it
-// longer. So each access stands once: the loops have extra rounds for the last cell, and for what comes before and after the spheres of a list.
+// In software the translation of this program takes far longer than its work, and grows with each access in its text to
+// a buffer, an array or an image. So each access is written once: the loops have extra rounds for the last cell, and
+// for what comes before and after the spheres of a list.
 void main() {
   float radii = max(reach, 0.0);
 #ifdef HAS_GRID
@@ -113,7 +115,8 @@ void main() {
   for (uint row = 0u; row < rows; ++row) consider(self, own, radii, row);
 #endif
 
-  // Round -2 writes the two texels for all lists, round -1 the image in the ground, and round `found` the end of a list that is shorter.
+  // Round -2 writes the two texels for all lists, round -1 the image in the ground, and round `found` the end of a list
+  // that is shorter.
   int listed = 0;
   for (int i = self == 0u ? -2 : -1; i <= found && listed < MOST_NEIGHBORS; ++i) {
     vec4 ball = vec4(0.0), light = vec4(0.0);
@@ -124,7 +127,8 @@ void main() {
       light.rgb = ground_albedo;
 #endif
     } else if (i == -1) {
-      // The ground around a sphere's foot is dark. The sphere sees about as much of that as of its own image in the ground, and a little more.
+      // The ground around a sphere's contact point is dark. The sphere sees about as much of that as of its own mirror
+      // image in the ground.
 #ifdef HAS_GROUND
       if (own.y - height <= -own.w) continue;
       ball = vec4(own.x, 2.0 * height - own.y, own.zw);
@@ -137,7 +141,8 @@ void main() {
       ball = vec4(instance[candidate.y].center, instance[candidate.y].radius);
       float left = leftOf(angleOf(candidate.x), ball.xyz - own.xyz, own.xyz);
       if (left < kHidden) continue;
-      light = vec4(instance[candidate.y].albedo, packMaterial(left, instance[candidate.y].roughness, instance[candidate.y].metallic));
+      float packed_material = packMaterial(left, instance[candidate.y].roughness, instance[candidate.y].metallic);
+      light = vec4(instance[candidate.y].albedo, packed_material);
     }
     ivec2 texel = i == -2 ? ivec2(0) : neighborTexel(self, listed++);
     imageStore(neighbors, texel, ball);

@@ -1,4 +1,4 @@
-// Light that the spheres in a reflected lobe send along it.
+// Light that the spheres in a reflected lobe send to the point.
 #ifndef SPHERES_NEIGHBORS_OCCLUDER_LIGHT_GLSL
 #define SPHERES_NEIGHBORS_OCCLUDER_LIGHT_GLSL
 
@@ -6,9 +6,10 @@
 
 const float kLeastShare = 0.002;  // of a lobe that is worth to be looked at
 
-// The means over what hides the lobe stand for all of it: one place on one sphere. Where it is metal, it reflects the sky, the ground, and
-// this sphere, whose light is about `back` there; the rest of it is taken for a lobe of roughness 1. `radius`: of the sphere that has the
-// point. A loop of one turn stands where a condition would do: in software a condition skips nothing.
+// The means over what hides the lobe stand for all of it: one place on one sphere. Where it is metal, it reflects the
+// sky, the ground, and this sphere, whose light is about `back` there; the rest of it is taken for a lobe of roughness
+// 1. `radius`: of the sphere that has the point. A loop of one turn stands where a condition would do: in software a
+// condition skips nothing.
 vec3 occluderRadiance(Occlusion occlusion, Point point, Surface own, float own_radius, Lobe lobe, GroundLight ground) {
   vec3 sum = vec3(0.0);
   vec4 spot = spotIrradiance();
@@ -24,10 +25,12 @@ vec3 occluderRadiance(Occlusion occlusion, Point point, Surface own, float own_r
     float slant = clamp(-dot(reflected.axis, facing), 0.0, 1.0), m = 1.0 - slant, m2 = m * m;
     color += max(vec3(1.0 - sqrt(sqrt(occluder_alpha2))) - color, vec3(0.0)) * (m2 * m2 * m * metallic);
 
-    // Its lobe: that of this point, with the width of its pixel, is widened by the other sphere's curvature, then by that sphere's roughness.
+    // Its lobe: that of this point, with the width of its pixel, is widened by the other sphere's curvature, then by
+    // that sphere's roughness.
     vec3 axis = normalize(mix(facing, reflected.axis + 2.0 * slant * facing, metallic));
-    float before = exp2((lobe.specular_level / max(lobe.last_level, 1.0) - 1.0) * 4.0 * kOctaves), spread = 1.0 + 2.0 * in_radii;
-    float alpha = sqrt(clamp(mix(1.0, before * spread * spread + occluder_alpha2, metallic), 1e-6, 1.0)), cone = coneOfAlpha(alpha);
+    float before = exp2((lobe.specular_level / max(lobe.last_level, 1.0) - 1.0) * 4.0 * kOctaves);
+    float spread = 1.0 + 2.0 * in_radii, alpha2 = mix(1.0, before * spread * spread + occluder_alpha2, metallic);
+    float alpha = sqrt(clamp(alpha2, 1e-6, 1.0)), cone = coneOfAlpha(alpha);
     float below = plane.exists * shareBelow(axis.y, cone), surface = surfaceOf(plane, place);
 
     // This sphere, in that lobe, and its lobe there.
@@ -43,13 +46,15 @@ vec3 occluderRadiance(Occlusion occlusion, Point point, Surface own, float own_r
     float again_alpha = mix(1.0, own_alpha, own.metallic), again_cone = coneOfAlpha(again_alpha);
     float again_below = plane.exists * surface * shareBelow(again.y, again_cone);
 
-    // The environment: what this sphere sees there, if it counts, then what that one sees. A call is its code again, a turn is not.
+    // The environment: what this sphere sees there, if it counts, then what that one sees. A call is its code again, a
+    // turn is not.
     vec3 light = vec3(0.0), back = light;
     for (int turn = share > kLeastShare ? 2 : 1; turn > 0; --turn) {
       vec3 lifted = overGround(turn > 1 ? again : axis, turn > 1 ? again_cone : cone, surface);
       float level = clamp(placeOfAlpha(turn > 1 ? again_alpha : alpha), 0.0, 1.0) * lobe.last_level;
       back = light;
-      light = sampleEquirect(specular, equirectUv(lifted) - vec2(sky_turn, 0.0), equirectLookup(level, lobe.specular_pole)).rgb;
+      vec2 uv = equirectUv(lifted) - vec2(sky_turn, 0.0);
+      light = sampleEquirect(specular, uv, equirectLookup(level, lobe.specular_pole)).rgb;
     }
 
     // The ground that it sees, with what it and this sphere hide of that.
@@ -62,15 +67,16 @@ vec3 occluderRadiance(Occlusion occlusion, Point point, Surface own, float own_r
     light = mix(light, mix(back, plane.albedo * totalOf(ground), again_below) * own.albedo, share);
 
 #ifdef HAS_BRIGHTEST
-    float half2 = 0.5 + 0.5 * dot(axis, lobe.spot), a2 = min(alpha * alpha + spot.w * spot.w, 1.0), d = half2 * (a2 - 1.0) + 1.0;
-    // Mean of the cosine over the normals that the lobe meets: the shorter their mean, the farther apart they are. So there is no edge where
-    // it gets dark. A metal's light ends there by Smith's height-correlated masking.
+    float half2 = 0.5 + 0.5 * dot(axis, lobe.spot), a2 = min(alpha * alpha + spot.w * spot.w, 1.0);
+    float d = half2 * (a2 - 1.0) + 1.0;
+    // Mean of the cosine over the normals that the lobe meets: the shorter their mean, the farther apart they are. So
+    // there is no edge where it gets dark. A metal's light ends there by Smith's height-correlated masking.
     vec3 normals = reflected.normal * per_hidden;
     float cosine = dot(normals, lobe.spot);
     float nl = 0.5 * (cosine + sqrt(cosine * cosine + 0.25 * max(1.0 - dot(normals, normals), 0.0)));
     float masking = nl * sqrt(slant * slant * (1.0 - a2) + a2) + slant * sqrt(nl * nl * (1.0 - a2) + a2);
     float metal = 0.5 * a2 * nl / (d * d * max(masking, 1e-4));
-    // This sphere may stand in front of the light.
+    // This sphere may hide the light.
     float past = 1.0 - ballShare(own_radius, spot.w, reflected.width * away, lobe.spot, to, distance2);
     light += spot.rgb * (mix(nl, metal, metallic) * past);
 #endif

@@ -1,4 +1,5 @@
-// What the other spheres around a point of a sphere hide: of the sky, of a reflected lobe, of the sun and of the brightest spot.
+// What the other spheres around a point of a sphere hide: of the sky, of a reflected lobe, of the sun and of the
+// brightest spot.
 // read    neighbors   see spheres/neighbors/listed.glsl
 //         sun?, brightest?   see scene/sun.glsl, ibl/brightest.glsl
 #ifndef SPHERES_NEIGHBORS_OCCLUSION_GLSL
@@ -43,7 +44,7 @@ struct LobeOcclusion {
 struct LobeGround {
   float share;        // share of the lobe below the horizon
   vec3 at;            // world
-  float surface;      // how much surface the ground has there
+  float surface;      // see surfaceOf()
   vec4 hidden;        // a: share of the sky that spheres hide from there; rgb: that times their albedo
   LightsSeen lights;  // from there
 };
@@ -60,7 +61,8 @@ const float kConeWidth = 1.6;  // width of a lobe's cone, in alphas
 
 float coneOfAlpha(float alpha) { return kConeWidth * alpha + 0.005; }
 
-// The share of a cone that lies below the horizon. `height` is y of its unit axis, `wide` the tangent of half its angle.
+// The share of a cone that lies below the horizon. `height` is y of its unit axis, `wide` the tangent of half its
+// angle.
 float shareBelow(float height, float wide) {
   float x = clamp(0.5 - 0.5 * height / wide, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
@@ -83,8 +85,8 @@ float capOnGround(vec3 to, float radius) {
   return abs(to.y) * radius * radius * per * per * per;
 }
 
-// The share of a light's disc that a sphere covers; `to` goes to the sphere's center. The disc has the half angle `angle`, and is `blur`
-// wider, a length.
+// The share of a light's disc that a sphere covers; `to` goes to the sphere's center. The disc has the half angle
+// `angle`, and is `blur` wider, a length.
 float ballShare(float radius, float angle, float blur, vec3 light, vec3 to, float distance2) {
   float along = dot(light, to), away = sqrt(distance2);
   return discShare(radius, angle * away + blur, along, sqrt(max(distance2 - along * along, 0.0)), away);
@@ -105,8 +107,9 @@ LightDiscs lightDiscs(Lobe lobe) {
   return discs;
 }
 
-// Takes away what a sphere hides of the lights, times `weight`.
-void hideLights(inout LightsSeen seen, LightDiscs discs, float radius, float blur, vec3 to, float distance2, float weight) {
+// Removes what a sphere hides of the lights, times `weight`.
+void hideLights(inout LightsSeen seen, LightDiscs discs, float radius, float blur, vec3 to, float distance2,
+                float weight) {
 #ifdef HAS_BRIGHTEST
   seen.spot *= 1.0 - ballShare(radius, discs.spot_angle, blur, discs.spot, to, distance2) * weight;
 #endif
@@ -115,12 +118,15 @@ void hideLights(inout LightsSeen seen, LightDiscs discs, float radius, float blu
 #endif
 }
 
-// Takes away what a sphere hides of the lobe. `share`: of the sky; `near`: how much it counts; `to` goes to its center.
-void hideLobe(inout LobeOcclusion all, float alpha, float radius, vec3 albedo, vec3 material, vec3 to, float distance2, float share, float near) {
-  float away = sqrt(distance2), along = dot(all.axis, to), beside = sqrt(max(distance2 - along * along, 0.0)), wide = all.width * away;
+// Removes what a sphere hides of the lobe. `share`: of the sky; `near`: its weight; `to` goes to its center.
+void hideLobe(inout LobeOcclusion all, float alpha, float radius, vec3 albedo, vec3 material, vec3 to, float distance2,
+              float share, float near) {
+  float away = sqrt(distance2), along = dot(all.axis, to), beside = sqrt(max(distance2 - along * along, 0.0));
+  float wide = all.width * away;
   float hidden = mix(discShare(radius, wide, along, beside, away) * near, share, alpha) * all.seen;
   // Where the middle of what the lobe and the sphere share meets it.
-  float middle = 0.5 * (max(beside - wide, -radius) + min(beside + wide, radius)), deep = sqrt(max(radius * radius - middle * middle, 0.0));
+  float middle = 0.5 * (max(beside - wide, -radius) + min(beside + wide, radius));
+  float deep = sqrt(max(radius * radius - middle * middle, 0.0));
   vec3 facing = (all.axis * along - to) * (middle / max(beside, 1e-6)) - all.axis * deep;
   float far = max(along - deep, 0.0), alpha_of_it = alphaOfRoughness(material.y);
   // Over a part of the sphere the mean normal is shorter than 1; over the half that is seen it is 2/3.
@@ -134,12 +140,13 @@ void hideLobe(inout LobeOcclusion all, float alpha, float radius, vec3 albedo, v
   all.material.distance_in_radii += hidden * far / radius;
 }
 
-// Of a point of a sphere with this surface; `axis` is that of the reflected lobe, of any length. In software a condition skips nothing, but a
-// loop that no lane enters does; so the loop looks for the next sphere that hides anything.
+// Of a point of a sphere with this surface; `axis` is that of the reflected lobe, of any length. In software a
+// condition skips nothing, but a loop that no lane enters does; so the loop looks for the next sphere that hides
+// anything.
 Occlusion occlusionOf(NeighborList list, Point point, Surface surface, vec3 axis, Lobe lobe) {
   axis = normalize(axis);
   vec3 n = point.normal, colors = vec3(0.0), towards = colors;
-  float alpha = alphaOfRoughness(surface.roughness), cone = coneOfAlpha(alpha), reach = list.reach, hidden = 0.0;
+  float alpha = alphaOfRoughness(surface.roughness), cone = coneOfAlpha(alpha), hidden = 0.0;
   GroundPlane plane = list.ground;
   vec3 on_ground = coneOnGround(plane, point.position, axis, cone);
   float ground_blur = cone * length(on_ground - point.position);
@@ -153,9 +160,9 @@ Occlusion occlusionOf(NeighborList list, Point point, Surface surface, vec3 axis
 
   int i = -1;
   while (i < MOST_NEIGHBORS - 1) {
-    // Goes on to the next sphere that hides anything: it is above the horizon, where lights are, or in the lobe. This loop is short. The code
-    // after it runs for such spheres alone, also where lanes go together.
-    // Its count goes up first of all: llvmpipe goes on computing for lanes that have left, from the count that they left with.
+    // Goes on to the next sphere that hides anything: it is above the horizon, where lights are, or in the lobe. This
+    // loop is short. The code after it runs for such spheres alone, also where lanes go together. Its count goes up
+    // first of all: llvmpipe goes on computing for lanes that have left, from the count that they left with.
     bool counts;
     Neighbor ball;
     vec3 to;
@@ -168,17 +175,18 @@ Occlusion occlusionOf(NeighborList list, Point point, Surface surface, vec3 axis
       away = sqrt(distance2);
       float along = dot(axis, to), lobe_ends = ball.radius + cone * away;
       bool in_lobe = along > -lobe_ends && distance2 - along * along < lobe_ends * lobe_ends;
-      counts = away < reach * ball.radius && (dot(n, to) > -ball.radius || in_lobe);
+      counts = away < list.reach * ball.radius && (dot(n, to) > -ball.radius || in_lobe);
     } while (i < MOST_NEIGHBORS - 1 && !counts && ball.radius > 0.0);
     if (!counts) break;
 
     vec4 packed_material = neighborMaterial(list, i);
     vec3 albedo = packed_material.rgb, material = unpackMaterial(packed_material.a);
     bool is_image = packed_material.a < 0.0;  // of the sphere itself in the ground
-    float ratio = max(away / ball.radius, 1.0), near = withinReach(ratio, reach);
+    float ratio = max(away / ball.radius, 1.0), near = withinReach(ratio, list.reach);
     float share = capShare(ratio, dot(n, to) / away) * near;
     // The ground sees this sphere itself, and others as far as they are above the horizon.
-    vec3 over = vec3(ball.center.x, abs(ball.center.y - plane.height), ball.center.z) - vec3(on_ground.x, 0.0, on_ground.z);
+    vec3 over = ball.center - on_ground;
+    over.y = abs(over.y);
     float over2 = dot(over, over), weight = is_image ? 1.0 : clamp(dot(n, to) / ball.radius + 1.0, 0.0, 1.0) * near;
     ground.hidden += vec4(is_image ? surface.albedo : albedo, 1.0) * (capOnGround(over, ball.radius) * weight);
     hideLights(ground.lights, discs, ball.radius, ground_blur, over, over2, weight);

@@ -1,25 +1,27 @@
-// How much caps of directions, and discs in the sky, cover of each other.
+// The overlap of caps of directions, and of discs in the sky.
 #ifndef NEIGHBORS_OVERLAP_GLSL
 #define NEIGHBORS_OVERLAP_GLSL
 
 #include "common/equirect.glsl"
 
-// The share of a cap of half angle `wide` that a cap of half angle `over` covers. Their axes are `apart`; all are in radians. It is a
-// smooth step between touching and covering (Oat and Sander, "Ambient aperture lighting", I3D 2007).
+// The share of a cap of half angle `wide` that a cap of half angle `over` covers. Their axes are `apart`; all are in
+// radians. It is a smooth step between touching and covering (Oat and Sander, "Ambient aperture lighting", I3D 2007).
 float capOverlap(float over, float wide, float apart) {
-  float least = min(over, wide), size = sin(0.5 * least) / sin(0.5 * wide), x = clamp((over + wide - apart) / (2.0 * least), 0.0, 1.0);
+  float least = min(over, wide), size = sin(0.5 * least) / sin(0.5 * wide);
+  float x = clamp((over + wide - apart) / (2.0 * least), 0.0, 1.0);
   return size * size * x * x * (3.0 - 2.0 * x);
 }
 
-// The share of a disc of radius `wide` that a disc of radius `over` covers. Their centers are `apart`. It is the area that two flat circles share, which
-// is right for small angles.
+// The share of a disc of radius `wide` that a disc of radius `over` covers. Their centers are `apart`. It is the
+// intersection of two flat circles, right for small angles.
 float discOverlap(float over, float wide, float apart) {
   if (apart >= over + wide) return 0.0;
   float least = min(over, wide);
   if (apart <= abs(over - wide)) return least * least / (wide * wide);
   float a2 = apart * apart, o2 = over * over, w2 = wide * wide;
   float kite = (over + wide - apart) * (apart + over - wide) * (apart + wide - over) * (over + wide + apart);
-  float of_over = acos(clamp((a2 + o2 - w2) / (2.0 * apart * over), -1.0, 1.0)), of_wide = acos(clamp((a2 + w2 - o2) / (2.0 * apart * wide), -1.0, 1.0));
+  float of_over = acos(clamp((a2 + o2 - w2) / (2.0 * apart * over), -1.0, 1.0));
+  float of_wide = acos(clamp((a2 + w2 - o2) / (2.0 * apart * wide), -1.0, 1.0));
   return (o2 * of_over + w2 * of_wide - 0.5 * sqrt(max(kite, 0.0))) / (kPi * w2);
 }
 

@@ -1,11 +1,10 @@
-// Light probes: what the import `probes` computes on the CPU (engine/scene/probes), one thread a probe, spheres added up in the
-// same order.
+// Light probes, as the import `probes` computes them on the CPU (engine/scene/probes): one thread per probe, spheres in the same order.
 // read    instances   the spheres
 //         box         of spheres/probes/box.comp.glsl
 // write   probes      see gi/grid.glsl
 // params  count       spheres
 //         grid        probes along x, y and z
-//         near, far   in radii from a sphere's center: it lights probes in between
+//         near, far   in radii from a sphere's center: the range of probes that it lights
 // defines SHAPE       SHAPE_CAP: the cap of the sky that a sphere covers; SHAPE_POINT: a point as strong
 //         WINDOW      WINDOW_SMOOTH: light ends at `far` by (1 - x^4)^2; WINDOW_HARD: at once
 #define PROBES_ACCESS writeonly

@@ -1,4 +1,5 @@
-// Keys of all instances, back to front by power, and each block of 2 * 2^HALF sorted in shared memory: the first HALF + 1 stages of the bitonic sort.
+// Keys of all instances, back to front by power, and each block of 2 * 2^HALF sorted in shared memory: the first HALF + 1 stages of the
+// bitonic sort.
 // read    instances  draw list
 // write   keys       uvec2 per element, pow2ceil(count) of them; the rest is padded with the greatest key
 // params  count      instances
@@ -21,7 +22,7 @@ shared uvec2 block[2u * kHalf];
 
 void main() {
   uint t = gl_LocalInvocationID.x, first = groupIndex() * 2u * kHalf;
-  // In a loop software reads what is uniform for each lane by itself; an expression before it, it does not move into it.
+  // In a loop, software reads a uniform separately for each lane, but not an expression computed before it.
   vec3 from = eye;
   uint many = max(count, 1u);
   for (uint i = t; i < 2u * kHalf; i += kHalf) {
