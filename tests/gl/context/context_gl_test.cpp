@@ -8,7 +8,6 @@
 #include "engine/gl/objects/objects.h"
 
 using namespace weft::gl;
-using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 

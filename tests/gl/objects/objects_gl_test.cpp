@@ -8,7 +8,6 @@
 #include "tests/gl/gl_test.h"
 
 using namespace weft::gl;
-using namespace weft::glsl;
 using weft::base::Code;
 using weft::base::Diagnostics;
 using weft::gl::test::CleanScope;

@@ -3,7 +3,6 @@
 
 using namespace weft;
 using namespace weft::gl;
-using namespace weft::glsl;
 
 static std::vector<std::byte> makeTexels(std::uint32_t width, std::uint32_t height) {
   std::vector<std::byte> texels(std::size_t{width} * height * 4);

@@ -12,7 +12,6 @@
 #include "tests/temporary_folder.h"
 
 using namespace weft::gl;
-using namespace weft::glsl;
 namespace fs = std::filesystem;
 
 namespace {
