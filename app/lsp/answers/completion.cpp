@@ -42,7 +42,7 @@ class Completer {
         file_(context.project.index(text.path())) {}
 
   Json run() {
-    const JsonOutline::Spot spot = text_.json().at(offset_);
+    const Outline::Spot spot = text_.json().at(offset_);
     if (!file_ || spot.inComment) return nullptr;
     if (spot.inKey) {
       keys(*spot.node->parent, spot.node);

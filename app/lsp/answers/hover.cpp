@@ -108,7 +108,7 @@ Json inJson(const Context& context, const Text& text, std::size_t offset) {
   if (!file) return nullptr;
   std::string shown;
   Range range;
-  const JsonOutline::Spot spot = text.json().at(offset);
+  const Outline::Spot spot = text.json().at(offset);
   if (const Mention* mention = file->at(offset)) {
     shown = ofMention(context, *file, *mention);
     range = mention->range;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/lsp/text/json_outline.h"
+#include "app/lsp/text/outline.h"
 #include "engine/graph/registry.h"
 
 namespace weft::app::lsp {

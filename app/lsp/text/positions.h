@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/json/dom.h"
 
 namespace weft::app::lsp {
 
@@ -20,11 +21,7 @@ struct Position {
   friend auto operator<=>(const Position&, const Position&) = default;
 };
 
-// Bytes [begin, end) of a text.
-struct Range {
-  std::size_t begin = 0, end = 0;
-  bool holds(std::size_t at) const { return begin <= at && at <= end; }
-};
+using Range = base::ByteRange;
 
 // A text with the offsets of its lines, which end with \n, \r\n or \r. An offset or position outside is taken for the nearest
 // one inside. The text must outlive it.

@@ -13,8 +13,8 @@ std::string pathKey(const std::string& path) {
   return (ec ? std::filesystem::path(path) : absolute).lexically_normal().string();
 }
 
-const JsonOutline& Text::json() const {
-  if (!json_) json_ = std::make_unique<JsonOutline>(*bytes_);
+const Outline& Text::json() const {
+  if (!json_) json_ = std::make_unique<Outline>(*bytes_);
   return *json_;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/lsp/text/glsl_outline.h"
-#include "app/lsp/text/json_outline.h"
+#include "app/lsp/text/outline.h"
 #include "app/lsp/text/positions.h"
 
 namespace weft::app::lsp {
@@ -26,7 +26,7 @@ class Text {
   const std::string& path() const { return path_; }
   const std::string& bytes() const { return *bytes_; }
   const LineMap& map() const { return map_; }
-  const JsonOutline& json() const;
+  const Outline& json() const;
   const GlslOutline& glsl() const;
   bool isJson() const { return path_.ends_with(".json"); }
 
@@ -34,7 +34,7 @@ class Text {
   std::string path_;
   std::shared_ptr<const std::string> bytes_;
   LineMap map_;
-  mutable std::unique_ptr<JsonOutline> json_;
+  mutable std::unique_ptr<Outline> json_;
   mutable std::unique_ptr<GlslOutline> glsl_;
 };
 

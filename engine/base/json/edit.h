@@ -5,7 +5,6 @@
 // check what the values mean, or remove anything.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,12 +15,6 @@ namespace weft::base {
 
 // The value at a JSON pointer such as "/passes/3/enabled"; null when there is none.
 const JsonValue* findPointer(const JsonValue& root, std::string_view pointer);
-
-// Bytes [begin, end) of a value of `text`, which is what parseJson read it from.
-struct ByteRange {
-  std::size_t begin = 0, end = 0;
-};
-ByteRange rangeOf(std::string_view text, const JsonValue& value);
 
 // The text with another value at `pointer`.
 std::optional<std::string> replaceValue(std::string_view text, std::string_view pointer,

@@ -87,8 +87,7 @@ std::optional<std::string> putValue(const std::string& text, const std::string& 
   const JsonValue* at = root ? base::findPointer(*root, pointer) : nullptr;
   if (!at) return std::nullopt;
   const auto written = [&](const JsonValue& old) {
-    const base::ByteRange range = base::rangeOf(text, old);
-    return std::string_view(text).substr(range.begin, range.end - range.begin);
+    return std::string_view(text).substr(old.begin, old.end - old.begin);
   };
   if (value.type == Value::Type::number)
     return base::replaceValue(text, pointer, numberText(value.v[0], written(*at)));
@@ -97,7 +96,7 @@ std::optional<std::string> putValue(const std::string& text, const std::string& 
   std::optional<std::string> out = text;
   for (std::size_t i = 0; i < at->items.size() && out; ++i)
     if (at->items[i].number != value.v[i])
-      out = base::replaceValue(*out, at->items[i].pointer.text(),
+      out = base::replaceValue(*out, fmt::format("{}/{}", pointer, i),
                                numberText(value.v[i], written(at->items[i])));
   return out;
 }
@@ -222,11 +221,11 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
       if (!enabled)
         return base::insertMember(text, pass->pointer.text(), "enabled", "false", lastOfHead(*stanza));
       if (!enabled->is(JsonValue::Type::string))
-        return base::replaceValue(text, enabled->pointer.text(), "false");
+        return base::replaceValue(text, pass->pointer.text() + "/enabled", "false");
       // The condition stays readable, and comes back when "&& false" is removed.
       const bool loose = enabled->text.find_first_of("?|") != std::string::npos;
       const std::string kept = loose ? "(" + enabled->text + ")" : enabled->text;
-      return base::replaceValue(text, enabled->pointer.text(), base::quoteJson(kept + " && false"));
+      return base::replaceValue(text, pass->pointer.text() + "/enabled", base::quoteJson(kept + " && false"));
     });
   return std::move(edits.made);
 }

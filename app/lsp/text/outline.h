@@ -1,6 +1,5 @@
-// The values of a JSON text with their byte ranges, also of a text that is being typed: what is broken is passed over.
-// Comments are skipped; one that is never closed ends with its line. Does not: report (the reader does), resolve escapes in
-// strings other than those of quotes and backslashes, or convert numbers.
+// The tree of a JSON text (engine/base/json/dom.h), also of one that is being typed, as editors ask for it: by offset, each
+// value with what is around it, and strings as they are written.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "app/lsp/text/positions.h"
+#include "engine/base/json/dom.h"
 
 namespace weft::app::lsp {
 
@@ -33,9 +33,9 @@ struct Node {
 };
 
 // The text must outlive it.
-class JsonOutline {
+class Outline {
  public:
-  explicit JsonOutline(std::string_view text);
+  explicit Outline(std::string_view text);
   const Node& root() const { return *root_; }
 
   struct Spot {
@@ -47,8 +47,7 @@ class JsonOutline {
   Spot at(std::size_t offset) const;
 
  private:
-  class Parser;
-  std::vector<Range> comments_;  // before root_, whose parser fills it
+  std::vector<Range> comments_;
   std::unique_ptr<Node> root_;
 };
 
