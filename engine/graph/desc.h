@@ -12,13 +12,11 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/json/pointer.h"
 #include "engine/graph/language/expr.h"
 #include "engine/graph/language/value.h"
 
 namespace weft::graph {
 
-using base::JsonPointer;
 using base::Place;
 using base::Where;
 
@@ -76,7 +74,6 @@ struct SpanDesc {
 struct RefDesc {
   std::string text;  // as written
   Place place;
-  JsonPointer pointer;
   std::string name;     // dotted, without the leading @
   bool import = false;  // written with @
   std::optional<SpanDesc> mip, layer, face;
@@ -96,11 +93,9 @@ struct ParameterDesc {
   enum class Type : std::uint8_t { boolean, integer, number, vec2, vec3, vec4, choice, file };
   std::string name;
   Place place;
-  JsonPointer pointer;
   Type type = Type::number;
   Value initial;
   Place initialPlace;  // of the default's value, perhaps in an overlay
-  JsonPointer initialPointer;
   std::optional<double> min, max, step;
   std::string label, doc;
   std::vector<std::string> choices;
@@ -110,7 +105,6 @@ struct ParameterDesc {
 struct NamedExpr {
   std::string name;
   Place place;  // of the name
-  JsonPointer pointer;
   Expr expr;
 };
 
@@ -123,7 +117,6 @@ struct ResourceDesc {
   enum class Kind : std::uint8_t { texture, buffer, import, input, alternatives };
   std::string name;
   Place place;
-  JsonPointer pointer;
   Kind kind = Kind::texture;
   // texture
   std::string format;
@@ -153,7 +146,6 @@ struct ResourceDesc {
 struct SlotDesc {
   std::string name;
   Place place;  // of its key; of "like" where a pass with another shader takes it over
-  JsonPointer pointer;
   Access access = Access::read;
   RefDesc ref;
 };
@@ -168,7 +160,6 @@ struct RangeDesc {
 struct PassParameterDesc {
   std::string name;
   Place place;
-  JsonPointer pointer;
   Expr value;  // when not declared
   std::optional<ParameterDesc> declared;
 };
@@ -186,7 +177,6 @@ struct PassDesc {
   Place place;       // of the stanza's opening brace
   Place namePlace;
   Place likePlace;  // of what "like" says
-  JsonPointer pointer;
   std::optional<IncludeDesc> include;
   std::string type;
   Place typePlace;
@@ -231,7 +221,6 @@ struct SetDesc {
   Origin origin = Origin::file;
   Place place;
   Place valuePlace;
-  JsonPointer pointer;
   Value value;
 };
 

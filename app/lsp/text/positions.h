@@ -30,8 +30,6 @@ class LineMap {
   explicit LineMap(std::string_view text);
   std::size_t offsetOf(const Position& position) const;
   Position positionOf(std::size_t offset) const;
-  // The offset of a diagnostic's place: lines end with \n there, a column counts bytes.
-  std::size_t offsetOf(const base::Place& place) const;
   std::string_view text() const { return text_; }
 
  private:

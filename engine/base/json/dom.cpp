@@ -318,7 +318,6 @@ class Parser {
     out.type = object ? Type::object : Type::array;
     out.closed = false;
     open_.push_back(at_++);
-    if (!tolerant()) containers_.push_back(std::make_shared<JsonPointer::Container>(out.pointer, object));
     std::unordered_map<std::string, std::size_t> keys;
     const Wanted element = object ? Wanted::key : Wanted::value;
     bool first = true, comma = true;  // whether an element may stand here
@@ -343,17 +342,12 @@ class Parser {
       first = false;
     }
     open_.pop_back();
-    if (!tolerant()) containers_.pop_back();
     // Large ones keep no room for more: it would be a quarter of the memory of a large file.
     if (out.members.size() > 64) out.members.shrink_to_fit();
     if (out.items.size() > 64) out.items.shrink_to_fit();
   }
 
-  void item(JsonValue& array) {
-    JsonValue& out = array.items.emplace_back();
-    if (!tolerant()) out.pointer = {containers_.back(), containers_.back()->add()};
-    value(out);
-  }
+  void item(JsonValue& array) { value(array.items.emplace_back()); }
 
   void member(JsonValue& object, std::unordered_map<std::string, std::size_t>& keys) {
     JsonValue dropped;
@@ -380,16 +374,13 @@ class Parser {
       if (stopped_) return;
     }
     if (!tolerant()) {
-      read.value.pointer = {containers_.back(), containers_.back()->add(read.key)};
       if (const JsonMember* before = findKey(object, read.key, keys)) {
         auto& d = diagnostics_->error(Code::duplicateKey, read.place,
                                       fmt::format("the key \"{}\" appears twice in one object", read.key));
-        d.pointer = read.value.pointer;
         d.hint =
             fmt::format("remove one; the first stands at {}:{}", before->place.line, before->place.column);
         ++at_;
         blank();
-        dropped.pointer = read.value.pointer;
         return stopped_ ? void() : value(dropped);
       }
     }
@@ -569,11 +560,10 @@ class Parser {
   const std::size_t first_;  // behind a byte order mark
   std::size_t at_, lineStart_;
   std::uint32_t line_ = 1;
-  bool stopped_ = false;                                             // after a report
-  std::vector<std::size_t> open_;                                    // brackets around at_
-  std::vector<std::shared_ptr<JsonPointer::Container>> containers_;  // parallel to open_
-  const std::string* key_ = nullptr;                                 // that has no colon
-  std::size_t stringBegin_ = 0, stringEnd_ = 0;                      // of the last string
+  bool stopped_ = false;                         // after a report
+  std::vector<std::size_t> open_;                // brackets around at_
+  const std::string* key_ = nullptr;             // that has no colon
+  std::size_t stringBegin_ = 0, stringEnd_ = 0;  // of the last string
   std::uint64_t count_ = 0, mostValues_ = ~std::uint64_t{0}, mostOfName_ = ~std::uint64_t{0};
 };
 
@@ -612,6 +602,48 @@ std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<
   std::optional<JsonValue> root(std::in_place);
   if (!Parser(text, file, &diagnostics, nullptr).run(*root)) root.reset();
   return root;
+}
+
+std::size_t offsetOf(std::string_view text, const Place& place) {
+  std::size_t at = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  for (std::uint32_t line = 1; line < place.line && at < text.size(); ++line)
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+  return std::min(at + (place.column > 0 ? place.column - 1 : 0), text.size());
+}
+
+std::string pointerAt(const JsonValue& root, std::size_t at) {
+  std::string out;
+  const auto holds = [&](std::size_t begin, const JsonValue& value) { return begin <= at && at < value.end; };
+  for (const JsonValue* value = &root; value;) {
+    const JsonValue* inner = nullptr;
+    for (std::size_t i = 0; i < value->items.size() && !inner; ++i)
+      if (holds(value->items[i].begin, value->items[i])) {
+        inner = &value->items[i];
+        out += fmt::format("/{}", i);
+      }
+    for (const JsonMember& member : value->members)
+      if (!inner && holds(member.begin, member.value)) {
+        inner = &member.value;
+        out += '/';
+        for (const char c : member.key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+      }
+    value = inner;
+  }
+  return out;
+}
+
+PointerScope::~PointerScope() {
+  const auto isHere = [&](const Diagnostic& d) {
+    return d.pointer.empty() && d.place.line > 0 && d.place.file && *d.place.file == file_;
+  };
+  if (std::ranges::none_of(diagnostics_.items(), isHere)) return;
+  const JsonTree tree = parseJsonTree(text_);
+  Diagnostics located;
+  for (Diagnostic d : diagnostics_.items()) {
+    if (isHere(d)) d.pointer = pointerAt(tree.root, offsetOf(text_, d.place.inFile()));
+    located.add(std::move(d));
+  }
+  diagnostics_ = std::move(located);
 }
 
 const char* nameOf(JsonValue::Type type) {

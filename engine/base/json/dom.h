@@ -1,4 +1,4 @@
-// The one tree of a JSON text: every value and every key keeps its bytes in the text, its file, line, column and JSON pointer.
+// The one tree of a JSON text: every value and every key keeps its bytes in the text, its file, line and column.
 // Comments (// and /* */) are listed beside it, so that a text can be laid out and edited by its tree without a loss. A leading
 // byte order mark is passed over. Never throws on any input.
 #pragma once
@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/json/pointer.h"
 
 namespace weft::base {
 
@@ -28,11 +27,10 @@ struct JsonValue {
   // broken: what is no value, such as a misspelt word; absent: nothing where a value should be. Only parseJsonTree gives them.
   enum class Type : std::uint8_t { null, boolean, number, string, array, object, broken, absent };
   Type type = Type::null;
-  bool flag = false;    // boolean
-  bool whole = false;   // number: written without a point or an exponent
-  bool closed = true;   // false: the closing quote or bracket is missing
-  Place place;          // of its first character: the opening quote, brace or bracket, the first digit
-  JsonPointer pointer;  // "/passes/3/read/source"; "" for the document
+  bool flag = false;   // boolean
+  bool whole = false;  // number: written without a point or an exponent
+  bool closed = true;  // false: the closing quote or bracket is missing
+  Place place;         // of its first character: the opening quote, brace or bracket, the first digit
   std::uint32_t begin = 0, end = 0;  // its bytes in the text
   double number = 0;                 // finite
   std::string text;                  // string, escapes resolved
@@ -56,7 +54,7 @@ struct JsonMember {
 };
 
 // A text of any kind as a tree: what is broken is passed over, a string ends with its line at the latest, and so does a
-// comment that is never closed. Keys may appear twice. The values have neither places nor pointers.
+// comment that is never closed. Keys may appear twice. The values have no places.
 struct JsonTree {
   JsonValue root;
   std::vector<ByteRange> comments;  // without line ends, in the order of the text
@@ -74,6 +72,28 @@ constexpr int kMaxJsonDepth = 64;
 // and reading goes on. `file` becomes part of every place and may be null.
 std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<const std::string>& file,
                                    Diagnostics& diagnostics);
+
+// Where a place with a line is in the text of its file.
+std::size_t offsetOf(std::string_view text, const Place& place);
+
+// The JSON pointer (RFC 6901) of the innermost value around a byte of a tree's text, or of the value of the key there:
+// "/passes/3/read/source"; "" for the document.
+std::string pointerAt(const JsonValue& root, std::size_t at);
+
+// Gives each diagnostic about this text that is reported while it lives, and has none, the pointer of its place.
+class PointerScope {
+ public:
+  PointerScope(const std::string& file, std::string_view text, Diagnostics& diagnostics)
+      : file_(file), text_(text), diagnostics_(diagnostics) {}
+  ~PointerScope();
+  PointerScope(const PointerScope&) = delete;
+  PointerScope& operator=(const PointerScope&) = delete;
+
+ private:
+  const std::string file_;
+  const std::string_view text_;
+  Diagnostics& diagnostics_;
+};
 
 // "an object", "a string": for "expected" and "found".
 const char* nameOf(JsonValue::Type type);

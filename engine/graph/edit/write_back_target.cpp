@@ -81,9 +81,10 @@ std::optional<JsonValue> parse(const std::string& text) {
   return ignored.hasErrors() ? std::nullopt : std::move(root);
 }
 
-// `value` in place of what stands at `pointer`; of a list only the items that differ.
-std::optional<std::string> putValue(const std::string& text, const std::string& pointer, const Value& value) {
+// `value` in the place of what stands there; of a list only the items that differ.
+std::optional<std::string> putValue(const std::string& text, const Place& place, const Value& value) {
   const auto root = parse(text);
+  const std::string pointer = root ? base::pointerAt(*root, base::offsetOf(text, place)) : std::string();
   const JsonValue* at = root ? base::findPointer(*root, pointer) : nullptr;
   if (!at) return std::nullopt;
   const auto written = [&](const JsonValue& old) {
@@ -175,16 +176,18 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
     value.symbol = whole(value.symbol).lexically_relative(whole(path).parent_path()).string();
     return value;
   };
-  const auto put = [&](const std::string& path, const std::string& pointer) {
-    edits.add(path, [&](const std::string& text) { return putValue(text, pointer, valueIn(path)); });
+  const auto put = [&](const Place& place) {
+    if (!place.file) return;
+    edits.add(*place.file,
+              [&](const std::string& text) { return putValue(text, place, valueIn(*place.file)); });
   };
   const auto putSet = [&](const std::string& path) {
     const std::string name = shortest(wanted.path, paths);
     edits.add(path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
   };
-  if (deciding && deciding->place.file) put(*deciding->place.file, deciding->pointer.text());
+  if (deciding) put(deciding->valuePlace);
   if (const auto overlay = overlayOf(desc, presets, texts)) putSet(*overlay);
-  if (found.desc->initialPlace.file) put(*found.desc->initialPlace.file, found.desc->initialPointer);
+  put(found.desc->initialPlace);
   putSet(desc.path);
   return std::move(edits.made);
 }
@@ -215,17 +218,18 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
   if (pass && pass->place.file)
     edits.add(*pass->place.file, [&](const std::string& text) -> std::optional<std::string> {
       const auto root = parse(text);
-      const JsonValue* stanza = root ? base::findPointer(*root, pass->pointer.text()) : nullptr;
+      const std::string pointer =
+          root ? base::pointerAt(*root, base::offsetOf(text, pass->place)) : std::string();
+      const JsonValue* stanza = root ? base::findPointer(*root, pointer) : nullptr;
       if (!stanza) return std::nullopt;
       const JsonValue* enabled = stanza->find("enabled");
-      if (!enabled)
-        return base::insertMember(text, pass->pointer.text(), "enabled", "false", lastOfHead(*stanza));
+      if (!enabled) return base::insertMember(text, pointer, "enabled", "false", lastOfHead(*stanza));
       if (!enabled->is(JsonValue::Type::string))
-        return base::replaceValue(text, pass->pointer.text() + "/enabled", "false");
+        return base::replaceValue(text, pointer + "/enabled", "false");
       // The condition stays readable, and comes back when "&& false" is removed.
       const bool loose = enabled->text.find_first_of("?|") != std::string::npos;
       const std::string kept = loose ? "(" + enabled->text + ")" : enabled->text;
-      return base::replaceValue(text, pass->pointer.text() + "/enabled", base::quoteJson(kept + " && false"));
+      return base::replaceValue(text, pointer + "/enabled", base::quoteJson(kept + " && false"));
     });
   return std::move(edits.made);
 }

@@ -96,7 +96,6 @@ class KeyMender {
           base::Code::unknownKey, member.place,
           what.name ? fmt::format("unknown key \"{}\" in {} '{}'", member.key, what.noun, *what.name)
                     : fmt::format("unknown key \"{}\" in {}", member.key, what.noun));
-      d.pointer = member.value.pointer;
       if (stanza_) d.pass = stanzaName(*stanza_);
       if (resource_) d.resource = *resource_;
       d.hint = std::move(hint);

@@ -69,7 +69,6 @@ class NameMender {
         diagnostics_.error(base::Code::unknownResource, resource.place,
                            fmt::format("nothing names the resource '{}', and the resource '{}' is not there",
                                        resource.name, meant));
-    d.pointer = resource.pointer;
     d.resource = resource.name;
     if (mentions.first.file)
       d.found = fmt::format(
