@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/lsp/text/outline.h"
+#include "app/lsp/text/json_spot.h"
 #include "engine/graph/registry.h"
 
 namespace weft::app::lsp {
@@ -15,11 +15,8 @@ struct KeyDoc {
   std::string key, doc;
 };
 
-// The keys on the way from the root to a node; "[]" for items of arrays.
-std::vector<std::string_view> wayTo(const Node& node);
-
-// Empty where the author names the keys.
-std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Node& object);
+// The keys of the object at the end of the way; empty where the author names them.
+std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Way& object);
 
 // The words that a key of "state" takes; empty for a key that takes a value.
 std::vector<std::string_view> wordsOfState(std::string_view key);
