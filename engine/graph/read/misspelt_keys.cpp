@@ -117,11 +117,9 @@ class KeyMender {
     for (const std::span<const KeySpec> keys : lists)
       for (const KeySpec& spec : keys) known.emplace_back(spec.key);
     // A word of another program first: "groups" is no slip of "group".
-    if (std::string said = foreign ? base::hintForForeign(*foreign, key) : std::string(); !said.empty()) {
-      for (std::string& each : known)
-        if (said == fmt::format("write \"{}\"", each)) return {std::move(each), std::move(said)};
-      return {};
-    }
+    if (const base::ForeignWord theirs = foreign ? base::findForeignWord(*foreign, key) : base::ForeignWord();
+        !theirs.hint.empty())
+      return theirs.isOnlyKey ? std::pair(theirs.key, theirs.hint) : std::pair<std::string, std::string>();
     std::string nearest = base::nearestName(key, known);
     if (nearest.empty() || base::editDistance(key, nearest, 2) > 1) return {};
     std::string hint = fmt::format("did you mean \"{}\"?", nearest);

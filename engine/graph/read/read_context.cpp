@@ -53,23 +53,6 @@ bool ReadContext::expect(const JsonValue& value, JsonValue::Type type, std::stri
   return false;
 }
 
-namespace {
-
-// What the author of an unknown key needs to know: where it belongs, what it is called here, or the nearest.
-std::string hintForUnknown(std::string_view key, std::span<const std::string> known,
-                           const std::string& nearest, std::optional<base::Foreign> foreign) {
-  if (foreign == base::Foreign::pass_key)
-    for (const KeySpec& state : kStateKeys)
-      if (state.key == key) return fmt::format("it belongs into \"state\": {{ \"{}\": … }}", key);
-  // A word of another program first: "groups" is no slip of "group".
-  if (std::string meant = foreign ? base::hintForForeign(*foreign, key) : std::string(); !meant.empty())
-    return meant;
-  return nearest.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
-                         : fmt::format("did you mean \"{}\"?", nearest);
-}
-
-}  // namespace
-
 void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what,
                             std::optional<base::Foreign> foreign) {
   std::vector<std::string> known, meant;
@@ -79,11 +62,18 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
     if (!goesOn()) return;
     auto& d =
         errorAt(Code::unknownKey, member.place, fmt::format("unknown key \"{}\" in {}", member.key, what));
+    const bool ofState = foreign == base::Foreign::pass_key &&
+                         std::ranges::find(kStateKeys, member.key, &KeySpec::key) != kStateKeys.end();
+    // A word of another program first: "groups" is no slip of "group".
+    const base::ForeignWord theirs =
+        foreign && !ofState ? base::findForeignWord(*foreign, member.key) : base::ForeignWord();
     const std::string nearest = base::nearestName(member.key, known);
-    d.hint = hintForUnknown(member.key, known, nearest, foreign);
+    d.hint = ofState                ? fmt::format("it belongs into \"state\": {{ \"{}\": … }}", member.key)
+             : !theirs.hint.empty() ? theirs.hint
+             : nearest.empty()      ? fmt::format("known: {}", fmt::join(known, ", "))
+                                    : fmt::format("did you mean \"{}\"?", nearest);
     meant.push_back(nearest);
-    for (const KeySpec& spec : keys)  // "width" stands for "size"
-      if (d.hint.starts_with(fmt::format("write \"{}\"", spec.key))) meant.emplace_back(spec.key);
+    meant.push_back(theirs.key);  // "width" stands for "size"
   }
   for (const KeySpec& spec : keys) {
     if (!spec.required || object.find(spec.key) ||
