@@ -567,6 +567,23 @@ class Parser {
   std::uint64_t count_ = 0, mostValues_ = ~std::uint64_t{0}, mostOfName_ = ~std::uint64_t{0};
 };
 
+// valueAt(), and the pointer to there.
+const JsonValue& descend(const JsonValue& value, std::size_t at, std::string* pointer) {
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    if (at < value.items[i].begin || at >= value.items[i].end) continue;
+    if (pointer) *pointer += fmt::format("/{}", i);
+    return descend(value.items[i], at, pointer);
+  }
+  for (const JsonMember& member : value.members) {
+    if (at < member.begin || at >= member.value.end) continue;
+    if (pointer) *pointer += '/';
+    for (const char c : pointer ? member.key : std::string())
+      *pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    return descend(member.value, at, pointer);
+  }
+  return value;
+}
+
 }  // namespace
 
 const JsonValue* JsonValue::find(std::string_view key) const {
@@ -611,25 +628,14 @@ std::size_t offsetOf(std::string_view text, const Place& place) {
   return std::min(at + (place.column > 0 ? place.column - 1 : 0), text.size());
 }
 
+const JsonValue& valueAt(const JsonValue& root, std::size_t at) {
+  return descend(root, at, nullptr);
+}
+
 std::string pointerAt(const JsonValue& root, std::size_t at) {
-  std::string out;
-  const auto holds = [&](std::size_t begin, const JsonValue& value) { return begin <= at && at < value.end; };
-  for (const JsonValue* value = &root; value;) {
-    const JsonValue* inner = nullptr;
-    for (std::size_t i = 0; i < value->items.size() && !inner; ++i)
-      if (holds(value->items[i].begin, value->items[i])) {
-        inner = &value->items[i];
-        out += fmt::format("/{}", i);
-      }
-    for (const JsonMember& member : value->members)
-      if (!inner && holds(member.begin, member.value)) {
-        inner = &member.value;
-        out += '/';
-        for (const char c : member.key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-      }
-    value = inner;
-  }
-  return out;
+  std::string pointer;
+  descend(root, at, &pointer);
+  return pointer;
 }
 
 PointerScope::~PointerScope() {

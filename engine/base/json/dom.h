@@ -76,8 +76,9 @@ std::optional<JsonValue> parseJson(std::string_view text, const std::shared_ptr<
 // Where a place with a line is in the text of its file.
 std::size_t offsetOf(std::string_view text, const Place& place);
 
-// The JSON pointer (RFC 6901) of the innermost value around a byte of a tree's text, or of the value of the key there:
-// "/passes/3/read/source"; "" for the document.
+// The innermost value around a byte of a tree's text, or the value of the key there; and its JSON pointer (RFC 6901),
+// "/passes/3/read/source", or "" of the document.
+const JsonValue& valueAt(const JsonValue& root, std::size_t at);
 std::string pointerAt(const JsonValue& root, std::size_t at);
 
 // Gives each diagnostic about this text that is reported while it lives, and has none, the pointer of its place.

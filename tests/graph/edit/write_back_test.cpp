@@ -8,9 +8,10 @@
 #include <random>
 #include <sstream>
 
-#include "engine/base/json/edit.h"
+#include "engine/base/json/dom.h"
 #include "tests/graph/expand/support.h"
 #include "tests/graph/test_folder.h"
+#include "tests/json_pointer.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -76,7 +77,7 @@ std::string around(const std::string& text, const std::vector<std::string>& poin
   REQUIRE(root);
   std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const std::string& pointer : pointers)
-    if (const auto* value = base::findPointer(*root, pointer)) ranges.emplace_back(value->begin, value->end);
+    if (const auto* value = weft::test::findPointer(*root, pointer)) ranges.emplace_back(value->begin, value->end);
   std::ranges::sort(ranges);
   std::string out;
   std::size_t at = 0;
