@@ -13,6 +13,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/graph/language/expr.h"
+#include "engine/graph/language/keys.h"
 #include "engine/graph/language/value.h"
 
 namespace weft::graph {
@@ -50,10 +51,6 @@ enum class Compare : std::uint8_t {
   greater_equal,
   always
 };
-// The words of "depth_test" and `as compare(…)`, in the order of Compare.
-constexpr std::array<std::string_view, 8> kCompareNames = {
-    "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
-
 using BorderColor = std::array<float, 4>;
 
 struct Sampler {

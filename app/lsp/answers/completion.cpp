@@ -159,16 +159,13 @@ class Completer {
     const std::string_view last = way.back();
     const bool item = last == "[]";
     const std::string_view key = item && way.size() > 1 ? way[way.size() - 2] : last;
+    for (const KeyDoc& each : keysOf(registry_, Way(way_.begin(), way_.end() - 1)))
+      if (each.key == last && !each.words.empty()) return addWords(each.words);
     if (way[0] == "extends") return files();
     if (way[0] == "present" || way[0] == "outputs") return reference(node);
     if (way[0] == "let") return expression(node);
-    if (way[0] == "parameters" && way.size() == 3) return parameterValue(key);
     if (way[0] == "resources") return resourceValue(node, way, key);
     if (way[0] == "passes" && way.size() > 2) return stanzaValue(node, way, key);
-  }
-
-  void parameterValue(std::string_view key) {
-    if (key == "type") addWords(graph::kParameterTypes);
   }
 
   void resourceValue(const JsonValue& node, const std::vector<std::string_view>& way, std::string_view key) {
@@ -180,10 +177,6 @@ class Completer {
       }
     } else if (key == "import") {
       for (const graph::ImportType& type : registry_.imports) add(type.name, ItemKind::module, type.doc);
-    } else if (key == "view") {
-      addWords(graph::kViewWords);
-    } else if (key == "input") {
-      addWords(graph::kInputWords);
     } else if (key == "reset" || key == "first") {
       reference(node);
     } else if (key == "list") {
@@ -211,8 +204,6 @@ class Completer {
     if (isSlotGroup(group) || group == "bind" || (group == "view" && way.size() == 3)) return reference(node);
     if (group == "type") {
       for (const graph::PassType& type : registry_.passTypes) add(type.name, ItemKind::module, type.doc);
-    } else if (group == "update") {
-      addWords(graph::kUpdateWords);
     } else if (group == "include") {
       files();
     } else if (group == "shader") {
@@ -230,19 +221,11 @@ class Completer {
       for (const JsonValue* other : file_->stanzas)
         if (const std::string_view name = textOf(*other, "group"); !name.empty() && other != &around())
           add(std::string(name), ItemKind::value);
-    } else if (group == "state") {
-      stateValue(node, way, key);
-    } else if (group == "parameters" && way.size() == 5 && key == "type") {
-      addWords(graph::kParameterTypes);
+    } else if (group == "state" && way.size() > 3 && way[3] == "blend") {
+      addWords(graph::kBlendWords);
     } else if (group != "name" && group != "as") {
       expression(node);
     }
-  }
-
-  void stateValue(const JsonValue& node, const std::vector<std::string_view>& way, std::string_view key) {
-    const auto words = wordsOfState(way.size() > 3 ? way[3] : key);
-    addWords(words);
-    if (words.empty()) expression(node);
   }
 
   // ---- names inside strings ----

@@ -13,7 +13,7 @@ namespace {
 void append(std::vector<KeyDoc>& out, std::span<const graph::KeySpec> specs) {
   for (const graph::KeySpec& spec : specs)
     if (std::ranges::find(out, spec.key, &KeyDoc::key) == out.end())
-      out.push_back({std::string(spec.key), std::string(spec.doc)});
+      out.push_back({std::string(spec.key), std::string(spec.doc), spec.words});
 }
 
 std::vector<KeyDoc> keysOfResource(const graph::Registry& registry, const JsonValue& object) {
@@ -23,7 +23,7 @@ std::vector<KeyDoc> keysOfResource(const graph::Registry& registry, const JsonVa
     for (const graph::ImportType& type : registry.imports)
       if (type.name == import->text)
         for (const graph::ImportArgument& argument : type.arguments)
-          keys.push_back({argument.name, argument.doc});
+          keys.push_back({argument.name, argument.doc, {}});
     return keys;
   }
   const bool texture = object.find("texture"), buffer = object.find("buffer"), input = object.find("input");
@@ -81,15 +81,6 @@ std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Way& steps) {
     append(keys, graph::kParameterKeys);
   }
   return keys;
-}
-
-std::vector<std::string_view> wordsOfState(std::string_view key) {
-  if (key == "blend") return {"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
-  if (key == "depth_test")
-    return {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
-  if (key == "cull") return {"none", "front", "back"};
-  if (key == "polygon") return {"fill", "line"};
-  return {};
 }
 
 std::string docOfImport(const graph::Registry& registry, std::string_view name) {

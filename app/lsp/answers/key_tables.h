@@ -2,6 +2,7 @@
 // values, or names that authors give.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,13 +14,11 @@ namespace weft::app::lsp {
 
 struct KeyDoc {
   std::string key, doc;
+  std::span<const std::string_view> words{};  // that it may be, where these are few
 };
 
 // The keys of the object at the end of the way; empty where the author names them.
 std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Way& object);
-
-// The words that a key of "state" takes; empty for a key that takes a value.
-std::vector<std::string_view> wordsOfState(std::string_view key);
 
 // Documentation as Markdown; "" when the type is no import.
 std::string docOfImport(const graph::Registry& registry, std::string_view type);
