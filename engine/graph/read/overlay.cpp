@@ -111,8 +111,7 @@ std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const 
 }
 
 std::shared_ptr<const std::string> SourceLoader::bytesOf(const std::string& path, const base::Place& from) {
-  if (given_)
-    if (const auto found = given_->find(path); found != given_->end()) return texts_[path] = found->second;
+  if (const auto found = given_.find(path); found != given_.end()) return texts_[path] = found->second;
   std::optional<std::string> bytes = base::readTextFile(path, diagnostics_, Code::unreadableFile, from);
   return bytes ? texts_[path] = std::make_shared<const std::string>(*std::move(bytes)) : nullptr;
 }
@@ -249,8 +248,9 @@ bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValu
   }
   const JsonValue* extends = root->find("extends");
   if (written && !extends && isWholeGraph(*root)) {
-    auto& d = diagnostics_.error(Code::overlayOutOfPlace, written->place,
-                     fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
+    auto& d =
+        diagnostics_.error(Code::overlayOutOfPlace, written->place,
+                           fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
     d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
     d.hint = "a file extends one graph, the first of its list; give the others as includes";
     return false;

@@ -216,8 +216,7 @@ class Applier {
     const JsonValue* after = stanza.find("after");
     const JsonValue* remove = stanza.find("remove");
     if (before && after)
-      error(Code::keysExclude, stanza.place,
-            "a pass cannot stand both \"before\" and \"after\" others")
+      error(Code::keysExclude, stanza.place, "a pass cannot stand both \"before\" and \"after\" others")
           .hint = "keep one of them";
     else if (remove && !remove->is(Type::boolean))
       expect(*remove, Type::boolean, "\"remove\"", "true or false");
@@ -276,9 +275,8 @@ class Applier {
     const JsonValue& culprit = named ? *named : stanza;
     if (beside && moved && beside->below == moved->below) {
       if (beside->index != moved->index) return true;
-      error(Code::passWithoutPlace, anchor.place,
-            fmt::format("pass '{}' stands beside itself", pass_))
-          .hint = "name another pass";
+      error(Code::passWithoutPlace, anchor.place, fmt::format("pass '{}' stands beside itself", pass_)).hint =
+          "name another pass";
     } else if (beside && (moved || own.find('.') != std::string_view::npos)) {
       std::string whole;
       for (const std::string& prefix : beside->below) whole += prefix + ".";
@@ -289,8 +287,7 @@ class Applier {
     } else if (stanza.find("type") || stanza.find("include") || stanza.find("like")) {
       return true;
     } else {
-      error(Code::passWithoutPlace, culprit.place,
-            fmt::format("pass '{}' is not there to be moved", pass_))
+      error(Code::passWithoutPlace, culprit.place, fmt::format("pass '{}' is not there to be moved", pass_))
           .hint = wholeHint(pass_, allNames(loader_, target_, "passes"));
     }
     return false;
@@ -311,8 +308,8 @@ class Applier {
     const std::optional<Found> found = find("passes", pass_, place);
     if (tooMuch_) return;
     if (!found && remove) {
-      error(Code::nothingToChange, place, fmt::format("pass '{}' is not there to be removed", pass_))
-          .hint = wholeHint(pass_, allNames(loader_, target_, "passes"));
+      error(Code::nothingToChange, place, fmt::format("pass '{}' is not there to be removed", pass_)).hint =
+          wholeHint(pass_, allNames(loader_, target_, "passes"));
     } else if (!found) {
       const std::vector<std::string> names = allNames(loader_, target_, "passes");
       Diagnostic& d =

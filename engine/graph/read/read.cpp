@@ -29,14 +29,10 @@ struct OpenFile {
 
 class GraphReader {
  public:
-  GraphReader(Diagnostics& diagnostics, const FileTexts* given)
+  GraphReader(Diagnostics& diagnostics, const FileTexts& given)
       : diagnostics_(diagnostics), loader_(diagnostics, given) {}
 
   const FileTexts& texts() const { return loader_.texts(); }
-
-  std::shared_ptr<const GraphDesc> readFile(const std::string& path, const Place& from) {
-    return readBelow(path, from).graph;
-  }
 
   std::shared_ptr<const GraphDesc> readText(std::string_view text, const std::string& path) {
     const std::shared_ptr<const Source> source = loader_.text(text, path);
@@ -270,7 +266,7 @@ class GraphReader {
 
 // Diagnostics come in the order of the text, whatever order the reader looked at things.
 template <class Read>
-std::shared_ptr<const GraphDesc> readSorted(Diagnostics& diagnostics, const FileTexts* given, Read read) {
+std::shared_ptr<const GraphDesc> readSorted(const FileTexts& given, Diagnostics& diagnostics, Read read) {
   Diagnostics said;
   GraphReader reader(said, given);
   std::shared_ptr<const GraphDesc> graph = read(reader);
@@ -282,24 +278,14 @@ std::shared_ptr<const GraphDesc> readSorted(Diagnostics& diagnostics, const File
 
 }  // namespace
 
-std::shared_ptr<const GraphDesc> readGraph(const std::string& path, Diagnostics& diagnostics) {
-  return readSorted(diagnostics, nullptr, [&](GraphReader& reader) { return reader.readFile(path, {}); });
-}
-
-std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
-                                           Diagnostics& diagnostics) {
-  return readSorted(diagnostics, nullptr,
-                    [&](GraphReader& reader) { return reader.readWith(path, presets); });
-}
-
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            const FileTexts& given, Diagnostics& diagnostics) {
-  return readSorted(diagnostics, &given, [&](GraphReader& reader) { return reader.readWith(path, presets); });
+  return readSorted(given, diagnostics, [&](GraphReader& reader) { return reader.readWith(path, presets); });
 }
 
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
                                                Diagnostics& diagnostics) {
-  return readSorted(diagnostics, nullptr, [&](GraphReader& reader) { return reader.readText(text, name); });
+  return readSorted({}, diagnostics, [&](GraphReader& reader) { return reader.readText(text, name); });
 }
 
 }  // namespace weft::graph
