@@ -287,7 +287,7 @@ void Server::publish(const std::string& path) {
 Json Server::toJson(const base::Diagnostic& d, const Text& text) const {
   const std::string_view all = text.bytes();
   Range range;
-  range.begin = range.end = d.place.line > 0 ? text.map().offsetOf(d.place.inFile()) : 0;
+  range.begin = range.end = d.place.line > 0 ? base::offsetOf(all, d.place.inFile()) : 0;
   // The range grows to the end of the word or the string there.
   if (range.end < all.size() && all[range.end] == '"') {
     do range.end += all[range.end] == '\\' ? 2 : 1;

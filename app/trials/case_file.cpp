@@ -64,6 +64,8 @@ class CaseReader {
 
   void read(std::vector<TestCase>& cases) {
     const auto text = base::readTextFile(*file_, diagnostics_);
+    const base::PointerScope pointers(*file_, text ? std::string_view(*text) : std::string_view(),
+                                      diagnostics_);
     const auto document = text ? base::parseJson(*text, file_, diagnostics_) : std::nullopt;
     if (!document || isGraph(*document)) return;
     JsonFields fields(*document, "the file of cases", Code::outOfRange, diagnostics_);

@@ -75,6 +75,7 @@ std::vector<std::string> MaterialLibrary::names() const {
 
 std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const std::string& name,
                                                    Diagnostics& diagnostics) {
+  const base::PointerScope pointers(name, text, diagnostics);
   const auto root = base::parseJson(text, std::make_shared<const std::string>(name), diagnostics);
   if (!root || !base::expectType(*root, "a material library", JsonValue::Type::array, diagnostics)) return {};
   Diagnostics said;
@@ -87,7 +88,6 @@ std::optional<MaterialLibrary> readMaterialLibrary(std::string_view text, const 
     if (!fresh && !preset.name.empty()) {
       base::Diagnostic& d = said.error(Code::duplicateMaterial, value.place,
                                        fmt::format("a second material '{}'", preset.name));
-      d.pointer = value.pointer;
       d.hint = fmt::format("rename one; the first stands in line {}", before->second.line);
     }
     if (std::find(library.categories.begin(), library.categories.end(), preset.category) ==

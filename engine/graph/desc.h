@@ -12,13 +12,12 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/json/pointer.h"
 #include "engine/graph/language/expr.h"
+#include "engine/graph/language/keys.h"
 #include "engine/graph/language/value.h"
 
 namespace weft::graph {
 
-using base::JsonPointer;
 using base::Place;
 using base::Where;
 
@@ -52,10 +51,6 @@ enum class Compare : std::uint8_t {
   greater_equal,
   always
 };
-// The words of "depth_test" and `as compare(…)`, in the order of Compare.
-constexpr std::array<std::string_view, 8> kCompareNames = {
-    "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
-
 using BorderColor = std::array<float, 4>;
 
 struct Sampler {
@@ -76,7 +71,6 @@ struct SpanDesc {
 struct RefDesc {
   std::string text;  // as written
   Place place;
-  JsonPointer pointer;
   std::string name;     // dotted, without the leading @
   bool import = false;  // written with @
   std::optional<SpanDesc> mip, layer, face;
@@ -96,11 +90,9 @@ struct ParameterDesc {
   enum class Type : std::uint8_t { boolean, integer, number, vec2, vec3, vec4, choice, file };
   std::string name;
   Place place;
-  JsonPointer pointer;
   Type type = Type::number;
   Value initial;
   Place initialPlace;  // of the default's value, perhaps in an overlay
-  JsonPointer initialPointer;
   std::optional<double> min, max, step;
   std::string label, doc;
   std::vector<std::string> choices;
@@ -110,7 +102,6 @@ struct ParameterDesc {
 struct NamedExpr {
   std::string name;
   Place place;  // of the name
-  JsonPointer pointer;
   Expr expr;
 };
 
@@ -123,7 +114,6 @@ struct ResourceDesc {
   enum class Kind : std::uint8_t { texture, buffer, import, input, alternatives };
   std::string name;
   Place place;
-  JsonPointer pointer;
   Kind kind = Kind::texture;
   // texture
   std::string format;
@@ -153,7 +143,6 @@ struct ResourceDesc {
 struct SlotDesc {
   std::string name;
   Place place;  // of its key; of "like" where a pass with another shader takes it over
-  JsonPointer pointer;
   Access access = Access::read;
   RefDesc ref;
 };
@@ -168,7 +157,6 @@ struct RangeDesc {
 struct PassParameterDesc {
   std::string name;
   Place place;
-  JsonPointer pointer;
   Expr value;  // when not declared
   std::optional<ParameterDesc> declared;
 };
@@ -186,7 +174,6 @@ struct PassDesc {
   Place place;       // of the stanza's opening brace
   Place namePlace;
   Place likePlace;  // of what "like" says
-  JsonPointer pointer;
   std::optional<IncludeDesc> include;
   std::string type;
   Place typePlace;
@@ -231,7 +218,6 @@ struct SetDesc {
   Origin origin = Origin::file;
   Place place;
   Place valuePlace;
-  JsonPointer pointer;
   Value value;
 };
 

@@ -20,7 +20,13 @@ TEST_CASE("the table of foreign words: what is to be written, then the words tha
     std::set<std::string> seen;
     for (const auto& [ours, words] : rows.items()) {
       CHECK_MESSAGE(!ours.empty(), kind);
-      for (const std::string theirs : words) CHECK_MESSAGE(seen.insert(theirs).second, kind, ": ", theirs);
+      const auto see = [&](const nlohmann::json& list) {
+        for (const std::string theirs : list) CHECK_MESSAGE(seen.insert(theirs).second, kind, ": ", theirs);
+      };
+      if (words.is_array())
+        see(words);
+      else
+        for (const auto& [hint, list] : words.items()) see(list);
     }
     CHECK_MESSAGE(!seen.empty(), kind);
   }
@@ -37,6 +43,11 @@ TEST_CASE("a word of each kind is found however it is decorated") {
       {Foreign::import_argument, "url"},   {Foreign::shader_name, "saturate"}};
   for (const auto& [kind, word] : kWords) CHECK_MESSAGE(!hintForForeign(kind, word).empty(), word);
   CHECK(hintForForeign(Foreign::state_word, "less-equal") == "write 'less_equal'");
+  CHECK(findForeignWord(Foreign::texture_key, "width").key == "size");
+  CHECK_FALSE(findForeignWord(Foreign::texture_key, "width").isOnlyKey);
+  CHECK(findForeignWord(Foreign::value_key, "initial").key == "default");
+  CHECK(findForeignWord(Foreign::value_key, "initial").isOnlyKey);
+  CHECK(hintForForeign(Foreign::value_key, "initial") == "write \"default\"");
   // GLSL tells cases apart, and a word that nobody knows has no hint.
   CHECK(hintForForeign(Foreign::shader_name, "Saturate").empty());
   CHECK(hintForForeign(Foreign::pass_key, "read").empty());

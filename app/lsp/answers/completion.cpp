@@ -19,7 +19,7 @@ namespace weft::app::lsp {
 
 namespace {
 
-using Type = Node::Type;
+using Type = JsonValue::Type;
 namespace fs = std::filesystem;
 
 struct Item {
@@ -42,25 +42,21 @@ class Completer {
         file_(context.project.index(text.path())) {}
 
   Json run() {
-    const JsonOutline::Spot spot = text_.json().at(offset_);
+    Spot spot = spotAt(text_.json(), offset_);
     if (!file_ || spot.inComment) return nullptr;
-    if (spot.inKey) {
-      keys(*spot.node->parent, spot.node);
-      return finish(spot.node->keyRange, "");
+    const JsonMember* const typed = spot.inKey ? spot.way.back().member : nullptr;
+    if (spot.inKey) spot.way.pop_back();
+    way_ = std::move(spot.way);
+    const JsonValue& node = *way_.back().value;
+    if (spot.inKey || spot.atKey) {
+      keys(node, typed);
+      return typed ? finish(inside(*typed), "") : finish({offset_, offset_}, "\"");
     }
-    if (spot.atKey) {
-      keys(*spot.node, nullptr);
-      return finish({offset_, offset_}, "\"");
-    }
-    const Node& node = *spot.node;
-    const std::vector<std::string_view> way = wayTo(node);
-    if (node.type == Type::array) {  // an item may be begun
-      value(node, way);
-      return finish({offset_, offset_}, "\"");
-    }
-    value(node, way);
-    if (node.type == Type::string) return finish(fragment_.value_or(node.inside()), "");
-    return finish(node.type == Type::word ? node.range : Range{offset_, offset_}, "\"");
+    value(node, keysOn(way_));
+    if (node.is(Type::string)) return finish(fragment_.value_or(inside(node)), "");
+    // In an array an item may be begun.
+    return finish(node.is(Type::array) || node.is(Type::absent) ? Range{offset_, offset_} : rangeOf(node),
+                  "\"");
   }
 
  private:
@@ -86,37 +82,34 @@ class Completer {
 
   // ---- keys ----
 
-  static const Node* stanzaOf(const Node& node) {
-    for (const Node* at = &node; at && at->parent; at = at->parent)
-      if (at->parent->type == Type::array && at->parent->key == "passes" && at->type == Type::object)
-        return at;
-    return nullptr;
+  const JsonValue* stanza() const {
+    const std::vector<std::string_view> way = keysOn(way_);
+    return way.size() > 1 && way[0] == "passes" && way_[2].value->is(Type::object) ? way_[2].value : nullptr;
   }
 
-  void keys(const Node& object, const Node* typed) {
-    const std::vector<std::string_view> way = wayTo(object);
-    const Node* const stanza = stanzaOf(object);
-    for (KeyDoc& key : keysOf(registry_, object))
+  void keys(const JsonValue& object, const JsonMember* typed) {
+    const std::vector<std::string_view> way = keysOn(way_);
+    const JsonValue* const stanza = this->stanza();
+    for (KeyDoc& key : keysOf(registry_, way_))
       add(std::move(key.key), ItemKind::property, std::move(key.doc));
     if (stanza && way.size() == 3 && isSlotGroup(way[2])) slotKeys(*stanza, way[2]);
     if (stanza && way.size() == 3 && way[2] == "parameters") shaderNames(*stanza, {GlslName::Kind::member});
     if (stanza && way.size() == 3 && way[2] == "bind") inputs(*stanza);
     if (stanza && way.size() == 4 && way[3] == "blend")
       for (const char* group : {"write", "modify"})
-        if (const Node* slots = stanza->find(group))
-          for (const auto& slot : slots->children) add(std::string(slot->key), ItemKind::field);
+        if (const JsonValue* slots = stanza->find(group))
+          for (const JsonMember& slot : slots->members) add(slot.key, ItemKind::field);
     if (way.size() == 1 && way[0] == "set")
       for (const std::string& path : context_.project.closure(text_.path()))
         if (const auto file = context_.project.index(path))
           for (const auto& [name, range] : file->variables) add(name, ItemKind::variable);
-    for (const auto& child : object.children)
-      if (child.get() != typed)
-        std::erase_if(items_, [&](const Item& item) { return item.label == child->key; });
+    for (const JsonMember& child : object.members)
+      if (&child != typed) std::erase_if(items_, [&](const Item& item) { return item.label == child.key; });
   }
 
-  void slotKeys(const Node& stanza, std::string_view group) {
+  void slotKeys(const JsonValue& stanza, std::string_view group) {
     for (const graph::PassType& type : registry_.passTypes)
-      if (type.name == stanza.textOf("type"))
+      if (type.name == textOf(stanza, "type"))
         for (const graph::FixedSlot& slot : type.fixedSlots)
           if ((slot.access == graph::Access::read) == (group == "read"))
             add(slot.name, ItemKind::field, slot.doc);
@@ -126,13 +119,13 @@ class Completer {
     else
       shaderNames(stanza, {output, image, storage_block});
     for (const char* other : {"read", "write", "modify"})
-      if (const Node* slots = stanza.find(other); slots && other != group)
-        for (const auto& slot : slots->children)
-          std::erase_if(items_, [&](const Item& item) { return item.label == slot->key; });
+      if (const JsonValue* slots = stanza.find(other); slots && other != group)
+        for (const JsonMember& slot : slots->members)
+          std::erase_if(items_, [&](const Item& item) { return item.label == slot.key; });
   }
 
   // Offers the names of these kinds that the program of a pass declares.
-  void shaderNames(const Node& stanza, std::initializer_list<GlslName::Kind> kinds) {
+  void shaderNames(const JsonValue& stanza, std::initializer_list<GlslName::Kind> kinds) {
     // Blocks that the engine itself gives to shaders.
     constexpr std::string_view kOwn[] = {"View", "Parameters", "Slice", "instances"};
     const Project::Program program = context_.project.programOf(file_, stanza);
@@ -150,35 +143,32 @@ class Completer {
     }
   }
 
-  void inputs(const Node& stanza) {
+  void inputs(const JsonValue& stanza) {
     const auto include = file_->includes.find(prefixOf(stanza));
     const auto below = include == file_->includes.end() ? nullptr : context_.project.index(include->second);
     if (!below) return;
-    if (const Node* resources = below->text->json().root().find("resources"))
-      for (const auto& resource : resources->children)
-        if (resource->find("input")) add(std::string(resource->key), ItemKind::variable);
+    if (const JsonValue* resources = below->text->json().root.find("resources"))
+      for (const JsonMember& resource : resources->members)
+        if (resource.value.find("input")) add(resource.key, ItemKind::variable);
   }
 
   // ---- values ----
 
-  void value(const Node& node, const std::vector<std::string_view>& way) {
+  void value(const JsonValue& node, const std::vector<std::string_view>& way) {
     if (way.empty()) return;
     const std::string_view last = way.back();
     const bool item = last == "[]";
     const std::string_view key = item && way.size() > 1 ? way[way.size() - 2] : last;
+    for (const KeyDoc& each : keysOf(registry_, Way(way_.begin(), way_.end() - 1)))
+      if (each.key == last && !each.words.empty()) return addWords(each.words);
     if (way[0] == "extends") return files();
     if (way[0] == "present" || way[0] == "outputs") return reference(node);
     if (way[0] == "let") return expression(node);
-    if (way[0] == "parameters" && way.size() == 3) return parameterValue(key);
     if (way[0] == "resources") return resourceValue(node, way, key);
     if (way[0] == "passes" && way.size() > 2) return stanzaValue(node, way, key);
   }
 
-  void parameterValue(std::string_view key) {
-    if (key == "type") addWords(graph::kParameterTypes);
-  }
-
-  void resourceValue(const Node& node, const std::vector<std::string_view>& way, std::string_view key) {
+  void resourceValue(const JsonValue& node, const std::vector<std::string_view>& way, std::string_view key) {
     if (way.size() == 2 || (way.size() == 3 && way[2] == "[]")) return reference(node);
     if (key == "texture") {
       for (const std::string& name : graph::formatNames()) {
@@ -187,40 +177,37 @@ class Completer {
       }
     } else if (key == "import") {
       for (const graph::ImportType& type : registry_.imports) add(type.name, ItemKind::module, type.doc);
-    } else if (key == "view") {
-      addWords(graph::kViewWords);
-    } else if (key == "input") {
-      addWords(graph::kInputWords);
     } else if (key == "reset" || key == "first") {
       reference(node);
     } else if (key == "list") {
       addWords(registry_.drawLists);
     } else {
       if (key == "mips") add("full", ItemKind::keyword, "down to one texel");
-      importChoices(node, key);
+      importChoices(key);
       expression(node);
     }
   }
 
-  void importChoices(const Node& node, std::string_view key) {
-    const std::string_view import = node.parent ? node.parent->textOf("import") : "";
+  // The object around the value.
+  const JsonValue& around() const { return *way_[way_.size() - 2].value; }
+
+  void importChoices(std::string_view key) {
+    const std::string_view import = textOf(around(), "import");
     for (const graph::ImportType& type : registry_.imports)
       if (type.name == import)
         for (const graph::ImportArgument& argument : type.arguments)
           if (argument.name == key) addWords(argument.choices);
   }
 
-  void stanzaValue(const Node& node, const std::vector<std::string_view>& way, std::string_view key) {
+  void stanzaValue(const JsonValue& node, const std::vector<std::string_view>& way, std::string_view key) {
     const std::string_view group = way[2];
     if (isSlotGroup(group) || group == "bind" || (group == "view" && way.size() == 3)) return reference(node);
     if (group == "type") {
       for (const graph::PassType& type : registry_.passTypes) add(type.name, ItemKind::module, type.doc);
-    } else if (group == "update") {
-      addWords(graph::kUpdateWords);
     } else if (group == "include") {
       files();
     } else if (group == "shader") {
-      shaders(node);
+      shaders(key);
     } else if (group == "list") {
       addWords(registry_.drawLists);
     } else if (group == "geometry") {
@@ -231,43 +218,35 @@ class Completer {
           for (const auto& [name, range] : file->passes)
             add(context_.project.prefixIn(text_.path(), path).value_or("") + name, ItemKind::function);
     } else if (group == "group") {
-      for (const Node* other : file_->stanzas)
-        if (const std::string_view name = other->textOf("group"); !name.empty() && other != node.parent)
+      for (const JsonValue* other : file_->stanzas)
+        if (const std::string_view name = textOf(*other, "group"); !name.empty() && other != &around())
           add(std::string(name), ItemKind::value);
-    } else if (group == "state") {
-      stateValue(node, way, key);
-    } else if (group == "parameters" && way.size() == 5 && key == "type") {
-      addWords(graph::kParameterTypes);
+    } else if (group == "state" && way.size() > 3 && way[3] == "blend") {
+      addWords(graph::kBlendWords);
     } else if (group != "name" && group != "as") {
       expression(node);
     }
-  }
-
-  void stateValue(const Node& node, const std::vector<std::string_view>& way, std::string_view key) {
-    const auto words = wordsOfState(way.size() > 3 ? way[3] : key);
-    addWords(words);
-    if (words.empty()) expression(node);
   }
 
   // ---- names inside strings ----
 
   // The text of the string before the name at the cursor. The range of that name goes to fragment_, the character before it to
   // sign_.
-  std::string_view typed(const Node& node) {
+  std::string_view typed(const JsonValue& node) {
     const std::string_view all = text_.bytes();
     std::size_t begin = offset_;
-    while (begin > node.inside().begin && (graph::isIdentChar(all[begin - 1]) || all[begin - 1] == '.'))
-      --begin;
-    sign_ = begin > node.inside().begin ? all[begin - 1] : '\0';
+    const Range whole = inside(node);
+    while (begin > whole.begin && (graph::isIdentChar(all[begin - 1]) || all[begin - 1] == '.')) --begin;
+    sign_ = begin > whole.begin ? all[begin - 1] : '\0';
     std::size_t end = offset_;
-    while (end < node.inside().end && graph::isIdentChar(all[end])) ++end;
+    while (end < whole.end && graph::isIdentChar(all[end])) ++end;
     if (sign_ == '@') --begin;
     fragment_ = Range{begin, end};
-    return all.substr(node.inside().begin, begin - node.inside().begin);
+    return all.substr(whole.begin, begin - whole.begin);
   }
 
-  void reference(const Node& node) {
-    const std::string_view before = node.type == Type::string ? typed(node) : std::string_view();
+  void reference(const JsonValue& node) {
+    const std::string_view before = node.is(Type::string) ? typed(node) : std::string_view();
     if (sign_ == '$') return variables();
     const std::size_t as = before.rfind(" as "), condition = before.rfind(" if ");
     if (condition != std::string_view::npos && (as == std::string_view::npos || as < condition))
@@ -285,8 +264,8 @@ class Completer {
     resources();
   }
 
-  void expression(const Node& node) {
-    if (node.type != Type::string) return;
+  void expression(const JsonValue& node) {
+    if (!node.is(Type::string)) return;
     const std::string_view before = typed(node);
     if (sign_ == '$') return variables();
     const std::size_t open = before.rfind('(');
@@ -298,13 +277,14 @@ class Completer {
       add(function, ItemKind::function);
     addWords(std::initializer_list<const char*>{"screen", "device.software", "true", "false"},
              ItemKind::keyword);
-    if (const Node* stanza = stanzaOf(node))
-      if (const Node* repeat = stanza->find("repeat"))
-        for (const auto& index : repeat->children) {
-          if (!index->key.empty()) add(std::string(index->key), ItemKind::variable, "index of the repeat");
-          for (const auto& inner : index->children)
-            if (!inner->key.empty()) add(std::string(inner->key), ItemKind::variable, "index of the repeat");
-        }
+    const JsonValue* const repeat = stanza() ? stanza()->find("repeat") : nullptr;
+    if (!repeat) return;
+    const auto indices = [&](const JsonValue& ranges) {
+      for (const JsonMember& index : ranges.members)
+        add(index.key, ItemKind::variable, "index of the repeat");
+    };
+    indices(*repeat);
+    for (const JsonValue& item : repeat->items) indices(item);
   }
 
   void resources() {
@@ -350,18 +330,18 @@ class Completer {
     }
   }
 
-  void shaders(const Node& node) {
-    const Node* const stanza = stanzaOf(node);
+  void shaders(std::string_view key) {
+    const JsonValue* const stanza = this->stanza();
     const auto type =
-        std::ranges::find(registry_.passTypes, stanza ? stanza->textOf("type") : "", &graph::PassType::name);
+        std::ranges::find(registry_.passTypes, stanza ? textOf(*stanza, "type") : "", &graph::PassType::name);
     const graph::ShaderShape shape =
         type == registry_.passTypes.end() ? graph::ShaderShape::none : type->shader;
     std::string ending = shape == graph::ShaderShape::compute    ? ".comp.glsl"
                          : shape == graph::ShaderShape::fragment ? ".frag.glsl"
                                                                  : ".glsl";
     bool stem = shape == graph::ShaderShape::draw;
-    if (node.key == "vertex" || node.key == "fragment") {
-      ending = node.key == "vertex" ? ".vert.glsl" : ".frag.glsl";
+    if (key == "vertex" || key == "fragment") {
+      ending = key == "vertex" ? ".vert.glsl" : ".frag.glsl";
       stem = false;
     }
     glsl::ShaderNames names;
@@ -380,6 +360,7 @@ class Completer {
   const std::size_t offset_;
   const graph::Registry& registry_;
   const std::shared_ptr<const FileIndex> file_;
+  Way way_;  // to the value, or to the object around the key
   std::vector<Item> items_;
   std::optional<Range> fragment_;  // of a string: what the choice replaces
   char sign_ = '\0';

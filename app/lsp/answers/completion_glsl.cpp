@@ -28,7 +28,7 @@ Json completionInGlsl(const Context& context, const Text& text, std::size_t offs
                  parameter = mention.kind == Mention::Kind::parameter;
       if (mention.pass != program.stanza || (!slot && !parameter && mention.kind != Mention::Kind::define))
         continue;
-      const Node* const pass = nameNode(*program.stanza);
+      const JsonValue* const pass = nameOf(*program.stanza);
       const std::string detail = fmt::format("{} of pass '{}'",
                                              slot        ? "slot"
                                              : parameter ? "parameter"

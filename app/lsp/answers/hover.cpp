@@ -13,7 +13,7 @@ namespace weft::app::lsp {
 namespace {
 
 using Kind = Mention::Kind;
-using Type = Node::Type;
+using Type = JsonValue::Type;
 
 std::string fenced(const char* language, std::string_view text) {
   return fmt::format("```{}\n{}{}```\n", language, text, text.ends_with('\n') ? "" : "\n");
@@ -57,9 +57,8 @@ std::string ofShaderName(const Context& context, const FileIndex& file, const Me
       text += fenced("glsl", std::string_view(shader->bytes())
                                  .substr(name->statement.begin, name->statement.end - name->statement.begin));
   }
-  if (const Node* pass = nameNode(*mention.pass))
-    if (const std::string lines =
-            linesAbout(explained(context, file.text->path(), std::string(pass->text)), mention.name);
+  if (const JsonValue* pass = nameOf(*mention.pass))
+    if (const std::string lines = linesAbout(explained(context, file.text->path(), pass->text), mention.name);
         !lines.empty())
       text += fenced("text", lines);
   return text;
@@ -86,20 +85,19 @@ std::string ofMention(const Context& context, const FileIndex& file, const Menti
   }
 }
 
-std::string ofValue(const Context& context, const Node& node) {
+std::string ofValue(const Context& context, std::string_view key, const std::string& text) {
   const graph::Registry& registry = context.analysis.registry();
-  if (node.type != Type::string) return "";
-  if (node.key == "texture")
-    if (const auto format = graph::findFormat(node.text)) {
+  if (key == "texture")
+    if (const auto format = graph::findFormat(text)) {
       const graph::FormatInfo& info = graph::infoOf(*format);
       return fmt::format("`{}`: {} bytes per texel, {} channels{}{}\n", info.name, info.bytes, info.channels,
                          info.colorRenderable ? ", can be rendered to" : "",
                          info.imageStorable ? ", can be an image" : "");
     }
-  if (node.key == "import") return docOfImport(registry, node.text);
-  if (node.key == "type")
+  if (key == "import") return docOfImport(registry, text);
+  if (key == "type")
     for (const graph::PassType& type : registry.passTypes)
-      if (type.name == node.text) return fmt::format("**{}**: {}\n", type.name, type.doc);
+      if (type.name == text) return fmt::format("**{}**: {}\n", type.name, type.doc);
   return "";
 }
 
@@ -108,17 +106,18 @@ Json inJson(const Context& context, const Text& text, std::size_t offset) {
   if (!file) return nullptr;
   std::string shown;
   Range range;
-  const JsonOutline::Spot spot = text.json().at(offset);
+  Spot spot = spotAt(text.json(), offset);
   if (const Mention* mention = file->at(offset)) {
     shown = ofMention(context, *file, *mention);
     range = mention->range;
-  } else if (spot.inKey && spot.node->parent) {
-    for (const KeyDoc& key : keysOf(context.analysis.registry(), *spot.node->parent))
-      if (key.key == spot.node->key) shown = fmt::format("**{}**: {}\n", key.key, key.doc);
-    range = spot.node->keyRange;
-  } else if (spot.node) {
-    shown = ofValue(context, *spot.node);
-    range = spot.node->range;
+  } else if (const JsonMember* member = spot.way.back().member; member && spot.inKey) {
+    spot.way.pop_back();
+    for (const KeyDoc& key : keysOf(context.analysis.registry(), spot.way))
+      if (key.key == member->key) shown = fmt::format("**{}**: {}\n", key.key, key.doc);
+    range = inside(*member);
+  } else if (member) {
+    shown = ofValue(context, member->key, member->value.text);
+    range = rangeOf(member->value);
   }
   if (shown.empty()) return nullptr;
   return {{"contents", {{"kind", "markdown"}, {"value", shown}}}, {"range", toJson(text.map(), range)}};
@@ -131,10 +130,10 @@ Json inGlsl(const Context& context, const Text& text, std::size_t offset) {
   std::string shown;
   int count = 0;
   for (const Project::Program& program : context.project.programsWith({text.path()})) {
-    const Node* const pass = nameNode(*program.stanza);
+    const JsonValue* const pass = nameOf(*program.stanza);
     if (!pass || count >= kMostShown) continue;
-    const std::string about = linesAbout(
-        explained(context, program.graph->text->path(), std::string(pass->text)), std::string(word->text));
+    const std::string about =
+        linesAbout(explained(context, program.graph->text->path(), pass->text), std::string(word->text));
     if (about.find("\n  ") == std::string::npos) continue;
     shown += fenced("text", about);
     ++count;
@@ -156,19 +155,20 @@ Json symbol(const LineMap& map, std::string_view name, std::string_view detail, 
   return json;
 }
 
-Json ofStanza(const LineMap& map, const Node& stanza) {
-  const Node* const name = nameNode(stanza);
+Json ofStanza(const LineMap& map, const JsonValue& stanza) {
+  const JsonValue* const name = nameOf(stanza);
   if (!name) return nullptr;
   const std::string prefix = prefixOf(stanza);
-  Json json = prefix.empty()
-                  ? symbol(map, name->text, stanza.textOf("type"), kFunction, stanza.range, name->inside())
-                  : symbol(map, prefix, stanza.textOf("include"), kNamespace, stanza.range, name->inside());
+  Json json =
+      prefix.empty()
+          ? symbol(map, name->text, textOf(stanza, "type"), kFunction, rangeOf(stanza), inside(*name))
+          : symbol(map, prefix, textOf(stanza, "include"), kNamespace, rangeOf(stanza), inside(*name));
   Json slots = Json::array();
   for (const char* key : {"read", "write", "modify"})
-    if (const Node* group = stanza.find(key))
-      for (const auto& slot : group->children)
-        slots.push_back(symbol(map, slot->key, fmt::format("{} {}", key, slot->text), kProperty, slot->range,
-                               slot->keyRange));
+    if (const JsonValue* group = stanza.find(key))
+      for (const JsonMember& slot : group->members)
+        slots.push_back(symbol(map, slot.key, fmt::format("{} {}", key, slot.value.text), kProperty,
+                               rangeOf(slot.value), inside(slot)));
   if (!slots.empty()) json["children"] = std::move(slots);
   return json;
 }
@@ -192,24 +192,25 @@ Json symbolsOf(const Context& context, const Text& text) {
     return all;
   }
   const auto file = context.project.index(text.path());
-  if (!file || text.json().root().type != Type::object) return all;
-  for (const auto& member : text.json().root().children) {
-    const bool named = member->key == "parameters" || member->key == "let" || member->key == "resources";
-    if (!named && member->key != "passes") continue;
-    Json group =
-        symbol(map, member->key, "", member->key == "passes" ? kFile : kKey, member->range, member->keyRange);
+  if (!file || !text.json().root.is(Type::object)) return all;
+  for (const JsonMember& member : text.json().root.members) {
+    const bool named = member.key == "parameters" || member.key == "let" || member.key == "resources";
+    if (!named && member.key != "passes") continue;
+    Json group = symbol(map, member.key, "", named ? kKey : kFile, rangeOf(member.value), inside(member));
     Json children = Json::array();
-    for (const auto& child : member->children) {
-      if (named) {
-        std::string_view detail = child->text;
-        for (const char* key : {"texture", "import", "input", "type", "buffer"})
-          if (const Node* kind = child->find(key)) detail = kind->text;
-        children.push_back(symbol(map, child->key, detail, member->key == "resources" ? kVariable : kConstant,
-                                  child->range, child->keyRange));
-      } else if (Json stanza = ofStanza(map, *child); !stanza.is_null()) {
-        children.push_back(std::move(stanza));
-      }
+    const auto detailOf = [&](const JsonValue& value) {
+      return value.is(Type::object) || value.is(Type::array) ? std::string_view() : text.written(value);
+    };
+    for (const JsonMember& child : member.value.members) {
+      if (!named) break;
+      std::string_view detail = detailOf(child.value);
+      for (const char* key : {"texture", "import", "input", "type", "buffer"})
+        if (const JsonValue* kind = child.value.find(key)) detail = detailOf(*kind);
+      children.push_back(symbol(map, child.key, detail, member.key == "resources" ? kVariable : kConstant,
+                                rangeOf(child.value), inside(child)));
     }
+    for (const JsonValue& item : member.value.items)
+      if (Json stanza = ofStanza(map, item); !stanza.is_null()) children.push_back(std::move(stanza));
     group["children"] = std::move(children);
     all.push_back(std::move(group));
   }

@@ -13,17 +13,17 @@ namespace {
 void append(std::vector<KeyDoc>& out, std::span<const graph::KeySpec> specs) {
   for (const graph::KeySpec& spec : specs)
     if (std::ranges::find(out, spec.key, &KeyDoc::key) == out.end())
-      out.push_back({std::string(spec.key), std::string(spec.doc)});
+      out.push_back({std::string(spec.key), std::string(spec.doc), spec.words});
 }
 
-std::vector<KeyDoc> keysOfResource(const graph::Registry& registry, const Node& object) {
+std::vector<KeyDoc> keysOfResource(const graph::Registry& registry, const JsonValue& object) {
   std::vector<KeyDoc> keys;
-  if (const Node* import = object.find("import")) {
+  if (const JsonValue* import = object.find("import")) {
     append(keys, graph::kImportKeys);
     for (const graph::ImportType& type : registry.imports)
       if (type.name == import->text)
         for (const graph::ImportArgument& argument : type.arguments)
-          keys.push_back({argument.name, argument.doc});
+          keys.push_back({argument.name, argument.doc, {}});
     return keys;
   }
   const bool texture = object.find("texture"), buffer = object.find("buffer"), input = object.find("input");
@@ -36,13 +36,14 @@ std::vector<KeyDoc> keysOfResource(const graph::Registry& registry, const Node& 
 }
 
 // The keys of a stanza, without those that only other types of passes take.
-std::vector<KeyDoc> keysOfStanza(const graph::Registry& registry, const Node& object, const Node& root) {
+std::vector<KeyDoc> keysOfStanza(const graph::Registry& registry, const JsonValue& object,
+                                 const JsonValue& root) {
   std::vector<KeyDoc> keys;
   if (object.find("include")) {
     append(keys, graph::kIncludeKeys);
   } else {
     append(keys, graph::kPassKeys);
-    const auto type = std::ranges::find(registry.passTypes, object.textOf("type"), &graph::PassType::name);
+    const auto type = std::ranges::find(registry.passTypes, textOf(object, "type"), &graph::PassType::name);
     if (type != registry.passTypes.end())
       std::erase_if(keys, [&](const KeyDoc& key) {
         if (std::ranges::find(type->keys, key.key) != type->keys.end()) return false;
@@ -51,7 +52,7 @@ std::vector<KeyDoc> keysOfStanza(const graph::Registry& registry, const Node& ob
           return std::ranges::find(other.keys, key.key) != other.keys.end();
         });
       });
-    else if (object.children.size() <= 1)
+    else if (object.members.size() <= 1)
       append(keys, graph::kIncludeKeys);
   }
   if (root.find("extends")) append(keys, graph::kPlaceKeys);
@@ -60,18 +61,9 @@ std::vector<KeyDoc> keysOfStanza(const graph::Registry& registry, const Node& ob
 
 }  // namespace
 
-std::vector<std::string_view> wayTo(const Node& node) {
-  std::vector<std::string_view> way;
-  for (const Node* at = &node; at->parent; at = at->parent)
-    way.push_back(at->parent->type == Node::Type::array ? std::string_view("[]") : at->key);
-  std::ranges::reverse(way);
-  return way;
-}
-
-std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Node& object) {
-  const std::vector<std::string_view> way = wayTo(object);
-  const Node* root = &object;
-  while (root->parent) root = root->parent;
+std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Way& steps) {
+  const std::vector<std::string_view> way = keysOn(steps);
+  const JsonValue& object = *steps.back().value;
   std::vector<KeyDoc> keys;
   if (way.empty()) {
     append(keys, graph::kGraphKeys);
@@ -80,7 +72,7 @@ std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Node& object) 
   } else if (way[0] == "resources" && way.size() == 2) {
     return keysOfResource(registry, object);
   } else if (way[0] == "passes" && way.size() == 2) {
-    return keysOfStanza(registry, object, *root);
+    return keysOfStanza(registry, object, *steps.front().value);
   } else if (way[0] == "passes" && way.size() == 3 && way[2] == "state") {
     append(keys, graph::kStateKeys);
   } else if (way[0] == "passes" && way.size() == 3 && way[2] == "shader") {
@@ -89,15 +81,6 @@ std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Node& object) 
     append(keys, graph::kParameterKeys);
   }
   return keys;
-}
-
-std::vector<std::string_view> wordsOfState(std::string_view key) {
-  if (key == "blend") return {"none", "add", "alpha", "premultiplied", "multiply", "min", "max"};
-  if (key == "depth_test")
-    return {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
-  if (key == "cull") return {"none", "front", "back"};
-  if (key == "polygon") return {"fill", "line"};
-  return {};
 }
 
 std::string docOfImport(const graph::Registry& registry, std::string_view name) {

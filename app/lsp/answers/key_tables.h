@@ -2,27 +2,23 @@
 // values, or names that authors give.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/lsp/text/json_outline.h"
+#include "app/lsp/text/json_spot.h"
 #include "engine/graph/registry.h"
 
 namespace weft::app::lsp {
 
 struct KeyDoc {
   std::string key, doc;
+  std::span<const std::string_view> words{};  // that it may be, where these are few
 };
 
-// The keys on the way from the root to a node; "[]" for items of arrays.
-std::vector<std::string_view> wayTo(const Node& node);
-
-// Empty where the author names the keys.
-std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Node& object);
-
-// The words that a key of "state" takes; empty for a key that takes a value.
-std::vector<std::string_view> wordsOfState(std::string_view key);
+// The keys of the object at the end of the way; empty where the author names them.
+std::vector<KeyDoc> keysOf(const graph::Registry& registry, const Way& object);
 
 // Documentation as Markdown; "" when the type is no import.
 std::string docOfImport(const graph::Registry& registry, std::string_view type);

@@ -48,7 +48,7 @@ void usesInShaders(const Context& context, Uses& uses, std::set<std::string> fil
     const std::string& graph = program.graph->text->path();
     uses.files.insert(program.files.begin(), program.files.end());
     for (const Range& key : keysOf(program, uses.name)) uses.locations.insert({graph, key});
-    if (const Node* name = nameNode(*program.stanza))  // $pass.parameter
+    if (const JsonValue* name = nameOf(*program.stanza))  // $pass.parameter
       for (const Mention& mention : program.graph->mentions)
         if (mention.kind == Kind::variable && mention.name == fmt::format("{}.{}", name->text, uses.name))
           uses.locations.insert({graph, mention.range});
@@ -103,13 +103,13 @@ std::string problemOfName(const Uses& uses, const std::string& name) {
 
 // An input that an include does not bind takes the resource of its own name. Another name for one of the two parts them.
 std::string problemOfInputs(const Context& context, const Uses& uses) {
-  const auto isUnbound = [&](const Node& stanza) {
-    const Node* const bind = stanza.find("bind");
+  const auto isUnbound = [&](const JsonValue& stanza) {
+    const JsonValue* const bind = stanza.find("bind");
     return stanza.find("include") && !(bind && bind->find(uses.name));
   };
   const auto isInput = [&](const FileIndex& file) {
-    const Node* const resources = file.text->json().root().find("resources");
-    const Node* const resource = resources ? resources->find(uses.name) : nullptr;
+    const JsonValue* const resources = file.text->json().root.find("resources");
+    const JsonValue* const resource = resources ? resources->find(uses.name) : nullptr;
     return resource && resource->find("input");
   };
   const auto problem = [&](const std::string& include, const std::string& path) {
@@ -121,7 +121,7 @@ std::string problemOfInputs(const Context& context, const Uses& uses) {
   for (const std::string& path : uses.files) {
     const auto file = context.project.index(path);
     if (!file || !file->resources.contains(uses.name)) continue;
-    for (const Node* const stanza : file->stanzas) {
+    for (const JsonValue* const stanza : file->stanzas) {
       const auto below = isUnbound(*stanza) ? file->includes.find(prefixOf(*stanza)) : file->includes.end();
       const auto included = below == file->includes.end() ? nullptr : context.project.index(below->second);
       if (included && isInput(*included)) return problem(below->first, path);
@@ -129,7 +129,7 @@ std::string problemOfInputs(const Context& context, const Uses& uses) {
     if (!isInput(*file)) continue;
     for (const std::string& above : context.project.includersOf(path))
       if (const auto including = context.project.index(above))
-        for (const Node* const stanza : including->stanzas)
+        for (const JsonValue* const stanza : including->stanzas)
           if (const auto below = including->includes.find(prefixOf(*stanza));
               isUnbound(*stanza) && below != including->includes.end() && below->second == path)
             return problem(below->first, above);

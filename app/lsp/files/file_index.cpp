@@ -13,7 +13,7 @@ namespace weft::app::lsp {
 namespace {
 
 using Kind = Mention::Kind;
-using Type = Node::Type;
+using Type = JsonValue::Type;
 
 constexpr int kMostParts = 128;  // of a dotted name; fewer files may include each other in a row
 
@@ -26,52 +26,48 @@ class Indexer {
   explicit Indexer(FileIndex& out) : out_(out) {}
 
   void run() {
-    const Node& root = out_.text->json().root();
-    if (root.type != Type::object) return;
-    if (const Node* below = root.find("extends")) extends(*below);  // first: stanzas depend on it
-    for (const auto& member : root.children) {
-      out_.isGraph |= isOneOf(member->key, {"passes", "resources", "parameters", "let", "extends", "present",
-                                            "outputs"}) ||
-                      (member->key == "set" && member->type == Type::object) ||
-                      (member->key == "$schema" && member->text.ends_with("graph.schema.json"));
-      top(*member);
+    const JsonValue& root = out_.text->json().root;
+    if (!root.is(Type::object)) return;
+    if (const JsonValue* below = root.find("extends")) extends(*below);  // first: stanzas depend on it
+    for (const JsonMember& member : root.members) {
+      out_.isGraph |= isOneOf(member.key, {"passes", "resources", "parameters", "let", "extends", "present",
+                                           "outputs"}) ||
+                      (member.key == "set" && member.value.is(Type::object)) ||
+                      (member.key == "$schema" && member.value.text.ends_with("graph.schema.json"));
+      top(member);
     }
     out_.isPreset = out_.extends.empty() && root.find("set") && !root.find("present");
     std::ranges::stable_sort(out_.mentions, {}, [](const Mention& m) { return m.range.begin; });
   }
 
  private:
-  void extends(const Node& below) {
-    const auto name = [&](const Node& written) {
-      if (written.type != Type::string) return;
-      out_.extends.push_back(beside(written.text));
-      add(Kind::file, written.inside(), std::string(written.text));
-    };
-    name(below);
-    for (const auto& each : below.children) name(*each);
+  void extends(const JsonValue& below) {
+    if (below.is(Type::string)) {
+      out_.extends.push_back(beside(below.text));
+      add(Kind::file, inside(below), below.text);
+    }
+    for (const JsonValue& each : below.items) extends(each);
   }
 
-  void top(const Node& member) {
+  void top(const JsonMember& member) {
+    const JsonValue& value = member.value;
     if (isOneOf(member.key, {"parameters", "let"})) {
-      for (const auto& child : member.children) {
-        declare(out_.variables, Kind::variable, *child);
-        if (child->type == Type::object)
-          for (const auto& key : child->children) expressions(*key, key->key);
-        else
-          expressions(*child, "");
+      for (const JsonMember& child : value.members) {
+        declare(out_.variables, Kind::variable, child);
+        expressions(child.value, "");
       }
     } else if (member.key == "resources") {
-      for (const auto& child : member.children) resource(*child);
+      for (const JsonMember& child : value.members) resource(child);
     } else if (member.key == "set") {
-      for (const auto& child : member.children)
-        add(Kind::variable, lastPart(child->keyRange, child->key), std::string(child->key));
+      for (const JsonMember& child : value.members)
+        add(Kind::variable, lastPart(inside(child), child.key), child.key);
     } else if (member.key == "passes") {
-      for (const auto& child : member.children)
-        if (child->type == Type::object) stanza(*child);
+      for (const JsonValue& child : value.items)
+        if (child.is(Type::object)) stanza(child);
     } else if (member.key == "present") {
-      reference(member);
+      reference(value);
     } else if (member.key == "outputs") {
-      for (const auto& child : member.children) reference(*child);
+      for (const JsonMember& child : value.members) reference(child.value);
     }
   }
 
@@ -90,90 +86,88 @@ class Indexer {
     return out_.mentions.back();
   }
 
-  void declare(std::map<std::string, Range, std::less<>>& names, Kind kind, const Node& member) {
-    names.try_emplace(std::string(member.key), member.keyRange);
-    add(kind, lastPart(member.keyRange, member.key), std::string(member.key), true);
+  void declare(std::map<std::string, Range, std::less<>>& names, Kind kind, const JsonMember& member) {
+    names.try_emplace(member.key, inside(member));
+    add(kind, lastPart(inside(member), member.key), member.key, true);
   }
 
-  void resource(const Node& member) {
+  void resource(const JsonMember& member) {
     declare(out_.resources, Kind::resource, member);
-    if (member.type == Type::string || member.type == Type::array) return references(member);
-    for (const auto& child : member.children) {
-      if (child->key == "reset")
-        references(*child);
-      else if (child->key == "first" && child->type == Type::string && graph::looksLikeRef(child->text))
-        reference(*child);
-      else if (!isOneOf(child->key, {"texture", "import", "input", "view"}))
-        expressions(*child, child->key);
+    references(member.value);
+    for (const JsonMember& child : member.value.members) {
+      if (child.key == "reset")
+        references(child.value);
+      else if (child.key == "first" && graph::looksLikeRef(child.value.text))
+        reference(child.value);
+      else if (!isOneOf(child.key, {"texture", "import", "input", "view"}))
+        expressions(child.value, child.key);
     }
   }
 
-  void stanza(const Node& node) {
+  void stanza(const JsonValue& node) {
     pass_ = &node;
     out_.stanzas.push_back(&node);
     const std::string prefix = prefixOf(node);
-    if (const Node* name = nameNode(node)) {
-      const std::string own = prefix.empty() ? std::string(name->text) : prefix;
+    if (const JsonValue* name = nameOf(node)) {
+      const std::string own = prefix.empty() ? name->text : prefix;
       // A stanza of an overlay that has no type is about a pass of the file below.
       const bool typed = !prefix.empty() || node.find("type") || node.find("like");
       const bool declares = typed || out_.extends.empty();
-      if (declares) (typed ? out_.passes : out_.untyped).try_emplace(own, name->inside());
-      if (name->key != "include") add(Kind::pass, lastPart(name->inside(), name->text), own, declares);
+      if (declares) (typed ? out_.passes : out_.untyped).try_emplace(own, inside(*name));
+      if (name != node.find("include")) add(Kind::pass, lastPart(inside(*name), name->text), own, declares);
     }
-    for (const auto& member : node.children) stanzaMember(node, *member, prefix);
+    for (const JsonMember& member : node.members) stanzaMember(node, member, prefix);
     pass_ = nullptr;
   }
 
-  void stanzaMember(const Node& node, const Node& member, const std::string& prefix) {
-    const std::string_view key = member.key;
-    if (key == "include" && member.type == Type::string) {
-      out_.includes.try_emplace(prefix, beside(member.text));
-      add(Kind::file, member.inside(), std::string(member.text));
+  void stanzaMember(const JsonValue& node, const JsonMember& member, const std::string& prefix) {
+    const std::string& key = member.key;
+    const JsonValue& value = member.value;
+    if (key == "include" && value.is(Type::string)) {
+      out_.includes.try_emplace(prefix, beside(value.text));
+      add(Kind::file, inside(value), value.text);
     } else if (key == "shader") {
-      if (member.type == Type::string) add(Kind::shader, member.inside(), std::string(member.text));
-      for (const auto& child : member.children)
-        if (child->type == Type::string) add(Kind::shader, child->inside(), std::string(child->text));
+      if (value.is(Type::string)) add(Kind::shader, inside(value), value.text);
+      for (const JsonMember& child : value.members)
+        if (child.value.is(Type::string)) add(Kind::shader, inside(child.value), child.value.text);
     } else if (isOneOf(key, {"read", "write", "modify"})) {
-      for (const auto& slot : member.children) {
-        add(Kind::slot, slot->keyRange, std::string(slot->key), true);
-        reference(*slot);
+      for (const JsonMember& slot : value.members) {
+        add(Kind::slot, inside(slot), slot.key, true);
+        reference(slot.value);
       }
     } else if (key == "bind") {
-      for (const auto& bound : member.children) {
-        add(Kind::resource, bound->keyRange, prefix + "." + std::string(bound->key));
-        reference(*bound);
+      for (const JsonMember& bound : value.members) {
+        add(Kind::resource, inside(bound), prefix + "." + bound.key);
+        reference(bound.value);
       }
     } else if (isOneOf(key, {"parameters", "defines"})) {
-      for (const auto& value : member.children) parameter(node, *value, key == "defines");
+      for (const JsonMember& each : value.members) parameter(node, each, key == "defines");
     } else if (key == "view") {
-      reference(member);
-    } else if (isOneOf(key, {"like", "before", "after"}) && member.type == Type::string) {
-      add(Kind::pass, lastPart(member.inside(), member.text), std::string(member.text));
+      reference(value);
+    } else if (isOneOf(key, {"like", "before", "after"}) && value.is(Type::string)) {
+      add(Kind::pass, lastPart(inside(value), value.text), value.text);
     } else if (key == "state") {
-      const Node* const blend = member.find("blend");
-      if (blend && blend->type == Type::object)
-        for (const auto& slot : blend->children) add(Kind::slot, slot->keyRange, std::string(slot->key));
-      for (const auto& value : member.children) expressions(*value, value->key);
+      if (const JsonValue* blend = value.find("blend"))
+        for (const JsonMember& slot : blend->members) add(Kind::slot, inside(slot), slot.key);
+      expressions(value, "");
     } else if (!isOneOf(key, {"name", "as", "type", "update", "group", "list"})) {
-      expressions(member, key);
+      expressions(value, key);
     }
   }
 
-  void parameter(const Node& node, const Node& value, bool define) {
-    add(define ? Kind::define : Kind::parameter, value.keyRange, std::string(value.key), true);
-    if (value.type == Type::object) {
-      const Node* const name = nameNode(node);
-      if (name)
-        out_.variables.try_emplace(std::string(name->text) + "." + std::string(value.key), value.keyRange);
-    }
-    expressions(value, value.key);
+  void parameter(const JsonValue& node, const JsonMember& member, bool define) {
+    add(define ? Kind::define : Kind::parameter, inside(member), member.key, true);
+    const JsonValue* const name = nameOf(node);
+    if (name && member.value.is(Type::object))
+      out_.variables.try_emplace(name->text + "." + member.key, inside(member));
+    expressions(member.value, member.key);
   }
 
   // ---- inside strings ----
 
-  void references(const Node& node) {
-    if (node.type == Type::string) reference(node);
-    for (const auto& child : node.children) references(*child);
+  void references(const JsonValue& value) {
+    reference(value);
+    for (const JsonValue& item : value.items) references(item);
   }
 
   // Adds a mention for each part of the dotted name that begins at `at`, of the name up to that part, for kMostParts parts at
@@ -196,25 +190,27 @@ class Indexer {
     }
   }
 
-  void reference(const Node& node) {
-    if (node.type != Type::string) return;
-    const std::size_t base = node.inside().begin;
+  void reference(const JsonValue& value) {
+    if (!value.is(Type::string)) return;
+    const std::string_view text = out_.text->written(value);
+    const std::size_t base = inside(value).begin;
     std::size_t at = 0;
-    while (at < node.text.size() && graph::isSpace(node.text[at])) ++at;
-    const bool import = at < node.text.size() && node.text[at] == '@';
+    while (at < text.size() && graph::isSpace(text[at])) ++at;
+    const bool import = at < text.size() && text[at] == '@';
     if (import) ++at;
     std::size_t end = at;
-    while (end < node.text.size() && graph::isIdentChar(node.text[end])) ++end;
-    const bool call = end < node.text.size() && node.text[end] == '(';
-    if (!call && at < node.text.size() && graph::isIdentStart(node.text[at]))
-      at = dotted(node.text, base, at, import ? Kind::import : Kind::resource);
-    expression(node.text, base, at);
+    while (end < text.size() && graph::isIdentChar(text[end])) ++end;
+    const bool call = end < text.size() && text[end] == '(';
+    if (!call && at < text.size() && graph::isIdentStart(text[at]))
+      at = dotted(text, base, at, import ? Kind::import : Kind::resource);
+    expression(text, base, at);
   }
 
-  void expressions(const Node& node, std::string_view key) {
+  void expressions(const JsonValue& value, std::string_view key) {
     if (isOneOf(key, {"label", "doc", "description", "choices", "type"})) return;
-    if (node.type == Type::string) expression(node.text, node.inside().begin, 0);
-    for (const auto& child : node.children) expressions(*child, child->key);
+    if (value.is(Type::string)) expression(out_.text->written(value), inside(value).begin, 0);
+    for (const JsonValue& item : value.items) expressions(item, "");
+    for (const JsonMember& member : value.members) expressions(member.value, member.key);
   }
 
   void expression(std::string_view text, std::size_t base, std::size_t at) {
@@ -242,7 +238,7 @@ class Indexer {
   }
 
   FileIndex& out_;
-  const Node* pass_ = nullptr;
+  const JsonValue* pass_ = nullptr;
 };
 
 }  // namespace
@@ -258,10 +254,10 @@ const Mention* FileIndex::at(std::size_t offset) const {
   return found;
 }
 
-const Node* FileIndex::stanza(std::string_view name) const {
-  for (const Node* each : stanzas) {
+const JsonValue* FileIndex::stanza(std::string_view name) const {
+  for (const JsonValue* each : stanzas) {
     const std::string prefix = prefixOf(*each);
-    if (prefix.empty() ? each->textOf("name") == name : prefix == name) return each;
+    if (prefix.empty() ? textOf(*each, "name") == name : prefix == name) return each;
   }
   return nullptr;
 }
@@ -273,30 +269,30 @@ std::shared_ptr<const FileIndex> indexOf(std::shared_ptr<const Text> text) {
   return index;
 }
 
-std::string prefixOf(const Node& stanza) {
-  const Node* const include = stanza.find("include");
-  if (!include || include->type != Type::string) return "";
-  const std::string_view as = stanza.textOf("as");
+std::string prefixOf(const JsonValue& stanza) {
+  const JsonValue* const include = stanza.find("include");
+  if (!include || !include->is(Type::string)) return "";
+  const std::string_view as = textOf(stanza, "as");
   return as.empty() ? std::filesystem::path(include->text).stem().string() : std::string(as);
 }
 
-const Node* nameNode(const Node& stanza) {
+const JsonValue* nameOf(const JsonValue& stanza) {
   for (const char* key : {"name", "as", "include"})
-    if (const Node* node = stanza.find(key); node && node->type == Type::string) return node;
+    if (const JsonValue* value = stanza.find(key); value && value->is(Type::string)) return value;
   return nullptr;
 }
 
-std::vector<std::string> shadersOf(const FileIndex& index, const Node& stanza) {
-  const Node* node = &stanza;
+std::vector<std::string> shadersOf(const FileIndex& index, const JsonValue& stanza) {
+  const JsonValue* node = &stanza;
   for (int depth = 0; node && depth < 32; ++depth) {
-    if (const Node* shader = node->find("shader")) {
-      if (shader->type == Type::object)
-        return {std::string(shader->textOf("vertex")), std::string(shader->textOf("fragment"))};
-      const std::string path(shader->text);
+    if (const JsonValue* shader = node->find("shader")) {
+      if (shader->is(Type::object))
+        return {std::string(textOf(*shader, "vertex")), std::string(textOf(*shader, "fragment"))};
+      const std::string& path = shader->text;
       if (path.ends_with(".glsl")) return {path};
       return {path + ".vert.glsl", path + ".frag.glsl"};
     }
-    const std::string_view like = node->textOf("like");
+    const std::string_view like = textOf(*node, "like");
     node = like.empty() ? nullptr : index.stanza(like);
     if (node == &stanza) break;
   }

@@ -27,7 +27,7 @@ struct Mention {
   bool mayBePass = false;  // of has(x): the name of a resource, or of a pass when there is no such resource
   Range range;             // of the last part of the name
   std::string name;        // all parts up to that one, without @ and $
-  const Node* pass = nullptr;  // the stanza it stands in
+  const JsonValue* pass = nullptr;  // the stanza it stands in
   bool declares = false;
 };
 
@@ -39,21 +39,21 @@ struct FileIndex {
   std::map<std::string, std::string, std::less<>> includes;  // absolute paths by prefix
   std::map<std::string, Range, std::less<>> resources, variables, passes;
   std::map<std::string, Range, std::less<>> untyped;  // stanzas without a type, where nothing is extended
-  std::vector<const Node*> stanzas;                   // passes and includes
+  std::vector<const JsonValue*> stanzas;              // passes and includes
   std::vector<Mention> mentions;                      // in the order of the text
 
   bool doesExtend(const std::string& path) const;
   const Mention* at(std::size_t offset) const;
-  const Node* stanza(std::string_view name) const;
+  const JsonValue* stanza(std::string_view name) const;
 };
 
 std::shared_ptr<const FileIndex> indexOf(std::shared_ptr<const Text> text);
 
 // The prefix of an include: its "as", else the file's name. "" for a pass.
-std::string prefixOf(const Node& stanza);
-// Where the name of a stanza stands: the text of "name", "as" or "include".
-const Node* nameNode(const Node& stanza);
+std::string prefixOf(const JsonValue& stanza);
+// What names a stanza: the string of "name", "as" or "include". Null when there is none.
+const JsonValue* nameOf(const JsonValue& stanza);
 // The shaders that a stanza names, with what "like" takes over: paths as written, of a draw both.
-std::vector<std::string> shadersOf(const FileIndex& index, const Node& stanza);
+std::vector<std::string> shadersOf(const FileIndex& index, const JsonValue& stanza);
 
 }  // namespace weft::app::lsp

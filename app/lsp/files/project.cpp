@@ -272,8 +272,8 @@ std::optional<Definition> Project::resolve(const FileIndex& from, const Mention&
       const auto graph = index(from.text->path());
       if (!graph || !mention.pass) return std::nullopt;
       // The node may belong to an older outline of the same text.
-      const Node* const name = nameNode(*mention.pass);
-      const Node* const stanza = name ? graph->stanza(name->text) : nullptr;
+      const JsonValue* const name = nameOf(*mention.pass);
+      const JsonValue* const stanza = name ? graph->stanza(name->text) : nullptr;
       return stanza ? findInShaders(programOf(graph, *stanza), mention.name) : std::nullopt;
     }
     case Kind::file: {
@@ -357,7 +357,8 @@ std::vector<std::string> Project::shaderClosure(const std::string& path,
   return found.all();
 }
 
-Project::Program Project::programOf(const std::shared_ptr<const FileIndex>& graph, const Node& stanza) const {
+Project::Program Project::programOf(const std::shared_ptr<const FileIndex>& graph,
+                                    const JsonValue& stanza) const {
   Program program{graph, &stanza, {}};
   const std::vector<std::string> folders = shaderFolders(graph->text->path());
   for (const std::string& shader : shadersOf(*graph, stanza))
@@ -372,7 +373,7 @@ std::vector<Project::Program> Project::programsWith(const std::set<std::string>&
   std::vector<Program> found;
   for (const std::string& path : graphFiles()) {
     const auto graph = index(path);
-    for (const Node* stanza : graph->stanzas) {
+    for (const JsonValue* stanza : graph->stanzas) {
       Program program = programOf(graph, *stanza);
       if (std::ranges::any_of(program.files, [&](const std::string& each) { return files.contains(each); }))
         found.push_back(std::move(program));

@@ -74,10 +74,10 @@ class Project {
   // A pass and the GLSL files of its program.
   struct Program {
     std::shared_ptr<const FileIndex> graph;
-    const Node* stanza = nullptr;
+    const JsonValue* stanza = nullptr;
     std::vector<std::string> files;
   };
-  Program programOf(const std::shared_ptr<const FileIndex>& graph, const Node& stanza) const;
+  Program programOf(const std::shared_ptr<const FileIndex>& graph, const JsonValue& stanza) const;
   // All programs that have one of these files.
   std::vector<Program> programsWith(const std::set<std::string>& files) const;
   std::optional<Definition> findInShaders(const Program& program, std::string_view name) const;

@@ -86,17 +86,6 @@ Position LineMap::positionOf(std::size_t offset) const {
   return {static_cast<std::uint32_t>(line), from.units};
 }
 
-std::size_t LineMap::offsetOf(const base::Place& place) const {
-  if (place.line == 0) return 0;
-  std::size_t at = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  for (std::uint32_t line = 1; line < place.line; ++line) {
-    const std::size_t end = text_.find('\n', at);
-    if (end == std::string_view::npos) return text_.size();
-    at = end + 1;
-  }
-  return std::min(at + (place.column > 0 ? place.column - 1 : 0), text_.size());
-}
-
 Json toJson(const Position& position) {
   return {{"line", position.line}, {"character", position.character}};
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/json/dom.h"
 
 namespace weft::app::lsp {
 
@@ -20,11 +21,7 @@ struct Position {
   friend auto operator<=>(const Position&, const Position&) = default;
 };
 
-// Bytes [begin, end) of a text.
-struct Range {
-  std::size_t begin = 0, end = 0;
-  bool holds(std::size_t at) const { return begin <= at && at <= end; }
-};
+using Range = base::ByteRange;
 
 // A text with the offsets of its lines, which end with \n, \r\n or \r. An offset or position outside is taken for the nearest
 // one inside. The text must outlive it.
@@ -33,8 +30,6 @@ class LineMap {
   explicit LineMap(std::string_view text);
   std::size_t offsetOf(const Position& position) const;
   Position positionOf(std::size_t offset) const;
-  // The offset of a diagnostic's place: lines end with \n there, a column counts bytes.
-  std::size_t offsetOf(const base::Place& place) const;
   std::string_view text() const { return text_; }
 
  private:

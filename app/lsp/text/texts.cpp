@@ -13,9 +13,14 @@ std::string pathKey(const std::string& path) {
   return (ec ? std::filesystem::path(path) : absolute).lexically_normal().string();
 }
 
-const JsonOutline& Text::json() const {
-  if (!json_) json_ = std::make_unique<JsonOutline>(*bytes_);
+const base::JsonTree& Text::json() const {
+  if (!json_) json_ = std::make_unique<base::JsonTree>(base::parseJsonTree(*bytes_));
   return *json_;
+}
+
+std::string_view Text::written(const JsonValue& string) const {
+  const Range range = inside(string);
+  return std::string_view(*bytes_).substr(range.begin, range.end - range.begin);
 }
 
 const GlslOutline& Text::glsl() const {

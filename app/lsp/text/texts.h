@@ -8,10 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/lsp/text/glsl_outline.h"
-#include "app/lsp/text/json_outline.h"
+#include "app/lsp/text/json_spot.h"
 #include "app/lsp/text/positions.h"
 
 namespace weft::app::lsp {
@@ -26,7 +27,9 @@ class Text {
   const std::string& path() const { return path_; }
   const std::string& bytes() const { return *bytes_; }
   const LineMap& map() const { return map_; }
-  const JsonOutline& json() const;
+  const base::JsonTree& json() const;
+  // A string as it is written, without its quotes.
+  std::string_view written(const JsonValue& string) const;
   const GlslOutline& glsl() const;
   bool isJson() const { return path_.ends_with(".json"); }
 
@@ -34,7 +37,7 @@ class Text {
   std::string path_;
   std::shared_ptr<const std::string> bytes_;
   LineMap map_;
-  mutable std::unique_ptr<JsonOutline> json_;
+  mutable std::unique_ptr<base::JsonTree> json_;
   mutable std::unique_ptr<GlslOutline> glsl_;
 };
 

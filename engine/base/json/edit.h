@@ -1,39 +1,50 @@
-// Small changes of a JSON file's text that leave every other byte as it is: comments, layout, line ends, a
-// byte order mark. New members and items take the style of those around them: a line of their own or the same
-// line, the indentation, tabs. Each function takes and returns the whole text, is given the new value as JSON
-// text, and yields nothing when the text does not parse or the pointer leads nowhere. Does not: open files,
-// check what the values mean, or remove anything.
+// Small changes of a JSON text that leave every other byte as it is: comments, layout, line ends, a byte order mark. New members
+// and items take the style of those around them: a line of their own or the same line, the indentation, tabs.
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/json/dom.h"
 
 namespace weft::base {
 
-// The value at a JSON pointer such as "/passes/3/enabled"; null when there is none.
-const JsonValue* findPointer(const JsonValue& root, std::string_view pointer);
+// A text and its tree. Each change gives the whole changed text; what it is given as `json` is JSON text. The text must outlive
+// it.
+class JsonEdit {
+ public:
+  explicit JsonEdit(std::string_view text);
+  // False when the text has mistakes; then nothing is to be changed.
+  explicit operator bool() const { return good_; }
+  const JsonValue& root() const { return tree_.root; }
+  const JsonValue& valueAt(const Place& place) const {
+    return base::valueAt(tree_.root, offsetOf(text_, place));
+  }
+  std::string_view written(const JsonValue& value) const {
+    return text_.substr(value.begin, value.end - value.begin);
+  }
 
-// Bytes [begin, end) of a value of `text`, which is what parseJson read it from.
-struct ByteRange {
-  std::size_t begin = 0, end = 0;
+  std::string withValue(const JsonValue& value, std::string_view json) const;
+  // With a new last member, or one behind the member `after` where that is there. The object does not have the key.
+  std::string withMember(const JsonValue& object, std::string_view key, std::string_view json,
+                         std::string_view after = {}) const;
+  // With a new last item.
+  std::string withItem(const JsonValue& array, std::string_view json) const;
+
+ private:
+  // Behind white space and comments.
+  std::size_t skipBlank(std::size_t at) const;
+  // From `at` only blanks and comments until the line ends: that end (before "\r\n" or "\n"), else `at`.
+  std::size_t restOfLine(std::size_t at) const;
+  // `added` behind element `index` of the elements of a container, of which there is one at least.
+  std::string putBehind(const std::vector<ByteRange>& elements, std::size_t index,
+                        const std::string& added) const;
+
+  std::string_view text_;
+  JsonTree tree_;
+  bool good_ = false;
 };
-ByteRange rangeOf(std::string_view text, const JsonValue& value);
-
-// The text with another value at `pointer`.
-std::optional<std::string> replaceValue(std::string_view text, std::string_view pointer,
-                                        std::string_view json);
-
-// The text with a new last member in the object at `pointer`, or one behind the member `after` where that is
-// there. Nothing when the object has the key already.
-std::optional<std::string> insertMember(std::string_view text, std::string_view pointer, std::string_view key,
-                                        std::string_view json, std::string_view after = {});
-
-// The text with a new last item in the array at `pointer`.
-std::optional<std::string> appendItem(std::string_view text, std::string_view pointer, std::string_view json);
 
 // A string as JSON, with quotes and the escapes that are needed.
 std::string quoteJson(std::string_view text);

@@ -26,7 +26,6 @@ Diagnostic& reportType(const JsonValue& value, std::string_view name, Diagnostic
                        std::string expected) {
   Diagnostic& d =
       diagnostics.error(Code::wrongType, value.place, fmt::format("{} has the wrong type of value", name));
-  d.pointer = value.pointer;
   d.expected = std::move(expected);
   d.found = describe(value);
   return d;
@@ -45,7 +44,6 @@ std::optional<double> readNumber(const JsonValue& value, std::string_view name, 
                       (!range.whole || number == std::floor(number));
   if (inside) return number;
   Diagnostic& d = diagnostics.error(rangeCode, value.place, fmt::format("{} is out of range", name));
-  d.pointer = value.pointer;
   d.expected = describeRange(range);
   d.found = describe(value);
   return {};
@@ -107,7 +105,6 @@ void JsonFields::require(std::initializer_list<std::string_view> keys) {
     if (object_.find(key)) continue;
     Diagnostic& d =
         diagnostics_.error(Code::missingKey, object_.place, fmt::format("{} has no '{}'", what_, key));
-    d.pointer = object_.pointer;
     d.hint = fmt::format("add \"{}\"", key);
   }
 }
@@ -153,7 +150,6 @@ void JsonFields::finish() {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
     Diagnostic& d = diagnostics_.error(Code::unknownKey, member.place,
                                        fmt::format("{} has no key '{}'", what_, member.key));
-    d.pointer = member.value.pointer;
     d.hint = nearestHint(member.key, known_);
   }
 }

@@ -3,18 +3,224 @@
 #include <algorithm>
 #include <span>
 
-#include "engine/base/json/layout_tree.h"
+#include "engine/base/chars.h"
+#include "engine/base/json/dom.h"
 
 namespace weft::base {
 
 namespace {
 
-using namespace layout;
-
 constexpr int kColumns = 120;
 constexpr int kStep = 2;
 // Names of one table are padded to the longest, unless that is so much longer than the shortest.
 constexpr int kMostPadding = 12;
+
+struct Comment {
+  std::string_view text;  // with its slashes, without a line end
+  bool blankBefore = false;
+  bool toLineEnd() const { return text.starts_with("//"); }
+  // Nothing else stands in its last line.
+  bool endsLine() const { return toLineEnd() || text.find('\n') != std::string_view::npos; }
+};
+
+struct Item;
+
+// A value with its comments.
+struct Node {
+  enum class Kind : unsigned char { scalar, object, array };
+  Kind kind = Kind::scalar;
+  std::string_view text;          // of a scalar
+  std::vector<Item> items;        // of an object or an array
+  std::vector<Comment> dangling;  // in front of the closing bracket
+  int width = 0;                  // on one line; kBroken: it cannot be
+  bool commented = false;         // inside
+  bool isContainer() const { return kind != Kind::scalar; }
+};
+
+// A member of an object or an item of an array.
+struct Item {
+  std::vector<Comment> leading;  // in front of it
+  std::string_view key;          // with its quotes; empty in an array
+  Node value;
+  std::vector<Comment> trailing;  // behind it, on its last line
+  bool blankBefore = false;       // between the leading comments, or what is before, and the key or value
+  int width = 0;                  // as that of a node, with key and comments
+};
+
+constexpr int kBroken = 1'000'000;
+
+struct Document {
+  std::vector<Comment> before, after;
+  bool blankBefore = false;  // in front of the value
+  Node root;
+};
+
+// Characters, not bytes.
+int widthOf(std::string_view text) {
+  return static_cast<int>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+}
+
+// Gives each comment to the value that it is about, and measures.
+class Arranger {
+ public:
+  explicit Arranger(std::string_view text) : text_(text), tree_(parseJsonTree(text)) {}
+
+  Document run() {
+    Document out;
+    out.before = comments(out.blankBefore);
+    out.root = node(tree_.root);
+    bool ignored = false;
+    out.after = comments(ignored);
+    return out;
+  }
+
+ private:
+  char now() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  bool atComment() const { return tree_.behindComment(at_) != at_; }
+
+  // Line ends that were passed.
+  int skipSpace() {
+    int lines = 0;
+    for (; isSpace(now()); ++at_) lines += now() == '\n';
+    return lines;
+  }
+
+  Comment comment() {
+    const std::size_t begin = at_;
+    at_ = tree_.behindComment(at_);
+    std::string_view found = text_.substr(begin, at_ - begin);
+    while (isSpace(found.back())) found.remove_suffix(1);
+    return {found, false};
+  }
+
+  // All up to the next token. `blank`: a blank line stands behind the last.
+  std::vector<Comment> comments(bool& blank) {
+    std::vector<Comment> found;
+    int lines = skipSpace();
+    while (atComment()) {
+      found.push_back(comment());
+      found.back().blankBefore = lines > 1;
+      lines = skipSpace();
+    }
+    blank = lines > 1;
+    return found;
+  }
+
+  Node node(const JsonValue& value) {
+    Node out;
+    if (value.is(JsonValue::Type::object) || value.is(JsonValue::Type::array)) {
+      out.kind = value.is(JsonValue::Type::object) ? Node::Kind::object : Node::Kind::array;
+      at_ = value.begin + 1;
+      items(value, out);
+    } else {
+      out.text = text_.substr(value.begin, value.end - value.begin);
+    }
+    at_ = value.end;
+    measure(out);
+    return out;
+  }
+
+  void items(const JsonValue& value, Node& out) {
+    bool blank = false;
+    std::vector<Comment> leading = comments(blank);
+    const auto add = [&](const JsonMember* member, const JsonValue& child) {
+      Item& item = out.items.emplace_back();
+      item.leading = std::move(leading);
+      item.blankBefore = blank;
+      if (member) {
+        item.key = text_.substr(member->begin, member->end - member->begin);
+        bool ignored = false;
+        for (at_ = member->end; at_ < child.begin; ++at_)  // around the colon
+          for (const Comment& each : comments(ignored)) item.leading.push_back(each);
+      }
+      item.value = node(child);
+      leading = behind(item, blank);
+    };
+    for (const JsonMember& member : value.members) add(&member, member.value);
+    for (const JsonValue& each : value.items) add(nullptr, each);
+    out.dangling = std::move(leading);
+    if (out.items.empty()) return;
+    Item& first = out.items.front();  // nothing is in front of it
+    if (first.leading.empty())
+      first.blankBefore = false;
+    else
+      first.leading.front().blankBefore = false;
+  }
+
+  // Comments on the item's last line are its own; those behind it are the next one's, which are returned.
+  std::vector<Comment> behind(Item& item, bool& blank) {
+    std::vector<Comment> next;
+    bool comma = false;
+    int lines = skipSpace();
+    while (true) {
+      if (now() == ',' && !comma) {
+        comma = true;
+        ++at_;
+        // What stands in front of the comma on lines of its own comes in front of the next item.
+        if (next.empty())
+          lines = skipSpace();
+        else
+          lines += skipSpace();
+      } else if (atComment()) {
+        const bool ended = !item.trailing.empty() && item.trailing.back().endsLine();
+        Comment found = comment();
+        const bool own = next.empty() && lines == 0 && !ended && (!comma || restIsComments());
+        const int after = skipSpace();
+        found.blankBefore = !own && lines > 1;
+        (own ? item.trailing : next).push_back(found);
+        lines = after;
+      } else {
+        break;
+      }
+    }
+    blank = lines > 1;
+    return next;
+  }
+
+  // Up to the end of the line.
+  bool restIsComments() const {
+    for (std::size_t at = at_; at < text_.size() && text_[at] != '\n';) {
+      const std::size_t end = tree_.behindComment(at);
+      if (end == at && !isSpace(text_[at])) return false;
+      if (text_.substr(at, 2) == "//") return true;
+      at = std::max(end, at + 1);
+    }
+    return true;
+  }
+
+  static int add(int a, int b) { return std::min(a + b, kBroken); }
+
+  static int widthOn(const std::vector<Comment>& comments) {
+    int width = 0;
+    for (const Comment& each : comments)
+      width = add(width, each.endsLine() ? kBroken : widthOf(each.text) + 1);
+    return width;
+  }
+
+  static void measure(Node& node) {
+    if (!node.isContainer()) {
+      node.width = widthOf(node.text);
+      return;
+    }
+    const bool object = node.kind == Node::Kind::object;
+    node.width = node.items.empty() ? 2 : object ? 4 : 2;
+    if (!node.dangling.empty()) node.width = kBroken;
+    node.commented = !node.dangling.empty() || std::ranges::any_of(node.items, [](const Item& item) {
+      return !item.leading.empty() || !item.trailing.empty() || item.value.commented;
+    });
+    for (Item& item : node.items) {
+      const int before = add(widthOn(item.leading), item.key.empty() ? 0 : widthOf(item.key) + 2);
+      item.width = add(add(before, item.value.width), widthOn(item.trailing));
+      node.width = add(node.width, item.width);
+    }
+    if (node.items.size() > 1) node.width = add(node.width, 2 * (static_cast<int>(node.items.size()) - 1));
+  }
+
+  const std::string_view text_;
+  const JsonTree tree_;
+  std::size_t at_ = 0;
+};
 
 bool startsBlank(const Item& item) {
   return item.leading.empty() ? item.blankBefore : item.leading.front().blankBefore;
@@ -323,15 +529,14 @@ class Writer {
 }  // namespace
 
 std::string layoutJson(std::string_view text, const LayoutRules& rules) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  const bool marked = text.starts_with(kMark);
-  if (marked) text.remove_prefix(kMark.size());
+  const bool marked = text.starts_with(kByteOrderMark);
+  if (marked) text.remove_prefix(kByteOrderMark.size());
   const std::size_t end = text.find('\n');
   const bool carriage = end != std::string_view::npos && end > 0 && text[end - 1] == '\r';
   std::string plain(text);
   std::erase(plain, '\r');
-  const std::string laid = Writer(rules).write(parse(plain));
-  std::string out(marked ? kMark : "");
+  const std::string laid = Writer(rules).write(Arranger(plain).run());
+  std::string out(marked ? kByteOrderMark : "");
   for (const char c : laid) {
     if (c == '\n' && carriage) out += '\r';
     out += c;

@@ -12,9 +12,10 @@ namespace weft::base {
 
 namespace {
 
-using Words = std::unordered_map<std::string, std::string>;  // theirs to ours
+using Words = std::unordered_map<std::string, ForeignWord>;  // by theirs
 
-// By kind. In the file, what is to be written comes first, and then all words that mean it.
+// By kind. In the file, what is to be written comes first, and then all words that mean it. Of a key of ours that is meant,
+// hints follow, "" where its name alone says all, and then the words.
 const std::unordered_map<std::string, Words>& foreignTable() {
   static const auto table = [] {
     std::unordered_map<std::string, Words> kinds;
@@ -22,18 +23,28 @@ const std::unordered_map<std::string, Words>& foreignTable() {
     const auto json = nlohmann::json::parse(file, nullptr, false);
     if (!json.is_object()) return kinds;
     for (const auto& [kind, rows] : json.items())
-      for (const auto& [ours, words] : rows.items())
-        for (const auto& theirs : words) kinds[kind].emplace(theirs.get<std::string>(), ours);
+      for (const auto& [ours, words] : rows.items()) {
+        if (words.is_array())
+          for (const auto& theirs : words)
+            kinds[kind].emplace(theirs.get<std::string>(), ForeignWord{ours, "", false});
+        else
+          for (const auto& [hint, list] : words.items())
+            for (const auto& theirs : list)
+              kinds[kind].emplace(
+                  theirs.get<std::string>(),
+                  ForeignWord{hint.empty() ? "write \"" + ours + '"' : hint, ours, hint.empty()});
+      }
     return kinds;
   }();
   return table;
 }
 
-std::string findForeign(const char* kind, const std::string& word) {
+const ForeignWord& findForeign(const char* kind, const std::string& word) {
+  static const ForeignWord none;
   const auto words = foreignTable().find(kind);
-  if (words == foreignTable().end()) return {};
+  if (words == foreignTable().end()) return none;
   const auto found = words->second.find(word);
-  return found == words->second.end() ? std::string() : found->second;
+  return found == words->second.end() ? none : found->second;
 }
 
 void dropPrefix(std::string& text, std::initializer_list<std::string_view> prefixes) {
@@ -58,7 +69,7 @@ const char* numberSuffix(std::string_view word) {
 
 }  // namespace
 
-std::string hintForForeign(Foreign where, std::string_view word) {
+const ForeignWord& findForeignWord(Foreign where, std::string_view word) {
   static constexpr const char* kKinds[] = {
       "graph_key", "pass_key",   "texture_key", "state_key",   "state_word",      "value_key",  "value_type",
       "sampling",  "expression", "value",       "import_type", "import_argument", "shader_name"};
@@ -78,7 +89,7 @@ std::string formatMeantBy(std::string_view word) {
   std::string text = lowered(word);
   dropPrefix(text, {"dxgi_format_", "vk_format_", "gl_", "mtlpixelformat", "pixelformat.", "format_", "pf_",
                     "three."});
-  if (std::string ours = findForeign("format", text); !ours.empty()) return ours;
+  if (std::string ours = findForeign("format", text).hint; !ours.empty()) return ours;
   // Channels, bits, and the kind of number: "r16g16b16a16_float", "rgba8unorm", "rgbahalf".
   std::string letters, bits;
   std::size_t at = 0;

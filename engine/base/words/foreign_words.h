@@ -25,8 +25,16 @@ enum class Foreign : std::uint8_t {
   shader_name,      // in GLSL: "saturate", "gl_FragColor"
 };
 
-// What is to be written instead, as a hint ("write \"read\""), or "".
-std::string hintForForeign(Foreign where, std::string_view word);
+// What is to be written instead of a word. All is empty of a word that nobody knows.
+struct ForeignWord {
+  std::string hint;        // "write \"size\": [width, height]"
+  std::string key;         // our key for a key: "size"; "" where there is no single one
+  bool isOnlyKey = false;  // it means the same as our key, under another name
+};
+const ForeignWord& findForeignWord(Foreign where, std::string_view word);
+inline std::string hintForForeign(Foreign where, std::string_view word) {
+  return findForeignWord(where, word).hint;
+}
 
 // The texture format that another API's name for it means ("R16G16B16A16_FLOAT": "rgba16f"), or "". One that Weft does not
 // have becomes the nearest that it has: three channels become four.

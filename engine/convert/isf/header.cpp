@@ -66,6 +66,7 @@ class HeaderReader {
     for (char& c : json) c = c == '\n' ? '\n' : ' ';
     json += text.substr(comment->begin, comment->end - comment->begin);
     const std::size_t errors = diagnostics_.errorCount();
+    const base::PointerScope pointers(*file_, json, diagnostics_);
     const auto root = base::parseJson(json, file_, diagnostics_);
     if (!root) return std::nullopt;
     if (!root->is(JsonType::object)) {

@@ -14,6 +14,7 @@ namespace weft::graph {
 
 namespace {
 
+using base::JsonEdit;
 using base::JsonValue;
 
 // The files from the graph's own down to the one that declares something: prefix of names and description.
@@ -75,40 +76,30 @@ std::string valueText(const Value& value) {
   return value.type == Value::Type::symbol ? base::quoteJson(value.symbol) : toText(value);
 }
 
-std::optional<JsonValue> parse(const std::string& text) {
-  base::Diagnostics ignored;
-  auto root = base::parseJson(text, nullptr, ignored);
-  return ignored.hasErrors() ? std::nullopt : std::move(root);
-}
-
-// `value` in place of what stands at `pointer`; of a list only the items that differ.
-std::optional<std::string> putValue(const std::string& text, const std::string& pointer, const Value& value) {
-  const auto root = parse(text);
-  const JsonValue* at = root ? base::findPointer(*root, pointer) : nullptr;
-  if (!at) return std::nullopt;
-  const auto written = [&](const JsonValue& old) {
-    const base::ByteRange range = base::rangeOf(text, old);
-    return std::string_view(text).substr(range.begin, range.end - range.begin);
-  };
-  if (value.type == Value::Type::number)
-    return base::replaceValue(text, pointer, numberText(value.v[0], written(*at)));
-  if (value.type != Value::Type::list || at->items.size() != value.count)
-    return base::replaceValue(text, pointer, valueText(value));
-  std::optional<std::string> out = text;
-  for (std::size_t i = 0; i < at->items.size() && out; ++i)
-    if (at->items[i].number != value.v[i])
-      out = base::replaceValue(*out, at->items[i].pointer.text(),
-                               numberText(value.v[i], written(at->items[i])));
+// `value` in the place of what stands there; of a list only the items that differ.
+std::optional<std::string> putValue(const std::string& text, const Place& place, const Value& value) {
+  const JsonEdit edit(text);
+  if (!edit) return std::nullopt;
+  const JsonValue& at = edit.valueAt(place);
+  if (value.type == Value::Type::number) return edit.withValue(at, numberText(value.v[0], edit.written(at)));
+  if (value.type != Value::Type::list || at.items.size() != value.count)
+    return edit.withValue(at, valueText(value));
+  std::string out = text;
+  for (std::size_t i = at.items.size(); i-- > 0;)  // from behind, so that the others stay in their places
+    if (const JsonValue& item = at.items[i]; item.number != value.v[i])
+      out.replace(item.begin, item.end - item.begin, numberText(value.v[i], edit.written(item)));
   return out;
 }
 
 std::optional<std::string> putInSet(const std::string& text, const std::string& name, const Value& value) {
-  const auto root = parse(text);
-  if (!root) return std::nullopt;
-  if (root->find("set")) return base::insertMember(text, "/set", name, valueText(value));
-  const char* after = root->find("extends") ? "extends" : root->find("name") ? "name" : "";
-  return base::insertMember(text, "", "set",
-                            fmt::format("{{ {}: {} }}", base::quoteJson(name), valueText(value)), after);
+  const JsonEdit edit(text);
+  if (!edit) return std::nullopt;
+  const JsonValue& root = edit.root();
+  if (const JsonValue* set = root.find("set"))
+    return set->find(name) ? std::nullopt : std::optional(edit.withMember(*set, name, valueText(value)));
+  const char* after = root.find("extends") ? "extends" : root.find("name") ? "name" : "";
+  return edit.withMember(root, "set", fmt::format("{{ {}: {} }}", base::quoteJson(name), valueText(value)),
+                         after);
 }
 
 // The file that changes belong into when the graph is laid over others: the last preset, or the graph's own
@@ -117,8 +108,8 @@ std::optional<std::string> overlayOf(const GraphDesc& desc, std::span<const std:
                                      const FileTexts& texts) {
   if (!presets.empty()) return presets.back();
   const auto own = texts.find(desc.path);
-  const auto root = own == texts.end() ? std::nullopt : parse(*own->second);
-  return root && root->find("extends") ? std::optional(desc.path) : std::nullopt;
+  const bool extends = own != texts.end() && JsonEdit(*own->second).root().find("extends");
+  return extends ? std::optional(desc.path) : std::nullopt;
 }
 
 // The key of a pass or include behind which "enabled" is looked for.
@@ -176,16 +167,18 @@ std::vector<TextEdit> editsOfParameter(const GraphDesc& desc, std::span<const st
     value.symbol = whole(value.symbol).lexically_relative(whole(path).parent_path()).string();
     return value;
   };
-  const auto put = [&](const std::string& path, const std::string& pointer) {
-    edits.add(path, [&](const std::string& text) { return putValue(text, pointer, valueIn(path)); });
+  const auto put = [&](const Place& place) {
+    if (!place.file) return;
+    edits.add(*place.file,
+              [&](const std::string& text) { return putValue(text, place, valueIn(*place.file)); });
   };
   const auto putSet = [&](const std::string& path) {
     const std::string name = shortest(wanted.path, paths);
     edits.add(path, [&](const std::string& text) { return putInSet(text, name, valueIn(path)); });
   };
-  if (deciding && deciding->place.file) put(*deciding->place.file, deciding->pointer.text());
+  if (deciding) put(deciding->valuePlace);
   if (const auto overlay = overlayOf(desc, presets, texts)) putSet(*overlay);
-  if (found.desc->initialPlace.file) put(*found.desc->initialPlace.file, found.desc->initialPointer);
+  put(found.desc->initialPlace);
   putSet(desc.path);
   return std::move(edits.made);
 }
@@ -203,10 +196,11 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
   Edits edits(texts);
   if (const auto overlay = overlayOf(desc, presets, texts))
     edits.add(*overlay, [&](const std::string& text) -> std::optional<std::string> {
-      const auto root = parse(text);
+      const JsonEdit edit(text);
+      if (!edit) return std::nullopt;
       const std::string stanza = fmt::format("{{ \"name\": {}, \"enabled\": false }}", base::quoteJson(name));
-      if (root && root->find("passes")) return base::appendItem(text, "/passes", stanza);
-      return base::insertMember(text, "", "passes", "[" + stanza + "]");
+      if (const JsonValue* passes = edit.root().find("passes")) return edit.withItem(*passes, stanza);
+      return edit.withMember(edit.root(), "passes", "[" + stanza + "]");
     });
   const PassDesc* pass = nullptr;
   Chain chain = {{"", &desc}};
@@ -215,18 +209,16 @@ std::vector<TextEdit> editsOfPass(const GraphDesc& desc, std::span<const std::st
   });
   if (pass && pass->place.file)
     edits.add(*pass->place.file, [&](const std::string& text) -> std::optional<std::string> {
-      const auto root = parse(text);
-      const JsonValue* stanza = root ? base::findPointer(*root, pass->pointer.text()) : nullptr;
-      if (!stanza) return std::nullopt;
-      const JsonValue* enabled = stanza->find("enabled");
-      if (!enabled)
-        return base::insertMember(text, pass->pointer.text(), "enabled", "false", lastOfHead(*stanza));
-      if (!enabled->is(JsonValue::Type::string))
-        return base::replaceValue(text, enabled->pointer.text(), "false");
+      const JsonEdit edit(text);
+      if (!edit) return std::nullopt;
+      const JsonValue& stanza = edit.valueAt(pass->place);
+      const JsonValue* enabled = stanza.find("enabled");
+      if (!enabled) return edit.withMember(stanza, "enabled", "false", lastOfHead(stanza));
+      if (!enabled->is(JsonValue::Type::string)) return edit.withValue(*enabled, "false");
       // The condition stays readable, and comes back when "&& false" is removed.
       const bool loose = enabled->text.find_first_of("?|") != std::string::npos;
       const std::string kept = loose ? "(" + enabled->text + ")" : enabled->text;
-      return base::replaceValue(text, enabled->pointer.text(), base::quoteJson(kept + " && false"));
+      return edit.withValue(*enabled, base::quoteJson(kept + " && false"));
     });
   return std::move(edits.made);
 }

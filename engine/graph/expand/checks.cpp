@@ -58,7 +58,6 @@ bool checkUse(const SlotContext& context, const RefDesc& ref, Access access, con
     d.resource = entity.name;
     d.expected = std::move(expected);
     d.found = ref.text;
-    d.pointer = ref.pointer;
     d.hint = std::move(hint);
     return false;
   };

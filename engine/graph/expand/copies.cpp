@@ -44,7 +44,6 @@ class Copy {
     d.pass = context_.pass;
     d.resource = nameOf(side);
     d.expected = std::move(expected);
-    d.pointer = side.slot->ref.pointer;
     d.hint = std::move(hint);
     return false;
   }
@@ -170,7 +169,6 @@ bool checkCopy(const SlotContext& context, const std::vector<SlotWork>& slots) {
                                                       context.user, context.type->name, work.slot->name));
       d.pass = context.pass;
       d.found = work.slot->ref.text;
-      d.pointer = work.slot->ref.pointer;
       d.hint =
           "leave '?' out; disable the pass where there is nothing to copy, or name a list of alternatives";
       return false;

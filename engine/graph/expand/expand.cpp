@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/json/dom.h"
 #include "engine/graph/expand/finish.h"
 #include "engine/graph/expand/judge/cadence.h"
 #include "engine/graph/expand/judge/culled.h"
@@ -50,6 +51,7 @@ std::shared_ptr<const FlatGraph> expandGraph(const GraphDesc& desc, const Regist
     warnUnnamed(model);
     warnCadence(model);
   }
+  for (const auto& [path, text] : desc.texts) base::PointerScope(path, *text, own);
   own.sortByPlace();
   diagnostics.append(own);
   if (diagnostics.hasErrors()) return nullptr;

@@ -141,7 +141,6 @@ void addResets(Model& model, const Entity& entity, HistorySpec& spec) {
       auto& d = model.diagnostics.error(Code::badSelector, ref.place,
                                         fmt::format("the reset of '{}' names '{}'", entity.name, ref.text));
       d.resource = entity.name;
-      d.pointer = ref.pointer;
       d.expected = "the name of a whole resource or import, perhaps with 'if'";
       d.found = ref.text;
       d.hint = fmt::format("write '{}{}'", ref.import ? "@" : "", ref.name);

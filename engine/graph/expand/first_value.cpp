@@ -74,7 +74,7 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
   Entity& entity = model.entities[work.entity];
   if (!entity.firstRef) return {};
   const RefDesc& ref = *entity.firstRef;
-  slot = {work.slot->name, ref.place, ref.pointer, Access::read, ref};
+  slot = {work.slot->name, ref.place, Access::read, ref};
   slot.ref.kind = work.use.kind;
   Names names(model, *entity.firstScope);
   const SlotContext inside{
@@ -97,7 +97,6 @@ SlotWork resolveFirst(const SlotContext& context, const SlotWork& work, std::uin
     d.resource = entity.name;
     d.expected = misfit.expected;
     d.found = misfit.found;
-    d.pointer = ref.pointer;
     d.hint = "let a pass write a texture of that size and format, with \"update\": \"once\", and name that";
     return {};
   }

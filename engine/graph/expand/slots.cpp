@@ -74,7 +74,6 @@ bool selectorMisfit(const SlotContext& context, const RefDesc& ref, const Entity
   message = fmt::format("{}: {}", context.user, message);
   auto& d = report(context, Code::badSelector, ref.place, std::move(message), entity.name);
   d.found = ref.text;
-  d.pointer = ref.pointer;
   d.hint = hint.empty() ? "leave the selector out, or name a resource that has such parts" : std::move(hint);
   return false;
 }

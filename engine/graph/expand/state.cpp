@@ -52,8 +52,11 @@ class StateFiller {
 
   // ---- the keys ----
 
-  // Index of the word in `words`, or -1 after a report.
-  int word(const NamedExpr& said, const std::vector<std::string>& words) {
+  // Index among the words of the key, or -1 after a report.
+  int word(const NamedExpr& said) {
+    const std::string_view key = std::string_view(said.name).substr(0, said.name.find('.'));
+    const auto& known = std::ranges::find(kStateKeys, key, &KeySpec::key)->words;
+    const std::vector<std::string> words(known.begin(), known.end());
     const Value value = said.expr.evaluate(context_.names, context_.model.diagnostics);
     if (value.type == Value::Type::none) return -1;
     if (value.type == Value::Type::symbol)
@@ -77,8 +80,6 @@ class StateFiller {
   }
 
   void addBlend(const NamedExpr& said) {
-    static const std::vector<std::string> kWords = {"none",     "add", "alpha", "premultiplied",
-                                                    "multiply", "min", "max"};
     std::vector<std::string> colors;
     for (const SlotWork& work : slots_)
       if (isColorSlot(work.slot->name)) colors.push_back(work.slot->name);
@@ -92,7 +93,7 @@ class StateFiller {
       if (d.hint.empty()) d.hint = base::nearestHint(slot, colors);
       return;
     }
-    const int found = word(said, kWords);
+    const int found = word(said);
     if (found < 0) return;
     const auto blend = static_cast<Blend>(found);
     if (!slot.empty()) return setBlend(slot, blend);
@@ -112,11 +113,10 @@ class StateFiller {
   }
 
   void add(const NamedExpr& said) {
-    static const std::vector<std::string> kCompare(kCompareNames.begin(), kCompareNames.end());
     if (said.name == "blend" || said.name.starts_with("blend.")) {
       addBlend(said);
     } else if (said.name == "depth_test") {
-      if (const int found = word(said, kCompare); found >= 0) {
+      if (const int found = word(said); found >= 0) {
         state_.depthTest = true;
         state_.depthCompare = static_cast<Compare>(found);
       } else {
@@ -126,10 +126,9 @@ class StateFiller {
       state_.depthWrite =
           evaluateCondition(context_.names, said.expr, true, {"the state '{}'", said.name}).value_or(true);
     } else if (said.name == "cull") {
-      if (const int found = word(said, {"none", "front", "back"}); found >= 0)
-        state_.cull = static_cast<Cull>(found);
+      if (const int found = word(said); found >= 0) state_.cull = static_cast<Cull>(found);
     } else if (said.name == "polygon") {
-      state_.lines = word(said, {"fill", "line"}) == 1;
+      state_.lines = word(said) == 1;
     } else if (said.name == "offset") {
       const Value value = said.expr.evaluate(context_.names, context_.model.diagnostics);
       if (value.type == Value::Type::list && value.count == 2) {

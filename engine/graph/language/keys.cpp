@@ -32,7 +32,7 @@ constexpr KeySpec kGraph[] = {
 };
 
 constexpr KeySpec kParameter[] = {
-    {"type", "@parameterType", "from the default when absent"},
+    {"type", "@parameterType", "from the default when absent", false, kParameterTypes},
     {"default",
      R"({"anyOf":[{"type":["number","boolean","string"]},{"type":"array","items":{"type":"number"},"minItems":2,"maxItems":4}]})",
      "initial value; a number without a point is an int", true},
@@ -55,7 +55,7 @@ constexpr KeySpec kTexture[] = {
     {"layers", "@value", "layers of an array texture; cubes of a cube array"},
     {"array", "@value", "that many textures under one name, selected by [k]"},
     {"samples", "@value", "samples per texel of a multisample texture"},
-    {"view", "@view", "how it is laid out; from layers and size when absent"},
+    {"view", "@view", "how it is laid out; from layers and size when absent", false, kViewWords},
     {"clear", "@value", "version zero: what it holds before the first pass"},
     {"history", "@value", "how many previous publications are kept, for name@-n"},
     {"first", "@value",
@@ -77,7 +77,8 @@ constexpr KeySpec kImport[] = {
 };
 
 constexpr KeySpec kInput[] = {
-    {"input", R"({"enum":["texture","buffer"]})", "bound by the file that includes this one", true},
+    {"input", R"({"enum":["texture","buffer"]})", "bound by the file that includes this one", true,
+     kInputWords},
     {"optional", R"({"type":"boolean"})",
      "may be left without a resource, and then has nothing: end references with ?"},
     {"history", "@value", "how many previous publications this file reads, as name@-n"},
@@ -106,7 +107,8 @@ constexpr KeySpec kPass[] = {
     {"defines", R"({"type":"object","additionalProperties":{"$ref":"#/$defs/value"}})",
      "preprocessor names of the shader"},
     {"state", "@state", "fixed-function state"},
-    {"update", R"({"enum":["always","on_change","once"]})", "when it runs; always when absent"},
+    {"update", R"({"enum":["always","on_change","once"]})", "when it runs; always when absent", false,
+     kUpdateWords},
     {"group", R"({"type":"string"})", "passes of one group publish together"},
     {"slices", "@value", "frames that one run takes (time-sliced); 0 rides with its predecessor"},
     {"threads", "@value", "compute invocations, rounded up to the local size"},
@@ -134,12 +136,13 @@ constexpr KeySpec kShader[] = {
 
 constexpr KeySpec kState[] = {
     {"blend", R"({"anyOf":[{"type":"string"},{"type":"object","additionalProperties":{"type":"string"}}]})",
-     "none, add, alpha, premultiplied, multiply, min, max; for all colour slots or by slot"},
+     "none, add, alpha, premultiplied, multiply, min, max; for all colour slots or by slot", false,
+     kBlendWords},
     {"depth_test", R"({"type":"string"})",
-     "never, less, equal, less_equal, greater, not_equal, greater_equal, always"},
+     "never, less, equal, less_equal, greater, not_equal, greater_equal, always", false, kCompareNames},
     {"depth_write", "@value", "true when absent"},
-    {"cull", R"({"type":"string"})", "none, front, back"},
-    {"polygon", R"({"type":"string"})", "fill, line"},
+    {"cull", R"({"type":"string"})", "none, front, back", false, kCullWords},
+    {"polygon", R"({"type":"string"})", "fill, line", false, kPolygonWords},
     {"offset", "@value", "[factor, units] of the depth offset"},
 };
 

@@ -9,11 +9,26 @@
 
 namespace weft::graph {
 
+constexpr std::array<std::string_view, 8> kParameterTypes = {"bool", "int",  "float",  "vec2",
+                                                             "vec3", "vec4", "choice", "file"};
+constexpr std::array<std::string_view, 5> kViewWords = {"2d", "2d_array", "cube", "cube_array", "3d"};
+constexpr std::array<std::string_view, 3> kUpdateWords = {"always", "on_change", "once"};
+constexpr std::array<std::string_view, 2> kInputWords = {"texture", "buffer"};
+
+constexpr std::array<std::string_view, 7> kBlendWords = {"none",     "add", "alpha", "premultiplied",
+                                                         "multiply", "min", "max"};
+// Of "depth_test" and `as compare(…)`, in the order of Compare.
+constexpr std::array<std::string_view, 8> kCompareNames = {
+    "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
+constexpr std::array<std::string_view, 3> kCullWords = {"none", "front", "back"};
+constexpr std::array<std::string_view, 2> kPolygonWords = {"fill", "line"};
+
 struct KeySpec {
   std::string_view key;
   std::string_view schema;
   std::string_view doc;
   bool required = false;
+  std::span<const std::string_view> words = {};  // that it may be, where these are few
 };
 
 extern const std::span<const KeySpec> kGraphKeys;
@@ -28,11 +43,5 @@ extern const std::span<const KeySpec> kShaderKeys;  // of a draw that names two
 extern const std::span<const KeySpec> kStateKeys;
 extern const std::span<const KeySpec>
     kPlaceKeys;  // of a stanza in an overlay, beside those of passes and includes
-
-constexpr std::array<std::string_view, 8> kParameterTypes = {"bool", "int",  "float",  "vec2",
-                                                             "vec3", "vec4", "choice", "file"};
-constexpr std::array<std::string_view, 5> kViewWords = {"2d", "2d_array", "cube", "cube_array", "3d"};
-constexpr std::array<std::string_view, 3> kUpdateWords = {"always", "on_change", "once"};
-constexpr std::array<std::string_view, 2> kInputWords = {"texture", "buffer"};
 
 }  // namespace weft::graph

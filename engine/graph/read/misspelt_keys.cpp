@@ -96,7 +96,6 @@ class KeyMender {
           base::Code::unknownKey, member.place,
           what.name ? fmt::format("unknown key \"{}\" in {} '{}'", member.key, what.noun, *what.name)
                     : fmt::format("unknown key \"{}\" in {}", member.key, what.noun));
-      d.pointer = member.value.pointer;
       if (stanza_) d.pass = stanzaName(*stanza_);
       if (resource_) d.resource = *resource_;
       d.hint = std::move(hint);
@@ -118,11 +117,9 @@ class KeyMender {
     for (const std::span<const KeySpec> keys : lists)
       for (const KeySpec& spec : keys) known.emplace_back(spec.key);
     // A word of another program first: "groups" is no slip of "group".
-    if (std::string said = foreign ? base::hintForForeign(*foreign, key) : std::string(); !said.empty()) {
-      for (std::string& each : known)
-        if (said == fmt::format("write \"{}\"", each)) return {std::move(each), std::move(said)};
-      return {};
-    }
+    if (const base::ForeignWord theirs = foreign ? base::findForeignWord(*foreign, key) : base::ForeignWord();
+        !theirs.hint.empty())
+      return theirs.isOnlyKey ? std::pair(theirs.key, theirs.hint) : std::pair<std::string, std::string>();
     std::string nearest = base::nearestName(key, known);
     if (nearest.empty() || base::editDistance(key, nearest, 2) > 1) return {};
     std::string hint = fmt::format("did you mean \"{}\"?", nearest);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/nearest.h"
+#include "engine/graph/desc_walk.h"
 #include "engine/graph/read/misspelt_keys.h"
 
 namespace weft::graph {
@@ -33,7 +34,7 @@ class NameMender {
     if (desc_.present) add(*desc_.present);
     std::vector<ResourceDesc*> unused = unmentioned();
     if (unused.empty()) return;
-    addTheRest();
+    addAll();
     unused = unmentioned();
     findUnknown();
     if (unused.empty() || unknown_.empty() || unknown_.size() > kMaxUnknown) return;
@@ -69,7 +70,6 @@ class NameMender {
         diagnostics_.error(base::Code::unknownResource, resource.place,
                            fmt::format("nothing names the resource '{}', and the resource '{}' is not there",
                                        resource.name, meant));
-    d.pointer = resource.pointer;
     d.resource = resource.name;
     if (mentions.first.file)
       d.found = fmt::format(
@@ -95,32 +95,15 @@ class NameMender {
       if (!name.starts_with('@') && (fact != Fact::has || !isPass(name))) mention(name, expr.place());
   }
 
-  void addTheRest() {
-    for (const NamedExpr& let : desc_.lets) add(let.expr);
-    for (const ResourceDesc& resource : desc_.resources) {
-      for (const Expr* expr :
-           {&resource.size, &resource.mips, &resource.layers, &resource.array, &resource.samples,
-            &resource.bytes, &resource.clear, &resource.history, &resource.first})
-        add(*expr);
-      for (const Expr& value : resource.resetValues) add(value);
-      for (const NamedExpr& argument : resource.import.arguments) add(argument.expr);
-      if (resource.firstRef) add(*resource.firstRef);
-      for (const RefDesc& ref : resource.resetRefs) add(ref);
-      for (const RefDesc& ref : resource.alternatives) add(ref);
-    }
-    for (const PassDesc& pass : desc_.passes) addPass(pass);
-    for (const OutputDesc& output : desc_.outputs) add(output.ref);
+  void addAll() {
+    mentions_.clear();
+    visitMentions(
+        desc_, [&](const Expr& expr) { add(expr); },
+        [&](const RefDesc& ref) { mention(ref.name, ref.place, ref.import ? 0 : 1); });
+    for (const PassDesc& pass : desc_.passes) addInclude(pass);
   }
 
-  void addPass(const PassDesc& pass) {
-    for (const Expr* expr : {&pass.enabled, &pass.slices, &pass.threads, &pass.instances}) add(*expr);
-    for (const RangeDesc& range : pass.repeat)
-      for (const Expr* expr : {&range.first, &range.last, &range.step}) add(*expr);
-    for (const PassParameterDesc& parameter : pass.parameters) add(parameter.value);
-    for (const NamedExpr& define : pass.defines) add(define.expr);
-    for (const NamedExpr& state : pass.state) add(state.expr);
-    for (const Expr& argument : pass.geometryArguments) add(argument);
-    if (pass.view) add(*pass.view);
+  void addInclude(const PassDesc& pass) {
     if (!pass.include) return;
     for (const auto& [input, ref] : pass.include->binds) add(ref);
     if (!pass.include->graph) return;

@@ -32,7 +32,6 @@ void reportOverlayStanzas(const JsonValue& root, base::Diagnostics& diagnostics)
         if (enoughErrors(diagnostics)) return;
         auto& d = diagnostics.error(Code::overlayOutOfPlace, member.place,
                                     fmt::format("\"{}\" in a file that extends no other", member.key));
-        d.pointer = member.value.pointer;
         d.pass = stanzaName(stanza);
         d.hint = "write the pass at its place in the list, or say what this file \"extends\"";
       }
@@ -66,7 +65,6 @@ std::vector<const JsonValue*> namesIn(const JsonValue& extends, base::Diagnostic
   if (!names.empty() && wrong == names.end()) return names;
   const JsonValue& found = names.empty() ? extends : **wrong;
   auto& d = diagnostics.error(Code::wrongType, found.place, "\"extends\" has the wrong type");
-  d.pointer = found.pointer;
   d.expected = "the path of a graph, from this file's folder, or a list of that and of overlays";
   d.found = describe(found);
   return {};
@@ -113,13 +111,13 @@ std::shared_ptr<const Source> SourceLoader::file(const std::string& path, const 
 }
 
 std::shared_ptr<const std::string> SourceLoader::bytesOf(const std::string& path, const base::Place& from) {
-  if (given_)
-    if (const auto found = given_->find(path); found != given_->end()) return texts_[path] = found->second;
+  if (const auto found = given_.find(path); found != given_.end()) return texts_[path] = found->second;
   std::optional<std::string> bytes = base::readTextFile(path, diagnostics_, Code::unreadableFile, from);
   return bytes ? texts_[path] = std::make_shared<const std::string>(*std::move(bytes)) : nullptr;
 }
 
 std::shared_ptr<const Source> SourceLoader::text(std::string_view text, const std::string& path) {
+  if (!texts_.contains(path)) texts_[path] = std::make_shared<const std::string>(text);
   std::optional<JsonValue> root =
       base::parseJson(text, std::make_shared<const std::string>(path), diagnostics_);
   if (!root) return nullptr;
@@ -146,7 +144,6 @@ std::shared_ptr<const Source> SourceLoader::complete(JsonValue root, const std::
   if (set && !root.find("passes")) {
     auto& d = diagnostics_.error(Code::overlayOutOfPlace, set->place,
                                  fmt::format("'{}' is a preset, not a graph", path));
-    d.pointer = set->pointer;
     d.hint = fmt::format(
         "lay it over a graph: weft check GRAPH --preset {}; or say what this file \"extends\"", path);
     return nullptr;
@@ -203,13 +200,11 @@ bool SourceLoader::mayExtend(const JsonValue& written, const std::string& below)
   if (open_.size() > base::limitOf(base::Limit::extends_depth)) {
     auto& limit = base::reportLimit(diagnostics_, base::Limit::extends_depth, written.place,
                                     "overlays extend each other in too long a row");
-    limit.pointer = written.pointer;
     limit.found = fmt::format("'{}', one more", below);
     return false;
   }
   if (!isOpen(identity)) return true;
   auto& d = diagnostics_.error(Code::extendsItself, written.place, fmt::format("'{}' extends itself", below));
-  d.pointer = written.pointer;
   bool again = false;
   for (const auto& [openIdentity, openPath] : open_) {
     again = again || openIdentity == identity;
@@ -245,21 +240,17 @@ bool SourceLoader::layOver(Source& made, const std::string& path, const JsonValu
       base::parseJson(*bytes, std::make_shared<const std::string>(path), diagnostics_);
   if (!root) return false;
   mendKeys(*root, true, diagnostics_);
-  const auto refuse = [&](Code code, const JsonValue& value, std::string message) -> base::Diagnostic& {
-    auto& d = diagnostics_.error(code, value.place, std::move(message));
-    d.pointer = value.pointer;
-    return d;
-  };
   if (!root->is(Type::object)) {
-    auto& d = refuse(Code::wrongType, *root, "a preset has the wrong type");
+    auto& d = diagnostics_.error(Code::wrongType, root->place, "a preset has the wrong type");
     d.expected = "an object";
     d.found = describe(*root);
     return false;
   }
   const JsonValue* extends = root->find("extends");
   if (written && !extends && isWholeGraph(*root)) {
-    auto& d = refuse(Code::overlayOutOfPlace, *written,
-                     fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
+    auto& d =
+        diagnostics_.error(Code::overlayOutOfPlace, written->place,
+                           fmt::format("'{}' is a graph of its own, which nothing can be laid under", path));
     d.expected = fmt::format("an overlay on '{}', or a preset", made.path);
     d.hint = "a file extends one graph, the first of its list; give the others as includes";
     return false;

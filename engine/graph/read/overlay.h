@@ -42,7 +42,7 @@ std::string identityOf(const std::string& path);
 // Opens files, each once. Those in `given` are not looked for on disk.
 class SourceLoader {
  public:
-  explicit SourceLoader(base::Diagnostics& diagnostics, const FileTexts* given = nullptr)
+  SourceLoader(base::Diagnostics& diagnostics, const FileTexts& given)
       : diagnostics_(diagnostics), given_(given) {}
 
   // Null after a report (the same file again: null without another).
@@ -72,7 +72,7 @@ class SourceLoader {
   bool extendBy(Source& made, const std::string& path, const base::JsonValue& written, bool preset);
 
   base::Diagnostics& diagnostics_;
-  const FileTexts* given_ = nullptr;
+  const FileTexts& given_;
   FileTexts texts_;
   std::set<std::string> broken_;                                // identities of overlays that failed
   std::map<std::string, std::shared_ptr<const Source>> known_;  // by identity; null for files that failed

@@ -56,9 +56,8 @@ class Applier {
   }
 
  private:
-  Diagnostic& error(Code code, const base::Place& place, const JsonValue& value, std::string message) {
+  Diagnostic& error(Code code, const base::Place& place, std::string message) {
     Diagnostic& d = diagnostics_.error(code, place, std::move(message));
-    d.pointer = value.pointer;
     d.pass = pass_;
     d.resource = resource_;
     return d;
@@ -79,7 +78,7 @@ class Applier {
 
   bool expect(const JsonValue& value, Type type, const char* what, const char* expected) {
     if (value.is(type)) return true;
-    Diagnostic& d = error(Code::wrongType, value.place, value, fmt::format("{} has the wrong type", what));
+    Diagnostic& d = error(Code::wrongType, value.place, fmt::format("{} has the wrong type", what));
     d.expected = expected;
     d.found = describe(value);
     return false;
@@ -95,7 +94,7 @@ class Applier {
         into.members.erase(into.members.begin() + (there - into.members.data()));
         return;
       }
-      error(Code::nothingToChange, over.place, over.value,
+      error(Code::nothingToChange, over.place,
             fmt::format("null takes \"{}\" away, which is not there", over.key))
           .hint = hintForKey(into, over.key);
     } else if (!over.value.is(Type::object)) {
@@ -173,7 +172,7 @@ class Applier {
       });
     } else {
       const std::string hint = wholeHint(entry.key, allNames(loader_, target_, section.key));
-      error(Code::nothingToChange, entry.place, entry.value,
+      error(Code::nothingToChange, entry.place,
             fmt::format("{} '{}' is not there to be {}", noun, entry.key,
                         entry.value.is(Type::null) ? "taken away" : "changed"))
           .hint = hint.empty() ? "write all of it to declare a new one" : hint;
@@ -190,7 +189,7 @@ class Applier {
                                ? !over.empty() && over != before && !(dropped && dropped->is(Type::null))
                                : over.empty();
       if (changes) {
-        Diagnostic& d = error(Code::kindsDoNotMerge, entry.place, entry.value,
+        Diagnostic& d = error(Code::kindsDoNotMerge, entry.place,
                               fmt::format("resource '{}' cannot be merged with what is there", entry.key));
         d.expected = before == "alternatives"
                          ? "a reference or a list of references"
@@ -217,8 +216,7 @@ class Applier {
     const JsonValue* after = stanza.find("after");
     const JsonValue* remove = stanza.find("remove");
     if (before && after)
-      error(Code::keysExclude, stanza.place, stanza,
-            "a pass cannot stand both \"before\" and \"after\" others")
+      error(Code::keysExclude, stanza.place, "a pass cannot stand both \"before\" and \"after\" others")
           .hint = "keep one of them";
     else if (remove && !remove->is(Type::boolean))
       expect(*remove, Type::boolean, "\"remove\"", "true or false");
@@ -237,7 +235,7 @@ class Applier {
     if (tooMuch_) return;
     if (!beside) {
       const std::vector<std::string> names = allNames(loader_, target_, "passes");
-      Diagnostic& d = error(Code::passWithoutPlace, anchor.place, anchor,
+      Diagnostic& d = error(Code::passWithoutPlace, anchor.place,
                             fmt::format("pass '{}' stands {} '{}', which is not there", pass_,
                                         after ? "after" : "before", anchor.text));
       d.expected = "the name of a pass, or the prefix of an include";
@@ -277,21 +275,19 @@ class Applier {
     const JsonValue& culprit = named ? *named : stanza;
     if (beside && moved && beside->below == moved->below) {
       if (beside->index != moved->index) return true;
-      error(Code::passWithoutPlace, anchor.place, anchor,
-            fmt::format("pass '{}' stands beside itself", pass_))
-          .hint = "name another pass";
+      error(Code::passWithoutPlace, anchor.place, fmt::format("pass '{}' stands beside itself", pass_)).hint =
+          "name another pass";
     } else if (beside && (moved || own.find('.') != std::string_view::npos)) {
       std::string whole;
       for (const std::string& prefix : beside->below) whole += prefix + ".";
-      error(Code::passWithoutPlace, culprit.place, culprit,
+      error(Code::passWithoutPlace, culprit.place,
             fmt::format("pass '{}' cannot stand beside '{}', which is in another file", pass_, anchor.text))
           .hint = moved ? "name a pass of its own file, or remove it and write a new one here"
                         : fmt::format("call it '{}{}'", whole, pass_.substr(pass_.rfind('.') + 1));
     } else if (stanza.find("type") || stanza.find("include") || stanza.find("like")) {
       return true;
     } else {
-      error(Code::passWithoutPlace, culprit.place, culprit,
-            fmt::format("pass '{}' is not there to be moved", pass_))
+      error(Code::passWithoutPlace, culprit.place, fmt::format("pass '{}' is not there to be moved", pass_))
           .hint = wholeHint(pass_, allNames(loader_, target_, "passes"));
     }
     return false;
@@ -312,12 +308,12 @@ class Applier {
     const std::optional<Found> found = find("passes", pass_, place);
     if (tooMuch_) return;
     if (!found && remove) {
-      error(Code::nothingToChange, place, stanza, fmt::format("pass '{}' is not there to be removed", pass_))
-          .hint = wholeHint(pass_, allNames(loader_, target_, "passes"));
+      error(Code::nothingToChange, place, fmt::format("pass '{}' is not there to be removed", pass_)).hint =
+          wholeHint(pass_, allNames(loader_, target_, "passes"));
     } else if (!found) {
       const std::vector<std::string> names = allNames(loader_, target_, "passes");
       Diagnostic& d =
-          error(Code::passWithoutPlace, place, stanza,
+          error(Code::passWithoutPlace, place,
                 fmt::format("pass '{}' is not there to be changed, and a new one needs a place", pass_));
       d.expected = "the name of a pass, or \"before\" or \"after\" one";
       d.hint = wholeHint(pass_, names);
@@ -344,7 +340,7 @@ class Applier {
     const bool include = there.find("include") != nullptr;
     if (include ? stanza.find("type") != nullptr : stanza.find("include") != nullptr) {
       const JsonValue& culprit = *stanza.find(include ? "type" : "include");
-      Diagnostic& d = error(Code::kindsDoNotMerge, culprit.place, culprit,
+      Diagnostic& d = error(Code::kindsDoNotMerge, culprit.place,
                             fmt::format("'{}' cannot be merged with what is there", pass_));
       d.expected = include ? "keys of an include" : "keys of a pass";
       d.found = include ? "a pass" : "an include";

@@ -29,12 +29,10 @@ struct OpenFile {
 
 class GraphReader {
  public:
-  explicit GraphReader(Diagnostics& diagnostics, const FileTexts* given = nullptr)
+  GraphReader(Diagnostics& diagnostics, const FileTexts& given)
       : diagnostics_(diagnostics), loader_(diagnostics, given) {}
 
-  std::shared_ptr<const GraphDesc> readFile(const std::string& path, const Place& from) {
-    return readBelow(path, from).graph;
-  }
+  const FileTexts& texts() const { return loader_.texts(); }
 
   std::shared_ptr<const GraphDesc> readText(std::string_view text, const std::string& path) {
     const std::shared_ptr<const Source> source = loader_.text(text, path);
@@ -102,7 +100,7 @@ class GraphReader {
     readPasses(context, source, *graph);
     graph->present = context.ref(root.find("present"), "\"present\"");
     for (const JsonMember& member : membersOf(context, root, "outputs")) {
-      const bool named = context.checkName(member.key, member.place, member.value.pointer, "an output");
+      const bool named = context.checkName(member.key, member.place, "an output");
       std::optional<RefDesc> ref = context.ref(&member.value, fmt::format("the output '{}'", member.key));
       if (named && ref) graph->outputs.push_back({member.key, *std::move(ref)});
     }
@@ -147,11 +145,11 @@ class GraphReader {
         graph.unread.push_back(member.key);
     }
     for (const JsonMember& member : membersOf(context, root, "let")) {
-      bool good = context.checkName(member.key, member.place, member.value.pointer, "a \"let\"");
-      good = context.checkFresh(seen, member.key, member.place, member.value.pointer, "the variable") && good;
+      bool good = context.checkName(member.key, member.place, "a \"let\"");
+      good = context.checkFresh(seen, member.key, member.place, "the variable") && good;
       Expr expr = context.expr(&member.value, fmt::format("the \"let\" '{}'", member.key));
       if (good && expr.present())
-        graph.lets.push_back({member.key, member.place, member.value.pointer, std::move(expr)});
+        graph.lets.push_back({member.key, member.place, std::move(expr)});
       else
         graph.unread.push_back(member.key);
     }
@@ -161,8 +159,7 @@ class GraphReader {
     if (const JsonValue* set = source.root.find("set")) context.expect(*set, Type::object, "\"set\"");
     for (const auto& [member, origin] : source.sets)
       if (std::optional<Value> value = readValue(context, member))
-        graph.sets.push_back(
-            {member.key, origin, member.place, member.value.place, member.value.pointer, *std::move(value)});
+        graph.sets.push_back({member.key, origin, member.place, member.value.place, *std::move(value)});
   }
 
   void readPasses(ReadContext& context, const Source& source, GraphDesc& graph) {
@@ -186,7 +183,7 @@ class GraphReader {
       const char* const key = pass->include ? "include" : "name";
       const JsonValue* const named = item.find(key) ? item.find(key) : whole->find(key);
       context.pass = pass->name;
-      context.checkFresh(seen, pass->name, pass->namePlace, named ? named->pointer : item.pointer, "pass");
+      context.checkFresh(seen, pass->name, pass->namePlace, "pass");
       context.pass.clear();
       if (pass->include && named) follow(*named, *pass->include, source, graph);
       graph.passes.push_back(*std::move(pass));
@@ -217,7 +214,6 @@ class GraphReader {
     if (again != open_.end()) {
       auto& d =
           diagnostics_.error(Code::includesItself, stanza.place, fmt::format("'{}' includes itself", path));
-      d.pointer = stanza.pointer;
       for (auto file = again; file != open_.end(); ++file) d.found += file->path + " -> ";
       d.found += path;
       d.hint = "remove one of these includes";
@@ -249,7 +245,6 @@ class GraphReader {
     if (count <= base::limitOf(limit)) return false;
     tooMuch_ = true;
     auto& d = base::reportLimit(diagnostics_, limit, stanza.place, message);
-    d.pointer = stanza.pointer;
     d.found = fmt::format("{} with '{}'", count, stanza.text);
     return true;
   }
@@ -271,9 +266,11 @@ class GraphReader {
 
 // Diagnostics come in the order of the text, whatever order the reader looked at things.
 template <class Read>
-std::shared_ptr<const GraphDesc> readSorted(Diagnostics& diagnostics, Read read) {
+std::shared_ptr<const GraphDesc> readSorted(const FileTexts& given, Diagnostics& diagnostics, Read read) {
   Diagnostics said;
-  std::shared_ptr<const GraphDesc> graph = read(said);
+  GraphReader reader(said, given);
+  std::shared_ptr<const GraphDesc> graph = read(reader);
+  for (const auto& [path, text] : reader.texts()) base::PointerScope(path, *text, said);
   said.sortByPlace();
   diagnostics.append(said);
   return graph;
@@ -281,25 +278,14 @@ std::shared_ptr<const GraphDesc> readSorted(Diagnostics& diagnostics, Read read)
 
 }  // namespace
 
-std::shared_ptr<const GraphDesc> readGraph(const std::string& path, Diagnostics& diagnostics) {
-  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readFile(path, {}); });
-}
-
-std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
-                                           Diagnostics& diagnostics) {
-  return readSorted(diagnostics,
-                    [&](Diagnostics& said) { return GraphReader(said).readWith(path, presets); });
-}
-
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            const FileTexts& given, Diagnostics& diagnostics) {
-  return readSorted(diagnostics,
-                    [&](Diagnostics& said) { return GraphReader(said, &given).readWith(path, presets); });
+  return readSorted(given, diagnostics, [&](GraphReader& reader) { return reader.readWith(path, presets); });
 }
 
 std::shared_ptr<const GraphDesc> readGraphText(std::string_view text, const std::string& name,
                                                Diagnostics& diagnostics) {
-  return readSorted(diagnostics, [&](Diagnostics& said) { return GraphReader(said).readText(text, name); });
+  return readSorted({}, diagnostics, [&](GraphReader& reader) { return reader.readText(text, name); });
 }
 
 }  // namespace weft::graph

@@ -13,18 +13,20 @@
 
 namespace weft::graph {
 
-// Reads `path` and its includes (paths relative to the including file). Comments are allowed. Null after an
-// error that leaves nothing to expand; otherwise a description, perhaps partial, with the errors in
-// `diagnostics`.
-std::shared_ptr<const GraphDesc> readGraph(const std::string& path, base::Diagnostics& diagnostics);
-
-// The same with presets on top, in this order (overlay.h). A preset that cannot be read is an error and is left out.
-std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
-                                           base::Diagnostics& diagnostics);
-
-// The same, but takes the text of a file from `given` where that has its path.
+// Reads `path` and its includes (paths relative to the including file), with presets on top, in this order (overlay.h). Takes
+// the text of a file from `given` where that has its path. Comments are allowed. Null after an error that leaves nothing to
+// expand; otherwise a description, perhaps partial, with the errors in `diagnostics`. A preset that cannot be read is an error
+// and is left out.
 std::shared_ptr<const GraphDesc> readGraph(const std::string& path, std::span<const std::string> presets,
                                            const FileTexts& given, base::Diagnostics& diagnostics);
+inline std::shared_ptr<const GraphDesc> readGraph(const std::string& path,
+                                                  std::span<const std::string> presets,
+                                                  base::Diagnostics& diagnostics) {
+  return readGraph(path, presets, {}, diagnostics);
+}
+inline std::shared_ptr<const GraphDesc> readGraph(const std::string& path, base::Diagnostics& diagnostics) {
+  return readGraph(path, {}, {}, diagnostics);
+}
 
 // The same for text that stands in memory; `name` is used in places, includes are relative to the folder of
 // `name`.

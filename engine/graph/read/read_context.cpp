@@ -16,10 +16,8 @@ namespace weft::graph {
 
 using base::Code;
 
-base::Diagnostic& ReadContext::errorAt(Code code, const Place& place, const JsonPointer& pointer,
-                                       std::string message) {
+base::Diagnostic& ReadContext::errorAt(Code code, const Place& place, std::string message) {
   auto& d = goesOn() ? diagnostics_.error(code, place, std::move(message)) : unkept_;
-  d.pointer = pointer;
   d.pass = pass;
   d.resource = resource;
   return d;
@@ -27,20 +25,18 @@ base::Diagnostic& ReadContext::errorAt(Code code, const Place& place, const Json
 
 base::Diagnostic& ReadContext::limit(base::Limit limit, const JsonValue& value, std::string message) {
   auto& d = base::reportLimit(diagnostics_, limit, value.place, std::move(message));
-  d.pointer = value.pointer;
   d.pass = pass;
   d.resource = resource;
   return d;
 }
 
 base::Diagnostic& ReadContext::error(Code code, const JsonValue& value, std::string message) {
-  return errorAt(code, value.place, value.pointer, std::move(message));
+  return errorAt(code, value.place, std::move(message));
 }
 
-void ReadContext::adopt(const base::Diagnostics& said, const JsonPointer& pointer) {
+void ReadContext::adopt(const base::Diagnostics& said) {
   if (said.empty() || !goesOn()) return;
   for (base::Diagnostic d : said.items()) {
-    d.pointer = pointer;
     d.pass = pass;
     d.resource = resource;
     diagnostics_.add(std::move(d));
@@ -57,23 +53,6 @@ bool ReadContext::expect(const JsonValue& value, JsonValue::Type type, std::stri
   return false;
 }
 
-namespace {
-
-// What the author of an unknown key needs to know: where it belongs, what it is called here, or the nearest.
-std::string hintForUnknown(std::string_view key, std::span<const std::string> known,
-                           const std::string& nearest, std::optional<base::Foreign> foreign) {
-  if (foreign == base::Foreign::pass_key)
-    for (const KeySpec& state : kStateKeys)
-      if (state.key == key) return fmt::format("it belongs into \"state\": {{ \"{}\": … }}", key);
-  // A word of another program first: "groups" is no slip of "group".
-  if (std::string meant = foreign ? base::hintForForeign(*foreign, key) : std::string(); !meant.empty())
-    return meant;
-  return nearest.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
-                         : fmt::format("did you mean \"{}\"?", nearest);
-}
-
-}  // namespace
-
 void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> keys, std::string_view what,
                             std::optional<base::Foreign> foreign) {
   std::vector<std::string> known, meant;
@@ -81,13 +60,20 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
   for (const JsonMember& member : object.members) {
     if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
     if (!goesOn()) return;
-    auto& d = errorAt(Code::unknownKey, member.place, member.value.pointer,
-                      fmt::format("unknown key \"{}\" in {}", member.key, what));
+    auto& d =
+        errorAt(Code::unknownKey, member.place, fmt::format("unknown key \"{}\" in {}", member.key, what));
+    const bool ofState = foreign == base::Foreign::pass_key &&
+                         std::ranges::find(kStateKeys, member.key, &KeySpec::key) != kStateKeys.end();
+    // A word of another program first: "groups" is no slip of "group".
+    const base::ForeignWord theirs =
+        foreign && !ofState ? base::findForeignWord(*foreign, member.key) : base::ForeignWord();
     const std::string nearest = base::nearestName(member.key, known);
-    d.hint = hintForUnknown(member.key, known, nearest, foreign);
+    d.hint = ofState                ? fmt::format("it belongs into \"state\": {{ \"{}\": … }}", member.key)
+             : !theirs.hint.empty() ? theirs.hint
+             : nearest.empty()      ? fmt::format("known: {}", fmt::join(known, ", "))
+                                    : fmt::format("did you mean \"{}\"?", nearest);
     meant.push_back(nearest);
-    for (const KeySpec& spec : keys)  // "width" stands for "size"
-      if (d.hint.starts_with(fmt::format("write \"{}\"", spec.key))) meant.emplace_back(spec.key);
+    meant.push_back(theirs.key);  // "width" stands for "size"
   }
   for (const KeySpec& spec : keys) {
     if (!spec.required || object.find(spec.key) ||
@@ -98,18 +84,16 @@ void ReadContext::checkKeys(const JsonValue& object, std::span<const KeySpec> ke
   }
 }
 
-bool ReadContext::checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
-                            std::string_view what) {
+bool ReadContext::checkName(std::string_view name, const Place& place, std::string_view what) {
   const std::size_t longest = base::limitFor(base::Limit::name_bytes, place.file.get());
   if (isIdent(name) && !isReservedWord(name) && name.size() <= longest) return true;
   if (name.size() > longest && goesOn()) {
     auto& d = base::reportLimit(diagnostics_, base::Limit::name_bytes, place,
                                 fmt::format("the name of {} is too long", what));
-    d.pointer = pointer;
     d.found = fmt::format("{} bytes", name.size());
     return false;
   }
-  auto& d = errorAt(Code::notAName, place, pointer, fmt::format("\"{}\" cannot name {}", name, what));
+  auto& d = errorAt(Code::notAName, place, fmt::format("\"{}\" cannot name {}", name, what));
   if (isReservedWord(name)) {
     d.expected = fmt::format("a word that is not reserved; reserved are {}", fmt::join(kReservedWords, ", "));
     d.hint = fmt::format("choose another, such as 'my_{}'", name);
@@ -125,16 +109,15 @@ bool ReadContext::checkName(std::string_view name, const Place& place, const Jso
   return false;
 }
 
-bool ReadContext::checkShaderName(std::string_view name, const Place& place, const JsonPointer& pointer,
-                                  std::string_view what) {
-  if (!checkName(name, place, pointer, what)) return false;
+bool ReadContext::checkShaderName(std::string_view name, const Place& place, std::string_view what) {
+  if (!checkName(name, place, what)) return false;
   const bool define = what == "a define";
   // HAS_A__B of a parameter is a warning of drivers, and importers keep the names of parameters.
   const bool reserved = (what != "a parameter" && name.find("__") != std::string_view::npos) ||
                         (define && (name.starts_with("GL_") || name.starts_with("HAS_")));
   const bool function = define && base::isGlslFunction(name);
   if (!base::isGlslWord(name) && !reserved && !function) return true;
-  auto& d = errorAt(Code::notAName, place, pointer,
+  auto& d = errorAt(Code::notAName, place,
                     fmt::format("\"{}\" cannot name {}: {}", name, what,
                                 function    ? "it would hide a function of GLSL"
                                 : !reserved ? "it is a word of GLSL"
@@ -153,12 +136,10 @@ bool ReadContext::checkShaderName(std::string_view name, const Place& place, con
   return false;
 }
 
-bool ReadContext::checkFresh(Seen& seen, const std::string& name, const Place& place,
-                             const JsonPointer& pointer, std::string_view what) {
+bool ReadContext::checkFresh(Seen& seen, const std::string& name, const Place& place, std::string_view what) {
   const auto [before, fresh] = seen.try_emplace(name, place);
   if (fresh) return true;
-  auto& d =
-      errorAt(Code::duplicateName, place, pointer, fmt::format("{} '{}' is declared twice", what, name));
+  auto& d = errorAt(Code::duplicateName, place, fmt::format("{} '{}' is declared twice", what, name));
   d.hint = fmt::format("rename one; the first stands at {}:{}", before->second.line, before->second.column);
   return false;
 }
@@ -214,7 +195,7 @@ Expr ReadContext::expr(const JsonValue* value, std::string_view what) {
     case JsonValue::Type::string: {
       base::Diagnostics said;
       std::optional<Expr> parsed = Expr::parse(value->text, value->textPlace(), said);
-      adopt(said, value->pointer);
+      adopt(said);
       return parsed ? *std::move(parsed) : Expr();
     }
     case JsonValue::Type::array: {
@@ -246,8 +227,8 @@ std::optional<RefDesc> ReadContext::ref(const JsonValue* value, std::string_view
               one ? fmt::format("write \"{}\", without brackets", value->items[0].text) : ""))
     return std::nullopt;
   base::Diagnostics said;
-  std::optional<RefDesc> parsed = parseRef(value->text, value->textPlace(), value->pointer, said);
-  adopt(said, value->pointer);
+  std::optional<RefDesc> parsed = parseRef(value->text, value->textPlace(), said);
+  adopt(said);
   return parsed;
 }
 

@@ -32,8 +32,7 @@ class ReadContext {
   std::string pass, resource;  // set while one is read
 
   base::Diagnostic& error(base::Code code, const JsonValue& value, std::string message);
-  base::Diagnostic& errorAt(base::Code code, const Place& place, const JsonPointer& pointer,
-                            std::string message);
+  base::Diagnostic& errorAt(base::Code code, const Place& place, std::string message);
 
   // False, with Code::wrongType, when `value` is something else. `what` names it: "\"passes\"".
   bool expect(const JsonValue& value, JsonValue::Type type, std::string_view what, std::string hint = {});
@@ -45,15 +44,12 @@ class ReadContext {
                  std::optional<base::Foreign> foreign = std::nullopt);
 
   // Code::notAName unless `name` is an identifier without reserved words.
-  bool checkName(std::string_view name, const Place& place, const JsonPointer& pointer,
-                 std::string_view what);
+  bool checkName(std::string_view name, const Place& place, std::string_view what);
   // The same, and not a word of GLSL: slots, parameters and defines are spelled alike in shaders.
-  bool checkShaderName(std::string_view name, const Place& place, const JsonPointer& pointer,
-                       std::string_view what);
+  bool checkShaderName(std::string_view name, const Place& place, std::string_view what);
   // Code::duplicateName when `name` was already registered in `seen`.
   using Seen = std::unordered_map<std::string, Place>;
-  bool checkFresh(Seen& seen, const std::string& name, const Place& place, const JsonPointer& pointer,
-                  std::string_view what);
+  bool checkFresh(Seen& seen, const std::string& name, const Place& place, std::string_view what);
 
   std::string text(const JsonValue* value, std::string_view what);
   bool flag(const JsonValue* value, std::string_view what);
@@ -69,7 +65,7 @@ class ReadContext {
 
   // For the parsers of strings, which know neither pointer nor pass: adopt() what they said into a fresh
   // Diagnostics.
-  void adopt(const base::Diagnostics& said, const JsonPointer& pointer);
+  void adopt(const base::Diagnostics& said);
 
   // False once there are enough errors (enough.h): further ones are not kept.
   bool goesOn() const { return !enoughErrors(diagnostics_); }

@@ -62,7 +62,6 @@ class Merger {
     } else if (over.value.is(Type::object) && there->value.is(Type::object)) {
       there->place = over.place;
       there->value.place = over.value.place;
-      there->value.pointer = over.value.pointer;
       for (const JsonMember& member : over.value.members) merge(there->value, member);
     } else {
       *there = over;
@@ -72,7 +71,7 @@ class Merger {
  private:
   void nothingThere(const JsonValue& in, const JsonMember& over) {
     context_
-        .errorAt(Code::nothingToChange, over.place, over.value.pointer,
+        .errorAt(Code::nothingToChange, over.place,
                  fmt::format("null takes \"{}\" away, which is not there", over.key))
         .hint = hintForKey(in, over.key);
   }
@@ -129,7 +128,6 @@ const JsonValue* LikePasses::at(std::size_t index) {
   }
   JsonValue& made = made_.emplace_back(*other);
   made.place = stanza.place;
-  made.pointer = stanza.pointer;
   takeParametersOf(made, like->text, *like);
   if (stanza.find("shader")) placeAtLike(made, *like);
   Merger merger(context_, stanza.place);

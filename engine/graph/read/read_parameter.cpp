@@ -43,7 +43,6 @@ class ParameterReader {
   ParameterReader(ReadContext& context, const JsonMember& member) : context_(context), object_(member.value) {
     out_.name = member.key;
     out_.place = member.place;
-    out_.pointer = object_.pointer;
     what_ = fmt::format("the parameter '{}'", member.key);
   }
 
@@ -73,7 +72,6 @@ class ParameterReader {
     const JsonValue* initial = object_.find("default");
     if (!initial) return std::nullopt;
     out_.initialPlace = initial->place;
-    out_.initialPointer = initial->pointer;
     const std::optional<ParameterType> type = typeOf(*initial);
     if (!type) return std::nullopt;
     out_.type = *type;
@@ -90,9 +88,8 @@ class ParameterReader {
     ReadContext::Seen seen;
     for (const JsonValue& choice : choices->items) {
       if (!context_.expect(choice, JsonValue::Type::string, "a choice")) continue;
-      if (!context_.checkName(choice.text, choice.place, choice.pointer, "a choice")) continue;
-      if (context_.checkFresh(seen, choice.text, choice.place, choice.pointer, "choice"))
-        out_.choices.push_back(choice.text);
+      if (!context_.checkName(choice.text, choice.place, "a choice")) continue;
+      if (context_.checkFresh(seen, choice.text, choice.place, "choice")) out_.choices.push_back(choice.text);
     }
     if (choices->items.empty()) {
       auto& d = context_.error(Code::wrongType, *choices, "\"choices\" is empty");
@@ -285,7 +282,7 @@ class ParameterReader {
 }  // namespace
 
 std::optional<ParameterDesc> readParameter(ReadContext& context, const JsonMember& member) {
-  const bool named = context.checkName(member.key, member.place, member.value.pointer, "a parameter");
+  const bool named = context.checkName(member.key, member.place, "a parameter");
   std::optional<ParameterDesc> parameter = ParameterReader(context, member).run();
   return named ? parameter : std::nullopt;
 }

@@ -23,7 +23,6 @@ class PassReader {
  public:
   PassReader(ReadContext& context, const JsonValue& value) : context_(context), value_(value) {
     out_.place = value.place;
-    out_.pointer = value.pointer;
   }
 
   std::optional<PassDesc> run() {
@@ -71,7 +70,7 @@ class PassReader {
     if (const JsonValue* as = value_.find("as")) {
       include.as = context_.text(as, "\"as\"");
       out_.namePlace = as->place;
-      if (!as->is(Type::string) || !context_.checkName(include.as, as->place, as->pointer, "an include"))
+      if (!as->is(Type::string) || !context_.checkName(include.as, as->place, "an include"))
         include.as = std::string("include");
     } else {
       include.as = std::filesystem::path(include.file).stem().string();
@@ -90,7 +89,7 @@ class PassReader {
 
   void readBinds(IncludeDesc& include) {
     for (const JsonMember& member : membersOf("bind")) {
-      const bool named = context_.checkName(member.key, member.place, member.value.pointer, "an input");
+      const bool named = context_.checkName(member.key, member.place, "an input");
       std::optional<RefDesc> ref =
           context_.ref(&member.value, fmt::format("the binding of '{}'", member.key));
       if (named && ref) include.binds.emplace_back(member.key, *std::move(ref));
@@ -114,7 +113,7 @@ class PassReader {
     if (const JsonValue* name = value_.find("name")) {
       out_.namePlace = name->place;
       out_.name = context_.text(name, "\"name\"");
-      if (name->is(Type::string) && !context_.checkName(out_.name, name->place, name->pointer, "a pass"))
+      if (name->is(Type::string) && !context_.checkName(out_.name, name->place, "a pass"))
         out_.name = isIdent(context_.pass) ? context_.pass
                                            : standIn(context_.pass);  // the rest of the stanza is checked too
     }
@@ -151,7 +150,7 @@ class PassReader {
         out_.geometry = std::move(call->name);
         out_.geometryArguments = std::move(call->arguments);
       }
-      context_.adopt(said, geometry->pointer);
+      context_.adopt(said);
     }
     const std::string update =
         context_.word(value_.find("update"), kUpdateWords, "\"update\"").value_or("always");
@@ -212,8 +211,8 @@ class PassReader {
                                      member.key));
         return;
       }
-      bool good = context_.checkName(member.key, member.place, value.pointer, "an index");
-      good = context_.checkFresh(seen, member.key, member.place, value.pointer, "index") && good;
+      bool good = context_.checkName(member.key, member.place, "an index");
+      good = context_.checkFresh(seen, member.key, member.place, "index") && good;
       if (!value.is(Type::array) || value.items.size() < 2 || value.items.size() > 3) {
         auto& d = context_.error(Code::wrongType, value,
                                  fmt::format("the range of '{}' has the wrong type", member.key));
@@ -266,8 +265,8 @@ class PassReader {
       for (const JsonMember& slot : member.value.members) {
         if (!context_.goesOn()) return;
         const std::string what = fmt::format("the slot '{}'", slot.key);
-        bool good = context_.checkShaderName(slot.key, slot.place, slot.value.pointer, "a slot");
-        good = context_.checkFresh(names_, slot.key, slot.place, slot.value.pointer, kSharedName) && good;
+        bool good = context_.checkShaderName(slot.key, slot.place, "a slot");
+        good = context_.checkFresh(names_, slot.key, slot.place, kSharedName) && good;
         std::optional<RefDesc> ref = context_.ref(&slot.value, what);
         // Only a part may be missing, at some size.
         if (ref && ref->optional && access == Access::write && !ref->mip && !ref->layer && !ref->face &&
@@ -279,22 +278,20 @@ class PassReader {
               "leave the '?' out: what a pass writes is always there, and costs nothing where nobody reads "
               "it";
         }
-        if (good && ref)
-          out_.slots.push_back({slot.key, slot.place, slot.value.pointer, access, *std::move(ref)});
+        if (good && ref) out_.slots.push_back({slot.key, slot.place, access, *std::move(ref)});
       }
     }
   }
 
   void readParameters() {
     for (const JsonMember& member : membersOf("parameters")) {
-      PassParameterDesc parameter{member.key, member.place, member.value.pointer, {}, {}};
-      bool good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, kSharedName);
+      PassParameterDesc parameter{member.key, member.place, {}, {}};
+      bool good = context_.checkFresh(names_, member.key, member.place, kSharedName);
       if (member.value.is(Type::object)) {
         parameter.declared = readParameter(context_, member);
         good = good && parameter.declared;
       } else {
-        good =
-            context_.checkShaderName(member.key, member.place, member.value.pointer, "a parameter") && good;
+        good = context_.checkShaderName(member.key, member.place, "a parameter") && good;
         parameter.value = context_.expr(&member.value, fmt::format("the parameter '{}'", member.key));
         good = good && parameter.value.present();
       }
@@ -304,11 +301,10 @@ class PassReader {
 
   void readDefines() {
     for (const JsonMember& member : membersOf("defines")) {
-      bool good = context_.checkShaderName(member.key, member.place, member.value.pointer, "a define");
-      good = context_.checkFresh(names_, member.key, member.place, member.value.pointer, kSharedName) && good;
+      bool good = context_.checkShaderName(member.key, member.place, "a define");
+      good = context_.checkFresh(names_, member.key, member.place, kSharedName) && good;
       Expr expr = context_.expr(&member.value, fmt::format("the define '{}'", member.key));
-      if (good && expr.present())
-        out_.defines.push_back({member.key, member.place, member.value.pointer, std::move(expr)});
+      if (good && expr.present()) out_.defines.push_back({member.key, member.place, std::move(expr)});
     }
   }
 
@@ -349,8 +345,7 @@ class PassReader {
       return;
     }
     Expr expr = context_.expr(&member.value, fmt::format("\"{}\"", member.key));
-    if (expr.present())
-      out_.state.push_back({std::move(name), member.place, member.value.pointer, std::move(expr)});
+    if (expr.present()) out_.state.push_back({std::move(name), member.place, std::move(expr)});
   }
 
   ReadContext& context_;

@@ -33,7 +33,6 @@ class ResourceReader {
   ResourceReader(ReadContext& context, const JsonMember& member) : context_(context), value_(member.value) {
     out_.name = member.key;
     out_.place = member.place;
-    out_.pointer = value_.pointer;
   }
 
   std::optional<ResourceDesc> run() {
@@ -111,7 +110,7 @@ class ResourceReader {
       const std::string nearest = base::nearestName(member.key, kinds);
       if (nearest.empty()) continue;
       context_
-          .errorAt(Code::unknownKey, member.place, member.value.pointer,
+          .errorAt(Code::unknownKey, member.place,
                    fmt::format("unknown key \"{}\" in the resource '{}'", member.key, out_.name))
           .hint = fmt::format("did you mean \"{}\"?", nearest);
       return std::nullopt;
@@ -148,7 +147,7 @@ class ResourceReader {
     out_.import.type = context_.text(&import, "\"import\"");
     for (const JsonMember& member : value_.members) {
       if (member.key == "import") continue;
-      const bool named = context_.checkName(member.key, member.place, member.value.pointer, "an argument");
+      const bool named = context_.checkName(member.key, member.place, "an argument");
       const JsonValue& value = member.value;
       const bool path = value.is(JsonValue::Type::string) && value.text.substr(0, 1) != "$" &&
                         (isPathArgument(member.key) || looksLikePath(value.text));
@@ -156,7 +155,7 @@ class ResourceReader {
                                         value.textPlace())
                        : context_.expr(&value, fmt::format("\"{}\"", member.key));
       if (named && expr.present())
-        out_.import.arguments.push_back({member.key, member.place, value.pointer, std::move(expr)});
+        out_.import.arguments.push_back({member.key, member.place, std::move(expr)});
     }
     return out_.import.type.empty() ? std::nullopt : std::optional(std::move(out_));
   }
@@ -262,7 +261,7 @@ class ResourceReader {
 
 std::optional<ResourceDesc> readResource(ReadContext& context, const JsonMember& member) {
   context.resource = member.key;
-  const bool named = context.checkName(member.key, member.place, member.value.pointer, "a resource");
+  const bool named = context.checkName(member.key, member.place, "a resource");
   std::optional<ResourceDesc> resource = ResourceReader(context, member).run();
   context.resource.clear();
   return named ? resource : std::nullopt;

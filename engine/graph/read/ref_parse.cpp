@@ -39,12 +39,10 @@ bool isBlank(std::string_view text) {
 
 class RefParser {
  public:
-  RefParser(std::string_view text, const Place& place, const base::JsonPointer& pointer,
-            base::Diagnostics& diagnostics)
+  RefParser(std::string_view text, const Place& place, base::Diagnostics& diagnostics)
       : whole_(text), text_(text), place_(place), diagnostics_(diagnostics) {
     ref_.text = text;
     ref_.place = place;
-    ref_.pointer = pointer;
   }
 
   std::optional<RefDesc> run() {
@@ -278,9 +276,8 @@ class RefParser {
 
 }  // namespace
 
-std::optional<RefDesc> parseRef(std::string_view text, const Place& place, const base::JsonPointer& pointer,
-                                base::Diagnostics& diagnostics) {
-  return RefParser(text, place, pointer, diagnostics).run();
+std::optional<RefDesc> parseRef(std::string_view text, const Place& place, base::Diagnostics& diagnostics) {
+  return RefParser(text, place, diagnostics).run();
 }
 
 bool looksLikeRef(std::string_view text) {

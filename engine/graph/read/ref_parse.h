@@ -15,8 +15,7 @@ namespace weft::graph {
 
 // `text` stands at `place`. Empty after Code::badReference, or Code::badExpression inside an index or a condition; stops at the
 // first.
-std::optional<RefDesc> parseRef(std::string_view text, const Place& place, const base::JsonPointer& pointer,
-                                base::Diagnostics& diagnostics);
+std::optional<RefDesc> parseRef(std::string_view text, const Place& place, base::Diagnostics& diagnostics);
 
 // Tells "@cut" and "camera if $progressive" from "size(hdr)" and "$taa ? 1 : 0" where both may stand
 // ("reset").

@@ -153,7 +153,6 @@ void SceneModels::addCopies(const JsonValue& value, const std::string& name, con
   } else if (copy.lights && suns > 0 && !sunOf_.empty()) {  // a sun of the scene file takes the place of all
     base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, value.place,
                                                fmt::format("the sun of model '{}' was left out", name));
-    d.pointer = value.pointer;
     d.expected = "one model with a directional light, or a 'sun' in the scene file";
     d.found = fmt::format("the sun of model '{}'", sunOf_);
     d.hint = "\"lights\": false leaves the lights of a model out";

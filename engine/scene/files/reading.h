@@ -26,9 +26,7 @@ inline glm::dvec3 toDvec3(const std::array<double, 3>& v) {
 
 inline base::Diagnostic& failAt(base::Diagnostics& diagnostics, base::Code code, const base::JsonValue& value,
                                 std::string message) {
-  base::Diagnostic& d = diagnostics.error(code, value.place, std::move(message));
-  d.pointer = value.pointer;
-  return d;
+  return diagnostics.error(code, value.place, std::move(message));
 }
 
 }  // namespace weft::scene

@@ -43,6 +43,7 @@ class Reader {
 
   std::optional<Scene> read(std::string_view text) {
     const std::size_t errorsBefore = diagnostics_.errorCount();
+    const base::PointerScope pointers(name_, text, diagnostics_);
     const auto root = base::parseJson(text, std::make_shared<const std::string>(name_), diagnostics_);
     if (!root) return {};
     if (isGraph(*root)) return {};

@@ -36,7 +36,7 @@ std::string broken(std::string_view text, Code code = Code::notJson) {
 
 }  // namespace
 
-TEST_CASE("every value and key knows its place and pointer") {
+TEST_CASE("every value and key knows its place, and a place its pointer") {
   const JsonValue root = parse(
       "{ // a comment with \"quotes\" \\\" and 12\n"
       "  \"a\": 12, \"b/c~\": [true, -1.5e3 , null],\n"
@@ -48,16 +48,18 @@ TEST_CASE("every value and key knows its place and pointer") {
   CHECK(at(root.members[0].value.place) == "2:8");
   CHECK(root.members[0].value.number == 12);
   CHECK(root.members[0].value.whole);
-  CHECK(root.members[0].value.pointer == "/a");
+  CHECK(pointerAt(root, root.begin) == "");
+  CHECK(pointerAt(root, root.members[0].begin) == "/a");
+  CHECK(pointerAt(root, root.members[0].value.begin) == "/a");
   const JsonValue& list = root.members[1].value;
-  CHECK(list.pointer == "/b~1c~0");
+  CHECK(pointerAt(root, list.begin) == "/b~1c~0");
   CHECK(at(list.place) == "2:20");
   CHECK(at(list.items[0].place) == "2:21");
   CHECK(list.items[0].flag);
   CHECK(at(list.items[1].place) == "2:27");
   CHECK(list.items[1].number == -1500);
   CHECK(!list.items[1].whole);
-  CHECK(list.items[1].pointer == "/b~1c~0/1");
+  CHECK(pointerAt(root, list.items[1].begin) == "/b~1c~0/1");
   CHECK(at(list.items[2].place) == "2:36");
   CHECK(root.members[2].key == "s\"\\");
   CHECK(at(root.members[2].place) == "3:2");
@@ -66,7 +68,7 @@ TEST_CASE("every value and key knows its place and pointer") {
   CHECK(at(root.members[2].value.textPlace()) == "3:12");
   CHECK(at(root.members[3].place) == "3:32");
   CHECK(root.members[3].value.find("deep")->text == "\xC3\xA9");
-  CHECK(root.members[3].value.find("deep")->pointer == "/o/deep");
+  CHECK(pointerAt(root, root.members[3].value.find("deep")->begin + 1) == "/o/deep");
   CHECK(root.find("nothing") == nullptr);
   CHECK(root.find("e")->is(JsonValue::Type::array));
   CHECK(root.find("last")->number == 7);
@@ -147,8 +149,9 @@ TEST_CASE("depth is limited, not the stack") {
 
 TEST_CASE("duplicate keys are reported and the first is kept") {
   Diagnostics diagnostics;
-  const auto root = parseJson("{\"a\": 1,\n \"b\": {\"a\": 2},\n \"a\": {\"x\": [1]}, \"c\": 3, \"a\": 4}",
-                              kFile, diagnostics);
+  const std::string text = "{\"a\": 1,\n \"b\": {\"a\": 2},\n \"a\": {\"x\": [1]}, \"c\": 3, \"a\": 4}";
+  const auto root = parseJson(text, kFile, diagnostics);
+  PointerScope(*kFile, text, diagnostics);
   REQUIRE(root);
   REQUIRE(diagnostics.size() == 2);
   CHECK(diagnostics.items()[0].code == Code::duplicateKey);
@@ -225,4 +228,26 @@ TEST_CASE("quotes that are missing or of another kind, and marks of a merge, are
   CHECK(broken("{ \"a\": \xC2\xB5 }") == "1:8 '\xC2\xB5' (U+00B5) has no meaning here");
   CHECK(broken("{\n<<<<<<< HEAD\n \"a\": 1 }") == "2:1 a merge conflict is left in the file");
   CHECK(broken("{ \"a\": 1,\n=======\n \"a\": 1 }") == "2:1 a merge conflict is left in the file");
+}
+
+TEST_CASE("a tree of any text: what is broken is passed over, comments are listed") {
+  const JsonTree tree =
+      parseJsonTree("{ \"a\": [1, tru, 2 /* c */, \"x\n], \"b\" \"c\": { , \"d\": \n /* open\n \"e\": 3");
+  REQUIRE(tree.root.members.size() == 3);
+  CHECK_FALSE(tree.root.closed);
+  const JsonMember &a = tree.root.members[0], &b = tree.root.members[1], &c = tree.root.members[2];
+  REQUIRE(a.value.items.size() == 4);
+  CHECK(a.value.items[1].is(JsonValue::Type::broken));
+  CHECK(a.value.items[2].number == 2);
+  CHECK(a.value.items[3].text == "x");
+  CHECK_FALSE(a.value.items[3].closed);
+  CHECK(b.key == "b");
+  CHECK_FALSE(b.hasValue);
+  CHECK(b.value.is(JsonValue::Type::absent));
+  REQUIRE(c.value.members.size() == 1);
+  CHECK(c.value.members[0].value.text ==
+        "e");  // a value of the next line: the comma in between is not there yet
+  CHECK(tree.comments.size() == 2);
+  CHECK(tree.behindComment(tree.comments[0].begin) == tree.comments[0].end);
+  CHECK(tree.behindComment(0) == 0);
 }

@@ -28,8 +28,8 @@ TEST_CASE("present members are read, absent ones are nothing, and neither is an 
 }
 
 TEST_CASE("wrong types, ranges, unknown and missing keys") {
-  const JsonValue value =
-      parseGood("{\"n\": \"x\",\n \"m\": 3, \"v\": [1, 2], \"w\": [1, null, 9], \"lenght\": 1}");
+  const std::string text = "{\"n\": \"x\",\n \"m\": 3, \"v\": [1, 2], \"w\": [1, null, 9], \"lenght\": 1}";
+  const JsonValue value = parseGood(text);
   Diagnostics diagnostics;
   JsonFields fields(value, "the thing", Code::badSceneValue, diagnostics);
   fields.require({"n", "absent"});
@@ -39,6 +39,7 @@ TEST_CASE("wrong types, ranges, unknown and missing keys") {
   CHECK_FALSE(fields.triple("w", {.max = 5}));
   fields.number("length");
   fields.finish();
+  PointerScope("f.json", text, diagnostics);
   REQUIRE(diagnostics.size() == 7);
   CHECK(diagnostics.items()[0].code == Code::missingKey);
   CHECK(diagnostics.items()[1].code == Code::wrongType);

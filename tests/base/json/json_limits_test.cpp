@@ -96,21 +96,6 @@ TEST_CASE("Weft's own data has at least the defaults, unless the person named th
   CHECK_FALSE(reads("own/a.json"));
 }
 
-TEST_CASE("pointers of long keys in depth are cut, not multiplied") {
-  const std::string key(250, 'k');
-  std::string text = "[1, 2]";
-  for (int i = 0; i < 40; ++i) text = "{\"" + key + "\":" + text + "}";
-  Diagnostics diagnostics;
-  const auto root = parse(text, diagnostics);
-  REQUIRE(root);
-  const JsonValue* at = &*root;
-  for (int i = 0; i < 10; ++i) at = &at->members[0].value;
-  CHECK(at->pointer.text().size() == 10 * 251);
-  while (!at->members.empty()) at = &at->members[0].value;
-  CHECK(at->items[1].pointer.text().size() < 4100);
-  CHECK(at->items[1].pointer.text().ends_with("…"));
-}
-
 TEST_CASE("limits of what goes down the stack have a maximum") {
   const LimitOf limit(Limit::include_depth, 64);
   CHECK(hintToRaise(Limit::include_depth) == "raise it with --limit include_depth=128, if that is meant");

@@ -8,9 +8,10 @@
 #include <random>
 #include <sstream>
 
-#include "engine/base/json/edit.h"
+#include "engine/base/json/dom.h"
 #include "tests/graph/expand/support.h"
 #include "tests/graph/test_folder.h"
+#include "tests/json_pointer.h"
 
 using namespace weft;
 using namespace weft::graph;
@@ -74,15 +75,15 @@ std::string around(const std::string& text, const std::vector<std::string>& poin
   base::Diagnostics diagnostics;
   const auto root = base::parseJson(text, nullptr, diagnostics);
   REQUIRE(root);
-  std::vector<base::ByteRange> ranges;
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const std::string& pointer : pointers)
-    if (const auto* value = base::findPointer(*root, pointer)) ranges.push_back(base::rangeOf(text, *value));
-  std::ranges::sort(ranges, {}, &base::ByteRange::begin);
+    if (const auto* value = weft::test::findPointer(*root, pointer)) ranges.emplace_back(value->begin, value->end);
+  std::ranges::sort(ranges);
   std::string out;
   std::size_t at = 0;
-  for (const auto& range : ranges) {
-    out += text.substr(at, range.begin - at) + "#";
-    at = range.end;
+  for (const auto& [begin, end] : ranges) {
+    out += text.substr(at, begin - at) + "#";
+    at = end;
   }
   return out + text.substr(at);
 }

@@ -96,7 +96,7 @@ TEST_CASE("a mistake at midnight: expressions in the words of other languages") 
            "without braces");
   checkOne(enabled, "\"groups\": [8, 8, 1]", unknownKey, "\"groups\"", "\"threads\" counts invocations");
   checkOne(enabled, "\"clear_color\": [0, 0, 0]", unknownKey, "\"clear_color\"",
-           "\"clear\" in \"resources\"");
+           "set \"clear\" on the texture");
   checkOne(enabled, "\"update\": \"every_frame\"", unknownWord, "every_frame", "write \"always\"");
   checkOne("\"fullscreen\"", "\"postprocess\"", unknownPassType, "unknown type", "write 'fullscreen'");
 }

@@ -138,7 +138,7 @@ TEST_CASE("random soups of tokens: expressions print as what they parse to, refe
       CHECK_MESSAGE(copy->text() == expr->text(), text);
     }
     Diagnostics said;
-    const bool isRef = parseRef(text, place, {}, said).has_value();
+    const bool isRef = parseRef(text, place, said).has_value();
     CHECK_MESSAGE(isRef == said.empty(), text);
     for (const auto& d : said.items())
       CHECK_MESSAGE((d.place.column >= 1 && d.place.column <= text.size() + 1), text);

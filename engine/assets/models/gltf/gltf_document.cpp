@@ -32,13 +32,13 @@ std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
 
 base::Diagnostic& GltfDocument::fail(const JsonValue& where, std::string message) {
   base::Diagnostic& d = diagnostics_.error(Code::badModelValue, where.place, std::move(message));
-  d.pointer = where.pointer;
+  d.pointer = base::pointerAt(*root_, where.begin);
   return d;
 }
 
 base::Diagnostic& GltfDocument::leaveOut(const JsonValue& where, std::string message) {
   base::Diagnostic& d = diagnostics_.warning(Code::modelPartLeftOut, where.place, std::move(message));
-  d.pointer = where.pointer;
+  d.pointer = base::pointerAt(*root_, where.begin);
   return d;
 }
 
@@ -119,7 +119,7 @@ bool GltfDocument::checkExtensions() {
       base::Diagnostic& d = diagnostics_.error(
           Code::unreadableModel, name.place,
           fmt::format("the model needs the extension '{}', which Weft does not know", name.text));
-      d.pointer = name.pointer;
+      d.pointer = base::pointerAt(*root_, name.begin);
       d.expected = fmt::format("{}", fmt::join(kKnownExtensions, ", "));
       d.hint = "export the model without it, for example uncompressed";
       return false;

@@ -110,7 +110,6 @@ class Judge {
     d.code = code;
     d.message = std::move(message);
     d.place = place;
-    d.pointer = missing.ref->pointer;
     if (missing.pass != kNone) d.pass = graph_.passNames[missing.pass];
     d.resource =
         missing.wanted.empty() ? missing.ref->name : model_.entities[missing.wanted.front().entity].name;

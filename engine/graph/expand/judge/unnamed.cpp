@@ -105,7 +105,6 @@ void warnOfResource(Model& model, const Scope& scope, const ResourceDesc& resour
         fmt::format("the {} '{}' is not used: no pass, list or expression of {} names it",
                     input ? "input" : "resource", resource.name, input ? "this file" : "the graph"));
     d.resource = resource.name;
-    d.pointer = resource.pointer;
     d.hint = fmt::format("name '{}' where it is meant, or take it out", resource.name);
   } else if (resource.history.present() && !named.looksBack(resource) && !mayBeReadAbove(scope, resource)) {
     auto& d =
@@ -161,7 +160,6 @@ void warnOfList(Model& model, const Entity& list) {
         fmt::format("'{}' never means '{}': '{}' stands before it, and pass '{}' always writes that",
                     list.desc->name, later->text, refs[i].text, pass->name));
     d.resource = list.name;
-    d.pointer = later->pointer;
     d.hint = fmt::format("put '{}' before '{}', or take it out", later->text, refs[i].text);
     return;
   }

@@ -130,7 +130,6 @@ void warnVariables(Model& model, Scope& scope, const Uses& uses) {
         model.diagnostics.warning(Code::unusedDeclaration, parameter.place,
                                   fmt::format("the parameter '{}' changes nothing: no expression reads '${}'",
                                               parameter.name, parameter.name));
-    d.pointer = parameter.pointer;
     d.hint = hintFor(model, scope, parameter);
   }
   if (scope.parent) return;  // an including file may want it
@@ -139,7 +138,6 @@ void warnVariables(Model& model, Scope& scope, const Uses& uses) {
     auto& d = model.diagnostics.warning(
         Code::unusedDeclaration, let.place,
         fmt::format("the \"let\" '{}' changes nothing: no expression reads '${}'", let.name, let.name));
-    d.pointer = let.pointer;
     d.hint = fmt::format("write '${}' where its value is meant, or take it out", let.name);
   }
 }

@@ -111,7 +111,6 @@ struct SetPlace {
   const Scope& scope;
   std::string_view prefix = "";
   Where place = {};
-  JsonPointer pointer = {};
   Where valuePlace = {};  // `place` when it has no file
   Origin kind = Origin::file;
   std::string before = {};
@@ -158,7 +157,6 @@ void reportStrangers(Model& model, const std::vector<Stranger>& strangers) {
     auto& d =
         model.diagnostics.error(Code::unknownParameter, set.place,
                                 fmt::format("no parameter{} called {}", count == 1 ? " is" : "s are", names));
-    d.pointer = set.pointer;
     const std::string all = model.parameters.empty() ? "the graph has none"
                                                      : fmt::format("'weft params {}' lists what there is",
                                                                    model.scopes.front().desc->path);
@@ -203,7 +201,6 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
     }
     auto& d = model.diagnostics.error(Code::unknownParameter, origin.place,
                                       fmt::format("{}no parameter is called '{}'", origin.before, wanted));
-    d.pointer = origin.pointer;
     d.hint = std::move(hint);
     if (d.hint.empty() && !model.parameters.empty())
       d.hint = fmt::format("'weft params {}' lists what there is", model.scopes.front().desc->path);
@@ -222,7 +219,7 @@ void applySet(Model& model, const std::string& wanted, const SetPlace& origin, c
 
 void applySetting(Model& model, const Setting& set) {
   const std::string source = sourceOf(set);
-  const SetPlace place{model.scopes.front(),        "", placeOf(set.origin, source), {}, {}, set.origin,
+  const SetPlace place{model.scopes.front(),        "", placeOf(set.origin, source), {}, set.origin,
                        prefixOf(set.origin, source)};
   applySet(model, set.name, place, [&](Type type) {
     // A path is what was written, whatever else that may mean.
@@ -240,7 +237,7 @@ void applySets(Model& model) {
   for (auto scope = model.scopes.rbegin(); scope != model.scopes.rend(); ++scope)
     for (const SetDesc& set : scope->desc->sets) {
       if (isOver(model)) continue;
-      const SetPlace place{*scope, scope->prefix, set.place, set.pointer, set.valuePlace, set.origin};
+      const SetPlace place{*scope, scope->prefix, set.place, set.valuePlace, set.origin};
       const auto valueFor = [&](Type type) {
         const bool path = type == Type::file && set.value.type == Value::Type::symbol;
         return path ? Value::text(base::besideFile(set.place, set.value.symbol)) : set.value;

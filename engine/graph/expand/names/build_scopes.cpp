@@ -82,7 +82,6 @@ void addInclude(Model& model, Scope& scope, const PassDesc& stanza) {
       auto& d = model.diagnostics.error(
           Code::badBind, ref.place,
           fmt::format("include '{}' binds '{}' {}, which only a slot can say", include.as, name, words));
-      d.pointer = ref.pointer;
       d.expected = "the name of a whole resource";
       d.found = ref.text;
       d.hint = fmt::format("write \"{}\" here, and '{} {}' in the slots of '{}' that read it", ref.name, name,
