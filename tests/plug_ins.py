@@ -28,7 +28,6 @@ OTHER_MEANINGS = {
     ("engine/scene/files/ground.cpp", "ground"): "a key of scene files",
     ("engine/imports/mesh_draws.cpp", "joints"): "an attribute of vertices",
     ("engine/passes/draw/geometry.cpp", "position"): "an attribute of vertices",
-    ("engine/gl/programs/needs.cpp", "image"): "a part of names of GLSL's types",
     ("engine/convert/isf/graph.cpp", "draw"): "a word of the graph that it writes",
     ("engine/convert/isf/graph.cpp", "fullscreen"): "a word of the graph that it writes",
     ("engine/convert/isf/graph.cpp", "quad"): "a word of the graph that it writes",
@@ -43,8 +42,8 @@ OTHER_MEANINGS = {
     ("engine/graph/expand/stanza.cpp", "image"): "a type of pass of other engines",
     ("engine/base/words/foreign_words.cpp", "srgb"): "how formats of other APIs end",
     ("engine/base/words/glsl_words.cpp", "image"): "how types of GLSL begin",
-    ("engine/glsl/scan.cpp", "image"): "how types of GLSL begin",
-    ("engine/glsl/roles.cpp", "image"): "how types of GLSL begin",
+    ("engine/glsl/interface.cpp", "image"): "how types of GLSL begin",
+    ("engine/runtime/prepare/sampler_types.cpp", "image"): "how types of GLSL begin",
     ("engine/graph/subresource.h", "image"): "a kind of use",
     ("engine/graph/read/read_resource.cpp", "file"): "a rule of the language: arguments of this name, and of names that end so, hold paths",
 }

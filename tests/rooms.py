@@ -56,8 +56,7 @@ SUB_ROOMS = {
     "gl": {
         "context": set(),
         "objects": {"context"},
-        "messages": set(),
-        "programs": {"context", "objects", "messages"},
+        "programs": {"context", "objects"},
     },
     "convert": {"text": set(), "isf": {"text"}, "mpv": {"text"}, ".": {"text", "isf", "mpv"}},
     "runtime": {

@@ -38,13 +38,13 @@ struct Checked {
   base::Diagnostics unread;        // why shaders were not looked at (--no-shaders)
 };
 
-// Compiled, or with --no-shaders by their words.
+// Compiled, or with --no-shaders by what they declare.
 void checkShaders(const Options& options, ShaderCheck& shaders, const graph::Plan& plan,
                   const std::string& with, base::Diagnostics& diagnostics) {
   if (options.shaders)
     shaders.check(plan, with, diagnostics);
   else
-    shaders.checkWords(plan, with, diagnostics);
+    shaders.checkDeclared(plan, with, diagnostics);
 }
 
 // The variations of the graph: what they refuse, and with --all the shader variants that they reach.

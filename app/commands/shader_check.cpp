@@ -9,7 +9,6 @@
 #include "engine/passes/pass_registry.h"
 #include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/runtime/prepare/word_check.h"
 
 namespace weft::app {
 
@@ -88,16 +87,17 @@ void ShaderCheck::check(const graph::Plan& plan, const std::string& with, base::
     const auto request = runtime::programRequestOf(*plan.graph, plan, step.pass, type);
     if (!known_.insert(keyOf(request)).second) continue;
     const auto variant = device.programs.get(request, said);
-    if (variant && runtime::checkProgram(plan, step.pass, *variant, session_->context->device().limits,
-                                         device.roles, said))
+    if (!variant) continue;
+    const runtime::LinkedProgram linked{variant->program.reflection(), session_->context->device().limits};
+    if (runtime::checkProgram(plan, step.pass, variant->stages, variant->defines, &linked, said))
       runtime::warnOfConditions(spec.name, variant->stages, variant->defines, said);
   }
   tell(said, with, diagnostics);
   read_.insert(device.sources.touched().begin(), device.sources.touched().end());
 }
 
-void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
-                             base::Diagnostics& diagnostics) {
+void ShaderCheck::checkDeclared(const graph::Plan& plan, const std::string& with,
+                                base::Diagnostics& diagnostics) {
   if (!sources_)
     sources_ = std::make_unique<glsl::SourceLoader>(runtime::shaderRootsOf(plan.graph->files, dataFolder()));
   const passes::PassRegistry types = passes::PassRegistry::builtin();
@@ -121,7 +121,7 @@ void ShaderCheck::checkWords(const graph::Plan& plan, const std::string& with,
       stages.push_back({stage.stage, known->second});
       whole = whole && known->second;
     }
-    if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, said);
+    if (whole) runtime::checkProgram(plan, step.pass, stages, request.defines, nullptr, said);
     if (whole) runtime::warnOfConditions(spec.name, stages, request.defines, said);
   }
   tell(said, with, diagnostics);

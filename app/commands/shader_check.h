@@ -10,9 +10,9 @@
 
 #include "app/session/device_session.h"
 #include "app/session/options.h"
+#include "engine/glsl/source.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/plan.h"
-#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::app {
 
@@ -23,14 +23,14 @@ class ShaderCheck {
   // All variants of the live passes. `with`: how the plan differs from the graph as it is, for messages; or "". Nothing
   // more is compiled once a context could not be opened, which is reported.
   void check(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics);
-  // The same without a context: slots and parameters held against the words of the shaders (word_check.h).
-  void checkWords(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics);
+  // The same without a context, and so without compiling them.
+  void checkDeclared(const graph::Plan& plan, const std::string& with, base::Diagnostics& diagnostics);
   // A graph that cannot be compiled has no variants; its shader files are read all the same, so that a misspelt
   // path or include is reported together with the graph's own mistakes. Needs no OpenGL.
   void checkFiles(const graph::GraphDesc& desc, base::Diagnostics& diagnostics);
 
   std::size_t variants() const { return known_.size(); }
-  // What checkWords() did not look at: shaders that are missing, or an include of theirs.
+  // What checkDeclared() did not look at: shaders that are missing, or an include of theirs.
   const base::Diagnostics& unread() const { return unread_; }
   // Every file that was read or looked for.
   std::vector<std::string> files() const;
@@ -42,9 +42,8 @@ class ShaderCheck {
   const Options options_;
   std::unique_ptr<DeviceSession> session_;
   bool failed_ = false;
-  std::unique_ptr<glsl::SourceLoader> sources_;  // for checkWords()
+  std::unique_ptr<glsl::SourceLoader> sources_;  // for checkDeclared()
   std::map<std::string, std::shared_ptr<const glsl::ShaderSource>> loaded_;
-  runtime::RoleCache roles_;
   std::set<std::string> known_;        // variants, by what they are made of
   std::set<std::string> read_, told_;  // files, messages
   base::Diagnostics unread_;

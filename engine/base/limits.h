@@ -31,10 +31,8 @@ namespace weft::base {
   X(texture_bytes,       4ull << 30,    "bytes of all textures and buffers of one plan")        \
   X(diagnostics,         100,           "messages that are printed")                            \
   X(shader_bytes,        1ull << 20,    "bytes of one shader with what it includes")            \
-  X(shader_tokens,       200000,        "tokens of one shader after its macros and calls")      \
+  X(shader_tokens,       200000,        "tokens of one shader after its macros")                \
   X(shader_depth,        500,           "brackets, operators or blocks around one another")     \
-  X(shader_cases,        400,           "cases of one switch")                                  \
-  X(shader_array,        1024,          "elements of one array in a shader, its blocks aside")  \
   X(shader_seconds,      5,             "seconds of processor time to try unusual shaders")       \
   X(shader_memory,       1ull << 30,    "bytes that a program takes to compile")                \
   X(program_cache_bytes, 256ull << 20,  "bytes of the folder of program binaries")              \

@@ -8,13 +8,14 @@
 #include <filesystem>
 #include <span>
 
+#include "engine/base/chars.h"
 #include "engine/base/files/file.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/files/file_overlay.h"
 #include "engine/base/hash.h"
 #include "engine/base/nearest.h"
 #include "engine/glsl/bounds.h"
-#include "engine/glsl/scan.h"
+#include "engine/glsl/interface.h"
 
 namespace weft::glsl {
 
@@ -71,6 +72,94 @@ std::optional<std::string> outsideOf(std::span<const fs::path> candidates) {
   return std::nullopt;
 }
 
+bool isLineSpace(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isLineSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isLineSpace(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+struct Directive {
+  std::string_view name;     // "include", or "" when the line is none
+  std::string_view rest;     // what follows, trimmed, without comments
+  std::uint32_t column = 0;  // of the '#', from 1
+};
+
+// Walks the lines of a text. A directive inside a comment is none. Views live until next().
+class LineScanner {
+ public:
+  explicit LineScanner(std::string_view text) : rest_(text) {}
+  bool next();
+  std::string_view line() const { return line_; }   // without its newline
+  std::uint32_t number() const { return number_; }  // from 1
+  const Directive& directive() const { return directive_; }
+  // Of #if around the line. The guard of a whole file, #ifndef X with #define X next, does not count: what it leaves out is there
+  // already.
+  int depth() const { return depth_ - guard_; }
+
+ private:
+  void strip();
+  std::string_view rest_, line_;
+  std::string code_;  // the line, comments as spaces, columns kept
+  std::uint32_t number_ = 0;
+  int depth_ = 0;
+  int guard_ = 0;       // 1 within it
+  std::string guards_;  // the X of a first directive #ifndef X, until the next directive
+  int directives_ = 0;
+  bool inComment_ = false;
+  Directive directive_;
+};
+
+bool LineScanner::next() {
+  if (rest_.empty()) return false;
+  if (directive_.name == "if" || directive_.name == "ifdef" || directive_.name == "ifndef") ++depth_;
+  const std::size_t end = rest_.find('\n');
+  line_ = rest_.substr(0, end);
+  rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
+  ++number_;
+  strip();
+  directive_ = {};
+  const std::string_view code = trimmed(code_);
+  if (!code.starts_with('#')) return true;
+  std::string_view body = trimmed(code.substr(1));
+  std::size_t length = 0;
+  while (length < body.size() && base::isIdentChar(body[length])) ++length;
+  directive_ = {body.substr(0, length), trimmed(body.substr(length)),
+                static_cast<std::uint32_t>(code_.find('#') + 1)};
+  const std::string_view name = directive_.name;
+  if (name == "endif") depth_ = std::max(0, depth_ - 1);
+  if (name == "define" && directives_ == 1 && !guards_.empty() && directive_.rest == guards_) guard_ = 1;
+  if (depth_ == 0 || (depth_ == 1 && name.starts_with("el"))) guard_ = 0;
+  guards_ = directives_++ == 0 && name == "ifndef" ? std::string(directive_.rest) : std::string();
+  return true;
+}
+
+void LineScanner::strip() {
+  code_.assign(line_);
+  bool quoted = false;
+  for (std::size_t i = 0; i < code_.size(); ++i) {
+    const std::string_view two = std::string_view(code_).substr(i, 2);
+    if (inComment_) {
+      if (two == "*/") {
+        code_[i++] = ' ';
+        inComment_ = false;
+      }
+      code_[i] = ' ';
+    } else if (code_[i] == '"') {
+      quoted = !quoted;
+    } else if (!quoted && two == "/*") {
+      code_[i++] = ' ';
+      code_[i] = ' ';
+      inComment_ = true;
+    } else if (!quoted && two == "//") {
+      code_.resize(i);
+    }
+  }
+}
+
 }  // namespace
 
 // One expansion: the text built so far, the files met, and the chain of includes that leads to the current
@@ -89,7 +178,6 @@ class IncludeExpander {
 
   std::shared_ptr<ShaderSource> finish() {
     source_->hash = base::hashBytes(source_->text);
-    scanNames(source_->text, source_->identifiers, source_->declared, source_->parts);
     return source_;
   }
 
@@ -385,6 +473,22 @@ base::Place ShaderSource::placeOf(std::uint32_t textLine, std::uint32_t column) 
   if (after == runs.begin()) return {file, 0, 0};
   const Run& run = *std::prev(after);
   return {files[run.file], run.line + (textLine - run.textLine), column};
+}
+
+const Interface& ShaderSource::interfaceWith(std::span<const Define> defines) const {
+  constexpr std::size_t kMostKnown =
+      256;  // of one text, in a long session that changes a define again and again
+  std::string key;
+  for (const Define& define : defines) key += fmt::format("{}={}|", define.name, define.value);
+  if (known_.size() >= kMostKnown && !known_.contains(key)) known_.clear();
+  std::shared_ptr<const Interface>& known = known_[key];
+  if (!known) known = std::make_shared<const Interface>(readInterface(text, defines));
+  return *known;
+}
+
+const Interface& ShaderSource::ofAllBranches() const {
+  if (!allBranches_) allBranches_ = std::make_shared<const Interface>(readAllBranches(text));
+  return *allBranches_;
 }
 
 std::string assembleSource(const ShaderSource& source, std::span<const Define> defines) {

@@ -2,14 +2,14 @@
 // line and column for a message in a driver's log (docs/shaders.md). Pure text work: needs no context and makes no GL
 // call. Lines are numbered through the expanded text, and the table knows their files; the file numbers of #line are
 // not used, because drivers lose them (workarounds.h: source-numbers-lost). A file enters a stage once: a later
-// #include of it is dropped, or guarded when the first stands inside an #if. Names are checked by a conservative token
-// scan, not by a preprocessor: an identifier counts as present when it stands outside comments anywhere in the expanded
-// text, also in a directive or inside an #if that is not taken.
-// Does not: evaluate conditionals or macros, compile, or watch files.
+// #include of it is dropped, or guarded when the first stands inside an #if. What the text declares is read when it is asked for
+// (interface.h).
+// Does not: compile, or watch files.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -20,10 +20,11 @@
 #include <vector>
 
 #include "engine/base/diagnostic.h"
-#include "engine/glsl/declared.h"
 #include "engine/glsl/names.h"
 
 namespace weft::glsl {
+
+struct Interface;
 
 struct Define {
   std::string name, value;
@@ -38,15 +39,18 @@ struct ShaderSource {
   std::shared_ptr<const std::string> file;  // the stage's own file, as opened
   std::string text;                         // no #version, no defines, no #line
   std::vector<std::shared_ptr<const std::string>> files;
-  std::vector<Run> runs;                           // by textLine
-  std::uint64_t hash = 0;                          // of text
-  std::set<std::string, std::less<>> identifiers;  // the token scan
-  std::set<std::string, std::less<>> declared;     // a subset: names that look like uniforms, blocks, block
-                                                   // members, ins and outs; for "did you mean"
-  DeclaredParts parts;                             // for "did you mean", and image formats
-  bool mentions(std::string_view name) const { return identifiers.find(name) != identifiers.end(); }
+  std::vector<Run> runs;   // by textLine
+  std::uint64_t hash = 0;  // of text
+  // What the text declares and uses with these defines, and in all branches of every #if at once; read when first asked for. The first
+  // stays valid until another variant of the same text is asked for.
+  const Interface& interfaceWith(std::span<const Define> defines) const;
+  const Interface& ofAllBranches() const;
   // Where a line of the text (from 1) was written.
   base::Place placeOf(std::uint32_t textLine, std::uint32_t column = 0) const;
+
+ private:
+  mutable std::map<std::string, std::shared_ptr<const Interface>> known_;  // by defines
+  mutable std::shared_ptr<const Interface> allBranches_;
 };
 
 // Reads, expands and caches. One per set of roots; not thread-safe.

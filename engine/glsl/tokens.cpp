@@ -4,6 +4,9 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/base/chars.h"
@@ -205,6 +208,376 @@ std::optional<std::int64_t> evaluateTokens(std::span<const Token> tokens,
                                            const std::function<Value(std::string_view)>& valueOf,
                                            std::uint32_t deepest) {
   return Evaluator(tokens, valueOf, deepest).run();
+}
+
+namespace {
+
+using Tokens = std::vector<Token>;
+
+struct Macro {
+  bool function = false;
+  std::vector<std::string_view> parameters;
+  Tokens body;
+  int open = 0;  // being expanded: its name stands for itself
+};
+
+// Where the next token comes from: the text, or what a macro stands for.
+struct Source {
+  std::shared_ptr<const Tokens> own;  // null: `tokens` live elsewhere
+  std::span<const Token> tokens;
+  std::size_t at = 0;
+  Macro* macro = nullptr;
+};
+
+class Expander {
+ public:
+  Expander(std::span<const Define> defines, std::uint64_t most, std::uint32_t deepest, bool all)
+      : most_(most), deepest_(deepest), all_(all) {
+    add("__VERSION__", "450");
+    add("__LINE__", "1");
+    add("__FILE__", "0");
+    add("GL_core_profile", "1");
+    for (const Define& define : defines) add(define.name, define.value);
+  }
+
+  TokenList run(std::string_view text) {
+    const Tokens all = splitTokens(text);
+    std::size_t begin = 0;  // of tokens between two directives
+    for (std::size_t i = 0; i < all.size() && !out_.exceeded; ++i) {
+      if (!all[i].first || !all[i].is("#")) continue;
+      std::size_t end = i + 1;
+      while (end < all.size() && !all[end].first) ++end;
+      if (taken()) expandText(std::span(all).subspan(begin, i - begin));
+      obey(std::span(all).subspan(i + 1, end - i - 1));
+      begin = end;
+      i = end - 1;
+    }
+    if (taken() && !out_.exceeded) expandText(std::span(all).subspan(begin));
+    return std::move(out_);
+  }
+
+ private:
+  struct Branch {
+    bool outer = true;    // what stands around is taken
+    bool now = true;      // this branch is
+    bool before = false;  // a branch before it was, for certain
+  };
+
+  void add(const std::string& name, const std::string& value) {
+    const std::string_view kept = keep(name);
+    macros_[kept] = {.body = splitTokens(keep(value))};
+  }
+
+  std::string_view keep(std::string text) { return out_.pasted.emplace_back(std::move(text)); }
+
+  bool taken() const { return branches_.empty() || (branches_.back().outer && branches_.back().now); }
+
+  void obey(std::span<const Token> line) {
+    if (line.empty()) return;
+    const std::string_view name = line[0].text;
+    const std::span<const Token> rest = line.subspan(1);
+    if (all_ && name != "define" && name != "undef") return;
+    if (name == "if" || name == "ifdef" || name == "ifndef") {
+      Branch branch{.outer = taken()};
+      if (branch.outer) decide(branch, name == "if" ? valueOf(rest) : definedOf(rest, name == "ifdef"));
+      branches_.push_back(branch);
+    } else if (name == "elif" && !branches_.empty()) {
+      Branch& branch = branches_.back();
+      branch.now = false;
+      if (branch.outer && !branch.before) decide(branch, valueOf(rest));
+    } else if (name == "else" && !branches_.empty()) {
+      branches_.back().now = !std::exchange(branches_.back().before, true);
+    } else if (name == "endif" && !branches_.empty()) {
+      branches_.pop_back();
+    } else if (name == "define" && taken() && !rest.empty()) {
+      define(rest);
+    } else if (name == "undef" && taken() && !rest.empty()) {
+      macros_.erase(rest[0].text);
+    }
+  }
+
+  // Nothing: the driver knows. The branch is taken, and so may be the others.
+  static void decide(Branch& branch, std::optional<std::int64_t> value) {
+    branch.now = value.value_or(1) != 0;
+    branch.before = value.value_or(0) != 0;
+  }
+
+  static bool isDrivers(std::string_view name) { return name.starts_with("GL_"); }
+
+  std::optional<std::int64_t> definedOf(std::span<const Token> rest, bool wanted) {
+    if (rest.empty()) return 0;
+    const bool known = macros_.contains(rest[0].text);
+    if (!known && isDrivers(rest[0].text)) return std::nullopt;
+    return known == wanted ? 1 : 0;
+  }
+
+  std::optional<std::int64_t> valueOf(std::span<const Token> rest) {
+    Tokens line;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      if (!rest[i].is("defined") || i + 1 == rest.size()) {
+        line.push_back(rest[i]);
+        continue;
+      }
+      const bool brackets = rest[i + 1].is("(") && i + 3 < rest.size();
+      const Token& name = rest[i + (brackets ? 2 : 1)];
+      const auto value = definedOf(std::span(&name, 1), true);
+      Token number = name;
+      number.kind = value ? TokenKind::number : TokenKind::word;
+      number.text = !value ? "GL_" : *value != 0 ? "1" : "0";
+      line.push_back(number);
+      i += brackets ? 3 : 1;
+    }
+    Tokens expanded;
+    expand(line, expanded, 0);
+    noteNesting(expanded);
+    const auto known = [](std::string_view name) -> std::optional<std::int64_t> {
+      if (isDrivers(name)) return std::nullopt;
+      return 0;
+    };
+    return evaluateTokens(expanded, known, deepest_);
+  }
+
+  // Brackets and signs of a condition, one inside or after the other.
+  void noteNesting(const Tokens& line) {
+    std::uint32_t nested = 0;
+    for (const Token& token : line) nested += token.kind == TokenKind::sign && !token.is(")") ? 1 : 0;
+    if (!line.empty()) nest(nested, line.front());
+  }
+
+  void nest(std::uint32_t depth, const Token& at) {
+    if (depth <= out_.nested) return;
+    out_.nested = depth;
+    out_.nestedAt = at;
+  }
+
+  void define(std::span<const Token> rest) {
+    Macro macro;
+    std::size_t body = 1;
+    const Token& name = rest[0];
+    const bool adjacent = rest.size() > 1 && rest[1].is("(") && rest[1].line == name.line &&
+                          rest[1].column == name.column + name.text.size();
+    if (adjacent) {
+      macro.function = true;
+      for (body = 2; body < rest.size() && !rest[body].is(")"); ++body)
+        if (!rest[body].is(",")) macro.parameters.push_back(rest[body].text);
+      ++body;
+    }
+    if (body < rest.size()) macro.body.assign(rest.begin() + static_cast<std::ptrdiff_t>(body), rest.end());
+    macros_[name.text] = std::move(macro);
+  }
+
+  void expandText(std::span<const Token> text) { expand(text, out_.tokens, 0); }
+
+  bool spend(std::uint64_t count, const Token& at) {
+    spent_ += count;
+    if (spent_ <= most_ || out_.exceeded) return !out_.exceeded;
+    out_.exceeded = true;
+    out_.at = at;
+    out_.macro = top_;
+    return false;
+  }
+
+  // Appends what `text` stands for to `to`. `depth`: of arguments of macros in arguments of macros.
+  void expand(std::span<const Token> text, Tokens& to, std::uint32_t depth) {
+    std::vector<Source> stack;
+    stack.push_back({.own = nullptr, .tokens = text});
+    Token place;
+    while (!stack.empty() && !out_.exceeded) {
+      Source& source = stack.back();
+      if (source.at == source.tokens.size()) {
+        if (source.macro) --source.macro->open;
+        stack.pop_back();
+        continue;
+      }
+      Token token = source.tokens[source.at++];
+      const bool outside = stack.size() == 1;
+      if (outside) place = token;
+      token.line = place.line;
+      token.column = place.column;
+      const auto found =
+          token.kind == TokenKind::word && !token.inert ? macros_.find(token.text) : macros_.end();
+      if (outside && depth == 0) top_ = found == macros_.end() ? std::string_view() : found->first;
+      if (!spend(1, place)) break;
+      if (found == macros_.end()) {
+        to.push_back(token);
+      } else if (found->second.open > 0) {
+        token.inert = true;
+        to.push_back(token);
+      } else if (!found->second.function) {
+        push(stack, found->second, found->second.body, place);
+      } else if (!call(stack, found->second, place, depth)) {
+        to.push_back(token);
+      }
+    }
+    for (Source& left : stack)
+      if (left.macro) --left.macro->open;
+  }
+
+  void push(std::vector<Source>& stack, Macro& macro, Tokens body, const Token& place) {
+    ++macro.open;
+    paste(body);
+    if (!spend(body.size(), place)) body.clear();
+    auto own = std::make_shared<const Tokens>(std::move(body));
+    const std::span<const Token> tokens(*own);
+    stack.push_back({.own = std::move(own), .tokens = tokens, .macro = &macro});
+  }
+
+  // The next token without taking it; sources that have ended are left.
+  static const Token* peek(std::vector<Source>& stack) {
+    while (!stack.empty()) {
+      Source& source = stack.back();
+      if (source.at < source.tokens.size()) return &source.tokens[source.at];
+      if (stack.size() == 1) return nullptr;
+      if (source.macro) --source.macro->open;
+      stack.pop_back();
+    }
+    return nullptr;
+  }
+
+  // A use of a function-like macro: false when no bracket follows, and the name stands for itself.
+  bool call(std::vector<Source>& stack, Macro& macro, const Token& place, std::uint32_t depth) {
+    const Token* next = peek(stack);
+    if (!next || !next->is("(")) {
+      out_.uncertain |= !next && depth == 0;
+      return false;
+    }
+    std::vector<Tokens> arguments(1);
+    int brackets = 0;
+    do {
+      next = peek(stack);
+      if (!next || !spend(1, place)) {
+        out_.uncertain = true;  // a directive stands between its brackets
+        return true;
+      }
+      ++stack.back().at;
+      if (next->is("(") && brackets++ == 0) continue;
+      if (next->is(")") && --brackets == 0) break;
+      if (next->is(",") && brackets == 1)
+        arguments.emplace_back();
+      else
+        arguments.back().push_back(*next);
+    } while (true);
+    nest(depth + 1, place);
+    if (depth + 1 >= deepest_) {
+      out_.uncertain = true;
+      return true;
+    }
+    push(stack, macro, substitute(macro, arguments, place, depth), place);
+    return true;
+  }
+
+  Tokens substitute(const Macro& macro, const std::vector<Tokens>& arguments, const Token& place,
+                    std::uint32_t depth) {
+    std::vector<std::optional<Tokens>> expanded(arguments.size());
+    Tokens made;
+    for (std::size_t i = 0; i < macro.body.size() && !out_.exceeded; ++i) {
+      const Token& token = macro.body[i];
+      const auto found = token.kind == TokenKind::word
+                             ? std::find(macro.parameters.begin(), macro.parameters.end(), token.text)
+                             : macro.parameters.end();
+      const auto index = static_cast<std::size_t>(found - macro.parameters.begin());
+      if (found == macro.parameters.end() || index >= arguments.size()) {
+        made.push_back(token);
+        continue;
+      }
+      const bool pasted =
+          (i > 0 && macro.body[i - 1].is("##")) || (i + 1 < macro.body.size() && macro.body[i + 1].is("##"));
+      if (!pasted && !expanded[index]) expand(arguments[index], expanded[index].emplace(), depth + 1);
+      const Tokens& from = pasted ? arguments[index] : *expanded[index];
+      if (!spend(from.size(), place)) break;
+      made.insert(made.end(), from.begin(), from.end());
+    }
+    return made;
+  }
+
+  void paste(Tokens& body) {
+    if (std::none_of(body.begin(), body.end(), [](const Token& t) { return t.is("##"); })) return;
+    Tokens made;
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      if (!body[i].is("##") || made.empty() || i + 1 == body.size()) {
+        made.push_back(body[i]);
+        continue;
+      }
+      made.back().text = keep(std::string(made.back().text).append(body[++i].text));
+      made.back().inert = false;
+    }
+    body = std::move(made);
+  }
+
+  const std::uint64_t most_;
+  const std::uint32_t deepest_;
+  const bool all_;  // branches
+  std::uint64_t spent_ = 0;
+  std::string_view top_;  // the macro of the text that is being expanded, or empty
+  std::unordered_map<std::string_view, Macro> macros_;
+  std::vector<Branch> branches_;
+  TokenList out_;
+};
+
+}  // namespace
+
+TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint64_t most,
+                       std::uint32_t deepest, Branches branches) {
+  return Expander(defines, most, deepest, branches == Branches::all).run(text);
+}
+
+std::vector<UnknownCondition> unknownInConditions(std::string_view text, std::span<const Define> defines) {
+  std::vector<Token> values, tested;
+  std::unordered_set<std::string_view> made;
+  for (const Define& define : defines) made.insert(define.name);
+  const std::vector<Token> all = splitTokens(text);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (!all[i].first || !all[i].is("#")) continue;
+    const Token& directive = all[i + 1];
+    for (std::size_t at = i + 2; at < all.size() && !all[at].first; ++at) {
+      if (directive.is("define")) {
+        made.insert(all[at].text);
+        break;
+      }
+      if (all[at].kind != TokenKind::word || all[at].is("defined")) continue;
+      const bool asked = all[at - 1].is("defined") || (all[at - 1].is("(") && all[at - 2].is("defined"));
+      if (directive.is("ifdef") || directive.is("ifndef") || asked)
+        tested.push_back(all[at]);
+      else if (directive.is("if") || directive.is("elif"))
+        values.push_back(all[at]);
+    }
+  }
+  std::vector<UnknownCondition> unknown;
+  std::unordered_set<std::string_view> asked, known;
+  for (const Token& word : tested) asked.insert(word.text);
+  const auto add = [&](const Token& word, bool value) {
+    const bool driver = word.text.starts_with("GL_") || word.text.starts_with("__");
+    if (driver || made.contains(word.text) || (value && asked.contains(word.text))) return;
+    if (known.insert(word.text).second) unknown.push_back({word, value});
+  };
+  for (const Token& word : values) add(word, true);
+  for (const Token& word : tested) add(word, false);
+  return unknown;
+}
+
+std::vector<Token> onlyTested(std::string_view text) {
+  std::vector<Token> tested;
+  std::unordered_set<std::string_view> valued;
+  const std::vector<Token> all = splitTokens(text);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].first || !all[i].is("#") || i + 1 == all.size()) {
+      if (all[i].kind == TokenKind::word) valued.insert(all[i].text);
+      continue;
+    }
+    const Token& directive = all[++i];
+    const bool asks = directive.is("ifdef") || directive.is("ifndef");
+    for (; i + 1 < all.size() && !all[i + 1].first; ++i) {
+      const Token& word = all[i + 1];
+      if (word.kind != TokenKind::word || word.is("defined")) continue;
+      const bool asked = asks || all[i].is("defined") || (all[i].is("(") && all[i - 1].is("defined"));
+      if (asked)
+        tested.push_back(word);
+      else
+        valued.insert(word.text);  // also of #define and #undef: it has a meaning of its own here
+    }
+  }
+  std::erase_if(tested, [&](const Token& word) { return !valued.insert(word.text).second; });
+  return tested;
 }
 
 }  // namespace weft::glsl

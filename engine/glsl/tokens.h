@@ -42,9 +42,10 @@ struct TokenList {
 };
 
 // `text` as ShaderSource::text; `defines` as assembleSource() puts them before it. Tokens that macros make on
-// the way count as well. `deepest`: nesting beyond it is cut off.
+// the way count as well. `deepest`: nesting beyond it is cut off. `branches`: those of conditionals, the taken ones or all of them.
+enum class Branches : std::uint8_t { taken, all };
 TokenList expandTokens(std::string_view text, std::span<const Define> defines, std::uint64_t most,
-                       std::uint32_t deepest);
+                       std::uint32_t deepest, Branches branches = Branches::taken);
 
 // The words of the conditionals of a text that neither `defines` nor a #define of the text makes, each once, in any branch:
 // to a compiler they are 0. `value`: compared in an #if or #elif that no #ifdef, #ifndef or defined() guards; else the words

@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "engine/base/limits.h"
 #include "tests/gl/documented.h"
 
 using namespace weft::glsl;
@@ -33,7 +34,7 @@ std::string chain(const std::string& line, int count) {
 
 struct Measured {
   std::shared_ptr<const ShaderSource> source;
-  ShaderSize size;
+  bool unusual = false;
   Diagnostics diagnostics;
   bool good = false;
 };
@@ -43,8 +44,8 @@ Measured measure(const std::string& text, const std::vector<Define>& defines = {
   Measured m;
   m.source = loader.loadText(text, "bomb.frag.glsl", m.diagnostics);
   REQUIRE_MESSAGE(m.source, m.diagnostics.text());
-  m.size = measureShader(*m.source, defines);
-  m.good = checkShaderSize(m.size, *m.source, m.diagnostics);
+  m.unusual = isUnusual(m.source->interfaceWith(defines));
+  m.good = checkShaderSize(m.source->interfaceWith(defines).size, *m.source, m.diagnostics);
   return m;
 }
 
@@ -56,15 +57,13 @@ std::string inMain(const std::string& body) {
 Limit limitOf(const std::string& message) {
   const auto has = [&](const char* words) { return message.find(words) != std::string::npos; };
   if (has("nested too deeply")) return Limit::shader_depth;
-  if (has("too many cases")) return Limit::shader_cases;
-  if (has("array")) return Limit::shader_array;
   return has("the shader is too large") ? Limit::shader_bytes : Limit::shader_tokens;
 }
 
 void refuses(const std::string& text, const std::string& message, std::uint32_t line) {
   const Measured m = measure(text);
   CHECK_FALSE(m.good);
-  CHECK(isUnusual(m.size));
+  CHECK(m.unusual);
   bool found = false;
   for (const auto& d : m.diagnostics.items())
     if (d.code == Code::shaderTooLarge && d.message.find(message) != std::string::npos) {
@@ -101,17 +100,7 @@ TEST_CASE("what kills or stalls a driver is reported with its place instead of b
           "macro 'M40' expands to too much", 44);
   refuses("#define D(x) x x\n" + inMain(times("D(", 30) + "{}" + times(")", 30)),
           "macro 'D' expands to too much", 4);
-  refuses("float f0(float x) { return x; }\n" +
-              chain("float f$(float x) { return f%(x) + f%(x + 1.0); }", 24) +
-              inMain("result = vec4(f24(1.0));"),
-          "the function 'main' is too long", 27);
-  refuses("float f0(float x) { return x; }\n" + chain("float f$(float x) { return f%(x); }", 1000) +
-              inMain("result = vec4(f1000(1.0));"),
-          "the function 'main' is too long", 1003);
   refuses(times("// nothing\n", 100000) + inMain("result = vec4(1.0);"), "the shader is too large", 0);
-  std::string cases;
-  for (int i = 0; i < 20000; ++i) cases += "case " + std::to_string(i) + ": result = vec4(1.0); break;\n";
-  refuses(inMain("switch (int(result.x)) {\n" + cases + "}"), "a switch has too many cases", 3);
 }
 
 TEST_CASE("the message is that of docs/errors.md") {
@@ -119,52 +108,39 @@ TEST_CASE("the message is that of docs/errors.md") {
   Diagnostics diagnostics;
   const auto source = loader.load("w203_doubling.frag.glsl", diagnostics);
   REQUIRE_MESSAGE(source, diagnostics.text());
-  CHECK_FALSE(checkShaderSize(measureShader(*source, {}), *source, diagnostics));
+  CHECK_FALSE(checkShaderSize(source->interfaceWith({}).size, *source, diagnostics));
   weft::gl::test::checkDocumented(diagnostics, Code::shaderTooLarge);
 }
 
-TEST_CASE("arrays are counted where they are declared, blocks aside") {
-  refuses(inMain("float a[100000];\na[int(result.x)] = 1.0;"), "the array 'a' is too large", 3);
-  refuses("const int kHigh = 300;\n#define WIDE (kHigh * 4)\n" +
-              inMain("vec3 b = vec3(0.0), c[kHigh][WIDE + 1];"),
-          "the array 'c' is too large", 5);
-  refuses("float[200][200] a;\n" + inMain(""), "the array 'a' is too large", 1);
-  refuses(
-      "struct S0 { float a, b; };\n" + chain("struct S$ { S% a; S% b[2]; };", 10) + inMain("const S10 s;"),
-      "the array 's' is too large", 14);
-  refuses(inMain("for (float a[100000], b = 0.0; b < 1.0; ++b) {}\n"), "the array 'a' is too large", 3);
-  refuses(inMain("if (result.x > 1.0) float a[100000];"), "the array 'a' is too large", 3);
-  refuses(inMain("switch (1) {\ncase 0:\n  float a[100000];\n}"), "the array 'a' is too large", 5);
-  refuses("const float kTable[] = float[](" + times("1.0, ", 5000) + "1.0);\n" + inMain(""),
-          "an array is too large", 1);
-  refuses("const float kTable[] = {" + times("1.0, ", 5000) + "1.0};\n" + inMain(""), "an array is too large",
-          1);
-  for (const char* block : {"buffer", "uniform"}) {
-    const Measured m =
-        measure("layout(std430) " + std::string(block) + " Table { float a[100000]; vec4 b[]; } t;\n" +
-                inMain("float a[4], c = t.a[70000];"));
-    CHECK_MESSAGE(m.good, m.diagnostics.text());
-    CHECK(m.size.array.count == 4);
-    CHECK_FALSE(isUnusual(m.size));
-  }
-  const Measured row = measure("struct Row { float a[50000]; };\nbuffer Table { Row rows[100]; };\n" +
-                               inMain("float x = rows[5000].a[70000];"));
-  CHECK_MESSAGE(row.good, row.diagnostics.text());
-  const Measured unknown = measure(inMain("float a[gl_MaxDrawBuffers];"));
-  CHECK(unknown.good);
-  CHECK(unknown.size.uncertain);
-  CHECK(isUnusual(unknown.size));
-}
-
-TEST_CASE("many small arrays or switches are unusual, and allowed") {
-  const Measured arrays = measure(inMain(times("{ float a[100]; a[int(result.x)] = 1.0; }\n", 11)));
-  CHECK_MESSAGE(arrays.good, arrays.diagnostics.text());
-  CHECK(arrays.size.allElements == 1100);
-  CHECK(isUnusual(arrays.size));
-  CHECK_FALSE(isUnusual(measure(inMain(times("{ float a[100]; a[int(result.x)] = 1.0; }\n", 9))).size));
-  const std::string few = "switch (int(result.x)) {" + times("case 1: break;", 41) + "}\n";
-  CHECK(isUnusual(measure(inMain(times(few, 10))).size));
-  CHECK_FALSE(isUnusual(measure(inMain(times(few, 9))).size));
+TEST_CASE("what drivers work long for is unusual, and tried first") {
+  const auto isTried = [](const std::string& text) { return measure(text).unusual; };
+  const std::string zero = "float f0(float x) { return x; }\n";
+  CHECK(isTried(zero + chain("float f$(float x) { return f%(x) + f%(x + 1.0); }", 24) +
+                inMain("result = vec4(f24(1.0));")));
+  CHECK(isTried(zero + chain("float f$(float x) { return f%(x); }", 1000) +
+                inMain("result = vec4(f1000(1.0));")));
+  CHECK_FALSE(
+      isTried(zero + chain("float f$(float x) { return f%(x); }", 10) + inMain("result = vec4(f10(1.0));")));
+  const auto casesOf = [](int count) {
+    return inMain("switch (int(result.x)) {\n" + times("case 1: break;\n", count) + "}");
+  };
+  CHECK(isTried(casesOf(60)));
+  CHECK_FALSE(isTried(casesOf(40)));
+  CHECK(isTried(inMain("float a[100000];\na[int(result.x)] = 1.0;")));
+  CHECK(isTried("const int kHigh = 30;\n#define WIDE (kHigh * 4)\n" +
+                inMain("vec3 b = vec3(0.0), c[kHigh][WIDE + 1];")));
+  CHECK(isTried("float[20][20] a;\n" + inMain("")));
+  CHECK(isTried("struct S0 { float a, b; };\n" + chain("struct S$ { S% a; S% b[2]; };", 10) +
+                inMain("const S10 s;")));
+  CHECK(isTried("const float kTable[] = float[](" + times("1.0, ", 500) + "1.0);\n" + inMain("")));
+  CHECK(isTried("const float kTable[] = {" + times("1.0, ", 500) + "1.0};\n" + inMain("")));
+  // What a group shares and what a block holds is no matter of the compiler.
+  CHECK_FALSE(isTried("shared float tile[1024];\n" + inMain("tile[int(result.x)] = 1.0;")));
+  for (const char* block : {"buffer", "uniform"})
+    CHECK_FALSE(isTried("layout(std430) " + std::string(block) + " Table { float a[100000]; } t;\n" +
+                        inMain("float c = t.a[int(result.x)];")));
+  CHECK_FALSE(isTried("#define CAT(a, b) a##b\n#define AB 3\n" + inMain("float x[CAT(A, B)];")));
+  CHECK(isTried("#define F(x) x\n" + inMain("float x = F(\n#line 5\n1.0);")));
 }
 
 TEST_CASE("what is not compiled is not counted, and what only the driver knows is") {
@@ -190,30 +166,6 @@ TEST_CASE("what is not compiled is not counted, and what only the driver knows i
   CHECK(measure("#define M0 a\n" + chain("#define M$ M%+M%", 60) + inMain("")).good);
   CHECK(measure("#define a a + a\n" + inMain("float b = a;")).good);
   CHECK(measure("#define F(x) F(x, x)\n" + inMain("F(1)")).good);
-  CHECK(measure("#define CAT(a, b) a##b\n#define AB 3\n" + inMain("float x[CAT(A, B)];")).size.array.count ==
-        3);
-  const Measured cut = measure("#define F(x) x\n" + inMain("float x = F(\n#line 5\n1.0);"));
-  CHECK(cut.size.uncertain);
-}
-
-TEST_CASE("counts are those of the text") {
-  const Measured m = measure("#define TWICE(x) ((x) + (x))\n" + inMain("result = vec4(TWICE(TWICE(1.0)));"));
-  CHECK(m.size.tokens.count == 41);
-}
-
-TEST_CASE("functions in a circle are named") {
-  const Measured m = measure(
-      "float g(float x);\nfloat f(float x) { return g(x); }\nfloat h(float x) { return x; }\n"
-      "float g(float x) { return h(f(x)); }\n" +
-      inMain("result = vec4(f(1.0));"));
-  CHECK(m.size.circle == std::vector<std::string>{"f", "g", "f"});
-  CHECK(m.size.circleAt.line == 2);
-  CHECK(measure("float f(float x) { return f(x); }\n" + inMain("")).size.circle ==
-        std::vector<std::string>{"f", "f"});
-  // Overloads are no circle.
-  CHECK(measure("float f(float x) { return x; }\nvec2 f(vec2 x) { return vec2(f(x.x), f(x.y)); }\n" +
-                inMain(""))
-            .size.circle.empty());
 }
 
 TEST_CASE("a zero byte, an include and a limit") {
@@ -227,24 +179,12 @@ TEST_CASE("a zero byte, an include and a limit") {
   CHECK(diagnostics.items()[0].place.column == 9);
 }
 
-// Shaders that have more to do than others: all that light surfaces by everything there is, the one that lists a sphere's
-// neighbours, and those that go through such a list. Above an eighth a shader is tried first in a process of its own.
-const std::set<std::string> kLarge = {"lighting.frag.glsl",  "transparent.frag.glsl", "forward.frag.glsl",
-                                      "billboard.frag.glsl", "mesh.frag.glsl",        "lists.comp.glsl",
-                                      "billboard.vert.glsl", "look.frag.glsl"};
-// Spheres, lit by everything at once, are above it: docs/limits.md says by what. tests/app/hostile/shaders.py draws variants
-// that are not.
-const std::set<std::string> kLargest = {"billboard.frag.glsl", "mesh.frag.glsl"};
+// Spheres, lit by everything at once, are tried first: docs/limits.md. tests/app/hostile/shaders.py draws variants that are not.
+const std::set<std::string> kUnusual = {"billboard.frag.glsl", "mesh.frag.glsl"};
 
-double mostOf(const std::string& name) {
-  return kLargest.contains(name) ? 1.0 / 6 : kLarge.contains(name) ? 1.0 / 8 : 1.0 / 16;
-}
-
-// The bundled shaders, and those of the tests, stay far below every limit.
+// The bundled shaders, and those of the tests, stay below every limit.
 TEST_CASE("every shader of the tree is a usual one") {
   std::size_t seen = 0;
-  ShaderShare largest;
-  std::string which;
   for (const char* folder :
        {"shaders", "tests/theory/shaders", "tests/golden/shaders", "tests/runtime/shaders"}) {
     const std::string root = std::string(WEFT_SOURCE_DIR) + "/" + folder;
@@ -256,26 +196,22 @@ TEST_CASE("every shader of the tree is a usual one") {
       Diagnostics diagnostics;
       const auto source = loader.load(entry.path(), diagnostics);
       REQUIRE_MESSAGE(source, diagnostics.text());
+      std::set<std::string> words;
+      for (const Token& token : splitTokens(source->text))
+        if (token.text.starts_with("HAS_")) words.emplace(token.text);
       std::vector<Define> defines;
-      for (const std::string& word : source->identifiers)
-        if (word.starts_with("HAS_")) defines.push_back({word, "1"});
-      const ShaderSize size = measureShader(*source, defines);
-      const ShaderShare share = largestShare(size);
-      CHECK_MESSAGE(share.share < mostOf(name),
-                    name << ": " << share.share << " of " << weft::base::nameOf(share.limit));
-      CHECK_MESSAGE((kLargest.contains(name) || !isUnusual(size)), name);
-      // Shadows of meshes stand in place of a shadow map of the sun.
-      std::erase_if(defines, [](const Define& define) { return define.name == "HAS_SUN_MAP"; });
-      CHECK_MESSAGE(
-          largestShare(measureShader(*source, defines)).share < (kLarge.contains(name) ? 0.2 : 1.0 / 16),
-          name);
-      if (share.share > largest.share) {
-        largest = share;
-        which = name;
-      }
+      for (const std::string& word : words) defines.push_back({word, "1"});
+      const Interface& interface = source->interfaceWith(defines);
+      const ShaderSize& size = interface.size;
+      CAPTURE(size.tokens.count);
+      CAPTURE(size.inlined);
+      CAPTURE(size.depth.count);
+      CAPTURE(size.cases);
+      CAPTURE(size.elements);
+      CHECK_MESSAGE(checkShaderSize(size, *source, diagnostics), diagnostics.text());
+      CHECK_MESSAGE((kUnusual.contains(name) || !isUnusual(interface)), name);
       ++seen;
     }
   }
   CHECK(seen > 50);
-  MESSAGE("nearest: " << which << ", " << largest.share << " of " << weft::base::nameOf(largest.limit));
 }

@@ -236,7 +236,7 @@ TEST_CASE("an unchanged file is expanded once, a changed include again") {
   REQUIRE(second);
   CHECK(loader.expansions() == 2);
   CHECK(second->hash != first->hash);
-  CHECK(second->mentions("two"));
+  CHECK(second->text.find("two") != std::string::npos);
   folder.write("a.glsl", "#include \"gone.glsl\"\n");
   CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));
   CHECK_FALSE(loader.load("x.frag.glsl", diagnostics));  // failures are not remembered: the file may appear
@@ -334,41 +334,4 @@ TEST_CASE("text in memory includes from the roots only, and the prefix holds ver
   const Define defines[] = {{"HAS_BLOOM", "1"}, {"CURVE", "2"}};
   CHECK(assembleSource(*source, defines)
             .starts_with("#version 450 core\n#define HAS_BLOOM 1\n#define CURVE 2\n#line 10001\nfloat a;\n"));
-}
-
-TEST_CASE("the scan knows comments, and finds what is declared") {
-  TemporaryFolder folder;
-  folder.write("x.frag.glsl", R"(
-// uniform sampler2D commented;
-/* out vec4 also_commented; */
-uniform sampler2D source, second;
-uniform sampler3D sh[7];
-layout(rgba16f) uniform writeonly image2D map;
-layout(std430) readonly buffer keys { uvec2 sort_keys[]; };
-layout(std140) uniform Parameters { float threshold; vec3 tint[2]; } named;
-layout(location = 0) out vec4 result;
-#ifdef HAS_BLOOM
-uniform sampler2D bloom;
-#endif
-in vec2 uv;
-struct Row { vec3 center; };
-float helper(in float parameter_x, out float y) { float local_z = 1.0; y = local_z; return parameter_x; }
-void main() { int loose; result = texture(source, uv); }
-)");
-  SourceLoader loader({folder.path().string()});
-  Diagnostics diagnostics;
-  const auto source = loader.load("x.frag.glsl", diagnostics);
-  REQUIRE(source);
-  for (const char* name : {"source", "second", "sh", "map", "keys", "sort_keys", "Parameters", "threshold",
-                           "tint", "result", "bloom", "uv"}) {
-    CHECK_MESSAGE(source->mentions(name), name);
-    CHECK_MESSAGE(source->declared.contains(name), name);
-  }
-  CHECK(source->mentions("HAS_BLOOM"));
-  CHECK(source->mentions("helper"));
-  CHECK_FALSE(source->mentions("commented"));
-  CHECK_FALSE(source->mentions("also_commented"));
-  for (const char* name :
-       {"helper", "parameter_x", "local_z", "loose", "main", "center", "HAS_BLOOM", "in", "out"})
-    CHECK_MESSAGE(!source->declared.contains(name), name);
 }

@@ -12,8 +12,8 @@
 #include "engine/graph/read/read.h"
 #include "engine/runtime/frame/renderer.h"
 #include "engine/runtime/imports/registry.h"
+#include "engine/runtime/prepare/program_check.h"
 #include "engine/runtime/prepare/program_request.h"
-#include "engine/runtime/prepare/word_check.h"
 
 namespace weft::app::lsp {
 
@@ -139,11 +139,10 @@ std::shared_ptr<const glsl::ShaderSource> Analysis::source(Graph& graph, const s
   return known->second;
 }
 
-// Checks the shaders by their words.
+// Checks the shaders by what they declare.
 void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
   const graph::FlatGraph& flat = *plan.graph;
   for (const graph::Step& step : plan.steps) {
-    roles_.makeRoom();
     const graph::PassSpec& spec = flat.specs[step.pass];
     const auto type = std::ranges::find(registry_.passTypes, spec.type, &graph::PassType::name);
     if (type == registry_.passTypes.end() || type->shader == graph::ShaderShape::none) continue;
@@ -155,7 +154,7 @@ void Analysis::checkShaders(Graph& graph, const graph::Plan& plan) {
       stages.push_back({stage.stage, source(graph, stage.file, spec.shaderPlace)});
       whole = whole && stages.back().source;
     }
-    if (whole) runtime::checkWords(plan, step.pass, stages, request.defines, roles_, graph.said);
+    if (whole) runtime::checkProgram(plan, step.pass, stages, request.defines, nullptr, graph.said);
   }
 }
 

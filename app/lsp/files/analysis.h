@@ -13,7 +13,6 @@
 #include "engine/glsl/source.h"
 #include "engine/graph/plan.h"
 #include "engine/graph/registry.h"
-#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::app::lsp {
 
@@ -59,7 +58,6 @@ class Analysis {
   graph::Registry registry_;
   std::map<std::string, Graph> graphs_;
   std::map<std::string, std::shared_ptr<const glsl::ShaderSource>> loaded_;  // of one check
-  runtime::RoleCache roles_;
 };
 
 }  // namespace weft::app::lsp

@@ -1,5 +1,5 @@
-// The words of a GLSL text with their byte ranges, what it declares for its pass, and what it includes. It scans tokens as
-// engine/glsl/scan.h does, without macros, and takes all branches of an #if. Does not: report.
+// The words of a GLSL text with their byte ranges, what it declares for its pass, and what it includes: engine/glsl's reading of the
+// text as it stands, without macros, and with all branches of every #if. Does not: report.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +52,6 @@ class GlslOutline {
   const GlslWord* wordAt(std::size_t offset) const;
 
  private:
-  class Scan;
   std::vector<GlslWord> words_;
   std::vector<GlslName> names_;
   std::vector<GlslInclude> includes_;

@@ -122,6 +122,12 @@ const GlslType* findGlslType(GLenum type) {
   return found == std::end(kTypes) ? nullptr : found;
 }
 
+const GlslType* findGlslType(std::string_view name) {
+  const auto found =
+      std::find_if(std::begin(kTypes), std::end(kTypes), [&](const GlslType& t) { return t.name == name; });
+  return found == std::end(kTypes) ? nullptr : found;
+}
+
 std::string glslTypeName(GLenum type) {
   const GlslType* found = findGlslType(type);
   return found ? found->name : enumName(type);

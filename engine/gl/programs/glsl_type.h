@@ -17,5 +17,6 @@ struct GlslType {
 
 // Null for a type this engine does not know.
 const GlslType* findGlslType(GLenum type);
+const GlslType* findGlslType(std::string_view name);
 
 }  // namespace weft::gl

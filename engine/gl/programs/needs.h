@@ -1,4 +1,4 @@
-// What a program asks of a device: varyings, samplers, and images, storage blocks and outputs together. From the tokens of its
+// What a program asks of a device: varyings, samplers, and images, storage blocks and outputs together. From the interfaces of its
 // stages, so that it is known without a device, and of a program that does not link. What main() cannot reach counts for nothing;
 // what a driver drops besides does count. The least that OpenGL 4.5 gives is kLeastDevice (core, tables 23.55 to 23.64).
 // Does not: count uniforms, attributes or uniform blocks.

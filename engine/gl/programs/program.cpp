@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "engine/gl/context/debug.h"
-#include "engine/gl/messages/log.h"
+#include "engine/gl/programs/log.h"
 #include "engine/gl/programs/needs.h"
 
 namespace weft::gl {

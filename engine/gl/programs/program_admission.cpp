@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/limits.h"
 #include "engine/gl/programs/shader_trial.h"
+#include "engine/glsl/bounds.h"
 
 namespace weft::gl {
 
@@ -14,21 +16,23 @@ using base::Code;
 using base::Diagnostics;
 using base::Limit;
 
-ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
-                           Diagnostics& diagnostics) {
-  ProgramSize program;
-  for (const StageSource& stage : stages) {
-    program.stages.push_back(glsl::measureShader(*stage.source, defines));
-    glsl::checkShaderSize(program.stages.back(), *stage.source, diagnostics);
-    program.unusual |= glsl::isUnusual(program.stages.back());
-  }
-  return program;
+bool checkProgramSize(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
+                      Diagnostics& diagnostics) {
+  bool good = true;
+  for (const StageSource& stage : stages)
+    good &= glsl::checkShaderSize(stage.source->interfaceWith(defines).size, *stage.source, diagnostics);
+  return good;
+}
+
+bool isUnusual(std::span<const StageSource> stages, std::span<const glsl::Define> defines) {
+  return std::ranges::any_of(stages, [&](const StageSource& stage) {
+    return glsl::isUnusual(stage.source->interfaceWith(defines));
+  });
 }
 
 bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
                    std::span<const StageSource> stages, std::span<const glsl::Define> defines,
-                   std::span<const std::string> outputs, const ProgramSize& size, TrialTime& time,
-                   Diagnostics& diagnostics) {
+                   std::span<const std::string> outputs, TrialTime& time, Diagnostics& diagnostics) {
   // A window's driver without its window.
   const Backend backend = device.backend != Backend::glfw ? device.backend
                           : device.software               ? Backend::osmesa
@@ -42,13 +46,12 @@ bool survivesTrial(std::span<const std::string> command, const DeviceInfo& devic
     time.spent += result.seconds;
     if (result.survived) return true;
   }
-  std::size_t largest = 0;
-  for (std::size_t i = 1; i < stages.size(); ++i)
-    if (glsl::largestShare(size.stages[i]).share >= glsl::largestShare(size.stages[largest]).share)
-      largest = i;
-  const glsl::ShaderShare share = glsl::largestShare(size.stages[largest]);
+  const auto tokensOf = [&](const StageSource& stage) {
+    return stage.source->interfaceWith(defines).size.inlined;
+  };
+  const StageSource& largest = *std::ranges::max_element(stages, {}, tokensOf);
   base::Diagnostic& error = diagnostics.error(
-      Code::driverDied, {stages[largest].source->file, 0, 0},
+      Code::driverDied, {largest.source->file, 0, 0},
       result.during.empty() ? "there is no time left to try this shader"
                             : fmt::format("the driver did not survive {} this shader", result.during));
   error.expected = fmt::format("at most {} s of processor time for all unusual shaders ({}) and {} MiB ({})",
@@ -57,34 +60,28 @@ bool survivesTrial(std::span<const std::string> command, const DeviceInfo& devic
   error.found = result.during.empty() ? result.what
                                       : fmt::format("{}, after {:.1f} s of processor time and with {} MiB",
                                                     result.what, result.seconds, result.bytes >> 20);
-  error.hint = fmt::format(
-      "make it smaller: it has {:.0f} % of what {} allows by default; or raise {} on a slow or busy machine",
-      100 * share.share, base::nameOf(share.limit), base::nameOf(Limit::shader_seconds));
+  error.hint = fmt::format("make it smaller, or raise {} on a slow or busy machine",
+                           base::nameOf(Limit::shader_seconds));
   return false;
 }
 
-void placeCircles(std::span<const StageSource> stages, const ProgramSize& size, Diagnostics& log) {
-  const auto isAbout = [](const base::Diagnostic& d) {
-    return d.severity == base::Severity::error && d.message.find("recursion") != std::string::npos;
+void placeCircles(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
+                  Diagnostics& log) {
+  const auto circles = [&](const StageSource& stage) {
+    return !stage.source->interfaceWith(defines).size.circle.empty();
   };
+  const auto stage = std::ranges::find_if(stages, circles);
+  const auto isUnplaced = [](const base::Diagnostic& d) { return d.place.line == 0; };
+  if (stage == stages.end() || std::ranges::none_of(log.items(), isUnplaced)) return;
+  const glsl::ShaderSize& size = stage->source->interfaceWith(defines).size;
   Diagnostics placed;
-  bool told = false;
-  for (base::Diagnostic d : log.items()) {
-    for (std::size_t i = 0; i < stages.size() && isAbout(d); ++i) {
-      const glsl::ShaderSize& stage = size.stages[i];
-      if (stage.circle.empty()) continue;
-      if (!told) {
-        base::Diagnostic& circle = placed.error(
-            d.code, stages[i].source->placeOf(stage.circleAt.line, stage.circleAt.column),
-            fmt::format("functions call each other in a circle: {}", fmt::join(stage.circle, " -> ")));
-        circle.expected = "functions that call others only, as GLSL has no recursion";
-        circle.hint = "write it as a loop";
-      }
-      told = true;
-      d.message.clear();
-    }
-    if (!d.message.empty()) placed.add(std::move(d));
-  }
+  base::Diagnostic& circle =
+      placed.error(log.items().front().code, stage->source->placeOf(size.circleAt.line, size.circleAt.column),
+                   fmt::format("functions call each other in a circle: {}", fmt::join(size.circle, " -> ")));
+  circle.expected = "functions that call others only, as GLSL has no recursion";
+  circle.hint = "write it as a loop";
+  for (const base::Diagnostic& d : log.items())
+    if (!isUnplaced(d)) placed.add(d);
   log = std::move(placed);
 }
 

@@ -5,23 +5,18 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "engine/base/diagnostic.h"
 #include "engine/gl/context/context.h"
 #include "engine/gl/programs/program.h"
-#include "engine/glsl/bounds.h"
 
 namespace weft::gl {
 
-struct ProgramSize {
-  std::vector<glsl::ShaderSize> stages;
-  bool unusual = false;
-};
-
-// Errors (W203) for what is beyond a bound.
-ProgramSize measureProgram(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
-                           base::Diagnostics& diagnostics);
+// False after errors (W203) for what is beyond a bound.
+bool checkProgramSize(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
+                      base::Diagnostics& diagnostics);
+// Whether the driver may not survive the program, or must work long.
+bool isUnusual(std::span<const StageSource> stages, std::span<const glsl::Define> defines);
 
 // Processor time that trials have taken since a graph began to load: all of them together have shader_seconds.
 struct TrialTime {
@@ -31,10 +26,10 @@ struct TrialTime {
 // False after an error (W204): the driver did not survive the program, or no time is left to try it.
 bool survivesTrial(std::span<const std::string> command, const DeviceInfo& device,
                    std::span<const StageSource> stages, std::span<const glsl::Define> defines,
-                   std::span<const std::string> outputs, const ProgramSize& size, TrialTime& time,
-                   base::Diagnostics& diagnostics);
+                   std::span<const std::string> outputs, TrialTime& time, base::Diagnostics& diagnostics);
 
 // Drivers say that there is recursion, and not where.
-void placeCircles(std::span<const StageSource> stages, const ProgramSize& size, base::Diagnostics& log);
+void placeCircles(std::span<const StageSource> stages, std::span<const glsl::Define> defines,
+                  base::Diagnostics& log);
 
 }  // namespace weft::gl

@@ -20,7 +20,6 @@ namespace {
 using base::Diagnostics;
 
 constexpr std::size_t kMostFailures = 256;
-constexpr std::size_t kMostMeasured = 4096;
 constexpr std::size_t kMostEvicted = 256;  // above it, those that nobody holds are forgotten
 constexpr std::size_t kKeyLength = kBinaryKeyLength;
 
@@ -59,11 +58,6 @@ void appendFor(const ProgramRequest& request, const Diagnostics& from, Diagnosti
 
 }  // namespace
 
-bool Variant::mentions(std::string_view name) const {
-  return std::any_of(stages.begin(), stages.end(),
-                     [&](const StageSource& s) { return s.source->mentions(name); });
-}
-
 ProgramCache::ProgramCache(const DeviceInfo& device, glsl::SourceLoader& loader, Options options)
     : device_(device), loader_(loader), options_(std::move(options)) {
   assert(options_.capacity >= 1);
@@ -98,24 +92,16 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
   ++stats_.misses;
   if (auto held = revive(key)) return remember(key, std::move(held));
   const bool compute = stages.front().stage == GL_COMPUTE_SHADER;
-  // What was measured before and is on disk needs no other look at its size.
-  if (measured_.contains(key))
-    if (auto program = loadBinary(key, compute, request.label))
-      return remember(key, std::make_shared<const Variant>(
-                               Variant{std::move(*program), std::move(stages), key, request.defines}));
   Diagnostics refused;
-  const ProgramSize size = measureProgram(stages, request.defines, refused);
-  if (refused.hasErrors()) {
+  if (!checkProgramSize(stages, request.defines, refused)) {
     ++stats_.refusals;
     return refuse(key, request, std::move(refused), diagnostics);
   }
-  if (measured_.size() >= kMostMeasured) measured_.clear();
-  measured_.insert(key);
   std::optional<Program> program = loadBinary(key, compute, request.label);
   if (!program) {
-    if (size.unusual && !options_.trial.empty()) {
+    if (!options_.trial.empty() && isUnusual(stages, request.defines)) {
       ++stats_.trials;
-      if (!survivesTrial(options_.trial, device_, stages, request.defines, request.outputs, size, trialTime_,
+      if (!survivesTrial(options_.trial, device_, stages, request.defines, request.outputs, trialTime_,
                          refused)) {
         ++stats_.refusals;
         return refuse(key, request, std::move(refused), diagnostics);
@@ -126,7 +112,7 @@ std::shared_ptr<const Variant> ProgramCache::get(const ProgramRequest& request, 
     program = Program::compile(stages, request.defines, request.outputs, request.label, log);
     if (!program) {
       ++stats_.failures;
-      placeCircles(stages, size, log);
+      placeCircles(stages, request.defines, log);
       return refuse(key, request, std::move(log), diagnostics);
     }
     appendFor(request, log, diagnostics);

@@ -4,7 +4,7 @@
 // written anew. A variant that does not compile gives its diagnostics and null, and the caller keeps the program it
 // has; the failure is remembered until the sources change, so that asking again compiles nothing. A shader that is
 // too large for the driver is refused; an unusually large one is first tried in a process of its own
-// (shaders/bounds.h, shader_trial.h). The folder is kept below program_cache_bytes.
+// (engine/glsl/bounds.h, shader_trial.h). The folder is kept below program_cache_bytes.
 // Does not: compile in the background, or watch files (SourceLoader looks at times).
 #pragma once
 
@@ -14,7 +14,6 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -45,9 +44,6 @@ struct Variant {
   std::vector<StageSource> stages;
   std::string key{};                    // of the cache
   std::vector<glsl::Define> defines{};  // of the request
-  // True when any stage's source holds the identifier (docs/shaders.md: a name the linker dropped is no
-  // error).
-  bool mentions(std::string_view name) const;
 };
 
 // hits + misses: calls whose sources could be read. A remembered failure is a hit. A binary that is absent is
@@ -114,7 +110,6 @@ class ProgramCache {
   std::unordered_map<std::string, std::list<Entry>::iterator> index_;
   std::unordered_map<std::string, std::weak_ptr<const Variant>> evicted_;
   std::unordered_map<std::string, base::Diagnostics> failures_;
-  std::unordered_set<std::string> measured_;  // keys of programs within all bounds
 };
 
 }  // namespace weft::gl

@@ -12,7 +12,6 @@
 #include "engine/runtime/imports/imports.h"
 #include "engine/runtime/imports/registry.h"
 #include "engine/runtime/prepare/sampler_cache.h"
-#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::runtime {
 
@@ -23,7 +22,6 @@ struct Device {
   gl::Context& context;
   glsl::SourceLoader sources;
   gl::ProgramCache programs;
-  RoleCache roles;  // what the names in shader sources are
   SamplerCache samplers;
   passes::Geometries geometries;
   const PlugIns plugIns;

@@ -91,7 +91,9 @@ std::shared_ptr<const gl::Variant> Preparation::findVariant(std::size_t step, ba
   const graph::PassType reflected = type->reflect();
   if (reflected.shader == graph::ShaderShape::none) return nullptr;
   auto variant = device_.programs.get(programRequestOf(*plan.graph, plan, pass, reflected), problems);
-  if (variant) checkProgram(plan, pass, *variant, device_.context.device().limits, device_.roles, problems);
+  if (!variant) return nullptr;
+  const LinkedProgram linked{variant->program.reflection(), device_.context.device().limits};
+  checkProgram(plan, pass, variant->stages, variant->defines, &linked, problems);
   return variant;
 }
 

@@ -181,8 +181,8 @@ class Preparer {
         const graph::TexelKind texels =
             use.planes == 2 ? graph::TexelKind::unsigned_integer : graph::infoOf(resource.format).kind;
         binding.sampler = c_.samplers.get(slot.sampler, graph_.borderOf(slot), use.mips > 1, texels);
-        binding.views = viewsOf(use, opaqueTypeOf(sampler->type).target);
-        binding.part = importPartOf(use, opaqueTypeOf(sampler->type).target);
+        binding.views = viewsOf(use, opaqueTypeOf(gl::glslTypeName(sampler->type)).target);
+        binding.part = importPartOf(use, opaqueTypeOf(gl::glslTypeName(sampler->type)).target);
         out_.textures.push_back(std::move(binding));
         return complete(out_.textures.back().views);
       }
@@ -195,7 +195,7 @@ class Preparer {
                          : slot.access == Access::write ? GL_WRITE_ONLY
                                                         : GL_READ_WRITE;
         binding.format = glFormatOf(resource.format).internal;
-        const GLenum target = opaqueTypeOf(image->type).target;
+        const GLenum target = opaqueTypeOf(gl::glslTypeName(image->type)).target;
         binding.layered = target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE;
         binding.views = viewsOf(use, target);
         binding.part = importPartOf(use, target);

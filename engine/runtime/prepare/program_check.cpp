@@ -1,29 +1,31 @@
 #include "engine/runtime/prepare/program_check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "engine/base/chars.h"
 #include "engine/base/nearest.h"
 #include "engine/base/words/foreign_words.h"
-#include "engine/gl/objects/objects.h"
+#include "engine/base/words/glsl_words.h"
+#include "engine/gl/programs/glsl_type.h"
+#include "engine/glsl/interface.h"
+#include "engine/graph/subresource.h"
 #include "engine/imports/row_layout.h"
 #include "engine/passes/compute/work_groups.h"
-#include "engine/runtime/prepare/missing_slot.h"
-#include "engine/runtime/prepare/parameter_fit.h"
 #include "engine/runtime/prepare/pass_errors.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/prepare/sampler_types.h"
 #include "engine/runtime/prepare/shader_advice.h"
-#include "engine/runtime/prepare/shader_words.h"
-#include "engine/runtime/prepare/word_check.h"
 #include "engine/runtime/storage/block_writer.h"
 
 namespace weft::runtime {
 
 using base::Code;
+using glsl::Declaration;
+using glsl::Role;
 using graph::Access;
 using graph::FlatGraph;
 using graph::FlatResource;
@@ -31,138 +33,303 @@ using graph::FlatUse;
 using graph::Kind;
 using graph::PassSpec;
 using graph::Plan;
-using graph::ShaderShape;
 using graph::SlotSpec;
 
 namespace {
 
-// What a uniform of this name has in its place.
-std::string hintForLoose(const std::string& name) {
-  if (isViewMember(name)) return fmt::format("take it away: #include \"common/view.glsl\" has '{}'", name);
-  if (std::string theirs = base::hintForForeign(base::Foreign::shader_name, name); !theirs.empty())
-    return theirs;
-  return "move it into `layout(std140) uniform Parameters { … };`";
+Role roleFor(Kind kind) {
+  switch (kind) {
+    case Kind::sampled:
+      return Role::sampler;
+    case Kind::image:
+      return Role::image;
+    case Kind::uniform:
+      return Role::uniform_block;
+    case Kind::storage:
+      return Role::storage_block;
+    default:
+      return Role::output;
+  }
+}
+
+bool isBlock(Role role) {
+  return role == Role::uniform_block || role == Role::storage_block;
+}
+
+// The first format among the words of an image's layout, when none of them is the texture's; "" when they agree.
+std::string otherFormat(std::span<const std::string_view> words, graph::Format format) {
+  std::string other;
+  for (const std::string_view word : words)
+    if (const auto named = graph::findFormat(word)) {
+      if (*named == format) return {};
+      other = word;
+    }
+  return other;
+}
+
+GLenum baseOf(graph::TexelKind kind) {
+  return kind == graph::TexelKind::unsigned_integer ? GL_UNSIGNED_INT
+         : kind == graph::TexelKind::signed_integer ? GL_INT
+                                                    : GL_FLOAT;
 }
 
 class Checker : PassErrors {
  public:
-  Checker(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
-          RoleCache& roles, base::Diagnostics& diagnostics)
+  Checker(const Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
+          std::span<const glsl::Define> defines, const LinkedProgram* linked, base::Diagnostics& diagnostics)
       : PassErrors(plan.graph->specs[pass].name, diagnostics),
         plan_(plan),
         graph_(*plan.graph),
         spec_(graph_.specs[pass]),
         pass_(pass),
-        variant_(variant),
-        reflection_(variant.program.reflection()),
-        limits_(limits),
-        diagnostics_(diagnostics),
-        words_(variant.stages, variant.defines, roles) {}
+        stages_(stages),
+        defines_(defines),
+        linked_(linked),
+        diagnostics_(diagnostics) {}
 
   bool run() {
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i) checkSlot(graph_.slots[spec_.firstSlot + i]);
-    const bool parametersFit = checkParameters(graph_, spec_, variant_, words_, shaders_, diagnostics_);
-    checkRest();
-    checkSlices(graph_.passes[pass_]);
-    checkGroups();
-    warnUnwritten(plan_, pass_, words_, diagnostics_);
-    if (reflection_.findUniformBlock("View")) warnTimeless(graph_, pass_, words_, diagnostics_);
-    return parametersFit && !any();
+    checkParameters();
+    checkViews();
+    if (linked_) {
+      checkRest();
+      checkSlices(graph_.passes[pass_]);
+      checkGroups();
+    }
+    warnUnwritten();
+    warnTimeless();
+    return !any();
   }
 
  private:
-  void missing(const SlotSpec& slot, const char* what, const std::string& other, const FlatUse& use) {
-    slotMissing_ = true;
-    base::Diagnostic& d = fail(Code::slotNotInShader, slot.place,
-                               fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_));
-    d.expected = fmt::format("{} named '{}'", what, slot.name);
-    if (!other.empty()) {
-      d.found = other;
-      adviseKind(slot, use, d);
-      return;
+  const glsl::Interface& of(const gl::StageSource& stage) const {
+    return stage.source->interfaceWith(defines_);
+  }
+
+  // The stages that may declare something of that role for the pass: outputs are those of the last.
+  std::span<const gl::StageSource> stagesFor(Role role) const {
+    return role == Role::output && !stages_.empty() ? stages_.last(1) : stages_;
+  }
+
+  const Declaration* find(std::string_view name, Role role) const {
+    for (const gl::StageSource& stage : stagesFor(role))
+      if (const Declaration* found = of(stage).find(name, role)) return found;
+    return nullptr;
+  }
+
+  const Declaration* findMember(std::string_view block, std::string_view name) const {
+    for (const gl::StageSource& stage : stages_)
+      for (const Declaration& each : of(stage).declarations)
+        if (each.role == Role::member && each.owner == block && each.name == name) return &each;
+    return nullptr;
+  }
+
+  // True when something for which `is` holds may be declared: here, in a branch that is not taken, or in a text that could not be
+  // read whole.
+  template <class F>
+  bool maybe(Role role, F&& is) const {
+    return std::ranges::any_of(stagesFor(role), [&](const gl::StageSource& stage) {
+      const auto declares = [&](const glsl::Interface& interface) {
+        return interface.unsure || std::ranges::any_of(interface.declarations, [&](const Declaration& each) {
+                 return each.role == role && is(each);
+               });
+      };
+      return declares(of(stage)) || declares(stage.source->ofAllBranches());
+    });
+  }
+  bool maybe(std::string_view name, Role role) const {
+    return maybe(role, [&](const Declaration& each) { return each.name == name; });
+  }
+
+  // Whether main() reaches it, and the linker has kept it.
+  bool isLive(const Declaration& declaration) const {
+    if (linked_) return isActive(declaration.name, declaration.role);
+    return std::ranges::any_of(stagesFor(declaration.role), [&](const gl::StageSource& stage) {
+      const glsl::Interface& interface = of(stage);
+      if (!isBlock(declaration.role) || !declaration.instance.empty()) return interface.isLive(declaration);
+      return std::ranges::any_of(interface.declarations, [&](const Declaration& each) {
+        return each.role == Role::member && each.owner == declaration.name && interface.isLive(each.name);
+      });
+    });
+  }
+  bool isActive(std::string_view name, Role role) const {
+    const gl::Reflection& r = linked_->reflection;
+    switch (role) {
+      case Role::sampler:
+        return r.findSampler(name) != nullptr;
+      case Role::image:
+        return r.findImage(name) != nullptr;
+      case Role::uniform_block:
+        return r.findUniformBlock(name) != nullptr;
+      case Role::storage_block:
+        return r.findStorageBlock(name) != nullptr;
+      case Role::output:
+        return r.findOutput(name) != nullptr;
+      default:
+        return true;
     }
-    for (const gl::StageSource& stage : variant_.stages)
-      for (const auto& [block, instance] : stage.source->parts.instanceOf)
-        if (instance == slot.name) {
-          d.found = fmt::format("a block '{}' with the instance name '{}'", block, instance);
-          d.hint = fmt::format("a slot has the name of the block: call it '{}'", block);
-          return;
-        }
-    sayMissingSlot(graph_, spec_, slot, words_, shaders_, declaredNames(variant_), d);
   }
 
   const FlatResource& resourceOf(const FlatUse& use) const { return graph_.resources[use.resource]; }
-
-  // Says what to write when the shader has the name for something else, such as an image in place of a sampler.
-  void adviseKind(const SlotSpec& slot, const FlatUse& use, base::Diagnostic& d) {
-    const FlatResource& resource = resourceOf(use);
-    const std::string& name = graph_.resourceNames[use.resource];
-    const bool buffer =
-        resource.kind == graph::ResourceKind::buffer || resource.kind == graph::ResourceKind::imported_buffer;
-    const bool wantsTexture = reflection_.findSampler(slot.name) || reflection_.findImage(slot.name);
-    const std::string declaration = declarationFor(slot, slot.kind, use, resource);
-    d.resource = name;
-    if (buffer != !wantsTexture && !reflection_.findOutput(slot.name))
-      d.hint = fmt::format("'{}' is a {}: name a {}, or declare `{}`", name, buffer ? "buffer" : "texture",
-                           buffer ? "texture" : "buffer", declaration);
-    else if (slot.kind == Kind::image && slot.access == Access::read)
-      d.hint = fmt::format("leave \"as image\" out, or declare `{}`", declaration);
-    else if (slot.kind == Kind::sampled && reflection_.findImage(slot.name))
-      d.hint = fmt::format("say \"{} as image\", or declare `{}`", name, declaration);
-    else
-      d.hint = fmt::format("declare `{}`", declaration);
+  const std::string& nameOf(const FlatUse& use) const { return graph_.resourceNames[use.resource]; }
+  std::string declarationOf(const SlotSpec& slot) const {
+    const FlatUse& use = graph_.uses[slot.firstUse];
+    return declarationFor(slot, slot.kind, use, resourceOf(use));
+  }
+  bool isSlot(std::string_view name) const {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
+      if (graph_.slots[spec_.firstSlot + i].name == name) return true;
+    return false;
   }
 
-  // Names what else has the name in the shader, for the message.
-  std::string otherUse(const std::string& name) const {
-    if (reflection_.findSampler(name)) return fmt::format("a sampler '{}'", name);
-    if (reflection_.findImage(name)) return fmt::format("an image '{}'", name);
-    if (reflection_.findUniformBlock(name)) return fmt::format("a uniform block '{}'", name);
-    if (reflection_.findStorageBlock(name)) return fmt::format("a storage block '{}'", name);
-    if (reflection_.findOutput(name)) return fmt::format("an output '{}'", name);
-    return {};
+  // What the name is in the shaders, in any branch: the outputs of a vertex shader are the inputs of what follows it. Null when it
+  // is nothing.
+  const char* whatIs(std::string_view name) const {
+    for (auto stage = stages_.rbegin(); stage != stages_.rend(); ++stage)
+      if (const Declaration* found = stage->source->ofAllBranches().find(name))
+        return glsl::nameOf(found->role);
+    return base::isGlslFunction(name) ? "a built-in function" : nullptr;
+  }
+
+  std::vector<std::string> namesIn(std::span<const gl::StageSource> stages, std::optional<Role> role) const {
+    std::vector<std::string> names;
+    for (const gl::StageSource& stage : stages)
+      for (const Declaration& each : stage.source->ofAllBranches().declarations)
+        if (role ? each.role == *role : each.role <= Role::member) names.emplace_back(each.name);
+    std::ranges::sort(names);
+    names.erase(std::ranges::unique(names).begin(), names.end());
+    return names;
   }
 
   void checkSlot(const SlotSpec& slot) {
     if (slot.useCount == 0) return;
     const FlatUse& use = graph_.uses[slot.firstUse];
     if (slot.access != Access::read && !plan_.attached[slot.firstUse]) return;
+    const Role role = roleFor(slot.kind);
+    const Declaration* declared = find(slot.name, role);
     switch (slot.kind) {
-      case Kind::sampled:
-        return checkSampler(slot, use);
-      case Kind::image:
-        return checkImage(slot, use);
-      case Kind::uniform:
-        checkBlock(slot, reflection_.findUniformBlock(slot.name), "a uniform block", use);
-        checkTable(reflection_.findUniformBlock(slot.name), columnsOf(graph_, use), slot.place);
-        return;
-      case Kind::storage:
-        checkBlock(slot, reflection_.findStorageBlock(slot.name), "a storage block", use);
-        checkTable(reflection_.findStorageBlock(slot.name), columnsOf(graph_, use), slot.place);
-        return;
-      case Kind::color:
-        if (!reflection_.findOutput(slot.name) && (!declared(slot) || !otherUse(slot.name).empty()) &&
-            !givesRasterAlone(plan_, pass_, slot.firstUse))
-          missing(slot, "an output", otherUse(slot.name), use);
-        checkOutput(slot, use);
-        return;
       case Kind::depth:
-        if (reflection_.findOutput(slot.name))
-          sayOutputToDepth(graph_, slot, fail(Code::slotTypeMismatch, slot.place, ""));
+        if (declared) reportOutputToDepth(slot, use);
         return;
-      case Kind::copy:
-      case Kind::vertex:
-      case Kind::index:
-      case Kind::indirect:
+      case Kind::sampled:
+      case Kind::image:
+      case Kind::uniform:
+      case Kind::storage:
+      case Kind::color:
+        break;
+      default:
         return;
+    }
+    if (!declared) {
+      if (slot.kind != Kind::color || !givesRasterAlone(plan_, pass_, slot.firstUse))
+        checkMissing(slot, role);
+      return;
+    }
+    if (!isLive(*declared)) return;
+    if (slot.kind == Kind::color) {
+      checkOutput(slot, use, *declared);
+    } else if (isBlock(role)) {
+      if (linked_)
+        checkTable(role == Role::uniform_block ? linked_->reflection.findUniformBlock(slot.name)
+                                               : linked_->reflection.findStorageBlock(slot.name),
+                   columnsOf(graph_, use), slot.place);
+    } else {
+      checkOpaque(slot, use, *declared);
+      const std::string other = otherFormat(declared->layout, resourceOf(use).format);
+      if (slot.kind == Kind::image && !other.empty()) reportImageFormat(slot, use, other);
     }
   }
 
-  bool declared(const SlotSpec& slot) const { return words_.declares(slot.name, slot.kind); }
+  // A slot that this variant does not declare as what it must be.
+  void checkMissing(const SlotSpec& slot, Role role) {
+    bool other = false;  // something else that it uses has the name
+    for (const Role each :
+         {Role::sampler, Role::image, Role::uniform_block, Role::storage_block, Role::output})
+      if (const Declaration* found = find(slot.name, each)) other = other || isLive(*found);
+    // A slot may have the instance name of a block; W187 then says it better, from the side of the shader.
+    const auto hasInstance = [&](const Declaration& block) { return block.instance == slot.name; };
+    if (!other && (maybe(slot.name, role) || (isBlock(role) && maybe(role, hasInstance)))) return;
+    slotMissing_ = true;
+    const char* const what = whatIs(slot.name);
+    base::Diagnostic& d =
+        fail(Code::slotNotInShader, slot.place,
+             what ? fmt::format("slot '{}' is {} in the shader '{}', not {}", slot.name, what, shaders_,
+                                glsl::nameOf(role))
+                  : fmt::format("slot '{}' is not in the shader '{}'", slot.name, shaders_));
+    d.resource = nameOf(graph_.uses[slot.firstUse]);
+    d.expected = fmt::format("{} named '{}'", glsl::nameOf(role), slot.name);
+    std::vector<std::string> fitting = namesIn(stagesFor(role), role);
+    std::erase_if(fitting, [&](const std::string& name) { return isSlot(name); });
+    const std::string near = base::nearestName(slot.name, namesIn(stages_, std::nullopt));
+    if (!what && slot.inherited)
+      d.hint = fmt::format("remove it: \"{}\": {{ \"{}\": null }}", graph::nameOf(slot.access), slot.name);
+    else if (what && fitting.size() == 1)
+      d.hint = fmt::format("did you mean '{}'?", fitting[0]);
+    else if (!what && !near.empty())
+      d.hint = fmt::format("did you mean '{}'?", near);
+    else
+      d.hint = fmt::format("declare `{}`", declarationOf(slot));
+  }
 
-  void checkBlock(const SlotSpec& slot, const gl::Block* block, const char* what, const FlatUse& use) {
-    if (!block && (!declared(slot) || !otherUse(slot.name).empty()))
-      missing(slot, what, otherUse(slot.name), use);
+  void reportOutputToDepth(const SlotSpec& slot, const FlatUse& use) {
+    base::Diagnostic& d =
+        fail(Code::slotTypeMismatch, slot.place,
+             fmt::format("slot '{}' is an output of the shader, and its texture is one of depth", slot.name));
+    d.resource = nameOf(use);
+    d.expected = "a texture with a color format, such as r32f or rgba16f";
+    d.found = graph::infoOf(resourceOf(use).format).name;
+    d.hint = fmt::format("give '{}' a color format, or write gl_FragDepth and remove the output '{}'",
+                         d.resource, slot.name);
+  }
+
+  // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
+  void reportImageFormat(const SlotSpec& slot, const FlatUse& use, const std::string& other) {
+    const char* const own = graph::infoOf(resourceOf(use).format).name;
+    base::Diagnostic& d = fail(
+        Code::slotTypeMismatch, slot.place,
+        fmt::format("slot '{}' is a texture of {}, and the shader's image of {}", slot.name, own, other));
+    d.resource = nameOf(use);
+    d.expected = fmt::format("layout({})", own);
+    d.found = fmt::format("layout({}) in '{}'", other, shaders_);
+    d.hint = fmt::format("declare `{}`, or make the texture {}", declarationOf(slot), other);
+  }
+
+  void reportType(const SlotSpec& slot, const FlatUse& use, const std::string& type, std::string expected) {
+    base::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
+                               fmt::format("slot '{}' and the shader's {} do not fit", slot.name, type));
+    d.resource = nameOf(use);
+    d.expected = std::move(expected);
+    d.found = type;
+    d.hint = fmt::format("declare `{}`, or name another resource", declarationOf(slot));
+  }
+
+  // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
+  void checkOutput(const SlotSpec& slot, const FlatUse& use, const Declaration& output) {
+    const gl::GlslType* type = gl::findGlslType(output.type);
+    const GLenum base = baseOf(graph::infoOf(resourceOf(use).format).kind);
+    if (!type || type->kind != gl::GlslKind::value || type->shape.base == base) return;
+    reportType(slot, use, type->name,
+               fmt::format("{} output for {}",
+                           base == GL_FLOAT ? "a float"
+                           : base == GL_INT ? "an int"
+                                            : "an unsigned int",
+                           graph::infoOf(resourceOf(use).format).name));
+  }
+
+  void checkOpaque(const SlotSpec& slot, const FlatUse& use, const Declaration& uniform) {
+    const std::string type(uniform.type);
+    const bool compare = slot.kind == Kind::sampled && slot.sampler.compare;
+    if (std::string problem = opaqueMismatch(opaqueTypeOf(type), resourceOf(use), use, compare);
+        !problem.empty())
+      reportType(slot, use, type, std::move(problem));
+    const std::uint32_t elements = uniform.elements;
+    if (elements == 0 || (elements >= slot.useCount && (slot.array || elements == 1))) return;
+    base::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
+                               fmt::format("slot '{}' has {} textures and the shader an array of {}",
+                                           slot.name, slot.useCount, elements));
+    d.expected = fmt::format("{}[{}]", slot.name, slot.useCount);
+    d.found = fmt::format("{}[{}]", slot.name, elements);
+    d.hint = fmt::format("declare `{}`", declarationOf(slot));
   }
 
   void checkTable(const gl::Block* block, std::span<const graph::TableColumn> columns,
@@ -181,98 +348,167 @@ class Checker : PassErrors {
     d.hint = "include the file of shaders/scene that declares it, or declare a struct of these fields";
   }
 
-  // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
-  void checkOutput(const SlotSpec& slot, const FlatUse& use) {
-    const gl::Interface* output = reflection_.findOutput(slot.name);
-    const auto shape = output ? gl::shapeOf(output->type) : std::nullopt;
-    if (!shape) return;
-    const graph::TexelKind kind = graph::infoOf(graph_.resources[use.resource].format).kind;
-    const GLenum base = kind == graph::TexelKind::unsigned_integer ? GL_UNSIGNED_INT
-                        : kind == graph::TexelKind::signed_integer ? GL_INT
-                                                                   : GL_FLOAT;
-    if (shape->base == base) return;
+  void checkParameters() {
+    std::string misnamed;  // a block that has the parameters under another name
+    bool missing = false;
+    for (const graph::UniformSpec& uniform : spec_.uniforms) {
+      const Declaration* member = findMember("Parameters", uniform.name);
+      if (member) {
+        checkParameter(uniform, *member);
+        continue;
+      }
+      // A uniform outside a block has a message of its own.
+      const auto isParameter = [&](const Declaration& each) {
+        return each.owner == "Parameters" && each.name == uniform.name;
+      };
+      if (maybe(Role::member, isParameter) || maybe(uniform.name, Role::uniform)) continue;
+      missing = true;
+      if (const std::string block = blockOf(uniform.name); block.empty())
+        reportMissing(uniform);
+      else if (misnamed.empty())
+        reportBlockName(misnamed = block);
+    }
+    const Declaration* block = find("Parameters", Role::uniform_block);
+    // One misspelling is one mistake.
+    if (missing || !block || !isLive(*block)) return;
+    std::vector<std::string_view> said;
+    for (const gl::StageSource& stage : stages_)
+      for (const Declaration& member : of(stage).declarations) {
+        const bool other =
+            member.role != Role::member || member.owner != "Parameters" ||
+            std::ranges::find(said, member.name) != said.end() ||
+            std::ranges::find(spec_.uniforms, member.name, &graph::UniformSpec::name) != spec_.uniforms.end();
+        if (!other) reportUnset(member);
+        if (!other) said.push_back(member.name);
+      }
+  }
+
+  // The uniform block that has a parameter as its member, where none has the name Parameters and the pass does not name it; or "".
+  std::string blockOf(std::string_view name) const {
+    std::string block;
+    for (const gl::StageSource& stage : stages_) {
+      const glsl::Interface& all = stage.source->ofAllBranches();
+      if (all.find("Parameters", Role::uniform_block)) return {};
+      for (const Declaration& each : all.declarations)
+        if (each.role == Role::member && each.name == name && all.find(each.owner, Role::uniform_block))
+          block = each.owner;
+    }
+    return block == "View" || block == "Slice" || isSlot(block) ? std::string() : block;
+  }
+
+  void reportBlockName(const std::string& block) {
+    base::Diagnostic& d =
+        fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+             fmt::format("the shader '{}' has its parameters in a uniform block '{}'", shaders_, block));
+    d.expected = "a uniform block 'Parameters'";
+    d.found = fmt::format("uniform {} {{ … }}", block);
+    d.hint = "call it 'Parameters'";
+  }
+
+  void reportMissing(const graph::UniformSpec& uniform) {
+    const char* const what = whatIs(uniform.name);
     base::Diagnostic& d = fail(
-        Code::slotTypeMismatch, slot.place,
-        fmt::format("slot '{}' and the shader's {} do not fit", slot.name, gl::glslTypeName(output->type)));
-    d.resource = graph_.resourceNames[use.resource];
-    d.expected = fmt::format("{} output for {}",
-                             base == GL_FLOAT ? "a float"
-                             : base == GL_INT ? "an int"
-                                              : "an unsigned int",
-                             graph::infoOf(graph_.resources[use.resource].format).name);
-    d.found = gl::glslTypeName(output->type);
-    d.hint = fmt::format("declare `{}`, or write a texture of another format",
-                         declarationFor(slot, Kind::color, use, resourceOf(use)));
+        Code::parameterNotInShader, uniform.place,
+        what ? fmt::format("parameter '{}' is {} in the shader '{}', not a member of the block Parameters",
+                           uniform.name, what, shaders_)
+             : fmt::format("parameter '{}' is not in the shader '{}'", uniform.name, shaders_));
+    const std::string near = what ? "" : base::nearestName(uniform.name, namesIn(stages_, std::nullopt));
+    d.hint = fmt::format("declare it: `layout(std140) uniform Parameters {{ {} {}; }};`{}",
+                         memberTypeFor(uniform.value), uniform.name,
+                         what           ? ", and rename what has its name"
+                         : near.empty() ? ""
+                                        : fmt::format(", or did you mean '{}'?", near));
   }
 
-  void checkSampler(const SlotSpec& slot, const FlatUse& use) {
-    const gl::OpaqueUniform* sampler = reflection_.findSampler(slot.name);
-    if (!sampler) {
-      if (!declared(slot) || !otherUse(slot.name).empty())
-        missing(slot, "a sampler", otherUse(slot.name), use);
+  void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {
+    const Declaration* block = find("Parameters", Role::uniform_block);
+    const gl::GlslType* type = gl::findGlslType(declared.type);
+    if (!type || !block || !isLive(*block)) return;
+    const gl::BlockMember member{.name = uniform.name, .type = type->type, .arraySize = declared.elements};
+    std::string expected;
+    if (memberTakes(member, uniform.value, expected)) return checkWhole(uniform, *type);
+    base::Diagnostic* const d =
+        failOnce(graph_, Code::parameterTypeMismatch, uniform.place,
+                 fmt::format("parameter '{}' does not fit the shader's {}", uniform.name, type->name),
+                 fmt::format("declare `{} {};` in the block, or give it {}", memberTypeFor(uniform.value),
+                             uniform.name, expected));
+    if (!d) return;
+    d->expected = expected;
+    d->found = graph::toText(uniform.value);
+  }
+
+  // Reports numbers in the graph, and sliders, that would lose their fraction in an integer member. What an expression computes is cut.
+  void checkWhole(const graph::UniformSpec& uniform, const gl::GlslType& type) {
+    const GLenum base = type.shape.base;
+    if (base != GL_INT && base != GL_UNSIGNED_INT) return;
+    const auto parameter = std::ranges::find(graph_.parameters, uniform.path, &graph::ParameterSpec::path);
+    const bool slider = !uniform.path.empty() && parameter != graph_.parameters.end() &&
+                        parameter->desc.type == graph::ParameterDesc::Type::number;
+    bool whole = true;
+    for (std::size_t i = 0; i < uniform.value.count; ++i)
+      whole = whole && uniform.value.v[i] == std::floor(uniform.value.v[i]) &&
+              (uniform.value.v[i] >= 0 || base == GL_INT);
+    if (!slider && (!uniform.constant || whole)) return;
+    base::Diagnostic& d =
+        fail(Code::parameterTypeMismatch, uniform.place,
+             slider ? fmt::format("parameter '{}' is a float, and the shader's {} would lose its fraction",
+                                  uniform.name, type.name)
+                    : fmt::format("parameter '{}' does not fit the shader's {}", uniform.name, type.name));
+    d.expected =
+        fmt::format("{} for {}", base == GL_INT ? "whole numbers" : "whole numbers from 0 on", type.name);
+    d.found = graph::toText(uniform.value);
+    d.hint = slider
+                 ? fmt::format("give the parameter \"type\": \"int\", or declare `float {};` in the shader",
+                               uniform.name)
+                 : fmt::format("write whole numbers, or declare `{} {};` in the shader",
+                               memberTypeFor(uniform.value), uniform.name);
+  }
+
+  // A member that the pass does not set: it would be 0, which mostly gives a black picture.
+  void reportUnset(const Declaration& member) {
+    const std::string type = std::string(member.type) + member.array;
+    if (!member.array.empty()) {
+      base::Diagnostic& d =
+          fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+               fmt::format("the shader '{}' reads the parameter '{}', an array, which no graph can set",
+                           shaders_, member.name));
+      d.expected = "a number or a vector";
+      d.found = fmt::format("{} {}", type, member.name);
+      d.hint =
+          "make it a constant of the shader, one member for each element, or rows of a storage buffer that a "
+          "pass writes";
       return;
     }
-    checkOpaque(slot, use, *sampler, slot.sampler.compare);
+    base::Diagnostic& d =
+        fail(Code::undeclaredShaderInput, spec_.shaderPlace,
+             fmt::format("the shader '{}' reads the parameter '{}', which pass '{}' does not set", shaders_,
+                         member.name, spec_.declared));
+    d.expected = fmt::format("\"parameters\": {{ \"{}\": … }}, of type {}", member.name, type);
+    d.hint = fmt::format("set it, or guard the member and its use with `#ifdef {}`",
+                         presenceDefineOf(member.name));
   }
 
-  void checkImage(const SlotSpec& slot, const FlatUse& use) {
-    const gl::OpaqueUniform* image = reflection_.findImage(slot.name);
-    if (!image) {
-      if (!declared(slot) || !otherUse(slot.name).empty())
-        missing(slot, "an image", otherUse(slot.name), use);
-      return;
+  // What the blocks that the engine fills may have.
+  void checkViews() {
+    for (const char* const name : {"View", "Slice"}) {
+      const Declaration* block = find(name, Role::uniform_block);
+      if (!block || !isLive(*block)) continue;
+      const bool view = block->name == "View";
+      std::vector<std::string> names =
+          view ? viewMemberNames() : std::vector<std::string>{"first_group", "first_invocation"};
+      std::vector<std::string_view> said;
+      for (const gl::StageSource& stage : stages_)
+        for (const Declaration& member : of(stage).declarations) {
+          if (member.role != Role::member || member.owner != name ||
+              std::ranges::find(names, member.name) != names.end() ||
+              std::ranges::find(said, member.name) != said.end())
+            continue;
+          said.push_back(member.name);
+          fail(Code::unknownViewMember, spec_.shaderPlace,
+               fmt::format("the {} block of '{}' has an unknown member '{}'", name, shaders_, member.name))
+              .hint = view ? base::nearestHint(std::string(member.name), names) : "include common/slice.glsl";
+        }
     }
-    checkOpaque(slot, use, *image, false);
-    checkImageFormat(slot, use);
-  }
-
-  // Stores and loads through another format than the texture's are undefined (OpenGL 4.5 core, 8.26), and silent.
-  void checkImageFormat(const SlotSpec& slot, const FlatUse& use) {
-    const std::string other = otherFormat(words_.imageFormatsOf(slot.name), resourceOf(use).format);
-    if (!other.empty())
-      sayImageFormat(graph_, slot, other, shaders_, fail(Code::slotTypeMismatch, slot.place, ""));
-  }
-
-  void checkOpaque(const SlotSpec& slot, const FlatUse& use, const gl::OpaqueUniform& uniform, bool compare) {
-    const OpaqueType type = opaqueTypeOf(uniform.type);
-    const FlatResource& resource = graph_.resources[use.resource];
-    const std::string problem = opaqueMismatch(type, resource, use, compare);
-    if (!problem.empty()) {
-      base::Diagnostic& d = fail(
-          Code::slotTypeMismatch, slot.place,
-          fmt::format("slot '{}' and the shader's {} do not fit", slot.name, gl::glslTypeName(uniform.type)));
-      d.resource = graph_.resourceNames[use.resource];
-      d.expected = problem;
-      d.found = gl::glslTypeName(uniform.type);
-      d.hint = fmt::format("declare `{}`, or name another resource",
-                           declarationFor(slot, slot.kind, use, resource));
-    }
-    if (uniform.arraySize < slot.useCount || (!slot.array && uniform.arraySize > 1)) {
-      base::Diagnostic& d = fail(Code::slotTypeMismatch, slot.place,
-                                 fmt::format("slot '{}' has {} textures and the shader an array of {}",
-                                             slot.name, slot.useCount, uniform.arraySize));
-      d.expected = fmt::format("{}[{}]", slot.name, slot.useCount);
-      d.found = fmt::format("{}[{}]", slot.name, uniform.arraySize);
-      d.hint = fmt::format("declare `{}`", declarationFor(slot, slot.kind, use, resource));
-    }
-  }
-
-  // The instance name of a block, or "" when it has none.
-  std::string instanceOf(const std::string& block) const {
-    for (const gl::StageSource& stage : variant_.stages)
-      if (const auto found = stage.source->parts.instanceOf.find(block);
-          found != stage.source->parts.instanceOf.end())
-        return found->second;
-    return {};
-  }
-
-  bool isSlot(const std::string& name) const { return isSlotOf(graph_, spec_, name); }
-
-  // One that has the parameters was reported with them.
-  bool hasParameters(const std::string& block) const {
-    return std::ranges::any_of(spec_.uniforms, [&](const graph::UniformSpec& uniform) {
-      return !words_.declaresParameter(uniform.name) && words_.blockOf(uniform.name) == block;
-    });
   }
 
   // Says nothing when a slot was not found, because one misspelling is one mistake.
@@ -281,61 +517,60 @@ class Checker : PassErrors {
     std::vector<std::string> names;
     for (std::uint32_t i = 0; i < spec_.slotCount; ++i)
       names.push_back(graph_.slots[spec_.firstSlot + i].name);
-    const std::string instance = instanceOf(name);
     const std::string nearest = base::nearestName(name, names);
+    const auto isIt = [&](const Declaration& block) { return block.name == name && isSlot(block.instance); };
+    const bool instance = maybe(Role::storage_block, isIt) || maybe(Role::uniform_block, isIt);
     auto& d = fail(Code::undeclaredShaderInput, spec_.shaderPlace,
                    fmt::format("the shader '{}' uses {} '{}', which pass '{}' does not name", shaders_, what,
                                name, spec_.declared));
     d.expected = fmt::format("a slot '{}' in \"read\", \"write\" or \"modify\"", name);
-    if (!instance.empty() && isSlot(instance)) {
-      d.hint = fmt::format("a slot has the name of the block, not of its instance: call '{}' '{}'", instance,
-                           name);
-      return;
-    }
-    d.hint = nearest.empty() ? fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
-                                           name, presenceDefineOf(name))
-                             : fmt::format("did you mean '{}'?", nearest);
+    d.hint = instance
+                 ? fmt::format("a slot has the name of the block, not of its instance: call it '{}'", name)
+             : !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                                : fmt::format("add \"{}\": \"RESOURCE\", or guard its use with `#ifdef {}`",
+                                              name, presenceDefineOf(name));
   }
 
+  // One that has the parameters was reported with them.
+  bool hasParameters(const std::string& block) const {
+    return std::ranges::any_of(spec_.uniforms, [&](const graph::UniformSpec& uniform) {
+      return !findMember("Parameters", uniform.name) && blockOf(uniform.name) == block;
+    });
+  }
+
+  // What the linked program has besides.
   void checkRest() {
-    for (const auto& sampler : reflection_.samplers)
+    const gl::Reflection& reflection = linked_->reflection;
+    for (const auto& sampler : reflection.samplers)
       if (!isSlot(sampler.name)) unfed("a sampler", sampler.name);
-    for (const auto& image : reflection_.images)
+    for (const auto& image : reflection.images)
       if (!isSlot(image.name)) unfed("an image", image.name);
-    for (const auto& block : reflection_.storageBlocks) {
+    for (const auto& block : reflection.storageBlocks) {
       if (isSlot(block.name)) continue;
       if (block.name == imports::kInstancesBlock && !spec_.list.empty())
         checkTable(&block, instanceColumnsOf(spec_), spec_.shaderPlace);
       else
         unfed("a storage block", block.name);
     }
-    for (const auto& block : reflection_.uniformBlocks) {
-      if (block.name == "View") {
-        for (const gl::BlockMember& member : block.members)
-          if (!isViewMember(member.name))
-            fail(Code::unknownViewMember, spec_.shaderPlace,
-                 fmt::format("the View block of '{}' has an unknown member '{}'", shaders_, member.name))
-                .hint = base::nearestHint(member.name, viewMemberNames());
-      } else if (block.name == "Slice") {
-        for (const gl::BlockMember& member : block.members)
-          if (member.name != "first_group" && member.name != "first_invocation")
-            fail(Code::unknownViewMember, spec_.shaderPlace,
-                 fmt::format("the Slice block of '{}' has an unknown member '{}'", shaders_, member.name))
-                .hint = "include common/slice.glsl";
-      } else if (block.name != "Parameters" && !isSlot(block.name) && !hasParameters(block.name)) {
-        unfed("a uniform block", block.name);
-      }
+    for (const auto& block : reflection.uniformBlocks) {
+      const bool ours = block.name == "View" || block.name == "Slice" || block.name == "Parameters";
+      if (!ours && !isSlot(block.name) && !hasParameters(block.name)) unfed("a uniform block", block.name);
     }
-    for (const auto& loose : reflection_.looseUniforms)
+    for (const auto& loose : reflection.looseUniforms) {
+      std::string hint = isViewMember(loose.name)
+                             ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
+                             : base::hintForForeign(base::Foreign::shader_name, loose.name);
+      if (hint.empty()) hint = "move it into `layout(std140) uniform Parameters { … };`";
       failOnce(graph_, Code::parameterNotInShader, spec_.shaderPlace,
                fmt::format("the shader '{}' has a uniform '{}' outside a block", shaders_, loose.name),
-               hintForLoose(loose.name));
+               std::move(hint));
+    }
   }
 
   // Reports a sliced compute pass whose shader does not read Slice: every slice would do the whole work.
   void checkSlices(const graph::FlatPass& pass) {
-    const bool compute = !variant_.stages.empty() && variant_.stages[0].stage == GL_COMPUTE_SHADER;
-    if (!compute || pass.slices < 2 || reflection_.findUniformBlock("Slice")) return;
+    const bool compute = !stages_.empty() && stages_[0].stage == GL_COMPUTE_SHADER;
+    if (!compute || pass.slices < 2 || linked_->reflection.findUniformBlock("Slice")) return;
     fail(Code::badSlices, spec_.shaderPlace,
          fmt::format("the shader '{}' does not know slices, and pass '{}' has {}", shaders_, spec_.name,
                      pass.slices))
@@ -347,8 +582,8 @@ class Checker : PassErrors {
   void checkGroups() {
     passes::PassContext context;
     context.spec = &spec_;
-    std::copy_n(reflection_.workGroup, 3, context.groupSize);
-    std::copy_n(limits_.computeGroups, 3, context.maxGroups);
+    std::copy_n(linked_->reflection.workGroup, 3, context.groupSize);
+    std::copy_n(linked_->limits.computeGroups, 3, context.maxGroups);
     if (context.groupSize[0] == 0) return;  // no compute shader
     const passes::WorkGroups groups = passes::workGroupsOf(context);
     for (int axis = 0; axis < 3; ++axis) {
@@ -365,27 +600,127 @@ class Checker : PassErrors {
     }
   }
 
+  // A pass that does not run in every frame, and whose shader reads what changes in every frame.
+  void warnTimeless() {
+    if (graph_.passes[pass_].cadence == graph::Cadence::always) return;
+    const Declaration* view = find("View", Role::uniform_block);
+    if (!view || !isLive(*view)) return;
+    for (const char* const member : {"time", "delta_time", "frame"}) {
+      // A variable of that name may hide it.
+      const bool reads = std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
+        const Declaration* found = of(stage).find(member);
+        return found && found->owner == "View" && of(stage).isLive(*found) &&
+               !of(stage).find(member, Role::variable);
+      });
+      if (!reads) continue;
+      warnOnce(
+          Code::cadenceMisfit, spec_.place,
+          fmt::format("pass '{}' does not run in every frame, and its shader reads '{}', which is 0 there",
+                      spec_.declared, member),
+          fmt::format("leave \"update\" out of '{}' if its picture is to move", spec_.declared), "");
+      return;
+    }
+  }
+
+  void warnUnwritten() {
+    for (std::uint32_t i = 0; i < spec_.slotCount; ++i) {
+      const SlotSpec& slot = graph_.slots[spec_.firstSlot + i];
+      if (slot.useCount == 0 || slot.kind != Kind::color || !plan_.attached[slot.firstUse]) continue;
+      const Declaration* output = find(slot.name, Role::output);
+      if (!output || of(stages_.back()).isLive(*output)) continue;
+      const std::string& resource = nameOf(graph_.uses[slot.firstUse]);
+      warnOnce(Code::slotNotInShader, slot.place,
+               fmt::format("pass '{}': the shader '{}' declares its output '{}' and never writes it",
+                           spec_.declared, spec_.shader, slot.name),
+               fmt::format("assign '{}' in main(), or remove the slot: what is in '{}' is undefined",
+                           slot.name, resource),
+               resource);
+    }
+  }
+
+  // Of repeats of one pass the first is warned of.
+  void warnOnce(Code code, const base::Place& place, const std::string& message, std::string hint,
+                const std::string& resource) {
+    const auto isSaid = [&](const base::Diagnostic& d) { return d.code == code && d.message == message; };
+    if (std::ranges::any_of(diagnostics_.items(), isSaid)) return;
+    base::Diagnostic& d = diagnostics_.warning(code, place, message);
+    d.pass = spec_.name;
+    d.resource = resource;
+    d.hint = std::move(hint);
+  }
+
   const Plan& plan_;
   const FlatGraph& graph_;
   const PassSpec& spec_;
   const std::uint32_t pass_;
-  const gl::Variant& variant_;
-  const gl::Reflection& reflection_;
-  const gl::Limits& limits_;
+  const std::span<const gl::StageSource> stages_;
+  const std::span<const glsl::Define> defines_;
+  const LinkedProgram* const linked_;
   base::Diagnostics& diagnostics_;
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
-  const ShaderWords words_;
   bool slotMissing_ = false;
 };
 
+// A define that is 0, and "#ifdef" of it: it is defined, whatever it is.
+void warnOfTests(const std::string& pass, const gl::StageSource& stage, std::span<const glsl::Define> defines,
+                 base::Diagnostics& diagnostics) {
+  const auto isOff = [](const glsl::Define& define) { return define.value == "0"; };
+  if (std::ranges::none_of(defines, isOff)) return;
+  for (const glsl::Token& word : glsl::onlyTested(stage.source->text)) {
+    const auto off = std::ranges::find_if(
+        defines, [&](const glsl::Define& define) { return isOff(define) && define.name == word.text; });
+    if (off == defines.end()) continue;
+    const base::Place place = stage.source->placeOf(word.line, word.column);
+    const auto isSaid = [&](const base::Diagnostic& d) {
+      return d.code == Code::undeclaredShaderInput && base::isSamePlace(d.place.inFile(), place);
+    };
+    if (std::ranges::any_of(diagnostics.items(), isSaid)) continue;
+    base::Diagnostic& d = diagnostics.warning(
+        Code::undeclaredShaderInput, place,
+        fmt::format("'{}' is 0 here, and the shader asks only whether it is defined, which it always is",
+                    off->name));
+    d.pass = pass;
+    d.hint = fmt::format("write '#if {}' for '#ifdef', '#if !{}' for '#ifndef'", off->name, off->name);
+  }
+}
+
 }  // namespace
 
-bool checkProgram(const Plan& plan, std::uint32_t pass, const gl::Variant& variant, const gl::Limits& limits,
-                  RoleCache& roles, base::Diagnostics& diagnostics) {
-  roles.makeRoom();
-  return Checker(plan, pass, variant, limits, roles, diagnostics).run();
+bool checkProgram(const Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
+                  std::span<const glsl::Define> defines, const LinkedProgram* linked,
+                  base::Diagnostics& diagnostics) {
+  return Checker(plan, pass, stages, defines, linked, diagnostics).run();
+}
+
+void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
+                      std::span<const glsl::Define> defines, base::Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const glsl::Define& define : defines) names.push_back(define.name);
+  for (const gl::StageSource& stage : stages) warnOfTests(pass, stage, defines, diagnostics);
+  for (const gl::StageSource& stage : stages)
+    for (const glsl::UnknownCondition& unknown : glsl::unknownInConditions(stage.source->text, defines)) {
+      const auto likeIt = [&](const std::string& name) {
+        return base::lowered(name) == base::lowered(unknown.word.text);
+      };
+      const auto other = std::ranges::find_if(names, likeIt);
+      // A word that is only asked for may well be a slot that this pass does not have.
+      const std::string meant = other != names.end() ? *other
+                                : unknown.value      ? base::nearestName(unknown.word.text, names)
+                                                     : "";
+      const base::Place place = stage.source->placeOf(unknown.word.line, unknown.word.column);
+      if (meant.empty() || std::ranges::any_of(diagnostics.items(), [&](const base::Diagnostic& d) {
+            return d.code == Code::undeclaredShaderInput && base::isSamePlace(d.place.inFile(), place);
+          }))
+        continue;
+      base::Diagnostic& d =
+          diagnostics.warning(Code::undeclaredShaderInput, place,
+                              fmt::format("nothing defines '{}': {}", unknown.word.text,
+                                          unknown.value ? "to the compiler it is 0" : "it never is"));
+      d.pass = pass;
+      d.hint = fmt::format("did you mean '{}'?", meant);
+    }
 }
 
 }  // namespace weft::runtime

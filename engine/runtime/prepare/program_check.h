@@ -1,17 +1,34 @@
-// Checks whether a shader agrees with the pass that names it: compares slots and parameters with introspection of the
-// program. A name may be missing there when the source declares it: then the linker dropped it. Does not: compile.
+// Checks whether the shaders of a pass agree with it: slots and parameters against what the shaders declare (glsl/interface.h), with a
+// linked program and without. What the linked program alone knows comes on top: what the linker dropped is not asked for, and
+// every thing that is left must be given. A name may be missing from a variant when another branch of an #if declares it.
+// Does not: compile.
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "engine/base/diagnostic.h"
-#include "engine/gl/programs/program_cache.h"
+#include "engine/gl/context/context.h"
+#include "engine/gl/programs/program.h"
 #include "engine/graph/plan.h"
-#include "engine/runtime/prepare/shader_words.h"
 
 namespace weft::runtime {
 
-// Reports W181 to W187 for slots and parameters, and W206 for work groups that the device does not allow. False after a
-// report. `roles` keeps what is scanned of the sources, for the next check of a program that has them too.
-bool checkProgram(const graph::Plan& plan, std::uint32_t pass, const gl::Variant& variant,
-                  const gl::Limits& limits, RoleCache& roles, base::Diagnostics& diagnostics);
+// A program and the device that it is for.
+struct LinkedProgram {
+  const gl::Reflection& reflection;
+  const gl::Limits& limits;
+};
+
+// Reports W181 to W187 for slots and parameters, and W206 for work groups that the device does not allow; warns of W077. `linked`:
+// null without OpenGL. False after an error.
+bool checkProgram(const graph::Plan& plan, std::uint32_t pass, std::span<const gl::StageSource> stages,
+                  std::span<const glsl::Define> defines, const LinkedProgram* linked,
+                  base::Diagnostics& diagnostics);
+
+// Warns of words that only the conditionals of the shaders have and that nothing defines, when a define or HAS_… of the pass is
+// nearly that word, and of a define that is 0 and only asked for by #ifdef (W187). `pass`: its name.
+void warnOfConditions(const std::string& pass, std::span<const gl::StageSource> stages,
+                      std::span<const glsl::Define> defines, base::Diagnostics& diagnostics);
 
 }  // namespace weft::runtime

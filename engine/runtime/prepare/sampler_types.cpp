@@ -1,62 +1,27 @@
 #include "engine/runtime/prepare/sampler_types.h"
 
+#include <utility>
+
 namespace weft::runtime {
 
-OpaqueType opaqueTypeOf(GLenum type) {
-  switch (type) {
-    case GL_SAMPLER_2D:
-    case GL_IMAGE_2D:
-      return {GL_TEXTURE_2D, GL_FLOAT};
-    case GL_SAMPLER_2D_ARRAY:
-    case GL_IMAGE_2D_ARRAY:
-      return {GL_TEXTURE_2D_ARRAY, GL_FLOAT};
-    case GL_SAMPLER_CUBE:
-    case GL_IMAGE_CUBE:
-      return {GL_TEXTURE_CUBE_MAP, GL_FLOAT};
-    case GL_SAMPLER_CUBE_MAP_ARRAY:
-    case GL_IMAGE_CUBE_MAP_ARRAY:
-      return {GL_TEXTURE_CUBE_MAP_ARRAY, GL_FLOAT};
-    case GL_SAMPLER_3D:
-    case GL_IMAGE_3D:
-      return {GL_TEXTURE_3D, GL_FLOAT};
-    case GL_SAMPLER_2D_MULTISAMPLE:
-    case GL_IMAGE_2D_MULTISAMPLE:
-      return {GL_TEXTURE_2D_MULTISAMPLE, GL_FLOAT};
-    case GL_SAMPLER_2D_SHADOW:
-      return {GL_TEXTURE_2D, GL_FLOAT, true};
-    case GL_SAMPLER_2D_ARRAY_SHADOW:
-      return {GL_TEXTURE_2D_ARRAY, GL_FLOAT, true};
-    case GL_SAMPLER_CUBE_SHADOW:
-      return {GL_TEXTURE_CUBE_MAP, GL_FLOAT, true};
-    case GL_SAMPLER_CUBE_MAP_ARRAY_SHADOW:
-      return {GL_TEXTURE_CUBE_MAP_ARRAY, GL_FLOAT, true};
-    case GL_INT_SAMPLER_2D:
-    case GL_INT_IMAGE_2D:
-      return {GL_TEXTURE_2D, GL_INT};
-    case GL_INT_SAMPLER_2D_ARRAY:
-    case GL_INT_IMAGE_2D_ARRAY:
-      return {GL_TEXTURE_2D_ARRAY, GL_INT};
-    case GL_INT_SAMPLER_CUBE:
-    case GL_INT_IMAGE_CUBE:
-      return {GL_TEXTURE_CUBE_MAP, GL_INT};
-    case GL_INT_SAMPLER_3D:
-    case GL_INT_IMAGE_3D:
-      return {GL_TEXTURE_3D, GL_INT};
-    case GL_UNSIGNED_INT_SAMPLER_2D:
-    case GL_UNSIGNED_INT_IMAGE_2D:
-      return {GL_TEXTURE_2D, GL_UNSIGNED_INT};
-    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
-    case GL_UNSIGNED_INT_IMAGE_2D_ARRAY:
-      return {GL_TEXTURE_2D_ARRAY, GL_UNSIGNED_INT};
-    case GL_UNSIGNED_INT_SAMPLER_CUBE:
-    case GL_UNSIGNED_INT_IMAGE_CUBE:
-      return {GL_TEXTURE_CUBE_MAP, GL_UNSIGNED_INT};
-    case GL_UNSIGNED_INT_SAMPLER_3D:
-    case GL_UNSIGNED_INT_IMAGE_3D:
-      return {GL_TEXTURE_3D, GL_UNSIGNED_INT};
-    default:
-      return {};
-  }
+OpaqueType opaqueTypeOf(std::string_view name) {
+  OpaqueType type;
+  if (name.starts_with('u'))
+    type.base = GL_UNSIGNED_INT;
+  else if (name.starts_with("ii") || name.starts_with("is"))
+    type.base = GL_INT;
+  if (type.base != GL_FLOAT) name.remove_prefix(1);
+  for (const std::string_view kind : {"sampler", "image"})
+    if (name.starts_with(kind)) name.remove_prefix(kind.size());
+  type.shadow = name.ends_with("Shadow");
+  if (type.shadow) name.remove_suffix(std::string_view("Shadow").size());
+  constexpr std::pair<std::string_view, GLenum> kTargets[] = {
+      {"2D", GL_TEXTURE_2D},         {"2DArray", GL_TEXTURE_2D_ARRAY},
+      {"Cube", GL_TEXTURE_CUBE_MAP}, {"CubeArray", GL_TEXTURE_CUBE_MAP_ARRAY},
+      {"3D", GL_TEXTURE_3D},         {"2DMS", GL_TEXTURE_2D_MULTISAMPLE}};
+  for (const auto& [shape, target] : kTargets)
+    if (shape == name) type.target = target;
+  return type;
 }
 
 std::string opaqueMismatch(const OpaqueType& type, const graph::FlatResource& resource,

@@ -5,6 +5,7 @@
 #include <glad/gl.h>
 
 #include <string>
+#include <string_view>
 
 #include "engine/graph/flat_graph.h"
 
@@ -15,7 +16,8 @@ struct OpaqueType {
   GLenum base = GL_FLOAT;  // GL_FLOAT, GL_INT, GL_UNSIGNED_INT
   bool shadow = false;
 };
-OpaqueType opaqueTypeOf(GLenum glslType);
+// Of "usampler2DArray" or "image2D".
+OpaqueType opaqueTypeOf(std::string_view name);
 
 // "" when it fits, else what is expected ("sampler2DArray", "an integer sampler", …).
 std::string opaqueMismatch(const OpaqueType& type, const graph::FlatResource& resource,

@@ -1,0 +1,536 @@
+#include "engine/glsl/interface.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "engine/base/limits.h"
+
+namespace weft::glsl {
+
+namespace {
+
+using Words = std::span<const Token>;
+
+constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
+
+// a + b · n, or kMost.
+std::uint64_t addTimes(std::uint64_t a, std::uint64_t b, std::uint64_t n) {
+  if (n != 0 && b > kMost / n) return kMost;
+  return std::min(kMost, a + b * n);
+}
+
+bool isWord(const Token& token) {
+  return token.kind == TokenKind::word;
+}
+
+bool has(Words words, std::string_view what) {
+  return std::ranges::any_of(words, [&](const Token& token) { return token.is(what); });
+}
+
+bool isOpaque(std::string_view type, std::string_view kind) {
+  return type.starts_with(kind) || (type.size() > 1 && type.substr(1).starts_with(kind));
+}
+
+// Past the bracket that closes the one at `at`, or the end.
+std::size_t behindBracket(Words words, std::size_t at) {
+  int open = 0;
+  for (; at < words.size(); ++at) {
+    const Token& token = words[at];
+    if (token.is("(") || token.is("[") || token.is("{")) ++open;
+    if ((token.is(")") || token.is("]") || token.is("}")) && --open <= 0) return at + 1;
+  }
+  return at;
+}
+
+struct Function {
+  std::string_view name;
+  Token at;
+  std::uint64_t tokens = 0, inlined = 0;
+  std::set<std::string_view> words;
+  std::map<std::string_view, std::uint64_t> calls;  // words with a bracket behind them, and how often
+  enum class State : std::uint8_t { fresh, open, done } state = State::fresh;
+};
+
+// Which functions call which: what main() reaches, what each of them costs, and whether they go in a circle.
+class CallTree {
+ public:
+  std::vector<Function> functions;
+  std::set<std::string_view> globals;  // words of the values of global variables
+
+  void finish(Interface& out) {
+    for (std::size_t i = 0; i < functions.size(); ++i) byName_[functions[i].name].push_back(i);
+    reach(out);
+    for (std::size_t i = 0; i < functions.size(); ++i)
+      if (functions[i].state == Function::State::fresh) visit(i, out.size);
+    // Mesa does it in every function, not in main() alone: a chain of calls costs the square of its length.
+    for (const Function& function : functions)
+      out.size.inlined = addTimes(out.size.inlined, function.inlined, 1);
+  }
+
+ private:
+  void reach(Interface& out) const {
+    std::vector<std::string_view> open{"main"};
+    open.insert(open.end(), globals.begin(), globals.end());
+    out.live = globals;
+    std::set<std::string_view> seen;
+    while (!open.empty()) {
+      const auto found = byName_.find(open.back());
+      open.pop_back();
+      if (found == byName_.end() || !seen.insert(found->first).second) continue;
+      for (const std::size_t index : found->second)
+        for (const std::string_view word : functions[index].words)
+          if (out.live.insert(word).second || byName_.contains(word)) open.push_back(word);
+    }
+  }
+
+  // The functions that a call of the name may mean; the one that it stands in only where there is no other, as overloads call
+  // each other more often than functions themselves.
+  std::vector<std::size_t> calleesOf(std::size_t caller, std::string_view name) const {
+    const auto found = byName_.find(name);
+    if (found == byName_.end()) return {};
+    std::vector<std::size_t> callees = found->second;
+    if (callees.size() > 1) std::erase(callees, caller);
+    return callees;
+  }
+
+  // Depth first without recursion: a chain of calls may be long.
+  void visit(std::size_t root, ShaderSize& size) {
+    struct Step {
+      std::size_t function, next = 0;
+      std::vector<std::size_t> callees;
+    };
+    std::vector<Step> path;
+    const auto enter = [&](std::size_t index) {
+      functions[index].state = Function::State::open;
+      Step step{.function = index, .callees = {}};
+      for (const auto& [name, count] : functions[index].calls)
+        for (const std::size_t callee : calleesOf(index, name)) step.callees.push_back(callee);
+      path.push_back(std::move(step));
+    };
+    enter(root);
+    while (!path.empty()) {
+      Step& step = path.back();
+      if (step.next == step.callees.size()) {
+        close(step.function);
+        path.pop_back();
+        continue;
+      }
+      const std::size_t callee = step.callees[step.next++];
+      if (functions[callee].state == Function::State::fresh) {
+        enter(callee);
+      } else if (functions[callee].state == Function::State::open && size.circle.empty()) {
+        auto at = path.begin();
+        while (at->function != callee) ++at;
+        const Token& first = functions[callee].at;
+        for (; at != path.end(); ++at) size.circle.emplace_back(functions[at->function].name);
+        size.circle.push_back(size.circle.front());
+        size.circleAt = {
+            .count = size.circle.size() - 1, .line = first.line, .column = first.column, .name = {}};
+      }
+    }
+  }
+
+  void close(std::size_t index) {
+    Function& function = functions[index];
+    function.inlined = function.tokens;
+    for (const auto& [name, count] : function.calls) {
+      std::uint64_t largest = 0;
+      for (const std::size_t callee : calleesOf(index, name))
+        largest = std::max(largest, functions[callee].inlined);
+      function.inlined = addTimes(function.inlined, largest, count);
+    }
+    function.state = Function::State::done;
+  }
+
+  std::map<std::string_view, std::vector<std::size_t>> byName_;
+};
+
+// The statements of the file, of its blocks and of its functions.
+class InterfaceReader {
+ public:
+  InterfaceReader(Words tokens, Interface& out) : tokens_(tokens), out_(out) {}
+
+  void run() {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      const Token& token = tokens_[i];
+      if (token.is(";")) {
+        take(tokens_.subspan(begin, i - begin), token);
+        begin = i + 1;
+      } else if (token.is("{")) {
+        const std::size_t behind = behindBracket(tokens_, i);
+        if (!tokens_[behind - 1].is("}")) break;  // brackets do not pair
+        const Words before = tokens_.subspan(begin, i - begin),
+                    inside = tokens_.subspan(i + 1, behind - i - 2);
+        i = behind - 1;
+        if (before.empty()) break;
+        if (!before.back().is(")") && !isWord(before.back())) continue;  // values, which go on to their ';'
+        if (before.back().is(")")) {
+          takeFunction(before, inside);
+        } else {
+          while (i < tokens_.size() && !tokens_[i].is(";")) ++i;
+          takeBlock(before, inside, tokens_.subspan(behind, std::max(i, behind) - behind), token);
+        }
+        begin = i + 1;
+      } else if (token.is("}")) {
+        break;
+      }
+    }
+    const auto count = [&](std::string_view brace) {
+      return std::ranges::count_if(tokens_, [&](const Token& token) { return token.is(brace); });
+    };
+    out_.unsure = begin < tokens_.size() || count("{") != count("}");
+    calls_.finish(out_);
+  }
+
+ private:
+  static bool isMember(Words words, std::size_t i) { return i > 0 && words[i - 1].is("."); }
+
+  std::optional<std::int64_t> valueOf(Words words) const {
+    constexpr std::uint32_t kDeepest = 64;
+    return evaluateTokens(
+        words,
+        [&](std::string_view name) -> std::optional<std::int64_t> {
+          const auto found = constants_.find(name);
+          return found == constants_.end() ? std::nullopt : std::optional(found->second);
+        },
+        kDeepest);
+  }
+
+  // "[4][n]" from `at` on, which is moved behind it: the product, or 0 where it is not known.
+  std::uint64_t elementsAt(Words words, std::size_t& at) const {
+    std::uint64_t product = 1;
+    while (at < words.size() && words[at].is("[")) {
+      const std::size_t end = behindBracket(words, at);
+      const auto size = valueOf(words.subspan(at + 1, std::max(end, at + 2) - at - 2));
+      product = size && *size > 0 ? addTimes(0, product, static_cast<std::uint64_t>(*size)) : 0;
+      at = end;
+    }
+    return product;
+  }
+
+  void note(std::uint64_t elements) { out_.size.elements = std::max(out_.size.elements, elements); }
+
+  static std::string textOf(Words words) {
+    std::string text;
+    for (const Token& word : words) text += word.text;
+    return text;
+  }
+
+  // What a statement is besides its names.
+  struct Kind {
+    std::optional<Role> role;  // of members and fields
+    std::string_view owner, instance;
+    std::uint32_t times = 1;  // elements of the block
+  };
+
+  static Role roleOf(Words before, std::string_view type) {
+    if (has(before, "uniform") || has(before, "buffer"))
+      return isOpaque(type, "sampler") ? Role::sampler
+             : isOpaque(type, "image") ? Role::image
+                                       : Role::uniform;
+    if (has(before, "in")) return Role::input;
+    if (has(before, "out")) return Role::output;
+    return has(before, "const") ? Role::constant : Role::variable;
+  }
+
+  void take(Words words, const Token& end) {
+    if (!words.empty() && !words[0].is("precision") && !words[0].is("invariant")) takeNames(words, end, {});
+  }
+
+  // "layout(rgba8) uniform image2D a, b[2]", "float x = 1.0", "vec3 f(vec3 x)".
+  void takeNames(Words words, const Token& end, const Kind& kind) {
+    Declaration made{
+        .owner = kind.owner, .instance = kind.instance, .layout = {}, .begin = words[0], .end = end};
+    const Token* type = nullptr;
+    std::string arrayOfType;
+    std::uint64_t elementsOfType = 1;
+    for (std::size_t at = 0; at < words.size() && isWord(words[at]);) {
+      const std::size_t first = at;
+      const Token& word = words[at++];
+      const bool bracket = at < words.size() && words[at].is("(");
+      if (bracket && word.is("layout")) {
+        const std::size_t behind = behindBracket(words, at);
+        for (; at < behind; ++at)
+          if (isWord(words[at])) made.layout.push_back(words[at].text);
+        continue;
+      }
+      if (bracket) {  // a function without its body
+        if (type) add(made, Role::function, word, type->text);
+        return;
+      }
+      const std::size_t dimensions = at;
+      const std::uint64_t elements = elementsAt(words, at);
+      const std::string array = textOf(words.subspan(dimensions, at - dimensions));
+      if (at < words.size() && !words[at].is(",") && !words[at].is("=")) {  // it is not the name yet
+        type = &word;
+        arrayOfType = array;
+        elementsOfType = elements;
+        continue;
+      }
+      if (!type) return;  // "layout(…) in;"
+      made.reads = !has(words.first(first), "writeonly");
+      made.writes = !has(words.first(first), "readonly");
+      shared_ = has(words.first(first), "shared");
+      const Role role = kind.role ? *kind.role : roleOf(words.first(first), type->text);
+      takeName(words, made, role, word, type->text, array + arrayOfType,
+               addTimes(0, elements * elementsOfType, kind.times), at);
+      while (at + 1 < words.size() && words[at].is(",")) {
+        const Token& next = words[++at];
+        const std::size_t begin = ++at;
+        const std::uint64_t own = elementsAt(words, at);
+        takeName(words, made, role, next, type->text, textOf(words.subspan(begin, at - begin)) + arrayOfType,
+                 addTimes(0, own * elementsOfType, kind.times), at);
+      }
+      return;
+    }
+  }
+
+  // One name; `at`: what stands behind it, a value is passed over.
+  void takeName(Words words, Declaration& made, Role role, const Token& name, std::string_view type,
+                std::string array, std::uint64_t elements, std::size_t& at) {
+    const bool value = at < words.size() && words[at].is("=");
+    const std::size_t begin = at + 1;
+    if (value)
+      while (at < words.size() && !words[at].is(","))
+        at = words[at].is("(") || words[at].is("[") || words[at].is("{") ? behindBracket(words, at) : at + 1;
+    if (value && (role == Role::variable || role == Role::constant)) {
+      const Words values = words.subspan(begin, at - begin);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (isWord(values[i]) && !isMember(values, i)) calls_.globals.insert(values[i].text);
+      if (role == Role::constant)
+        if (const auto known = valueOf(values)) constants_[name.text] = *known;
+    }
+    made.array = std::move(array);
+    made.elements = static_cast<std::uint32_t>(std::min<std::uint64_t>(elements, 0xffffffff));
+    const auto structure = structures_.find(type);
+    const std::uint64_t each = structure == structures_.end() ? 1 : structure->second;
+    if (role == Role::field)
+      structures_[made.owner] = addTimes(structures_[made.owner], elements, each);
+    else if ((role == Role::constant || role == Role::variable) && !shared_)
+      note(addTimes(0, elements, each));
+    add(made, role, name, type);
+  }
+
+  void add(Declaration& made, Role role, const Token& name, std::string_view type) {
+    made.role = role;
+    made.name = name.text;
+    made.type = type;
+    made.at = name;
+    out_.declarations.push_back(made);
+  }
+
+  // A structure or a block; `behind`: its instance.
+  void takeBlock(Words before, Words inside, Words behind, const Token& brace) {
+    const Token& name = before.back();
+    Kind kind{.role = Role::field, .owner = name.text};
+    Declaration made{.layout = {}, .begin = before[0], .end = brace};
+    if (has(before, "struct")) {
+      structures_[name.text] = 0;
+      add(made, Role::structure, name, {});
+      for (const Token& each : behind)
+        if (isWord(each)) add(made, Role::variable, each, name.text);
+    } else {
+      std::size_t at = 1;
+      if (!behind.empty()) made.instance = kind.instance = behind[0].text;
+      if (!behind.empty())
+        made.elements =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(elementsAt(behind, at), 0xffffffff));
+      made.reads = !has(before, "writeonly");
+      made.writes = !has(before, "readonly");
+      const bool uniform = has(before, "uniform"), storage = has(before, "buffer");
+      kind.role = uniform || storage ? Role::member : has(before, "out") ? Role::output : Role::input;
+      if (uniform || storage)
+        add(made, uniform ? Role::uniform_block : Role::storage_block, name, {});
+      else
+        kind.times = std::max(1u, made.elements);
+    }
+    for (std::size_t begin = 0, i = 0; i < inside.size(); ++i) {
+      if (!inside[i].is(";")) continue;
+      if (i > begin) takeNames(inside.subspan(begin, i - begin), inside[i], kind);
+      begin = i + 1;
+    }
+  }
+
+  void takeFunction(Words before, Words inside) {
+    std::size_t open = before.size();
+    for (int nested = 0; open > 0;) {
+      --open;
+      nested += before[open].is(")") ? 1 : before[open].is("(") ? -1 : 0;
+      if (nested == 0) break;
+    }
+    if (open == 0 || !isWord(before[open - 1])) return;
+    const Token& name = before[open - 1];
+    Declaration made{.layout = {}, .begin = before[0], .end = before.back()};
+    add(made, Role::function, name, open > 1 ? before[open - 2].text : std::string_view());
+    calls_.functions.push_back(
+        {.name = name.text, .at = before[open], .tokens = inside.size(), .words = {}, .calls = {}});
+    Function& function = calls_.functions.back();
+    takeBody(before.subspan(open), nullptr);
+    takeBody(inside, &function);
+  }
+
+  // The words of a function, and the variables that it declares: "float gain =" is a type and a name.
+  void takeBody(Words words, Function* function) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (!isWord(words[i]) || isMember(words, i)) continue;
+      const Token& word = words[i];
+      const Token* next = i + 1 < words.size() ? &words[i + 1] : nullptr;
+      if (function) {
+        function->words.insert(word.text);
+        if (next && next->is("(")) ++function->calls[word.text];
+      }
+      if (const auto structure = structures_.find(word.text); structure != structures_.end())
+        note(structure->second);
+      if (next && next->is("[")) {
+        std::size_t at = i + 1;
+        note(elementsAt(words, at));
+      }
+      const Token* type = i > 0 ? &words[i - 1] : nullptr;
+      const bool ends =
+          !next || next->is("=") || next->is(";") || next->is(",") || next->is("[") || next->is(")");
+      if (!ends || !type || !isWord(*type) || type->is("return") || type->is("else")) continue;
+      Declaration made{.layout = {}, .begin = *type, .end = word};
+      add(made, Role::variable, word, type->text);
+    }
+  }
+
+  const Words tokens_;
+  Interface& out_;
+  CallTree calls_;
+  std::map<std::string_view, std::uint64_t> structures_;  // elements of one
+  std::map<std::string_view, std::int64_t> constants_;
+  bool shared_ = false;  // the statement declares what a work group shares, which devices bound by themselves
+};
+
+bool isControl(const Token& token) {
+  return isWord(token) && (token.is("if") || token.is("else") || token.is("for") || token.is("while") ||
+                           token.is("do") || token.is("switch"));
+}
+
+// How deeply brackets, blocks and operators are nested, and how long switches and tables are.
+void measure(Words tokens, ShaderSize& size) {
+  struct Level {
+    std::uint32_t operators = 0;  // of the expression under way
+    std::uint32_t controls = 0;   // if, else, for … around the statement under way
+    std::uint64_t commas = 0;
+  };
+  std::vector<Level> levels(1);
+  std::uint64_t depth = 0;
+  std::size_t statement = 0;
+  const auto endStatement = [&](std::size_t at) {
+    Level& level = levels.back();
+    depth -= std::exchange(level.operators, 0);
+    level.commas = 0;
+    if (at + 1 == tokens.size() || !tokens[at + 1].is("else")) depth -= std::exchange(level.controls, 0);
+    statement = at + 1;
+  };
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const Token& token = tokens[i];
+    if (isControl(token)) {
+      ++levels.back().controls;
+      ++depth;
+      if (token.is("else") || token.is("do")) statement = i + 1;
+    } else if (token.is("case")) {
+      ++size.cases;
+    } else if (token.is("(") || token.is("[") || token.is("{")) {
+      levels.emplace_back();
+      ++depth;
+      if (token.is("{") && (i == 0 || !tokens[i - 1].is("="))) statement = i + 1;
+    } else if (token.is(")") || token.is("]") || token.is("}")) {
+      if (levels.size() == 1) continue;
+      size.elements = std::max(size.elements, levels.back().commas + 1);
+      depth -= 1 + levels.back().operators + levels.back().controls;
+      levels.pop_back();
+      if (token.is("}")) endStatement(i);
+    } else if (token.is(";")) {
+      endStatement(i);
+    } else if (token.is(",") || token.is(":")) {
+      ++levels.back().commas;
+      if (token.is(",")) depth -= std::exchange(levels.back().operators, 0);
+    } else if (token.kind == TokenKind::sign && !token.is(".")) {
+      ++levels.back().operators;
+      ++depth;
+    }
+    if (depth <= size.depth.count) continue;
+    const Token& from = tokens[std::min(statement, i)];
+    size.depth = {.count = depth, .line = from.line, .column = from.column, .name = {}};
+  }
+}
+
+Interface readExpanded(std::string_view text, std::span<const Define> defines, Branches branches) {
+  using base::Limit;
+  const std::uint64_t most = base::limitOf(Limit::shader_tokens);
+  const auto deepest =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(base::limitOf(Limit::shader_depth), 5000));
+  if (text.size() > base::limitOf(Limit::shader_bytes)) {
+    Interface none;
+    none.unsure = true;
+    none.size.bytes = text.size();
+    return none;
+  }
+  TokenList list = expandTokens(text, defines, most, deepest + 1, branches);
+  Interface out = readInterface(list.tokens);
+  out.unsure = out.unsure || list.exceeded || list.uncertain;
+  out.pasted = std::move(list.pasted);
+  out.size.bytes = text.size();
+  out.size.tokens = {.count = list.exceeded ? most + 1 : list.tokens.size(),
+                     .line = list.at.line,
+                     .column = list.at.column,
+                     .name = list.macro};
+  measure(list.tokens, out.size);
+  if (list.nested > out.size.depth.count)
+    out.size.depth = {
+        .count = list.nested, .line = list.nestedAt.line, .column = list.nestedAt.column, .name = {}};
+  return out;
+}
+
+}  // namespace
+
+const char* nameOf(Role role) {
+  constexpr const char* kNames[] = {"a sampler",
+                                    "an image",
+                                    "a uniform outside a block",
+                                    "a uniform block",
+                                    "a storage block",
+                                    "an input",
+                                    "an output",
+                                    "a member of a block",
+                                    "a structure",
+                                    "a member of a structure",
+                                    "a function",
+                                    "a constant",
+                                    "a variable"};
+  return kNames[static_cast<std::size_t>(role)];
+}
+
+const Declaration* Interface::find(std::string_view name, Role role) const {
+  const auto found = std::ranges::find_if(
+      declarations, [&](const Declaration& each) { return each.role == role && each.name == name; });
+  return found == declarations.end() ? nullptr : &*found;
+}
+
+const Declaration* Interface::find(std::string_view name) const {
+  const Declaration* best = nullptr;
+  for (const Declaration& each : declarations)
+    if (each.name == name && (!best || each.role < best->role)) best = &each;
+  return best;
+}
+
+Interface readInterface(std::span<const Token> tokens) {
+  Interface out;
+  InterfaceReader(tokens, out).run();
+  return out;
+}
+
+Interface readInterface(std::string_view text, std::span<const Define> defines) {
+  return readExpanded(text, defines, Branches::taken);
+}
+
+Interface readAllBranches(std::string_view text) {
+  return readExpanded(text, {}, Branches::all);
+}
+
+}  // namespace weft::glsl
