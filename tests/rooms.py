@@ -18,11 +18,10 @@ ROOMS = {
     "gl": {"base", "glsl"},
     "assets": {"base"},
     "scene": {"base", "assets"},
-    "convert": {"base", "glsl", "assets"},
     "passes": {"base", "graph", "glsl", "gl", "scene", "assets"},
     "imports": {"base", "graph", "glsl", "gl", "assets", "scene"},
     "runtime": {"base", "graph", "glsl", "gl", "assets", "scene", "passes", "imports"},
-    "app": {"base", "graph", "glsl", "gl", "assets", "scene", "passes", "imports", "runtime", "convert"},
+    "app": {"base", "graph", "glsl", "gl", "assets", "scene", "passes", "imports", "runtime"},
 }
 # Sub-rooms and which others of their room each may include. "." is the door: files in the room's own folder. Each line may name
 # earlier lines only, so that no arrow runs upward.
@@ -58,7 +57,6 @@ SUB_ROOMS = {
         "objects": {"context"},
         "programs": {"context", "objects"},
     },
-    "convert": {"text": set(), "isf": {"text"}, "mpv": {"text"}, ".": {"text", "isf", "mpv"}},
     "runtime": {
         "storage": set(),
         "cadence": set(),
@@ -69,6 +67,7 @@ SUB_ROOMS = {
         "inspection": {"frame", "storage"},
     },
     "app": {
+        "import": set(),
         "output": set(),
         "session": {"output"},
         "live": {"session", "output"},
@@ -80,7 +79,7 @@ SUB_ROOMS = {
         "lsp/answers": {"session", "output", "lsp/text", "lsp/files"},
         "lsp": {"session", "output", "lsp/text", "lsp/files", "lsp/answers"},
         "trials": {"session", "output"},
-        "commands": {"session", "output", "bench", "trials"},
+        "commands": {"import", "session", "output", "bench", "trials"},
         ".": {"session", "output", "commands", "view", "bench", "lsp"},
     },
 }

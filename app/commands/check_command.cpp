@@ -29,6 +29,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+struct CheckOptions : Options {
+  std::string format = "text";
+  bool shaders = true;       // compile every shader, too
+  bool matrix = false;       // try every variation
+  bool allVariants = false;  // compile what the variations reach
+  bool watch = false;        // again after every save
+};
+
 struct Checked {
   base::Diagnostics diagnostics;
   std::shared_ptr<const graph::Plan> plan;  // null after errors of the graph
@@ -39,7 +47,7 @@ struct Checked {
 };
 
 // Compiled, or with --no-shaders by what they declare.
-void checkShaders(const Options& options, ShaderCheck& shaders, const graph::Plan& plan,
+void checkShaders(const CheckOptions& options, ShaderCheck& shaders, const graph::Plan& plan,
                   const std::string& with, base::Diagnostics& diagnostics) {
   if (options.shaders)
     shaders.check(plan, with, diagnostics);
@@ -48,7 +56,7 @@ void checkShaders(const Options& options, ShaderCheck& shaders, const graph::Pla
 }
 
 // The variations of the graph: what they refuse, and with --all the shader variants that they reach.
-graph::Matrix tryVariations(const Options& options, const graph::GraphDesc& desc,
+graph::Matrix tryVariations(const CheckOptions& options, const graph::GraphDesc& desc,
                             const runtime::WorldFacts& facts, ShaderCheck& shaders,
                             base::Diagnostics& diagnostics) {
   const graph::Registry registry = runtime::makeRegistry({}, facts);
@@ -62,7 +70,7 @@ graph::Matrix tryVariations(const Options& options, const graph::GraphDesc& desc
   return graph::tryMatrix(desc, registry, settingsOf(options, true), wanted);
 }
 
-Checked checkOnce(const Options& options) {
+Checked checkOnce(const CheckOptions& options) {
   Checked checked;
   base::Diagnostics& diagnostics = checked.diagnostics;
   const auto world = loadWorld(options, diagnostics);
@@ -99,7 +107,7 @@ Checked checkOnce(const Options& options) {
 
 // ---- told as text ----
 
-std::string matrixText(const Options& options, const Checked& checked) {
+std::string matrixText(const CheckOptions& options, const Checked& checked) {
   const graph::Matrix& matrix = *checked.matrix;
   std::string text;
   if (options.matrix) {
@@ -118,7 +126,7 @@ std::string matrixText(const Options& options, const Checked& checked) {
   return text;
 }
 
-int tellText(const Options& options, Checked& checked) {
+int tellText(const CheckOptions& options, Checked& checked) {
   const int code = report(checked.diagnostics);
   if (checked.matrix) print(matrixText(options, checked));
   if (code == 0)
@@ -143,7 +151,7 @@ Json refusedJson(const std::vector<graph::RefusedVariation>& refused) {
   return all;
 }
 
-Json documentOf(const Options& options, const Checked& checked) {
+Json documentOf(const CheckOptions& options, const Checked& checked) {
   Json out{{"graph", options.graph},
            {"errors", checked.diagnostics.errorCount()},
            {"diagnostics", Json::parse(base::diagnosticsJson(checked.diagnostics, -1))}};
@@ -165,7 +173,7 @@ Json documentOf(const Options& options, const Checked& checked) {
   return out;
 }
 
-int tell(const Options& options, Checked& checked) {
+int tell(const CheckOptions& options, Checked& checked) {
   if (options.format == "text") return tellText(options, checked);
   if (options.format == "sarif")
     print(base::diagnosticsSarif(checked.diagnostics, kVersion) + "\n");
@@ -208,9 +216,7 @@ std::vector<std::string> savedSince(const std::vector<std::string>& files, FileC
   return saved;
 }
 
-}  // namespace
-
-int runCheck(const Options& options) {
+int runCheck(CheckOptions& options) {
   base::FileWatcher watcher;
   while (true) {
     const FileClock::time_point began = FileClock::now();
@@ -228,6 +234,24 @@ int runCheck(const Options& options) {
       std::this_thread::sleep_for(kGrain);  // so that the same save is not found again
     if (options.format == "text") print(fmt::format("\nchanged: {}\n", base::printable(changed[0])));
   }
+}
+
+}  // namespace
+
+void addCheck(CommandLine& line) {
+  const auto [command, options] =
+      line.add("check", "report everything wrong with a graph; exit 1 when it cannot run", runCheck);
+  options.addGraph(command);
+  command.add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
+  addChoice(command, "--format", options.format, "text, json, or sarif for code hosts and editors",
+            {"text", "json", "sarif"});
+  command.add_flag(
+      "--matrix", options.matrix,
+      "also with each pass disabled, each pair of passes, and each value that a parameter offers");
+  command.add_flag("--all", options.allVariants,
+                   "compile every shader variant that disabling a pass or setting a parameter reaches");
+  command.add_flag("--watch", options.watch,
+                   "check again whenever a file that was read changes, until ended");
 }
 
 }  // namespace weft::app

@@ -1,32 +1,26 @@
-// One function per command; each returns the exit code: 0 done, 1 something is wrong with the input, 2 usage, 3 the
-// machine cannot (no context).
+// One function per command, which adds it with its options to the command line.
 #pragma once
 
-#include "app/session/options.h"
+#include "app/session/command_line.h"
 
 namespace weft::app {
 
-int runRender(const Options& options);
-int runDump(const Options& options);
-int runCheck(const Options& options);
-int runExplain(const Options& options);
-int runExpand(const Options& options);
-int runDiff(const Options& options);  // 0: no difference, 1: some, 2: a graph cannot be compiled
-int runTest(
-    const Options& options);  // 0: every case as its golden, 1: some differ, 2: some cannot be compared
-int runBisect(const Options& options);  // 0: no pass differs, 1: one does, 2: a graph cannot be rendered
-int runAblate(const Options& options);
-int runFuzz(
-    const Options& options);  // 0: every picture is the same, 1: one differs, 2: it cannot be rendered
-int runNew(const Options& options);
-int runParams(const Options& options);
-int runPresets(const Options& options);
-int runDot(const Options& options);
-int runPlan(const Options& options);
-int runBench(const Options& options);
-int runFormat(const Options& options);
-int runImport(const Options& options);
-int runSchema(const Options& options);
-int runTypes(const Options& options);
+void addRender(CommandLine& line);
+void addDump(CommandLine& line);
+void addCheck(CommandLine& line);
+void addPlan(CommandLine& line);  // and expand and dot, its views by their names before
+void addExplain(CommandLine& line);
+void addDiff(CommandLine& line);  // and bisect, its name before
+void addTest(CommandLine& line);
+void addAblate(CommandLine& line);
+void addFuzz(CommandLine& line);
+void addNew(CommandLine& line);
+void addParams(CommandLine& line);
+void addPresets(CommandLine& line);
+void addBench(CommandLine& line);
+void addFormat(CommandLine& line);
+void addImport(CommandLine& line);
+void addSchema(CommandLine& line);
+void addTypes(CommandLine& line);
 
 }  // namespace weft::app

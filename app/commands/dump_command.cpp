@@ -62,9 +62,13 @@ void reportNoMatch(const graph::Plan& plan, const std::vector<std::string>& patt
   }
 }
 
-}  // namespace
+struct DumpOptions : Options {
+  std::vector<std::string> patterns;
+  std::string folder;
+  bool quiet = false;
+};
 
-int runDump(const Options& options) {
+int runDump(DumpOptions& options) {
   base::Diagnostics diagnostics;
   int exitCode = 0;
   auto opened = openGraph(options, diagnostics, exitCode);
@@ -77,10 +81,10 @@ int runDump(const Options& options) {
   const std::vector<runtime::CaptureItem> items = runtime::captureItems(plan, options.patterns);
   std::vector<std::string> stems, written;
   for (const runtime::CaptureItem& item : items) {
-    stems.push_back(options.output + "/" + fileNameOf(item, plan));
+    stems.push_back(options.folder + "/" + fileNameOf(item, plan));
     for (const char* kind : {".png", ".exr", ".bin"}) written.push_back(stems.back() + kind);
   }
-  if (diagnostics.hasErrors() || !makeFolderOf(options.output + "/picture", diagnostics) ||
+  if (diagnostics.hasErrors() || !makeFolderOf(options.folder + "/picture", diagnostics) ||
       !checkMadeFiles(written, filesReadBy(options, renderer, world), "-o", diagnostics))
     return report(diagnostics);
 
@@ -123,6 +127,27 @@ int runDump(const Options& options) {
             "\n");
   }
   return report(diagnostics, !options.quiet);
+}
+
+}  // namespace
+
+void addDump(CommandLine& line) {
+  const auto [command, options] = line.add("dump",
+                                           "write what each pass wrote of some resources, as pictures "
+                                           "(.png), values (.exr) and bytes (.bin): weft "
+                                           "dump graphs/glow.json 'glow*' -o out",
+                                           runDump);
+  options.addGraph(command);
+  command
+      .add_option("name", options.patterns,
+                  "names of resources, or any suffix of theirs; * stands for any letters; hdr#2 is a version")
+      ->required();
+  addPath(command, "-o,--output", options.folder, "folder to write to", "FOLDER")->required();
+  options.addFrame(command, "--frames");
+  options.addFps(command);
+  options.addPointer(command);
+  options.addBackend(command);
+  command.add_flag("--quiet", options.quiet, "no list of files and no notes");
 }
 
 }  // namespace weft::app

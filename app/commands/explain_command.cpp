@@ -30,20 +30,32 @@ std::string sectionOfCode(std::string code) {
   return section;
 }
 
-}  // namespace
+struct ExplainOptions : Options {
+  std::string name;
+};
 
-int runExplain(const Options& options) {
+int runExplain(ExplainOptions& options) {
   if (options.name.empty()) {
     if (const std::string section = sectionOfCode(options.graph); !section.empty()) return print(section), 0;
     printError("explain: give a graph and a name, or a code such as W053\n");
     return 2;
   }
   base::Diagnostics diagnostics;
-  const auto world = loadWorld(options, diagnostics);
-  const auto plan = makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-  if (plan)
+  if (const auto plan = planOf(options, diagnostics))
     if (const auto text = graph::describe(*plan, options.name, diagnostics)) print(*text);
   return report(diagnostics);
+}
+
+}  // namespace
+
+void addExplain(CommandLine& line) {
+  const auto [command, options] = line.add(
+      "explain",
+      "say what is known of one pass, resource or parameter: order, storage, barriers, readers; or, with "
+      "a code such as W053 alone, what it means",
+      runExplain);
+  options.addGraph(command);
+  command.add_option("name", options.name, "any unique suffix of its name");
 }
 
 }  // namespace weft::app

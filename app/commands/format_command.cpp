@@ -60,12 +60,25 @@ void formatFile(const std::string& path, bool checkOnly, base::Diagnostics& diag
   }
 }
 
-}  // namespace
+struct FormatOptions {
+  std::vector<std::string> files;
+  bool checkOnly = false;
+};
 
-int runFormat(const Options& options) {
+int runFormat(FormatOptions& options) {
   base::Diagnostics diagnostics;
   for (const std::string& file : options.files) formatFile(file, options.checkOnly, diagnostics);
   return report(diagnostics);
+}
+
+}  // namespace
+
+void addFormat(CommandLine& line) {
+  const auto [command, options] =
+      line.add("format", "format graph files, overlays and presets in place; comments are kept", runFormat);
+  addPath(command, "file", options.files, "JSON files")->required();
+  command.add_flag("--check", options.checkOnly,
+                   "write nothing; exit 1 and name the first line that differs");
 }
 
 }  // namespace weft::app

@@ -3,32 +3,45 @@
 
 #include "app/commands/commands.h"
 #include "app/output/standard_streams.h"
-#include "app/session/option_checks.h"
-#include "app/session/option_parts.h"
-#include "app/trials/device_run.h"
+#include "app/session/device_session.h"
 #include "app/trials/divergence.h"
 #include "app/trials/fuzz.h"
 #include "app/trials/work_lines.h"
 #include "engine/assets/images/compare.h"
 #include "engine/assets/images/flip.h"
 #include "engine/base/counted.h"
-#include "engine/base/limits.h"
 #include "engine/base/printable.h"
 
 namespace weft::app {
 
 namespace {
 
+struct FuzzOptions : Options {
+  std::uint32_t runs = 12;            // random orders
+  std::optional<std::uint32_t> seed;  // this order alone; 0 is the declared one
+  std::string order, share = "both", poison = "both";
+  const CLI::App* line = nullptr;  // what was given
+};
+
+std::string checkWindow(const std::string& text) {
+  std::uint32_t first = 0, last = 0;
+  return parsePair(text, ':', first, last) && first <= last
+             ? ""
+             : "expected FIRST:LAST with FIRST <= LAST, places of passes in the plan counted from 0, found "
+               "'" +
+                   text + "'";
+}
+
 class Fuzzer {
  public:
-  Fuzzer(gl::Context& context, const Options& options, const runtime::World& world)
+  Fuzzer(gl::Context& context, const FuzzOptions& options, const runtime::World& world)
       : context_(context), options_(options), world_(world) {}
 
   // Returns the exit code.
   int run(base::Diagnostics& diagnostics) {
     base_ = shoot({}, diagnostics);
     if (!base_ || !checkOrder(diagnostics)) return 2;
-    const std::vector<FuzzTrial> trials = trialsOf(options_.trial);
+    const std::vector<FuzzTrial> trials = trialsOf(options_);
     WorkLines lines(trials.size(), "runs");
     for (const FuzzTrial& trial : trials) {
       const bool same = !differs(trial);
@@ -43,12 +56,12 @@ class Fuzzer {
     }
     print(fmt::format("{} of {} in {}: every picture is the same\n", base::counted(trials.size(), "run"),
                       base::counted(base_->plan->steps.size(), "pass"),
-                      base::counted(options_.trial.seed ? 1 : options_.trial.runs + 1, "order")));
+                      base::counted(options_.seed ? 1 : options_.runs + 1, "order")));
     return 0;
   }
 
  private:
-  static std::vector<FuzzTrial> trialsOf(const TrialOptions& wanted) {
+  static std::vector<FuzzTrial> trialsOf(const FuzzOptions& wanted) {
     std::vector<std::uint32_t> seeds;
     if (wanted.seed)
       seeds = {*wanted.seed};
@@ -71,10 +84,10 @@ class Fuzzer {
   bool checkOrder(base::Diagnostics& diagnostics) const {
     std::uint32_t first = 0, last = 0;
     const std::size_t places = base_->plan->steps.size();
-    if (!parsePair(options_.trial.order, ':', first, last) || last < places) return true;
-    base::Diagnostic& d = diagnostics.error(base::Code::numberOutOfRange,
-                                            base::placeOfOption("--order " + options_.trial.order),
-                                            fmt::format("the plan has {}", base::counted(places, "pass")));
+    if (!parsePair(options_.order, ':', first, last) || last < places) return true;
+    base::Diagnostic& d =
+        diagnostics.error(base::Code::numberOutOfRange, base::placeOfOption("--order " + options_.order),
+                          fmt::format("the plan has {}", base::counted(places, "pass")));
     d.expected = fmt::format("places from 0 to {}", places - 1);
     d.found = fmt::format("{}", last);
     d.hint = "weft plan lists them in their order";
@@ -115,8 +128,9 @@ class Fuzzer {
       print(fmt::format("    first that differs: {}\n", first->text()));
     print(fmt::format("    found with {}\n", found.arguments()));
     if (trial.seed != 0) print("    in this order: " + reordered() + "\n");
-    print(fmt::format("    repeat: weft fuzz {} --frame {} {}{}\n", base::printable(quote(options_.graph)),
-                      options_.lastFrame, trial.arguments(), settingsText()));
+    print(base::printable(fmt::format("    repeat: weft fuzz {} {}{}", quote(options_.graph),
+                                      trial.arguments(), givenText())) +
+          "\n");
   }
 
   // The passes that do not stand where they are declared.
@@ -140,41 +154,60 @@ class Fuzzer {
     return out + "'";
   }
 
-  std::string settingsText() const {
-    std::string text = fmt::format(" --size {}x{}", options_.width, options_.height);
-    const auto add = [&](const char* option, const std::string& value) {
-      if (!value.empty()) text += fmt::format(" {} {}", option, quote(value));
-    };
-    add("--scene", options_.scene);
-    add("--camera", options_.camera);
-    add("--materials", options_.materials);
-    add("--environment", options_.environment);
-    add("--mouse", options_.mouse);
-    for (const std::string& preset : options_.presets) add("--preset", preset);
-    for (const std::string& pass : options_.disables) add("--disable", pass);
-    for (const graph::Setting& set : options_.sets) add("--set", set.name + "=" + set.text);
-    if (options_.backend != "auto") add("--backend", options_.backend);
-    add("--program-cache", options_.cacheFolder);
-    for (const base::LimitInfo& limit : base::allLimits())
-      if (const std::uint64_t value = base::limitOf(limit.limit); value != limit.initial)
-        add("--limit", fmt::format("{}={}", limit.name, value));
+  // The options as they were given, but for those that say which trials to make.
+  std::string givenText() const {
+    std::string text;
+    for (const CLI::Option* option : options_.line->get_options()) {
+      const std::string name = option->get_name();
+      const bool ofTrials = name == "--runs" || name == "--seed" || name == "--order" || name == "--share" ||
+                            name == "--poison";
+      if (option->get_positional() || ofTrials) continue;
+      for (const std::string& value : option->results()) text += fmt::format(" {} {}", name, quote(value));
+    }
     return text;
   }
 
   gl::Context& context_;
-  const Options& options_;
+  const FuzzOptions& options_;
   const runtime::World& world_;
   std::optional<Shot> base_, last_;  // the declared plan; the last picture that differed
   base::Diagnostics problems_;
 };
 
-}  // namespace
-
-int runFuzz(const Options& options) {
-  return runOnDevice({&options, 1}, 2,
+int runFuzz(FuzzOptions& options) {
+  const Options* const one = &options;
+  return runOnDevice({one, 1}, 2,
                      [&](gl::Context& context, const runtime::World& world, base::Diagnostics& diagnostics) {
                        return Fuzzer(context, options, world).run(diagnostics);
                      });
+}
+
+}  // namespace
+
+void addFuzz(CommandLine& line) {
+  const auto [command, options] = line.add("fuzz",
+                                           "render in random legal orders, with shared storage and without, "
+                                           "with poisoned transients; exit 1 when a "
+                                           "picture differs",
+                                           runFuzz);
+  options.line = &command;
+  options.addGraph(command);
+  options.addFrame(command);
+  options.addPointer(command);
+  options.addBackend(command);
+  command.add_option("--runs", options.runs, "how many random orders to try")->check(CLI::Range(1u, 100000u));
+  command.add_option("--seed", options.seed,
+                     "try this order alone; 0 is the declared one (default: 0 to --runs)");
+  command
+      .add_option("--order", options.order,
+                  "reorder only the passes at these places of the plan, counted from 0")
+      ->check(CLI::Validator(checkWindow, "FIRST:LAST"));
+  addChoice(command, "--share", options.share, "whether transient textures share storage: on, off or both",
+            {"on", "off", "both"});
+  addChoice(command, "--poison", options.poison,
+            "what transients hold before they are written: nan, large, none, or both (nan and large)",
+            {"nan", "large", "none", "both"});
+  command.footer("Example: weft fuzz graphs/glow.json --size 64x36");
 }
 
 }  // namespace weft::app

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/import/import.h"
 #include "app/output/file_batch.h"
 #include "app/output/standard_streams.h"
 #include "app/session/session.h"
@@ -14,7 +15,6 @@
 #include "engine/base/chars.h"
 #include "engine/base/files/file_access.h"
 #include "engine/base/printable.h"
-#include "engine/convert/convert.h"
 #include "engine/imports/image/image_sequence.h"
 
 namespace weft::app {
@@ -24,6 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 using base::Code;
 using base::Diagnostics;
+
+struct ImportOptions {
+  std::string file;                 // of another program
+  std::string folder;               // where the graph goes
+  std::string name;                 // of the graph; empty: that of the file
+  std::vector<std::string> images;  // NAME=FILE of pictures that the file reads
+  bool overwrite = false;
+};
 
 void refuse(Diagnostics& diagnostics, const std::string& path, std::string message, std::string hint) {
   diagnostics
@@ -47,7 +55,7 @@ bool writeImage(const std::string& path, const convert::ConvertedImage& image, D
 }
 
 // Checks that no existing file would be replaced without being asked for.
-bool mayWrite(const Options& options, const convert::Converted& made, Diagnostics& diagnostics) {
+bool mayWrite(const ImportOptions& options, const convert::Converted& made, Diagnostics& diagnostics) {
   std::error_code ec;
   const auto look = [&](const std::string& path) {
     const fs::path whole = fs::path(options.folder) / path;
@@ -61,7 +69,7 @@ bool mayWrite(const Options& options, const convert::Converted& made, Diagnostic
 }
 
 // Writes all files, or none after an error.
-bool writeAll(const Options& options, const convert::Converted& made, Diagnostics& diagnostics) {
+bool writeAll(const ImportOptions& options, const convert::Converted& made, Diagnostics& diagnostics) {
   FileBatch batch;
   const auto pathOf = [&](const std::string& path) { return (fs::path(options.folder) / path).string(); };
   bool good = true;
@@ -106,19 +114,17 @@ void chooseVertexFile(const std::string& file) {
     base::chooseFile(vertex);
 }
 
-}  // namespace
-
-int runImport(const Options& options) {
+int runImport(ImportOptions& options) {
   Diagnostics diagnostics;
-  if (!options.newName.empty() && !isName(options.newName)) {
+  if (!options.name.empty() && !isName(options.name)) {
     auto& d = diagnostics.error(Code::notAName, base::placeOfOption("--name"),
-                                fmt::format("\"{}\" cannot name a graph", options.newName));
+                                fmt::format("\"{}\" cannot name a graph", options.name));
     d.expected = "at most 60 letters, digits and '_', not beginning with a digit";
     return report(diagnostics);
   }
-  chooseVertexFile(options.foreignFile);
-  convert::ConvertOptions wanted{.name = options.newName};
-  const std::string parent = fs::path(options.foreignFile).parent_path().string();
+  chooseVertexFile(options.file);
+  convert::ConvertOptions wanted{.name = options.name};
+  const std::string parent = fs::path(options.file).parent_path().string();
   wanted.sourceFolder = seenFrom(options.folder, parent.empty() ? "." : parent);
   for (const std::string& image : options.images) {
     const std::size_t at = image.find('=');
@@ -131,10 +137,26 @@ int runImport(const Options& options) {
     checkPicture(image, image.substr(at + 1), diagnostics);
     wanted.images.emplace_back(image.substr(0, at), seenFrom(options.folder, image.substr(at + 1)));
   }
-  const auto made = convert::convertFile(options.foreignFile, wanted, diagnostics);
+  const auto made = convert::convertFile(options.file, wanted, diagnostics);
   if (made && mayWrite(options, *made, diagnostics) && writeAll(options, *made, diagnostics))
     print(base::printable((fs::path(options.folder) / made->graph).string()) + "\n");
   return report(diagnostics);
+}
+
+}  // namespace
+
+void addImport(CommandLine& line) {
+  const auto [command, options] = line.add(
+      "import", "make a graph and its shaders of an ISF file (.fs) or a user shader of mpv (.glsl, .hook)",
+      runImport);
+  addPath(command, "file", options.file, "the file; a .vs beside a .fs is read, too")->required();
+  addPath(command, "-o,--output", options.folder, "folder to write into; made where it is missing", "FOLDER")
+      ->required();
+  command.add_option("--image", options.images, "a picture for an input of the file; repeatable")
+      ->check(CLI::Validator(checkSet, "NAME=FILE"));
+  command.add_option("--name", options.name, "name of the graph (default: that of the file)");
+  command.add_flag("--overwrite", options.overwrite, "replace files that are there");
+  command.footer("Example: weft import glow.fs -o glow --image inputImage=photo.png");
 }
 
 }  // namespace weft::app

@@ -1,4 +1,4 @@
-// The commands that list what can be chosen: params, presets.
+// The commands that list what can be chosen: params, presets, types, schema.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -14,35 +15,19 @@
 #include "engine/base/files/text_file.h"
 #include "engine/base/json/dom.h"
 #include "engine/base/printable.h"
+#include "engine/graph/language/keys.h"
+#include "engine/graph/language/schema.h"
+#include "engine/graph/print/format_table.h"
 #include "engine/graph/read/read.h"
+#include "engine/runtime/imports/registry.h"
 
 namespace weft::app {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Type = graph::ParameterDesc::Type;
-
-const char* nameOf(Type type) {
-  switch (type) {
-    case Type::boolean:
-      return "bool";
-    case Type::integer:
-      return "int";
-    case Type::number:
-      return "float";
-    case Type::vec2:
-      return "vec2";
-    case Type::vec3:
-      return "vec3";
-    case Type::vec4:
-      return "vec4";
-    case Type::choice:
-      return "choice";
-    case Type::file:
-      return "file";
-  }
-  return "";
+std::string nameOf(graph::ParameterDesc::Type type) {
+  return std::string(graph::kParameterTypes[static_cast<std::size_t>(type)]);
 }
 
 std::string rangeOf(const graph::ParameterDesc& desc) {
@@ -126,13 +111,14 @@ std::vector<Preset> knownPresets(const std::string& own, base::Diagnostics& diag
   return presets;
 }
 
-}  // namespace
+struct ListOptions : Options {
+  bool json = false;
+};
 
-int runParams(const Options& options) {
+int runParams(ListOptions& options) {
   base::Diagnostics diagnostics;
-  const auto world = loadWorld(options, diagnostics);
-  const auto plan = makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
-  if (plan && options.format == "json") {
+  const auto plan = planOf(options, diagnostics);
+  if (plan && options.json) {
     Json all = Json::array();
     for (const graph::ParameterSpec& parameter : plan->graph->parameters) all.push_back(toJson(parameter));
     print(dumpJson(all) + "\n");
@@ -146,10 +132,10 @@ int runParams(const Options& options) {
   return report(diagnostics);
 }
 
-int runPresets(const Options& options) {
+int runPresets(ListOptions& options) {
   base::Diagnostics diagnostics;
   const std::vector<Preset> presets = knownPresets(options.presetFolder, diagnostics);
-  if (options.format == "json") {
+  if (options.json) {
     Json all = Json::array();
     for (const Preset& preset : presets)
       all.push_back({{"name", preset.name}, {"title", preset.title}, {"description", preset.description}});
@@ -160,6 +146,61 @@ int runPresets(const Options& options) {
     printTable(rows);
   }
   return report(diagnostics);
+}
+
+int runSchema(Options&) {
+  print(graph::graphSchema());
+  return 0;
+}
+
+// What a graph may name, from the registry itself.
+int runTypes(Options&) {
+  const graph::Registry registry = runtime::makeRegistry({}, {});
+  print("pass types\n");
+  for (const graph::PassType& type : registry.passTypes) {
+    print(fmt::format("  {}\n    {}\n", type.name, type.doc));
+    if (!type.keys.empty()) print(fmt::format("    keys: {}\n", fmt::join(type.keys, ", ")));
+    for (const graph::FixedSlot& slot : type.fixedSlots)
+      print(fmt::format("    slot {}: {}\n", slot.name, slot.doc));
+  }
+  print("\nimports\n");
+  for (const graph::ImportType& type : registry.imports) {
+    print(fmt::format("  @{}\n    {}\n", type.name, type.doc));
+    for (const graph::ImportArgument& argument : type.arguments)
+      print(fmt::format("    {} (default {}): {}\n", argument.name, graph::toText(argument.initial),
+                        argument.doc));
+    for (const graph::TableColumn& column : type.columns)
+      print(fmt::format("    .{} {}{}{}\n", column.name, column.type, column.doc.empty() ? "" : ": ",
+                        column.doc));
+  }
+  print("\nformats\n");
+  std::istringstream formats(graph::formatTable());
+  for (std::string line; std::getline(formats, line);) print("  " + line + "\n");
+  return 0;
+}
+
+}  // namespace
+
+void addParams(CommandLine& line) {
+  const auto [command, options] =
+      line.add("params", "list the parameters of a graph: name, type, value, range, label", runParams);
+  options.addGraph(command);
+  command.add_flag("--json", options.json, "as JSON");
+}
+
+void addPresets(CommandLine& line) {
+  const auto [command, options] =
+      line.add("presets", "list the presets that --preset finds by name", runPresets);
+  command.add_flag("--json", options.json, "as JSON");
+  options.addPresetFolder(command);
+}
+
+void addSchema(CommandLine& line) {
+  line.add("schema", "print the JSON Schema of graph files", runSchema);
+}
+
+void addTypes(CommandLine& line) {
+  line.add("types", "print the pass types, imports and formats that a graph may name", runTypes);
 }
 
 }  // namespace weft::app

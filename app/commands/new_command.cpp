@@ -32,11 +32,11 @@ struct Anchor {
   std::string after, texture;
 };
 
-std::optional<Anchor> findAnchor(const Options& options, const std::string& name,
+std::optional<Anchor> findAnchor(const std::string& graphFile, const std::string& name,
                                  base::Diagnostics& diagnostics) {
-  const auto desc = graph::readGraph(options.graph, diagnostics);
+  const auto desc = graph::readGraph(graphFile, diagnostics);
   if (!desc || diagnostics.hasErrors()) return std::nullopt;
-  const base::Place place = {std::make_shared<const std::string>(options.graph), 1, 1};
+  const base::Place place = {std::make_shared<const std::string>(graphFile), 1, 1};
   for (const graph::PassDesc& pass : desc->passes)
     if (pass.name == name) {
       diagnostics
@@ -110,12 +110,13 @@ bool isFree(const std::string& path, base::Diagnostics& diagnostics) {
   return true;
 }
 
-}  // namespace
+struct NewPassOptions {
+  std::string name, graph, folder;
+};
 
-int runNew(const Options& wanted) {
+int runNewPass(NewPassOptions& options) {
   namespace fs = std::filesystem;
   base::Diagnostics diagnostics;
-  Options options = wanted;
   if (options.graph.empty()) options.graph = dataFolder() + "/graphs/glow.json";
   const std::string& name = options.name;
   if (!isPassName(name)) {
@@ -131,9 +132,9 @@ int runNew(const Options& wanted) {
     }
     return report(diagnostics);
   }
-  const auto anchor = findAnchor(options, name, diagnostics);
+  const auto anchor = findAnchor(options.graph, name, diagnostics);
   if (!anchor) return report(diagnostics);
-  const fs::path folder = options.trial.folder.empty() ? "." : options.trial.folder;
+  const fs::path folder = options.folder.empty() ? "." : options.folder;
   std::error_code failed;
   const fs::path beside = fs::relative(options.graph, folder, failed);
   const std::string graphFile = (folder / (name + ".json")).lexically_normal().string();
@@ -158,6 +159,21 @@ int runNew(const Options& wanted) {
     print(fmt::format("{}\n{}\nweft render {} -o {}.png\n", graph, base::printable(shaderFile), graph, name));
   }
   return report(diagnostics);
+}
+
+}  // namespace
+
+void addNew(CommandLine& line) {
+  CLI::App& made = *line.app().add_subcommand("new", "write the files of something new");
+  made.require_subcommand(1);
+  const auto [command, options] =
+      line.addTo(made, "pass",
+                 "write a graph with a pass of that name behind an existing graph, and its shader, commented",
+                 runNewPass);
+  command.add_option("name", options.name, "name of the pass: letters, digits and _")->required();
+  addPath(command, "--graph", options.graph, "the graph to extend (default: the bundled graphs/glow.json)");
+  addPath(command, "-o,--output", options.folder, "folder to write into (default: here)", "FOLDER");
+  command.footer("Example: weft new pass tint -o out/tint");
 }
 
 }  // namespace weft::app

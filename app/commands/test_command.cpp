@@ -44,15 +44,23 @@ bool isWanted(const TestCase& test, const std::vector<std::string>& only) {
          });
 }
 
+struct TestOptions : Options {
+  std::string folder;             // of cases
+  bool accept = false;            // write goldens
+  std::vector<std::string> only;  // names of cases
+  std::string report;             // page of failures
+  std::string output;             // folder for what fails
+};
+
 struct Cases {
   std::vector<TestCase> all, wanted;
 };
 
 // The cases to run; what is wrong with any of them ends the run.
-Cases chooseCases(const Options& options, base::Diagnostics& diagnostics) {
+Cases chooseCases(const TestOptions& options, base::Diagnostics& diagnostics) {
   Cases cases;
   std::vector<TestCase>&all = cases.all, &wanted = cases.wanted;
-  for (const std::string& file : findCaseFiles(options.trial.folder, diagnostics))
+  for (const std::string& file : findCaseFiles(options.folder, diagnostics))
     readCases(file, options, all, diagnostics);
   std::vector<std::string> names;
   std::map<std::string, const TestCase*> goldens;
@@ -69,13 +77,13 @@ Cases chooseCases(const Options& options, base::Diagnostics& diagnostics) {
           .hint = "give one of them another name";
       break;
     }
-    if (isWanted(test, options.trial.only)) wanted.push_back(test);
+    if (isWanted(test, options.only)) wanted.push_back(test);
   }
   if (wanted.empty() && !diagnostics.hasErrors()) {
-    base::Diagnostic& d = diagnostics.error(
-        base::Code::unknownWord, base::placeOfOption(all.empty() ? options.trial.folder : "--only"),
-        all.empty() ? "there are no cases" : "no case has such a name");
-    if (!all.empty()) d.hint = base::nearestHint(options.trial.only.front(), names);
+    base::Diagnostic& d = diagnostics.error(base::Code::unknownWord,
+                                            base::placeOfOption(all.empty() ? options.folder : "--only"),
+                                            all.empty() ? "there are no cases" : "no case has such a name");
+    if (!all.empty()) d.hint = base::nearestHint(options.only.front(), names);
   }
   return cases;
 }
@@ -89,21 +97,21 @@ std::string leftName(const std::string& folder, const TestCase& test, std::uint3
 // Checks that --report, -o and --accept write none of the files that the cases are made of, also of cases that do not run,
 // and that each picture is another file. The files that a graph names are known only when it is loaded: CaseRunner checks
 // those.
-bool checkOutputs(const Options& options, const Cases& cases, base::Diagnostics& diagnostics) {
+bool checkOutputs(const TestOptions& options, const Cases& cases, base::Diagnostics& diagnostics) {
   std::vector<OutputFile> outputs;
   std::vector<std::string> inputs, made;
-  if (!options.trial.report.empty()) outputs.push_back({"--report", options.trial.report});
+  if (!options.report.empty()) outputs.push_back({"--report", options.report});
   for (const TestCase& test : cases.all) {
     inputs.insert(inputs.end(),
                   {test.options.graph, test.options.scene, test.options.materials, test.options.environment});
     inputs.insert(inputs.end(), {test.mask, test.place.file ? *test.place.file : std::string()});
     inputs.insert(inputs.end(), test.options.presets.begin(), test.options.presets.end());
     const std::vector<std::string> goldens = test.acceptedFiles();
-    if (!options.trial.accept || !isWanted(test, options.trial.only))
+    if (!options.accept || !isWanted(test, options.only))
       inputs.insert(inputs.end(), goldens.begin(), goldens.end());
   }
   for (const TestCase& test : cases.wanted) {
-    if (options.trial.accept)
+    if (options.accept)
       for (const std::string& file : test.acceptedFiles()) {
         made.push_back(file);
         outputs.push_back({"--accept", file});
@@ -158,9 +166,7 @@ void writeReport(const std::string& path, const std::string& page, const std::ve
   if (makeFolderOf(path, diagnostics)) base::writeFile(path, page, diagnostics);
 }
 
-}  // namespace
-
-int runTest(const Options& options) {
+int runTest(TestOptions& options) {
   base::Diagnostics diagnostics;
   const Cases chosen = chooseCases(options, diagnostics);
   const std::vector<TestCase>& cases = chosen.wanted;
@@ -173,13 +179,13 @@ int runTest(const Options& options) {
   std::vector<std::string> read;
   std::size_t counts[5] = {};
   for (const TestCase& test : cases) {
-    CaseResult result = runner.run(test, options.trial.accept, diagnostics);
+    CaseResult result = runner.run(test, options.accept, diagnostics);
     report(diagnostics, false);
     diagnostics.clear();
     printResult(test, result);
     ++counts[static_cast<std::size_t>(result.state)];
     const bool left = !options.output.empty() && result.state == State::different;
-    if (result.state == State::same || (options.trial.report.empty() && !left)) result.pairs.clear();
+    if (result.state == State::same || (options.report.empty() && !left)) result.pairs.clear();
     read.insert(read.end(), result.files.begin(), result.files.end());
     results.emplace_back(test, std::move(result));
   }
@@ -190,12 +196,28 @@ int runTest(const Options& options) {
   print(fmt::format("{}: {}\n", base::counted(cases.size(), "case"), sum));
   if (!options.output.empty())
     for (const auto& [test, result] : results) leaveFiles(options.output, test, result, read, diagnostics);
-  if (!options.trial.report.empty())
-    writeReport(options.trial.report, reportPage(results), read, diagnostics);
+  if (!options.report.empty()) writeReport(options.report, reportPage(results), read, diagnostics);
   const bool written = report(diagnostics) == 0;
   if (runner.lacksContext()) return 3;
   if (counts[static_cast<std::size_t>(State::broken)] > 0 || !written) return 2;
   return counts[static_cast<std::size_t>(State::different)] > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void addTest(CommandLine& line) {
+  const auto [command, options] = line.add(
+      "test", "render the cases of *.cases.json and compare them with their goldens; exit 1 when one differs",
+      runTest);
+  addPath(command, "folder", options.folder, "a folder with *.cases.json, or one such file")->required();
+  command.add_option("--only", options.only, "run the cases whose name contains this; repeatable");
+  command.add_flag("--accept", options.accept, "write what is rendered as the goldens, and say what changed");
+  addPath(command, "--report", options.report,
+          "write a page of the failures: picture, golden, difference, first pass that differs");
+  addPath(command, "-o,--output", options.output,
+          "folder for the picture and the difference of each case that fails", "FOLDER");
+  options.addBackend(command);
+  command.footer("Example: weft test tests/golden --report out/report.html");
 }
 
 }  // namespace weft::app

@@ -29,24 +29,12 @@ std::string nameBeside(const std::string& path) {
   }
 }
 
-// A second name for a file; a copy, on a disk without hard links.
-bool keep(const std::string& path, const std::string& kept, std::error_code& ec) {
-  fs::create_hard_link(path, kept, ec);
-  if (!ec) return true;
-  ec.clear();
-  fs::copy_file(path, kept, ec);
-  std::error_code ignored;
-  if (ec) fs::remove(kept, ignored);  // half of one
-  return !ec;
-}
-
 }  // namespace
 
 FileBatch::~FileBatch() {
   std::error_code ignored;
   for (const Written& file : files_)
-    for (const std::string& each : {file.temporary, file.before})
-      if (!each.empty()) fs::remove(each, ignored);
+    if (!file.temporary.empty()) fs::remove(file.temporary, ignored);
   for (const std::string& folder : std::views::reverse(folders_))
     fs::remove(folder, ignored);  // an empty one
 }
@@ -95,60 +83,23 @@ void FileBatch::remove(const std::string& path) {
   files_.push_back({.path = path, .target = path});
 }
 
-bool FileBatch::rename(Written& file, bool isLast, std::error_code& ec) const {
-  std::error_code none;
-  const auto before = fs::status(file.target, none);
-  const bool replaces = fs::is_regular_file(before);
-  if (file.temporary.empty()) {
-    if (!replaces) return true;
-    const std::string kept = nameBeside(file.target);
-    fs::rename(file.target, kept, ec);
-    if (!ec) file.before = kept;
-    return !ec;
-  }
-  if (replaces) fs::permissions(file.temporary, before.permissions(), none);
-  if (replaces && !isLast) {  // nothing comes behind the last one for which it would be undone
-    const std::string kept = nameBeside(file.target);
-    if (!keep(file.target, kept, ec)) return false;
-    file.before = kept;
-  }
-  fs::rename(file.temporary, file.target, ec);
-  return !ec;
-}
-
-void FileBatch::undo(Written& file, std::string& left) const {
-  std::error_code ec;
-  const bool replaced = !file.before.empty();
-  if (replaced)
-    fs::rename(file.before, file.target, ec);
-  else if (!file.temporary.empty())
-    fs::remove(file.target, ec);
-  if (!ec) return;
-  left += left.empty() ? "" : "; ";
-  left += replaced
-              ? fmt::format("'{}' cannot be put back, and what it was is in '{}'", file.path, file.before)
-              : fmt::format("'{}' is written, and cannot be removed", file.path);
-  file.before.clear();  // not to be removed
-}
-
 bool FileBatch::publish(base::Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < files_.size(); ++i) {
-    std::error_code ec;
-    if (rename(files_[i], i + 1 == files_.size(), ec)) continue;
-    std::string left;
-    for (std::size_t k = i; k-- > 0;) undo(files_[k], left);
-    auto& d = diagnostics.error(
-        base::Code::outputNotWritten, {std::make_shared<const std::string>(files_[i].path), 0, 0},
-        fmt::format("cannot {} '{}': {}", files_[i].temporary.empty() ? "remove" : "write", files_[i].path,
-                    ec.message()));
-    d.found = left;
-    d.hint = left.empty() ? "name a folder that can be written to"
-                          : "put these files back by hand, and name a folder that can be written to";
+  for (const Written& file : files_) {
+    std::error_code ec, none;
+    const auto before = fs::status(file.target, none);
+    if (file.temporary.empty() && fs::is_regular_file(before)) fs::remove(file.target, ec);
+    if (!file.temporary.empty()) {
+      if (fs::is_regular_file(before)) fs::permissions(file.temporary, before.permissions(), none);
+      fs::rename(file.temporary, file.target, ec);
+    }
+    if (!ec) continue;
+    diagnostics
+        .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(file.path), 0, 0},
+               fmt::format("cannot {} '{}': {}", file.temporary.empty() ? "remove" : "write", file.path,
+                           ec.message()))
+        .hint = "name a folder that can be written to";
     return false;
   }
-  std::error_code ignored;
-  for (const Written& file : files_)
-    if (!file.before.empty()) fs::remove(file.before, ignored);
   files_.clear();
   folders_.clear();
   return true;

@@ -1,11 +1,9 @@
 // Files that belong together and appear together: each is written beside its name first, and all are renamed once all are
-// written. So a full disk leaves none of them, and no folder that was made for them. Where a rename fails, those before it are
-// undone. Does not: say what a file may replace.
+// written. So a full disk leaves none of them, and no folder that was made for them. Does not: say what a file may replace.
 #pragma once
 
 #include <functional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "engine/base/diagnostic.h"
@@ -29,19 +27,14 @@ class FileBatch {
   // The file, or the link to one, will be gone when the others have appeared; nothing happens where there is none.
   void remove(const std::string& path);
 
-  // Renames all of them. A file that is there keeps its permissions, and a link still leads to it. False after W180. Where an undo
-  // fails, too, the file that was replaced is kept under another name in its folder, and W180 says which.
+  // Renames all of them. A file that is there keeps its permissions, and a link still leads to it. False after W180.
   bool publish(base::Diagnostics& diagnostics);
 
  private:
   struct Written {
-    std::string path, target,
-        temporary;       // as named; behind links; where the bytes are: empty when it is to be removed
-    std::string before;  // what the target was, while that may have to be undone
+    std::string path, target;  // as named; behind links
+    std::string temporary;     // where the bytes are; empty: the file is to be removed
   };
-  bool rename(Written& file, bool isLast, std::error_code& ec) const;
-  // Adds what cannot be undone to `left`.
-  void undo(Written& file, std::string& left) const;
   bool makeFolder(const std::string& path, base::Diagnostics& diagnostics);
 
   std::vector<Written> files_;

@@ -25,15 +25,14 @@ std::string cacheFolderOf(const Options& options) {
 }  // namespace
 
 std::unique_ptr<gl::Context> openContext(const Options& options, base::Diagnostics& diagnostics) {
-  const bool window = options.command == "view";
   gl::ContextOptions wanted;
   wanted.backend = gl::findBackend(options.backend).value_or(gl::Backend::automatic);
-  if (window && wanted.backend == gl::Backend::automatic) wanted.backend = gl::Backend::glfw;
+  if (options.window && wanted.backend == gl::Backend::automatic) wanted.backend = gl::Backend::glfw;
   base::allowFolder(cacheFolderOf(options));
   wanted.title = "weft: " + options.graph;
   wanted.width = options.width;
   wanted.height = options.height;
-  wanted.visible = window;
+  wanted.visible = options.window;
   wanted.vsync = options.vsync;
   return gl::createContext(wanted, diagnostics);
 }
@@ -78,6 +77,31 @@ std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagn
     return std::nullopt;
   }
   return Opened{*std::move(world), std::move(session)};
+}
+
+int runOnDevice(std::span<const Options> all, int wrong,
+                const std::function<int(gl::Context&, const runtime::World&, base::Diagnostics&)>& run) {
+  const Options& options = all.front();
+  base::Diagnostics diagnostics;
+  const auto world = loadWorld(options, diagnostics);
+  if (!world) {
+    makePlan(options, factsWithoutWorld(), true, diagnostics);
+    report(diagnostics);
+    return wrong;
+  }
+  for (const Options& each : all)
+    if (isWrong(each, world->facts(), diagnostics)) {
+      report(diagnostics);
+      return wrong;
+    }
+  const auto context = openContext(options, diagnostics);
+  if (!context) {
+    makePlan(options, world->facts(), true, diagnostics);  // one that came by a pipe
+    report(diagnostics);
+    return 3;
+  }
+  const int code = run(*context, *world, diagnostics);
+  return report(diagnostics) ? wrong : code;
 }
 
 std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,

@@ -1,9 +1,11 @@
 // A GL context and a renderer on it, as the commands that draw need them.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,7 @@ struct DeviceSession {
 std::unique_ptr<gl::Context> openContext(const Options& options, base::Diagnostics& diagnostics);
 runtime::Renderer::Options rendererOptionsOf(const Options& options);
 
-// Headless unless options.command is "view". Null after errors.
+// Headless unless options.window. Null after errors.
 std::unique_ptr<DeviceSession> openDevice(const Options& options, base::Diagnostics& diagnostics);
 
 // What a headless command begins with: the world, a device, and the graph loaded on it. Nothing after a failure, which is
@@ -32,6 +34,12 @@ struct Opened {
   std::unique_ptr<DeviceSession> session;
 };
 std::optional<Opened> openGraph(const Options& options, base::Diagnostics& diagnostics, int& exitCode);
+
+// The same for a command that makes renderers of its own: calls `run`, which returns the exit code, with a context and a world, and
+// reports. `wrong`: the exit code after errors; a graph of `all` that is wrong is refused before OpenGL is opened. 3 without
+// OpenGL. The first of `all` says which world and which device.
+int runOnDevice(std::span<const Options> all, int wrong,
+                const std::function<int(gl::Context&, const runtime::World&, base::Diagnostics&)>& run);
 
 // What the run reads, once the graph is loaded: none of it is to be written over.
 std::vector<std::string> filesReadBy(const Options& options, const runtime::Renderer& renderer,

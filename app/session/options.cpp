@@ -3,371 +3,215 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <charconv>
 #include <filesystem>
-#include <sstream>
-#include <utility>
 
-#include "app/output/standard_streams.h"
-#include "app/session/option_checks.h"
-#include "app/session/option_parts.h"
 #include "app/session/session.h"
-#include "app/session/trial_options.h"
 #include "engine/base/files/file_access.h"
-#include "engine/base/nearest.h"
-#include "engine/base/printable.h"
 
 namespace weft::app {
 
 namespace {
 
-// What the command line names is the person's own choice, also where reading is confined, and may be a pipe.
-void chooseFiles(const Options& options) {
-  for (const std::string* file :
-       {&options.graph, &options.otherGraph, &options.scene, &options.environment, &options.materials,
-        &options.frameGraph, &options.trial.folder, &options.foreignFile})
-    base::chooseFile(*file);
-  for (const std::string& preset : options.presets) base::chooseFile(preset);
-  for (const std::string& preset : options.trial.otherPresets) base::chooseFile(preset);
-  for (const std::string& file : options.files) base::chooseFile(file);
-  for (const graph::Setting& set : options.sets) base::chooseFile(set.text);  // where the parameter is a file
-  for (const char* folder : {"graphs", "shaders", "scenes", "materials"})
-    base::allowFolder(dataFolder() + "/" + folder);
+constexpr int kMaxPixels = 16384;  // of a side of a picture
+
+std::string checkFrame(const std::string& text) {
+  std::uint32_t frame = 0;
+  return parseNumber(text, frame)
+             ? ""
+             : fmt::format("expected a frame number from 0 to {}, found '{}'", ~0u, text);
 }
 
-// With those of commands behind them: "pass" of "new".
-std::vector<CLI::App*> allCommands(CLI::App& app) {
-  std::vector<CLI::App*> commands;
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
-    commands.push_back(command);
-    const std::vector<CLI::App*> inner = allCommands(*command);
-    commands.insert(commands.end(), inner.begin(), inner.end());
-  }
-  return commands;
+std::string checkFolder(const std::string& path) {
+  std::error_code ec;
+  if (std::filesystem::is_directory(path, ec)) return "";
+  return fmt::format(
+      "{} '{}'",
+      std::filesystem::exists(path, ec) ? "expected a folder, found the file" : "there is no folder", path);
 }
 
-// Text as messages print it.
-std::string shown(const std::string& text) {
-  return base::shortened(base::printable(text));
+// A folder that is there or can be made, or "none".
+std::string checkCacheFolder(const std::string& path) {
+  std::error_code ec;
+  if (path == "none") return "";
+  // The folder itself, or the nearest above it that is there.
+  std::filesystem::path there = path;
+  while (!std::filesystem::exists(there, ec) && there.has_parent_path() && there.parent_path() != there)
+    there = there.parent_path();
+  if (!std::filesystem::exists(there, ec) || std::filesystem::is_directory(there, ec)) return "";
+  return fmt::format("expected a folder, or a name for a new one, found the file '{}'", there.string());
 }
 
-// Whether there was one.
-bool tellUnknownOption(const CLI::App& command, int argc, char** argv) {
-  std::vector<std::string> names;
-  std::string title = command.get_name();
-  const auto take = [&](const CLI::App& part) {
-    for (const CLI::Option* option : part.get_options())
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  };
-  take(command);
-  for (const CLI::App* inner : command.get_subcommands()) {  // what was written: "pass" behind "new"
-    take(*inner);
-    title += " " + inner->get_name();
-  }
-  bool told = false;
-  for (int i = 2; i < argc; ++i) {
-    const std::string argument = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
-    if (!argument.starts_with("--") || std::ranges::find(names, argument) != names.end()) continue;
-    const std::string near = base::nearestName(argument, names);
-    printError(
-        fmt::format("weft {}: unknown option '{}'; {}\n", title, shown(argument),
-                    near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near)));
-    told = true;
-  }
-  return told;
+std::optional<double> numberIn(std::string_view text, double low, double high) {
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  const bool good = error == std::errc{} && end == text.data() + text.size() && x >= low && x <= high;
+  return good ? std::optional(x) : std::nullopt;
 }
-
-// Help, the version, or what is wrong. 0 when it was asked for.
-int tell(const CLI::App& app, const CLI::ParseError& error) {
-  std::ostringstream out, err;
-  const int code = app.exit(error, out, err);
-  print(out.str());
-  // What is wrong repeats what was written; the rest is of the parser.
-  const std::string said = err.str(), what = error.what();
-  const std::size_t twice = what.find(": At Most 1 required");
-  const std::string own =
-      twice == std::string::npos ? what : what.substr(0, twice) + ": given more than once";
-  printError(said.starts_with(what) ? shown(own) + said.substr(what.size()) : said);
-  return code;
-}
-
-// Whether what stands before a '=' names a texture, and is not the beginning of a path.
-bool isMeantAsName(const std::string& text) {
-  return !text.empty() && text.find('/') == std::string::npos &&
-         (text.find('.') == std::string::npos || text.find_first_of("#[@") != std::string::npos ||
-          graph::parsePick(text));
-}
-
-// `-o FILE`, `-o NAME=FILE` and `--present NAME`. What is wrong with them, or nothing.
-std::string takeOutputs(const RawOptions& raw, Options& options) {
-  for (const std::string& text : raw.outputs) {
-    const std::size_t at = text.find('=');
-    const std::string name = at == std::string::npos ? "" : text.substr(0, at);
-    if (at == 0)
-      return fmt::format("'-o {0}' has no NAME before the '='; a file of that name is './{0}'", text);
-    if (isMeantAsName(name) && at + 1 == text.size())
-      return fmt::format("'-o {0}' has no FILE behind the '='; write {0}picture.png", text);
-    if (isMeantAsName(name)) {
-      // A word that is spelled in another way names nothing; then the graph's names tell which one is near.
-      graph::Pick pick = graph::parsePick(name).value_or(graph::Pick{.text = name, .name = name, .pass = {}});
-      pick.option = "-o";
-      options.picked.push_back({std::move(pick), text.substr(at + 1)});
-    } else if (options.output.empty()) {
-      options.output = text;
-    } else {
-      return fmt::format(
-          "the picture would be written to '{}' and to '{}'; write NAME=FILE for another texture",
-          options.output, text);
-    }
-  }
-  if (raw.present.empty()) return {};
-  std::optional<graph::Pick> shown = graph::parsePick(raw.present);
-  if (!shown)
-    return fmt::format("--present takes a texture such as depth, hdr#1 or 'glow.mip[2]', found '{}'",
-                       raw.present);
-  if (options.output.empty()) return "--present needs a file: -o FILE";
-  shown->option = "--present";
-  options.picked.insert(options.picked.begin(), {std::move(*shown), std::exchange(options.output, {})});
-  return {};
-}
-
-constexpr const char* kWaitForAssets = "--wait-for-assets";
 
 }  // namespace
 
-std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
-  Options options;
-  RawOptions raw;
-  CLI::App app("Weft: a frame is a JSON file", "weft");
-  app.require_subcommand(1);
-  const auto asJson = [&options] { options.format = "json"; };
-  app.set_version_flag("--version", fmt::format("weft {}", kVersion));
+CLI::Option* Options::addGraph(CLI::App& command) {
+  CLI::Option* file = addPath(command, "graph", graph, "graph file (JSON)")->required();
+  addPath(command, "--scene", scene, "scene file (default: the bundled scenes/spheres.json)");
+  command.add_option("--camera", camera, "camera of the scene to look through (default: its first)");
+  addPath(command, "--materials", materials,
+          "material library for the scene's grid, instead of the one it names");
+  addPath(command, "--environment", environment,
+          "environment map, .hdr or .exr; for view also a folder of them");
+  addSize(command);
+  addPath(command, "--preset", presets,
+          "lay an overlay over the graph: a file, or the name of one that 'weft presets' lists; repeatable");
+  addPresetFolder(command);
+  addDisables(command, "--disable", disables, "disable a pass (any unique suffix of its name); repeatable");
+  addSets(command, "--set", sets, "set a parameter (any unique suffix of its name); repeatable");
+  return file;
+}
 
-  CLI::App* render =
-      app.add_subcommand("render", "render frames of a graph to image files, without a display");
-  addGraphOptions(*render, options, raw);
-  addDeviceOptions(*render, options);
-  render
-      ->add_option("-o,--output", raw.outputs,
-                   "image to write, .png or .exr; for several frames a pattern: f_%04d.png; NAME=FILE writes "
-                   "a texture of "
-                   "the graph: depth=depth.png, 'glow.mip[2]=glow.exr'; repeatable")
-      ->type_name("FILE")
-      ->required();
-  render->add_option(
-      "--present", raw.present,
-      "show this texture instead of the graph's picture, as the viewer's inspector does: depth, "
-      "'hdr after skybox', 'glow.mip[2]'");
-  render->add_option("--frames", raw.frames, "a frame number, or FIRST:LAST")
-      ->check(CLI::Validator(checkFrames, "A:B"));
-  render->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
-  addPointerOption(*render, options);
-  render->add_flag(kWaitForAssets, options.waitForAssets,
-                   "the first frame waits for everything it needs; always so without a window");
-  render->add_flag("--quiet", options.quiet, "no progress bar and no notes");
-
-  CLI::App* dump = app.add_subcommand("dump",
-                                      "write what each pass wrote of some resources, as pictures (.png), "
-                                      "values (.exr) and bytes (.bin): weft dump "
-                                      "graphs/glow.json 'glow*' -o out");
-  addGraphOptions(*dump, options, raw);
-  dump->add_option(
-          "name", options.patterns,
-          "names of resources, or any suffix of theirs; * stands for any letters; hdr#2 is a version")
-      ->required();
-  dump->add_option("-o,--output", options.output, "folder to write to")->required()->type_name("FOLDER");
-  dump->add_option("--frames", raw.frames, "the frame to look at")
-      ->check(CLI::Validator(checkFrame, "FRAME"));
-  dump->add_option("--fps", options.fps, "frames per second of the clock")->check(numberFrom(1, 1000));
-  addPointerOption(*dump, options);
-  addBackendOptions(*dump, options);
-  dump->add_flag("--quiet", options.quiet, "no list of files and no notes");
-
-  CLI::App* view =
-      app.add_subcommand("view", "open a window and run a graph in it (without a display: xvfb-run -a)");
-  addGraphOptions(*view, options, raw);
-  addDeviceOptions(*view, options);
-  view->add_option("--max-frames", options.maxFrames,
-                   "close after this many frames (0: when the window is closed)")
-      ->check(CLI::Validator(checkCount, "FRAMES"));
-  view->add_flag(kWaitForAssets, options.waitForAssets,
-                 "open the window when the environment is there, not before");
-  view->add_option("--panels", options.panels,
-                   "show (or hide) at the start: parameters, passes, inspector, profiler, storage, histogram")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"parameters", "passes", "inspector", "profiler", "storage", "histogram"}));
-  view->add_flag("--events", options.events, "say on standard output what happens, a line each, for scripts");
-  view->add_flag("!--no-ui", options.ui, "no panels over the picture");
-  view->add_option("--screenshot", options.screenshot,
-                   "picture to write of the last frame before closing, .png or .exr")
-      ->type_name("FILE");
-  view->add_option("--record", options.record,
-                   "write every frame from the first on, at a fixed step: f_%04d.png, or .exr")
-      ->type_name("FILE");
-  view->add_option("--fps", options.fps, "frames per second of recordings")->check(numberFrom(1, 1000));
-  view->add_flag("!--no-vsync", options.vsync, "do not wait for the screen's refresh");
-  view->add_flag("--idle", options.idle, "draw only when something changed");
-  view->add_option("--render-scale", options.renderScale,
-                   "pixels of the scene per pixel of the window, each way")
-      ->check(numberFrom(0.1, 4));
-  view->add_option("--ui-scale", options.uiScale, "size of the panels (default: as the screen says)")
-      ->check(numberFrom(0.25, 8));
-
-  CLI::App* check =
-      app.add_subcommand("check", "report everything wrong with a graph; exit 1 when it cannot run");
-  addGraphOptions(*check, options, raw);
-  check->add_flag("!--no-shaders", options.shaders, "do not compile the shaders (needs no OpenGL)");
-  check->add_option("--format", options.format, "text, json, or sarif for code hosts and editors")
-      ->check(CLI::IsMember({"text", "json", "sarif"}));
-  check->add_flag(
-      "--matrix", options.matrix,
-      "also with each pass disabled, each pair of passes, and each value that a parameter offers");
-  check->add_flag("--all", options.allVariants,
-                  "compile every shader variant that disabling a pass or setting a parameter reaches");
-  check->add_flag("--watch", options.watch, "check again whenever a file that was read changes, until ended");
-
-  CLI::App* explain = app.add_subcommand(
-      "explain",
-      "say what is known of one pass, resource or parameter: order, storage, barriers, readers; or, with a "
-      "code such as W053 alone, what it means");
-  addGraphOptions(*explain, options, raw);
-  explain->add_option("name", options.name, "any unique suffix of its name");
-
-  CLI::App* expand =
-      app.add_subcommand("expand", "print the expanded graph as a graph file that gives the same plan");
-  addGraphOptions(*expand, options, raw);
-
-  CLI::App* diff = app.add_subcommand(
-      "diff", "say how the plan of another graph differs: passes, barriers, bytes; exit 1 when it does");
-  addGraphOptions(*diff, options, raw);
-  diff->add_option("other", options.otherGraph, "the other graph file")->required()->type_name("FILE");
-  addDiffOptions(*diff, options, raw);
-
-  CLI::App* params =
-      app.add_subcommand("params", "list the parameters of a graph: name, type, value, range, label");
-  addGraphOptions(*params, options, raw);
-  params->add_flag_callback("--json", asJson, "as JSON");
-
-  CLI::App* presets = app.add_subcommand("presets", "list the presets that --preset finds by name");
-  presets->add_flag_callback("--json", asJson, "as JSON");
-  addPresetFolder(*presets, options);
-
-  CLI::App* dot = app.add_subcommand("dot", "print the compiled plan as a Graphviz graph");
-  addGraphOptions(*dot, options, raw);
-
-  CLI::App* plan = app.add_subcommand("plan", "print the compiled plan: order, barriers, storage, bytes");
-  addGraphOptions(*plan, options, raw);
-  plan->add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  plan->add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
-
-  CLI::App* bench = app.add_subcommand(
-      "bench", "measure; prints JSON; by default --edit and --frame of graphs/studio.json");
-  bench
-      ->add_option("--frame", options.frameGraph, "a graph file: the cost of its frame in full-screen copies")
-      ->type_name("FILE");
-  bench
-      ->add_option("--edit", options.editGraph,
-                   "a graph file: what a changed parameter and a saved file cost before the next frame")
-      ->type_name("FILE")
-      ->excludes("--frame");
-  bench
-      ->add_option("--environment", options.environment,
-                   "environment map for --frame and --edit, .hdr or .exr")
-      ->type_name("FILE");
-  bench->add_option("--scene", options.scene, "scene file for --frame and --edit")->type_name("FILE");
-  bench->add_option("--camera", options.camera, "camera of the scene for --frame and --edit");
-  bench->add_option("--materials", options.materials, "material library for --frame and --edit")
-      ->type_name("FILE");
-  bench->add_option("--size", raw.size, "size of the screen for --frame and --edit")
+void Options::addSize(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--size", [this](const std::string& text) { parsePair(text, 'x', width, height); },
+          "size of the screen in pixels")
       ->check(CLI::Validator(checkSize, "WxH"));
-  addBackendOptions(*bench, options);
+}
 
-  CLI::App* format =
-      app.add_subcommand("format", "give graph files, overlays and presets the one layout, comments kept");
-  format->add_option("file", options.files, "JSON files")->required()->type_name("FILE");
-  format->add_flag("--check", options.checkOnly,
-                   "write nothing; exit 1 and name the first line that differs");
+void Options::addPresetFolder(CLI::App& command) {
+  command
+      .add_option(
+          "--preset-folder", presetFolder,
+          "look for the names of presets here first, then in ~/.config/weft/presets, then in graphs/presets")
+      ->check(CLI::Validator(checkFolder, "FOLDER"));
+}
 
-  CLI::App* lsp = app.add_subcommand(
-      "lsp", "language server for editors, on standard input and output (docs/editors.md); needs no OpenGL");
-  lsp->add_option("--scene", options.scene, "scene that graphs are checked with (default: the bundled one)")
-      ->type_name("FILE");
-  lsp->add_option("--size", raw.size, "size of the screen")->check(CLI::Validator(checkSize, "WxH"));
-  lsp->add_flag("--stdio", options.stdio, "as editors say it; there is no other way");
-  lsp->footer("Example, for Neovim: vim.lsp.start({ name = 'weft', cmd = { 'weft', 'lsp' } })");
+CLI::Option* Options::addFrame(CLI::App& command, const char* name) {
+  return command.add_option(name, lastFrame, "number of the frame to look at (default: 0)")
+      ->check(CLI::Validator(checkFrame, "FRAME"));
+}
 
-  addTrialCommands(app, options, raw);
-  CLI::App* import = app.add_subcommand(
-      "import", "make a graph and its shaders of an ISF file (.fs) or a user shader of mpv (.glsl, .hook)");
-  import->add_option("file", options.foreignFile, "the file; a .vs beside a .fs is read, too")
-      ->required()
-      ->type_name("FILE");
-  import->add_option("-o,--output", options.folder, "folder to write into; made where it is missing")
-      ->required()
-      ->type_name("FOLDER");
-  import->add_option("--image", options.images, "a picture for an input of the file; repeatable")
-      ->check(CLI::Validator(checkSet, "NAME=FILE"));
-  import->add_option("--name", options.newName, "name of the graph (default: that of the file)");
-  import->add_flag("--overwrite", options.overwrite, "replace files that are there");
-  import->footer("Example: weft import glow.fs -o glow --image inputImage=photo.png");
+void Options::addFps(CLI::App& command, const char* doc) {
+  command.add_option("--fps", fps, doc)->check(numberFrom(1, 1000));
+}
 
-  app.add_subcommand("schema", "print the JSON Schema of graph files");
-  app.add_subcommand("types", "print the pass types, imports and formats that a graph may name");
+void Options::addPointer(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--mouse", [this](const std::string& text) { pointer = *parsePointer(text); },
+          "where the mouse points in every frame, for graphs that read it: pixels from the lower left "
+          "corner of the picture; with ',down' its button is held from frame 0 on (default: 0,0)")
+      ->check(CLI::Validator(checkPointer, "X,Y[,down]"));
+}
 
-  for (CLI::App* command : allCommands(app)) {
-    command
-        ->add_option("--confine", raw.folders,
-                     "read only below this folder and those named on the command line, whatever files name; "
-                     "repeatable")
-        ->check(CLI::Validator(takeConfinement, "FOLDER"));
-    command
-        ->add_option("--limit", raw.limits,
-                     "raise or lower a limit of docs/limits.md for this run; repeatable")
-        ->check(CLI::Validator(takeLimit, "NAME=VALUE"));
-  }
-  std::vector<std::string> commands;
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
-    commands.push_back(command->get_name());
-  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {
-    printError(fmt::format("weft: unknown command '{}'; {}\n", shown(argv[1]),
-                           base::nearestHint(argv[1], commands)));
-    exitCode = 2;
-    return std::nullopt;
-  }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    const auto chosen = app.get_subcommands();
-    if (chosen.empty() || !tellUnknownOption(*chosen.front(), argc, argv)) tell(app, error);
-    exitCode = 2;
-    return std::nullopt;
-  } catch (const CLI::ParseError& error) {
-    exitCode = tell(app, error) == 0 ? 0 : 2;
-    return std::nullopt;
-  }
-  options.command = app.get_subcommands().front()->get_name();
-  if (const std::string wrong = findEmptyName(*app.get_subcommands().front()); !wrong.empty()) {
-    printError(fmt::format("weft {}: {}\n", options.command, shown(wrong)));
-    exitCode = 2;
-    return std::nullopt;
-  }
-  parsePair(raw.size, 'x', options.width, options.height);
-  if (!parsePair(raw.frames, ':', options.firstFrame, options.lastFrame)) {
-    parseNumber(raw.frames, options.firstFrame);
-    options.lastFrame = options.firstFrame;
-  }
-  if (const std::string wrong = takeOutputs(raw, options); !wrong.empty()) {
-    printError("weft render: " + shown(wrong) + "\n");
-    exitCode = 2;
-    return std::nullopt;
-  }
-  for (std::string& preset : options.presets) preset = presetFile(preset, options.presetFolder);
-  options.pointer = parsePointer(options.mouse).value_or(imports::Pointer{});
-  options.sets = settingsFrom(raw.sets, "--set");
-  options.trial.otherSets = settingsFrom(raw.otherSets, "--other-set");
-  for (std::string& preset : options.trial.otherPresets) preset = presetFile(preset, options.presetFolder);
-  chooseFiles(options);
-  return options;
+void Options::addBackend(CLI::App& command) {
+  addChoice(command, "--backend", backend, "where OpenGL comes from", {"auto", "osmesa", "egl", "glfw"});
+  command.add_option("--program-cache", cacheFolder, "folder for program binaries, or 'none'")
+      ->check(CLI::Validator(checkCacheFolder, "FOLDER"));
+}
+
+void Options::finish() {
+  for (std::string& preset : presets) base::chooseFile(preset = presetFile(preset, presetFolder));
+  for (const graph::Setting& set : sets) base::chooseFile(set.text);  // where the parameter is a file
+}
+
+CLI::Option* addPath(CLI::App& command, const std::string& name, std::string& path, const std::string& doc,
+                     const char* type) {
+  return command.add_option(name, path, doc)->type_name(type);
+}
+
+CLI::Option* addPath(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
+                     const std::string& doc) {
+  return command.add_option(name, paths, doc)->type_name("FILE");
+}
+
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::string& word, const std::string& doc,
+                       const std::vector<std::string>& words) {
+  return command.add_option(name, word, doc)->check(CLI::IsMember(words));
+}
+
+CLI::Option* addSets(CLI::App& command, const char* name, std::vector<graph::Setting>& sets,
+                     const std::string& doc) {
+  const auto take = [&sets, name](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const std::size_t at = text.find('=');
+      sets.emplace_back(text.substr(0, at), text.substr(at + 1)).option = name;
+    }
+  };
+  return command.add_option_function<std::vector<std::string>>(name, take, doc)
+      ->check(CLI::Validator(checkSet, "NAME=VALUE"));
+}
+
+CLI::Option* addDisables(CLI::App& command, const char* name, std::vector<graph::Disable>& disables,
+                         const std::string& doc) {
+  const auto take = [&disables, name](const std::vector<std::string>& passes) {
+    for (const std::string& pass : passes) disables.emplace_back(pass).option = name;
+  };
+  return command.add_option_function<std::vector<std::string>>(name, take, doc);
+}
+
+CLI::Validator numberFrom(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    return numberIn(text, low, high)
+               ? ""
+               : fmt::format("expected a number from {} to {}, found '{}'", low, high, text);
+  };
+  return {check, fmt::format("{} to {}", low, high)};
+}
+
+bool parseNumber(const std::string& text, std::uint32_t& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+bool parsePair(const std::string& text, char separator, std::uint32_t& a, std::uint32_t& b) {
+  const std::size_t at = text.find(separator);
+  return at != std::string::npos && parseNumber(text.substr(0, at), a) && parseNumber(text.substr(at + 1), b);
+}
+
+std::optional<imports::Pointer> parsePointer(const std::string& text) {
+  const std::string_view held = ",down";
+  std::string_view rest = text;
+  imports::Pointer pointer;
+  pointer.down = rest.ends_with(held);
+  if (pointer.down) rest.remove_suffix(held.size());
+  const std::size_t comma = std::min(rest.find(','), rest.size());
+  const auto x = numberIn(rest.substr(0, comma), 0, kMaxPixels);
+  const auto y = numberIn(rest.substr(std::min(comma + 1, rest.size())), 0, kMaxPixels);
+  if (!x || !y) return std::nullopt;
+  pointer.position[0] = static_cast<float>(*x);
+  pointer.position[1] = static_cast<float>(*y);
+  if (pointer.down) pointer.pressed = pointer.dragged = pointer.position;
+  return pointer;
+}
+
+std::string checkPointer(const std::string& text) {
+  if (parsePointer(text)) return "";
+  return fmt::format(
+      "expected X,Y or X,Y,down: pixels from the lower left corner of the picture, each from 0 to {}, found "
+      "'{}'",
+      kMaxPixels, text);
+}
+
+std::string checkSize(const std::string& text) {
+  std::uint32_t width = 0, height = 0;
+  const bool good = parsePair(text, 'x', width, height) && width >= 1 && height >= 1 && width <= kMaxPixels &&
+                    height <= kMaxPixels;
+  return good ? "" : fmt::format("expected WIDTHxHEIGHT, each from 1 to {}, found '{}'", kMaxPixels, text);
+}
+
+std::string checkFrames(const std::string& text) {
+  std::uint32_t first = 0, last = 0;
+  const bool good = text.find(':') == std::string::npos ? parseNumber(text, first)
+                                                        : parsePair(text, ':', first, last) && first <= last;
+  return good ? ""
+              : fmt::format(
+                    "expected FRAME or FIRST:LAST with FIRST <= LAST, whole numbers from 0 to {}, "
+                    "found '{}'",
+                    ~0u, text);
+}
+
+std::string checkSet(const std::string& text) {
+  const std::size_t at = text.find('=');
+  return at != std::string::npos && at > 0 ? "" : "expected NAME=VALUE, found '" + text + "'";
 }
 
 }  // namespace weft::app

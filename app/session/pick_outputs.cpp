@@ -34,7 +34,7 @@ bool saveInspected(runtime::Inspector& inspector, const std::string& path, base:
 
 bool PickOutputs::check(base::Diagnostics& diagnostics) const {
   bool good = true;
-  for (const PickedOutput& each : options_.picked)
+  for (const PickedOutput& each : picked_)
     good =
         checkOutput(each.file, options_.firstFrame, options_.lastFrame > options_.firstFrame, diagnostics) &&
         good;
@@ -42,13 +42,13 @@ bool PickOutputs::check(base::Diagnostics& diagnostics) const {
 }
 
 bool PickOutputs::makeAllFolders(base::Diagnostics& diagnostics) const {
-  return std::ranges::all_of(options_.picked, [&](const PickedOutput& each) {
+  return std::ranges::all_of(picked_, [&](const PickedOutput& each) {
     return makeFolders(each.file, options_.firstFrame, options_.lastFrame, diagnostics);
   });
 }
 
 void PickOutputs::append(std::vector<OutputFile>& files) const {
-  for (const PickedOutput& each : options_.picked)
+  for (const PickedOutput& each : picked_)
     files.push_back({"-o " + each.pick.text, each.file, options_.firstFrame, options_.lastFrame});
 }
 
@@ -56,7 +56,7 @@ bool PickOutputs::start(runtime::Renderer& renderer, base::Diagnostics& diagnost
   if (empty()) return true;
   runtime::Execution& execution = *renderer.execution();
   std::vector<runtime::CaptureItem> items;
-  for (const PickedOutput& each : options_.picked) {
+  for (const PickedOutput& each : picked_) {
     const auto item = runtime::captureItemOf(execution.plan(), each.pick, diagnostics);
     if (!item) continue;
     const graph::FlatGraph& graph = *execution.plan().graph;
@@ -71,12 +71,12 @@ bool PickOutputs::start(runtime::Renderer& renderer, base::Diagnostics& diagnost
     }
     items.push_back(*item);
   }
-  if (items.size() < options_.picked.size()) return false;
+  if (items.size() < picked_.size()) return false;
   saved_.assign(items.size(), 0);
   capture_ = std::make_unique<runtime::Capture>(renderer.device());
   capture_->start(execution, std::move(items), [this](std::size_t item, runtime::Inspector& inspector) {
     if (!frame_) return;
-    const PickedOutput& each = options_.picked[item];
+    const PickedOutput& each = picked_[item];
     saved_[item] = saveInspected(inspector, *outputNameOf(each.file, *frame_), said_);
   });
   return true;
@@ -89,7 +89,7 @@ bool PickOutputs::finish(base::Diagnostics& diagnostics) {
   const bool all = std::ranges::all_of(saved_, [](std::uint8_t saved) { return saved != 0; });
   if (!all && !diagnostics.hasErrors()) {
     const auto missing = std::ranges::find(saved_, 0) - saved_.begin();
-    const PickedOutput& each = options_.picked[static_cast<std::size_t>(missing)];
+    const PickedOutput& each = picked_[static_cast<std::size_t>(missing)];
     diagnostics
         .error(base::Code::outputNotWritten, {std::make_shared<const std::string>(each.file)},
                fmt::format("nothing was in '{}' to write", each.pick.text))

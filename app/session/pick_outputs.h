@@ -17,11 +17,19 @@ namespace weft::app {
 // What a copy of the inspector's is saved as under `path`, by the kind of its name. False after W180.
 bool saveInspected(runtime::Inspector& inspector, const std::string& path, base::Diagnostics& diagnostics);
 
+// A texture of the graph that is written to a file.
+struct PickedOutput {
+  graph::Pick pick;
+  std::string file;  // or a pattern, as -o
+};
+
 class PickOutputs {
  public:
-  explicit PickOutputs(const Options& options) : options_(options) {}
+  // Of the frames of `options`. Both must outlive this.
+  PickOutputs(const Options& options, const std::vector<PickedOutput>& picked)
+      : options_(options), picked_(picked) {}
 
-  bool empty() const { return options_.picked.empty(); }
+  bool empty() const { return picked_.empty(); }
   // Whether pictures can be written under all names. W180 if not.
   bool check(base::Diagnostics& diagnostics) const;
   bool makeAllFolders(base::Diagnostics& diagnostics) const;
@@ -37,6 +45,7 @@ class PickOutputs {
 
  private:
   const Options& options_;
+  const std::vector<PickedOutput>& picked_;
   std::unique_ptr<runtime::Capture> capture_;
   std::optional<std::uint32_t> frame_;
   base::Diagnostics said_;

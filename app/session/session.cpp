@@ -56,18 +56,12 @@ runtime::WorldFacts factsWithoutWorld() {
 }
 
 graph::Settings settingsOf(const Options& options, bool software) {
-  std::vector<graph::Pick> kept;
-  for (const PickedOutput& each : options.picked) kept.push_back(each.pick);
-  std::vector<graph::Disable> disables{options.disables.begin(), options.disables.end()};
-  if (options.trial.isOther)
-    for (const std::string& name : options.trial.otherDisables)
-      disables.emplace_back(name).option = "--other-disable";
   return {.screenWidth = options.width,
           .screenHeight = options.height,
           .software = software,
           .sets = options.sets,
-          .disables = std::move(disables),
-          .kept = std::move(kept)};
+          .disables = options.disables,
+          .kept = options.kept};
 }
 
 std::string scenePathOf(const Options& options) {
@@ -107,6 +101,11 @@ std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtim
   if (!flat || diagnostics.hasErrors()) return nullptr;
   auto plan = std::make_shared<const graph::Plan>(graph::compile(flat));
   return graph::checkMemory(*plan, diagnostics) ? plan : nullptr;
+}
+
+std::shared_ptr<const graph::Plan> planOf(const Options& options, base::Diagnostics& diagnostics) {
+  const auto world = loadWorld(options, diagnostics);
+  return makePlan(options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
 }
 
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, base::Diagnostics& diagnostics) {

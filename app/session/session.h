@@ -46,6 +46,9 @@ runtime::WorldFacts factsWithoutWorld();
 std::shared_ptr<const graph::Plan> makePlan(const Options& options, const runtime::WorldFacts& facts,
                                             bool software, base::Diagnostics& diagnostics);
 
+// The same with the world of the options; without one, when the scene cannot be read.
+std::shared_ptr<const graph::Plan> planOf(const Options& options, base::Diagnostics& diagnostics);
+
 // Whether the graph is wrong on every device; what is wrong is in `diagnostics` then. Commands that draw ask before they open OpenGL,
 // which takes longer than all of this. Of what a pipe holds nobody knows before it is read, which it can be once: false.
 bool isWrong(const Options& options, const runtime::WorldFacts& facts, base::Diagnostics& diagnostics);

@@ -33,10 +33,10 @@ std::string firstError(const base::Diagnostics& said) {
 
 }  // namespace
 
-std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& options,
+std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& options, std::uint32_t repeats,
                                           const runtime::World& world, base::Diagnostics& diagnostics) {
   const std::uint32_t frame = options.lastFrame;
-  const ShotWish wish{.frames = {frame}, .repeats = options.trial.repeats};
+  const ShotWish wish{.frames = {frame}, .repeats = repeats};
   const auto whole = takeShot(context, options, world, wish, diagnostics);
   if (!whole) return std::nullopt;
   AblationTable table{.ms = whole->milliseconds,
@@ -51,7 +51,7 @@ std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& o
     if (const auto own = whole->passMilliseconds.find(pass); own != whole->passMilliseconds.end())
       row.ownMs = own->second;
     Options without = options;
-    without.disables.push_back(pass);
+    without.disables.emplace_back(pass);
     base::Diagnostics said;
     const bool software = context.device().software;
     const auto shot = makePlan(without, world.facts(), software, said)

@@ -30,8 +30,8 @@ struct AblationTable {
   std::vector<Ablation> rows;  // in order of the plan
 };
 
-// Empty after errors.
-std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& options,
+// Measures `repeats` frames, of which the fastest counts. Empty after errors.
+std::optional<AblationTable> ablatePasses(gl::Context& context, const Options& options, std::uint32_t repeats,
                                           const runtime::World& world, base::Diagnostics& diagnostics);
 
 std::string ablationText(const AblationTable& table);

@@ -7,8 +7,6 @@
 #include <limits>
 #include <set>
 
-#include "app/session/option_checks.h"
-#include "app/session/option_parts.h"
 #include "app/session/session.h"
 #include "engine/base/files/file.h"
 #include "engine/base/files/file_access.h"
@@ -163,7 +161,7 @@ class CaseReader {
                                      : besideFile(item.textPlace(), item.text));
     });
     readNames(fields, "disable", [&](const JsonValue& item) {
-      options.disables.push_back(item.text);
+      options.disables.emplace_back(item.text);
       test.settingPlaces["--disable " + item.text] = item.textPlace();
     });
     if (const JsonValue* sets = fields.object("set"))

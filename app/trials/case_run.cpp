@@ -93,8 +93,7 @@ CaseResult CaseRunner::run(const TestCase& test, bool accept, base::Diagnostics&
 
 CaseResult CaseRunner::runPlan(const TestCase& test, bool accept, base::Diagnostics& diagnostics) {
   CaseResult result;
-  const auto world = loadWorld(test.options, diagnostics);
-  const auto plan = makePlan(test.options, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+  const auto plan = planOf(test.options, diagnostics);
   if (!plan || diagnostics.hasErrors()) return result;
   result.files = plan->graph->files;
   const std::string text = graph::dumpText(*plan), file = test.planGolden();

@@ -21,13 +21,13 @@ namespace weft::app {
 namespace {
 
 // The number of the last frame; 0 when nobody knows it.
-std::uint32_t lastFrameOf(const Options& options) {
+std::uint32_t lastFrameOf(const ViewOptions& options) {
   return options.maxFrames ? options.maxFrames - 1 : 0;
 }
 
 // Whether saving a file may make it good: nobody is to wait for a file that is not there, or for a wrong
 // command line.
-bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
+bool canBeFixed(const ViewOptions& options, const base::Diagnostics& diagnostics) {
   std::error_code ignored;
   for (const std::string& file : {options.graph, scenePathOf(options)})
     if (!std::filesystem::is_regular_file(file, ignored)) return false;
@@ -37,7 +37,7 @@ bool canBeFixed(const Options& options, const base::Diagnostics& diagnostics) {
 }
 
 // Runs before the window opens. The frames of a recording have no end unless --max-frames gives one.
-bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
+bool checkOutputs(const ViewOptions& options, base::Diagnostics& diagnostics) {
   checkFrameCount(options.maxFrames, base::placeOfOption(fmt::format("--max-frames {}", options.maxFrames)),
                   {}, diagnostics, ", or leave --max-frames out: the window then stays until it is closed");
   if (!options.screenshot.empty()) checkOutput(options.screenshot, lastFrameOf(options), false, diagnostics);
@@ -46,7 +46,7 @@ bool checkOutputs(const Options& options, base::Diagnostics& diagnostics) {
 }
 
 // Runs when all files that are read are known.
-bool checkInputs(const Options& options, const LiveGraph& live, base::Diagnostics& diagnostics) {
+bool checkInputs(const ViewOptions& options, const LiveGraph& live, base::Diagnostics& diagnostics) {
   const std::uint32_t last = lastFrameOf(options);
   const OutputFile outputs[] = {{"--screenshot", outputNameOf(options.screenshot, last).value_or("")},
                                 {"--record", options.record, 0, options.maxFrames ? last : ~0u}};
@@ -57,10 +57,9 @@ bool checkInputs(const Options& options, const LiveGraph& live, base::Diagnostic
          (!known || options.record.empty() || makeFolders(options.record, 0, last, diagnostics));
 }
 
-}  // namespace
-
-int runView(const Options& options) {
+int runView(ViewOptions& options) {
   base::Diagnostics diagnostics;
+  options.window = true;
   if (!checkOutputs(options, diagnostics)) return report(diagnostics);
   Options files = options;
   if (!files.environment.empty())
@@ -68,9 +67,7 @@ int runView(const Options& options) {
   if (diagnostics.hasErrors()) return report(diagnostics);
   auto session = openDevice(options, diagnostics);
   if (!session) {
-    // A mistake in the files is no failure of the machine.
-    const auto world = loadWorld(files, diagnostics);
-    makePlan(files, world ? world->facts() : factsWithoutWorld(), true, diagnostics);
+    planOf(files, diagnostics);  // a mistake in the files is no failure of the machine
     report(diagnostics);
     return 3;
   }
@@ -132,6 +129,51 @@ int runView(const Options& options) {
   stats["gl_objects_left"] = left;
   if (options.stats) printStats(stats);
   return code;
+}
+
+}  // namespace
+
+void addView(CommandLine& line) {
+  const auto [command, options] =
+      line.add("view", "open a window and run a graph in it (without a display: xvfb-run -a)", runView);
+  options.addGraph(command);
+  options.addBackend(command);
+  command.add_flag("--stats", options.stats, "print counters and times as JSON on standard error when done");
+  command.add_flag("--profile", options.profile,
+                   "measure each pass (slower: waits for the GPU after every pass on software)");
+  const auto checkCount = [](const std::string& text) {
+    std::uint32_t count = 0;
+    return parseNumber(text, count)
+               ? ""
+               : fmt::format("expected a number of frames up to {}, found '{}'", ~0u, text);
+  };
+  command
+      .add_option("--max-frames", options.maxFrames,
+                  "close after this many frames (0: when the window is closed)")
+      ->check(CLI::Validator(checkCount, "FRAMES"));
+  command.add_flag("--wait-for-assets", options.waitForAssets,
+                   "open the window when the environment is there, not before");
+  command
+      .add_option("--panels", options.panels,
+                  "show (or hide) at the start: parameters, passes, inspector, profiler, storage, histogram")
+      ->delimiter(',')
+      ->check(CLI::IsMember(ui::Panels::names()));
+  command.add_flag("--events", options.events,
+                   "say on standard output what happens, a line each, for scripts");
+  command.add_flag("!--no-ui", options.ui, "no panels over the picture");
+  addPath(command, "--screenshot", options.screenshot,
+          "picture to write of the last frame before closing, .png or .exr");
+  addPath(command, "--record", options.record,
+          "write every frame from the first on, at a fixed step: f_%04d.png, or .exr");
+  options.addFps(command, "frames per second of recordings");
+  command.add_flag("!--no-vsync", options.vsync, "do not wait for the screen's refresh");
+  command.add_flag("--idle", options.idle, "draw only when something changed");
+  command
+      .add_option("--render-scale", options.renderScale,
+                  "pixels of the scene per pixel of the window, each way")
+      ->check(numberFrom(0.1, 4));
+  command.add_option("--ui-scale", options.uiScale, "size of the panels (default: as the screen says)")
+      ->check(numberFrom(0.25, 8));
 }
 
 }  // namespace weft::app

@@ -19,6 +19,7 @@
 #include "app/view/file_alarm.h"
 #include "app/view/frame_clock.h"
 #include "app/view/picture_rest.h"
+#include "app/view/view.h"
 #include "app/view/window_input.h"
 
 namespace weft::app {
@@ -26,7 +27,7 @@ namespace weft::app {
 class Viewer {
  public:
   // `session` has a window, and outlives this. `live` was loaded, well or not, and said `said`.
-  Viewer(const Options& options, DeviceSession& session, LiveGraph& live, base::Diagnostics said);
+  Viewer(const ViewOptions& options, DeviceSession& session, LiveGraph& live, base::Diagnostics said);
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
@@ -71,7 +72,7 @@ class Viewer {
   void say(std::string_view event) const { events_.say(frame_, event); }
   void tellFrame();
 
-  const Options& options_;
+  const ViewOptions& options_;
   DeviceSession& session_;
   GLFWwindow* window_;
   runtime::Renderer& renderer_;

@@ -1,7 +1,5 @@
-// Whole files through engine/convert: those of tests/convert become graphs that Weft reads, with the lines of the
+// Whole files through app/import: those of tests/convert become graphs that Weft reads, with the lines of the
 // original; broken ones give the diagnostic that bad/manifest.json promises, at its place.
-#include "engine/convert/convert.h"
-
 #include <algorithm>
 #include <set>
 

@@ -1,4 +1,4 @@
-// What the tests of engine/convert share: files of tests/convert, and conversion of text in memory.
+// What the tests of app/import share: files of tests/convert, and conversion of text in memory.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -13,9 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/import/import.h"
 #include "engine/base/diagnostic.h"
-#include "engine/convert/isf/convert_isf.h"
-#include "engine/convert/mpv/convert_mpv.h"
 #include "engine/graph/desc.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/read/read.h"

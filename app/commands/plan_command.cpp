@@ -1,0 +1,56 @@
+// weft plan: the compiled plan in one of its views.
+#include "app/commands/commands.h"
+#include "app/output/standard_streams.h"
+#include "app/session/session.h"
+#include "engine/base/json/layout.h"
+#include "engine/graph/print/dot.h"
+#include "engine/graph/print/graph_file.h"
+#include "engine/graph/print/json.h"
+#include "engine/graph/print/text.h"
+
+namespace weft::app {
+
+namespace {
+
+struct PlanOptions : Options {
+  std::string format = "text";
+  bool explain = false;
+};
+
+std::string viewOf(const graph::Plan& plan, const PlanOptions& options) {
+  if (options.format == "dot") return graph::dumpDot(plan);
+  if (options.format == "json") return graph::dumpJson(plan, options.explain);
+  if (options.format == "expanded")
+    return base::layoutJson(graph::graphFileOf(plan),
+                            {.packed = {"set"}, .starts = {"read", "write", "modify"}});
+  return graph::dumpText(plan, options.explain);
+}
+
+int runPlan(PlanOptions& options) {
+  base::Diagnostics diagnostics;
+  if (const auto plan = planOf(options, diagnostics)) print(viewOf(*plan, options));
+  return report(diagnostics);
+}
+
+}  // namespace
+
+void addPlan(CommandLine& line) {
+  const auto [plan, options] =
+      line.add("plan", "print the compiled plan: order, barriers, storage, bytes", runPlan);
+  options.addGraph(plan);
+  addChoice(
+      plan, "--format", options.format,
+      "text, json, dot for Graphviz, or expanded: a graph file without includes, repeats and conditions "
+      "that gives the same plan",
+      {"text", "json", "dot", "expanded"});
+  plan.add_flag("--explain", options.explain, "say why: passes, barrier bits, shared storage");
+  // Their names before.
+  for (const auto& [name, format] : {std::pair("dot", "dot"), {"expand", "expanded"}}) {
+    const auto [view, same] = line.add(name, "the same as plan --format", runPlan);
+    view.group("");
+    same.addGraph(view);
+    same.format = format;
+  }
+}
+
+}  // namespace weft::app

@@ -1,0 +1,67 @@
+// Pipelines that were written for other programs, as graphs: ISF files (Interactive Shader Format, versions 1 and 2) and user
+// shaders of mpv (docs/importing.md). What cannot be mapped is refused with a place and a code (W220 to W226). Does not: write
+// files, or check the graph that comes out; `weft check` does.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.h"
+
+namespace weft::convert {
+
+struct ConvertedText {
+  std::string path, text;
+};
+
+// Texels of the foreign file: RGBA bytes, or RGBA floats, from the top row.
+struct ConvertedImage {
+  std::string path;  // .png for bytes, .exr for floats
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;
+  std::vector<float> floats;
+};
+
+// Paths are relative to the folder that the person names.
+struct Converted {
+  std::string graph;  // the path of the graph among `texts`
+  std::vector<ConvertedText> texts;
+  std::vector<ConvertedImage> images;
+};
+
+struct ConvertOptions {
+  std::string
+      name;  // of the graph and its folder of shaders: letters, digits and '_'; empty: that of the file
+  // From the folder that is written to the folder of the foreign file, for pictures that it names. "" is the same.
+  std::string sourceFolder;
+  std::vector<std::pair<std::string, std::string>> images;  // input, file as the graph shall name it
+};
+
+// Reads `path` and, for an ISF file, the .vs beside it. The kind comes from what the file says.
+std::optional<Converted> convertFile(const std::string& path, ConvertOptions options,
+                                     base::Diagnostics& diagnostics);
+
+// Where the vertex shader of an ISF file would be.
+std::string vertexFileOf(const std::string& path);
+
+// An ISF file: inputs become parameters and images, passes passes, what persists a history. The shader keeps its lines: it
+// becomes a file of its own, which a small stage file includes behind the declarations that ISF gives every shader.
+struct IsfSource {
+  std::string_view fragment, vertex;  // the .fs, and the .vs where there is one
+  std::string fragmentFile, vertexFile;
+  bool hasVertex = false;
+};
+std::optional<Converted> convertIsf(const IsfSource& source, const ConvertOptions& options,
+                                    base::Diagnostics& diagnostics);
+
+// A user shader of mpv: its passes run on a picture instead of a video. The stages RGB, NATIVE, MAINPRESUB, MAIN, SCALED,
+// PREOUTPUT and OUTPUT are that picture, one after the other. mpv counts rows from the top: the graph turns the picture over at
+// the start and back at the end.
+std::optional<Converted> convertMpv(std::string_view text, const std::string& file,
+                                    const ConvertOptions& options, base::Diagnostics& diagnostics);
+
+}  // namespace weft::convert

@@ -1,0 +1,83 @@
+// An ISF file on its way to a graph: what its JSON header says, the names that its things get, and its translated shaders.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/import/import.h"
+
+namespace weft::convert {
+
+struct IsfInput {
+  enum class Type : std::uint8_t { boolean, event, integer, number, point, color, image };
+  std::string name;  // as the shader knows it
+  Type type = Type::number;
+  base::Place place;
+  std::string label;
+  std::vector<double> initial, min, max;  // 1, 2 or 4 numbers; empty: not said
+  std::vector<double> values;             // of an integer
+  std::vector<std::string> labels;        // as many as values, or none
+};
+
+struct IsfPass {
+  std::string target;  // empty: the picture
+  bool persistent = false, floats = false;
+  std::string width, height;  // expressions; empty: that of the picture
+  base::Place place, widthPlace, heightPlace;
+};
+
+struct IsfImported {
+  std::string name, path;
+  base::Place place;
+};
+
+struct IsfHeader {
+  std::string description, credit;
+  std::vector<IsfInput> inputs;
+  std::vector<IsfPass> passes;  // at least one
+  std::vector<IsfImported> imported;
+};
+
+// Whether the text begins with a comment that holds an object, perhaps behind comments of //.
+bool looksLikeIsf(std::string_view text);
+
+// Mistakes of form are W002 to W013 and W220; what Weft has no counterpart for is W221.
+std::optional<IsfHeader> readIsfHeader(std::string_view text, const std::shared_ptr<const std::string>& file,
+                                       base::Diagnostics& diagnostics);
+
+// What the things of an ISF file are called in the graph and in the shader. Names that Weft or GLSL 4.5 keep for themselves get
+// a '_' behind them.
+class IsfNames {
+ public:
+  explicit IsfNames(const IsfHeader& header);
+  const std::string& of(std::string_view name) const { return names_.find(name)->second; }
+  const std::map<std::string, std::string, std::less<>>& all() const { return names_; }
+  // A name for something of the graph alone, that nothing else has.
+  std::string fresh(std::string_view wanted);
+
+ private:
+  std::map<std::string, std::string, std::less<>> names_;
+  std::set<std::string, std::less<>> used_;
+};
+
+struct IsfShader {
+  std::vector<ConvertedText> texts;
+  std::string fragment, vertex;  // paths below shaders/; `vertex` is empty without one
+  // Images that the shader reads, by their names in the file, and those of them that stand elsewhere than in the functions
+  // of ISF, so that they must always be there.
+  std::set<std::string, std::less<>> read, needed;
+  bool usesDate = false;
+};
+std::optional<IsfShader> translateIsfShader(const IsfSource& source, const ConvertOptions& options,
+                                            const IsfHeader& header, const IsfNames& names,
+                                            base::Diagnostics& diagnostics);
+
+// The slot of what the shader draws.
+constexpr std::string_view kIsfOutput = "isf_FragColor";
+
+}  // namespace weft::convert
