@@ -98,7 +98,7 @@ OUTSIDE = {
     "GL/": {"gl"},
     "GLFW/": {"gl", "app"},
     "stb_": {"assets"}, "stb/": {"assets"}, "tinyexr": {"assets"}, "assimp/": {"assets"},
-    "glm/": {"scene", "passes", "imports", "runtime", "app"},
+    "glm/": {"assets", "scene", "passes", "imports", "runtime", "app"},
     "CLI/": {"app"}, "imgui": {"app"}, "benchmark/": {"app"}, "tbb/": {"scene"},
 }
 

@@ -5,72 +5,94 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/assets/box.h"
 #include "engine/assets/images/image.h"
 
 namespace weft::assets {
 
-using Float2 = std::array<float, 2>;
-using Float3 = std::array<float, 3>;
-using Float4 = std::array<float, 4>;
-using Matrix4 = std::array<float, 16>;  // column-major
-
 constexpr std::uint32_t kNoRow = 0xffffffffu;
 
 // A texture has one use: equal texels that are used as colour and as numbers are two textures.
-struct ModelTexture {
+struct Texture {
   std::string name;                     // the file's, or what the model calls it
   std::shared_ptr<const Image8> image;  // 4 channels, row 0 on top
-  bool srgb = false;                    // colour (base, emissive): to be decoded
+  bool srgb = false;                    // colour (albedo, emissive): to be decoded
   std::uint64_t content = 0;            // hash of size, texels and srgb; equal contents are one row
 };
 
-struct ModelMaterial {
+struct Material {
   std::string name;
-  Float3 baseColor{1, 1, 1};  // linear; factors of the maps
-  float metallic = 0, roughness = 1;
-  Float3 emissive{0, 0, 0};  // linear, scene-referred
-  float alpha = 1;
-  bool blend = false;
-  float alphaCutoff = 0;  // over 0: mask
+  glm::vec3 albedo{
+      0.5f};  // linear; F0 of a metal. Like all numbers here a factor of its map, where there is one
+  float metallic = 0;
+  float roughness = 0.5f;  // perceptual
+  glm::vec3 emissive{0};   // linear, scene-referred
+  float alpha = 1;         // below 1 only where the material blends: such an instance is transparent
+  float alphaCutoff = 0;   // over 0: texels whose alpha is below it are holes
+  bool blend = false;      // alpha of factor and map is coverage
   float normalScale = 1, occlusionStrength = 1;
-  bool blinnPhong = false;  // what the file has; metallic and roughness are a conversion then
-  Float3 specular{0, 0, 0};
+  // Where the file has these (OBJ, FBX). Metallic and roughness are then a conversion: docs/scenes.md.
+  bool blinnPhong = false;
+  glm::vec3 specular{0};
   float shininess = 0;
   bool doubleSided = false;
-  // Rows of Model::textures, or kNoRow. Roughness is g, metallic b, occlusion r.
-  std::uint32_t baseColorMap = kNoRow, normalMap = kNoRow, metallicRoughnessMap = kNoRow,
-                occlusionMap = kNoRow, emissiveMap = kNoRow;
+  // Rows of the textures of the model, or of the scene, or kNoRow. Channels are those of glTF: roughness is g, metallic b,
+  // occlusion r.
+  std::uint32_t albedoMap = kNoRow, normalMap = kNoRow, metallicRoughnessMap = kNoRow, occlusionMap = kNoRow,
+                emissiveMap = kNoRow;
 };
 
-struct ModelVertex {
-  Float3 position{}, normal{0, 0, 1};
-  Float4 tangent{1, 0, 0, 1};  // w: the sign of the bitangent, cross(normal, tangent) * w
-  Float2 uv{};
+struct Vertex {
+  glm::vec3 position{0}, normal{0, 0, 1};
+  glm::vec4 tangent{1, 0, 0, 1};  // w is the sign of the bitangent: cross(normal, tangent) * w
+  glm::vec2 uv{0};                // (0,0) is the top left of the image
+};
+static_assert(sizeof(Vertex) == 48);
+
+struct SkinVertex {
+  std::array<std::uint16_t, 4> joints{};  // rows of the skin's joints, heaviest first
+  std::array<float, 4> weights{};         // add up to 1, or are all 0: not skinned
+};
+static_assert(sizeof(SkinVertex) == 24);
+
+// Triangles, counter-clockwise seen from outside.
+struct MeshData {
+  std::vector<Vertex> vertices;
+  std::vector<SkinVertex> skin;  // parallel to vertices, or empty: no mesh is skinned
+  // Parallel to vertices, or empty: all are white. Linear; a factor of the material's albedo and alpha.
+  std::vector<glm::vec4> colors;
+  std::vector<std::uint32_t> indices;
 };
 
-// Rows of the skin's joints, heaviest first; the weights add up to 1, or are all 0 where the mesh has no skin.
-struct ModelSkinVertex {
-  std::array<std::uint16_t, 4> joints{};
-  Float4 weights{};
-};
-
-// A range of Model::vertices and ::indices; indices count from firstVertex.
-struct ModelMesh {
+// A range of MeshData.
+struct Mesh {
   std::string name;
-  std::uint32_t firstVertex = 0, vertexCount = 0, firstIndex = 0, indexCount = 0;
+  std::uint32_t firstVertex = 0, vertexCount = 0;
+  std::uint32_t firstIndex = 0, indexCount = 0;  // indices count from firstVertex
+  Box bounds{};                                  // of the vertices as they are in the file
   bool skinned = false;
+  // Per row of the skin, the box of the vertices that this joint moves. A skinned vertex is a mean of what its joints make of
+  // it, so it lies in the box of these boxes, each moved by its joint. Empty unless skinned.
+  std::vector<Box> jointBounds{};
+};
+
+struct Transform {
+  glm::vec3 translation{0};
+  glm::quat rotation{1, 0, 0, 0};  // unit
+  glm::vec3 scale{1};
+  friend bool operator==(const Transform&, const Transform&) = default;
 };
 
 struct ModelNode {
   std::string name;
   std::uint32_t parent = kNoRow;  // an earlier row
-  Float3 translation{0, 0, 0};
-  Float4 rotation{0, 0, 0, 1};  // quaternion x y z w, unit
-  Float3 scale{1, 1, 1};
+  Transform local{};
 };
 
 struct ModelInstance {
@@ -80,20 +102,20 @@ struct ModelInstance {
 
 enum class ModelLightKind : std::uint8_t { sun, point, spot };
 
-// At the origin of a node; a sun and a spot shine along its -Z. How the node is scaled is of no account.
+// At the origin of a node; a sun and a spot shine along its -Z. The scale of the node is ignored.
 struct ModelLight {
   std::string name;
   std::uint32_t node = 0;
   ModelLightKind kind = ModelLightKind::point;
-  Float3 color{1, 1, 1};       // linear; a factor per channel
+  glm::vec3 color{1};          // linear; a factor per channel
   float intensity = 1;         // of a sun lux on what faces it, of the others candela
   float range = 0;             // beyond it there is no light; 0: endless
   float inner = 0, outer = 0;  // half angles of a spot's cones, radians
 };
 
 struct ModelSkin {
-  std::vector<std::uint32_t> joints;  // nodes
-  std::vector<Matrix4> inverseBind;   // parallel to joints
+  std::vector<std::uint32_t> joints;   // nodes
+  std::vector<glm::mat4> inverseBind;  // parallel to joints: from the mesh to the joint
 };
 
 enum class TrackPath : std::uint8_t { translation, rotation, scale };
@@ -104,8 +126,8 @@ struct ModelTrack {
   std::uint32_t node = 0;
   TrackPath path = TrackPath::translation;
   TrackInterpolation interpolation = TrackInterpolation::linear;
-  std::vector<float> times;    // seconds, ascending
-  std::vector<Float4> values;  // translation and scale leave w alone
+  std::vector<float> times;       // seconds, ascending
+  std::vector<glm::vec4> values;  // a rotation is a quaternion x y z w; translation and scale leave w alone
 };
 
 struct ModelAnimation {
@@ -114,16 +136,11 @@ struct ModelAnimation {
   std::vector<ModelTrack> tracks;
 };
 
-struct Model {
+struct Model : MeshData {
   std::string name;
-  std::vector<ModelTexture> textures;
-  std::vector<ModelMaterial> materials;  // at least one when there is an instance
-  std::vector<ModelVertex> vertices;
-  std::vector<ModelSkinVertex> skinVertices;  // parallel to vertices, or empty: no mesh is skinned
-  // Parallel to vertices, or empty: all are white. Linear, 0 to 1; a factor of base colour and alpha.
-  std::vector<Float4> colors;
-  std::vector<std::uint32_t> indices;
-  std::vector<ModelMesh> meshes;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;  // at least one when there is an instance
+  std::vector<Mesh> meshes;
   std::vector<ModelNode> nodes;
   std::vector<ModelInstance> instances;
   std::vector<ModelSkin> skins;

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "engine/scene/box.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/mesh.h"
 #include "engine/scene/scene.h"
 
 namespace weft::scene {

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,12 +12,7 @@
 
 namespace weft::scene {
 
-struct Transform {
-  glm::vec3 translation{0};
-  glm::quat rotation{1, 0, 0, 0};
-  glm::vec3 scale{1};
-  friend bool operator==(const Transform&, const Transform&) = default;
-};
+using assets::Transform;
 glm::mat4 matrixOf(const Transform& transform);
 
 struct Node {

@@ -14,12 +14,15 @@
 #include "engine/scene/camera.h"
 #include "engine/scene/ground.h"
 #include "engine/scene/light.h"
-#include "engine/scene/material.h"
 #include "engine/scene/mesh.h"
 #include "engine/scene/node.h"
 #include "engine/scene/table.h"
 
 namespace weft::scene {
+
+using assets::Material;
+using assets::Texture;
+using MaterialId = Table<Material>::Id;
 
 // The draw lists a graph may name. A list holds spheres and mesh instances; each may stand in several.
 enum class DrawList : std::uint8_t { spheres, opaque, shadow_casters, transparent_spheres, transparent };

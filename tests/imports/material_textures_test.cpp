@@ -9,7 +9,7 @@ using namespace weft::imports;
 
 namespace {
 
-scene::TextureId add(scene::Scene& scene, int width, int height, bool srgb) {
+auto add(scene::Scene& scene, int width, int height, bool srgb) {
   auto image = std::make_shared<assets::Image8>();
   image->width = width;
   image->height = height;

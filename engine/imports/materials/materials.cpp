@@ -47,9 +47,8 @@ const Columns<MaterialRow>& materialColumns() {
 
 std::vector<MaterialRow> rowsOf(const scene::Scene& scene) {
   const std::vector<std::uint32_t> maps = mapsOf(batchTextures(scene), scene.textures.size());
-  const auto mapOf = [&](scene::TextureId id) {
-    const scene::Texture* texture = scene.textures.find(id);
-    return texture ? maps[static_cast<std::size_t>(texture - scene.textures.rows().data())] : kNoMap;
+  const auto mapOf = [&](std::uint32_t texture) {
+    return texture == assets::kNoRow ? kNoMap : maps[texture];
   };
   std::vector<MaterialRow> rows;
   for (const scene::Material& material : scene.materials.rows())

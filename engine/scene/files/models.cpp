@@ -57,10 +57,7 @@ const SceneModels::Loaded* SceneModels::load(const std::string& path) {
   loaded = std::make_unique<Loaded>(Loaded{std::move(*model), {}});
   loaded->rows = addModelTables(scene_, *data_, loaded->model);
   // They are in the scene's arrays now.
-  loaded->model.vertices = {};
-  loaded->model.skinVertices = {};
-  loaded->model.colors = {};
-  loaded->model.indices = {};
+  static_cast<MeshData&>(loaded->model) = {};
   return loaded.get();
 }
 

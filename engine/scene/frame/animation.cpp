@@ -11,11 +11,6 @@ using assets::ModelTrack;
 using assets::TrackInterpolation;
 using assets::TrackPath;
 
-glm::vec4 valueAt(const ModelTrack& track, std::size_t index) {
-  const assets::Float4& v = track.values[index];
-  return {v[0], v[1], v[2], v[3]};
-}
-
 glm::vec4 slerp(glm::vec4 a, glm::vec4 b, float f) {
   float cosine = glm::dot(a, b);
   if (cosine < 0) {
@@ -32,7 +27,7 @@ glm::vec4 slerp(glm::vec4 a, glm::vec4 b, float f) {
 glm::vec4 sampleTrack(const ModelTrack& track, float time) {
   const std::vector<float>& times = track.times;
   const bool cubic = track.interpolation == TrackInterpolation::cubic;
-  const auto key = [&](std::size_t i) { return valueAt(track, cubic ? 3 * i + 1 : i); };
+  const auto key = [&](std::size_t i) { return track.values[cubic ? 3 * i + 1 : i]; };
   const std::size_t after =
       static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
   if (after == 0) return key(0);
@@ -42,7 +37,7 @@ glm::vec4 sampleTrack(const ModelTrack& track, float time) {
   const float span = times[b] - times[a], f = (time - times[a]) / span;
   const bool rotation = track.path == TrackPath::rotation;
   if (!cubic) return rotation ? slerp(key(a), key(b), f) : key(a) + (key(b) - key(a)) * f;
-  const glm::vec4 leaving = valueAt(track, 3 * a + 2) * span, arriving = valueAt(track, 3 * b) * span;
+  const glm::vec4 leaving = track.values[3 * a + 2] * span, arriving = track.values[3 * b] * span;
   const float f2 = f * f, f3 = f2 * f;
   const glm::vec4 v = key(a) * (2 * f3 - 3 * f2 + 1) + leaving * (f3 - 2 * f2 + f) +
                       key(b) * (3 * f2 - 2 * f3) + arriving * (f3 - f2);

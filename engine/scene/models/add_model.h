@@ -13,7 +13,6 @@ namespace weft::scene {
 
 // What all copies share: rows of the scene, parallel to the model's tables.
 struct ModelRows {
-  std::vector<TextureId> textures;
   std::vector<MaterialId> materials;
   std::vector<MeshId> meshes;
 };

@@ -46,7 +46,7 @@ TEST_CASE("Assimp passes over the strength of what shines") {
        {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}}}}};
   maker.document["meshes"][0]["primitives"][0]["material"] = 0;
   const Both both(maker);
-  CHECK(both.mine.materials[0].emissive == Float3{8, 4, 0});
+  CHECK(both.mine.materials[0].emissive == glm::vec3{8, 4, 0});
   const aiMaterial& material = *both.theirs->mMaterials[both.theirs->mMeshes[0]->mMaterialIndex];
   aiColor3D color;
   float strength = 0;

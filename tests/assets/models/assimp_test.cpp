@@ -70,22 +70,22 @@ TEST_CASE("OBJ: Blinn-Phong as it is, and its conversion") {
                                             "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl plastic\nf 1 2 "
                                             "3\nusemtl glass\nf 1 2 3\nusemtl chrome\nf 1 2 3\n"));
   REQUIRE(model.instances.size() == 3);
-  const auto materialOf = [&](const char* name) -> const ModelMaterial& {
-    return *std::ranges::find(model.materials, name, &ModelMaterial::name);
+  const auto materialOf = [&](const char* name) -> const Material& {
+    return *std::ranges::find(model.materials, name, &Material::name);
   };
-  const ModelMaterial &plastic = materialOf("plastic"), &glass = materialOf("glass"),
-                      &chrome = materialOf("chrome");
+  const Material &plastic = materialOf("plastic"), &glass = materialOf("glass"),
+                 &chrome = materialOf("chrome");
   CHECK(plastic.blinnPhong);
-  CHECK(plastic.baseColor == Float3{0.2f, 0.4f, 0.6f});
-  CHECK(plastic.specular == Float3{0.5f, 0.5f, 0.5f});
+  CHECK(plastic.albedo == glm::vec3{0.2f, 0.4f, 0.6f});
+  CHECK(plastic.specular == glm::vec3{0.5f, 0.5f, 0.5f});
   CHECK(plastic.shininess == 30);
-  CHECK(plastic.emissive == Float3{1, 0, 0});
+  CHECK(plastic.emissive == glm::vec3{1, 0, 0});
   CHECK(plastic.metallic == 0);
   CHECK(plastic.roughness == doctest::Approx(0.5));  // (2 / 32) to the fourth root
   CHECK(glass.blend);
   CHECK(glass.alpha == 0.25f);
   CHECK(chrome.metallic == 1);
-  CHECK(chrome.baseColor == Float3{0.9f, 0.8f, 0.7f});
+  CHECK(chrome.albedo == glm::vec3{0.9f, 0.8f, 0.7f});
 }
 
 TEST_CASE("OBJ: polygons, equal vertices, uv from the top, maps of other machines' paths") {
@@ -111,16 +111,15 @@ TEST_CASE("OBJ: polygons, equal vertices, uv from the top, maps of other machine
   CHECK(model->meshes[0].vertexCount == 4);
   CHECK(model->meshes[0].indexCount == 6);
   for (std::uint32_t v = 0; v < 4; ++v) {
-    const ModelVertex& vertex = model->vertices[v];
-    CHECK(vertex.uv == Float2{vertex.position[0], 1 - vertex.position[1]});
-    CHECK(vertex.tangent == Float4{1, 0, 0, 1});
+    const Vertex& vertex = model->vertices[v];
+    CHECK(vertex.uv == glm::vec2{vertex.position[0], 1 - vertex.position[1]});
+    CHECK(vertex.tangent == glm::vec4{1, 0, 0, 1});
   }
-  const auto named = [&](const char* name) -> const ModelMaterial& {
-    return *std::ranges::find(model->materials, name, &ModelMaterial::name);
+  const auto named = [&](const char* name) -> const Material& {
+    return *std::ranges::find(model->materials, name, &Material::name);
   };
-  CHECK(model->textures[named("a").baseColorMap].image->texels ==
-        std::vector<std::uint8_t>{200, 10, 20, 255});
-  CHECK(model->textures[named("a").baseColorMap].srgb);
+  CHECK(model->textures[named("a").albedoMap].image->texels == std::vector<std::uint8_t>{200, 10, 20, 255});
+  CHECK(model->textures[named("a").albedoMap].srgb);
   REQUIRE(named("a").normalMap != kNoRow);
   CHECK_FALSE(model->textures[named("a").normalMap].srgb);
   CHECK(named("b").normalMap == kNoRow);
@@ -144,11 +143,12 @@ TEST_CASE("OBJ: the vertex colours are sRGB, and equal places with other colours
                    "v 0 1 0 0 0 -1\nv 0 0 0 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nf 5//1 2//1 3//1\n"));
   REQUIRE(model.vertices.size() == 5);
   REQUIRE(model.colors.size() == 5);
-  const std::vector<std::pair<Float3, Float3>> wanted = {{{0, 0, 0}, {1, 0, 0}},
-                                                         {{1, 0, 0}, {0.5f, 0.04045f / 12.92f, 1}},
-                                                         {{1, 1, 0}, {0.2140411f, 0.2140411f, 0.2140411f}},
-                                                         {{0, 1, 0}, {0, 0, 0}},
-                                                         {{0, 0, 0}, {0, 1, 0}}};
+  const std::vector<std::pair<glm::vec3, glm::vec3>> wanted = {
+      {{0, 0, 0}, {1, 0, 0}},
+      {{1, 0, 0}, {0.5f, 0.04045f / 12.92f, 1}},
+      {{1, 1, 0}, {0.2140411f, 0.2140411f, 0.2140411f}},
+      {{0, 1, 0}, {0, 0, 0}},
+      {{0, 0, 0}, {0, 1, 0}}};
   for (const auto& [position, color] : wanted) {
     CAPTURE(color[0]);
     const auto isThis = [&](std::size_t v) {
@@ -236,13 +236,13 @@ TEST_CASE("FBX, binary and text: the fox, its nodes, weights and animations") {
       const ModelSkin& skin = m.skins[0];
       std::array<double, 3> sum{};
       for (std::size_t i = 0; i < 4; ++i) {
-        if (!(m.skinVertices[v].weights[i] > 0)) continue;
-        const std::size_t joint = m.skinVertices[v].joints[i];
-        const Matrix4 to = test::multiply(worldOf(m, skin.joints[joint]), skin.inverseBind[joint]);
-        const Float3& p = m.vertices[v].position;
-        for (std::size_t r = 0; r < 3; ++r)
-          sum[r] += double(m.skinVertices[v].weights[i]) *
-                    (to[r] * p[0] + to[4 + r] * p[1] + to[8 + r] * p[2] + to[12 + r]);
+        if (!(m.skin[v].weights[i] > 0)) continue;
+        const std::size_t joint = m.skin[v].joints[i];
+        const glm::mat4 to = worldOf(m, skin.joints[joint]) * skin.inverseBind[joint];
+        const glm::vec3& p = m.vertices[v].position;
+        const glm::vec4 moved = to * glm::vec4(p, 1);
+        for (int r = 0; r < 3; ++r)
+          sum[static_cast<std::size_t>(r)] += double(m.skin[v].weights[i]) * moved[r];
       }
       return sum;
     };

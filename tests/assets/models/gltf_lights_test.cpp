@@ -55,10 +55,10 @@ TEST_CASE("every value of a light arrives, and what a file leaves out is what th
   CHECK(day.kind == ModelLightKind::sun);
   CHECK(day.name == "day");
   CHECK(day.intensity == 5000);
-  CHECK(day.color == Float3{1, 1, 1});
+  CHECK(day.color == glm::vec3{1, 1, 1});
   CHECK(lamp.kind == ModelLightKind::point);
   CHECK(lamp.name == "light 1");
-  CHECK(lamp.color == Float3{1, 0.5f, 0});
+  CHECK(lamp.color == glm::vec3{1, 0.5f, 0});
   CHECK(lamp.intensity == 1);
   CHECK(lamp.range == 7);
   CHECK(aimed.kind == ModelLightKind::spot);
@@ -101,8 +101,9 @@ TEST_CASE("lights are those that Assimp reads, at the same nodes") {
     for (const ModelLight& mine : model.lights) {
       if (kinds[static_cast<int>(mine.kind)] != other.mType) continue;
       ++compared;
-      for (unsigned c = 0; c < 3; ++c)
-        CHECK(mine.color[c] * mine.intensity == doctest::Approx(other.mColorDiffuse[c]));
+      for (int c = 0; c < 3; ++c)
+        CHECK(mine.color[c] * mine.intensity ==
+              doctest::Approx(other.mColorDiffuse[static_cast<unsigned>(c)]));
       if (mine.kind == ModelLightKind::spot) {
         CHECK(mine.inner == doctest::Approx(other.mAngleInnerCone));
         CHECK(mine.outer == doctest::Approx(other.mAngleOuterCone));
@@ -112,17 +113,17 @@ TEST_CASE("lights are those that Assimp reads, at the same nodes") {
       for (const aiNode* node = scene->mRootNode->FindNode(other.mName); node; node = node->mParent)
         world = node->mTransformation * world;
       const aiVector3D at = world * other.mPosition, to = (aiMatrix3x3(world) * other.mDirection).Normalize();
-      const Matrix4 m = test::worldOf(model, mine.node);
-      const double length = std::hypot(m[8], m[9], m[10]);
-      for (unsigned c = 0; c < 3; ++c) {
-        CHECK(m[12 + c] == doctest::Approx(at[c]).scale(1));
+      const glm::mat4 m = test::worldOf(model, mine.node);
+      const double length = std::hypot(m[2][0], m[2][1], m[2][2]);
+      for (int c = 0; c < 3; ++c) {
+        CHECK(m[3][c] == doctest::Approx(at[static_cast<unsigned>(c)]).scale(1));
         if (mine.kind != ModelLightKind::point)
-          CHECK(-m[8 + c] / length == doctest::Approx(to[c]).epsilon(1e-5).scale(1));
+          CHECK(-m[2][c] / length == doctest::Approx(to[static_cast<unsigned>(c)]).epsilon(1e-5).scale(1));
       }
       if (mine.kind == ModelLightKind::spot) {
         // By hand: (1, 2, 3) and what a quarter turn makes of (0, 0, 2); it shines down.
-        CHECK(m[12] == doctest::Approx(3));
-        CHECK(-m[9] / length == doctest::Approx(-1));
+        CHECK(m[3][0] == doctest::Approx(3));
+        CHECK(-m[2][1] / length == doctest::Approx(-1));
       }
     }
   }

@@ -34,7 +34,7 @@ const unsigned char kRedBytes[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0
                                    0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 const std::string kRedPng(reinterpret_cast<const char*>(kRedBytes), sizeof kRedBytes);
 
-double distance(const Float3& a, const aiVector3D& b) {
+double distance(const glm::vec3& a, const aiVector3D& b) {
   return std::max({std::abs(a[0] - b.x), std::abs(a[1] - b.y), std::abs(a[2] - b.z)});
 }
 
@@ -42,10 +42,10 @@ void compareNodes(const aiNode& node, const aiMatrix4x4& parent, const Model& mo
   const aiMatrix4x4 world = parent * node.mTransformation;
   for (std::uint32_t row = 0; row < model.nodes.size(); ++row) {
     if (model.nodes[row].name != node.mName.C_Str()) continue;
-    const Matrix4 mine = worldOf(model, row);
-    for (unsigned r = 0; r < 4; ++r)
-      for (unsigned c = 0; c < 4; ++c)
-        CHECK(mine[c * 4 + r] == doctest::Approx(world[r][c]).epsilon(1e-4).scale(1));
+    const glm::mat4 mine = worldOf(model, row);
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c < 4; ++c)
+        CHECK(mine[c][r] == doctest::Approx(world[static_cast<unsigned>(r)][c]).epsilon(1e-4).scale(1));
     ++seen;
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) compareNodes(*node.mChildren[i], world, model, seen);
@@ -66,14 +66,13 @@ TEST_CASE("FlightHelmet and Fox hold what Assimp reads from them") {
     CHECK(seen == static_cast<int>(model.nodes.size()));
     for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
       const aiMesh& other = *scene->mMeshes[m];
-      const ModelMesh& mine = model.meshes[m];
+      const Mesh& mine = model.meshes[m];
       REQUIRE(mine.indexCount == other.mNumFaces * 3);
       double worst = 0, worstUv = 0, worstNormal = 0, worstTangent = 0;
       for (unsigned f = 0; f < other.mNumFaces; ++f)
         for (unsigned i = 0; i < 3; ++i) {
           const unsigned theirs = other.mFaces[f].mIndices[i];
-          const ModelVertex& v =
-              model.vertices[mine.firstVertex + model.indices[mine.firstIndex + 3 * f + i]];
+          const Vertex& v = model.vertices[mine.firstVertex + model.indices[mine.firstIndex + 3 * f + i]];
           worst = std::max(worst, distance(v.position, other.mVertices[theirs]));
           const aiVector3D uv = other.mTextureCoords[0][theirs];
           worstUv = std::max<double>({worstUv, std::abs(v.uv[0] - uv.x), std::abs(1 - v.uv[1] - uv.y)});
@@ -98,22 +97,21 @@ TEST_CASE("FlightHelmet: nodes, materials, and textures that are shared") {
   const Model helmet = loadGood(kModels + "FlightHelmet/FlightHelmet.gltf");
   CHECK(helmet.nodes.size() == 6);
   CHECK(helmet.instances.size() == 6);
-  CHECK(helmet.skinVertices.empty());
+  CHECK(helmet.skin.empty());
   CHECK(helmet.files.size() == 17);
   REQUIRE(helmet.materials.size() == 7);  // the last is for meshes without one
-  const ModelMaterial &hose = helmet.materials[0], &rubber = helmet.materials[1],
-                      &lenses = helmet.materials[5];
+  const Material &hose = helmet.materials[0], &rubber = helmet.materials[1], &lenses = helmet.materials[5];
   CHECK(hose.doubleSided);
   CHECK_FALSE(rubber.doubleSided);
-  CHECK(hose.baseColorMap == rubber.baseColorMap);
+  CHECK(hose.albedoMap == rubber.albedoMap);
   CHECK(hose.occlusionMap == hose.metallicRoughnessMap);
-  CHECK(helmet.textures[hose.baseColorMap].srgb);
+  CHECK(helmet.textures[hose.albedoMap].srgb);
   CHECK_FALSE(helmet.textures[hose.normalMap].srgb);
   CHECK_FALSE(helmet.textures[hose.metallicRoughnessMap].srgb);
-  CHECK(helmet.textures[hose.baseColorMap].image->channels == 4);
+  CHECK(helmet.textures[hose.albedoMap].image->channels == 4);
   CHECK(lenses.blend);
   CHECK_FALSE(hose.blend);
-  for (const ModelVertex& v : helmet.vertices) {
+  for (const Vertex& v : helmet.vertices) {
     const double n = double(v.normal[0]) * v.normal[0] + double(v.normal[1]) * v.normal[1] +
                      double(v.normal[2]) * v.normal[2];
     REQUIRE(n == doctest::Approx(1).epsilon(1e-5));
@@ -129,25 +127,25 @@ TEST_CASE("Fox: a skin, three animations, flat normals where the file has none")
   CHECK(fox.animations[1]->name == "Walk");
   CHECK(fox.animations[1]->duration == doctest::Approx(0.708333));
   CHECK(fox.animations[1]->tracks.size() == 21);
-  REQUIRE(fox.skinVertices.size() == fox.vertices.size());
-  for (const ModelSkinVertex& v : fox.skinVertices) {
+  REQUIRE(fox.skin.size() == fox.vertices.size());
+  for (const SkinVertex& v : fox.skin) {
     REQUIRE(v.weights[0] + v.weights[1] + v.weights[2] + v.weights[3] == doctest::Approx(1));
     for (std::size_t i = 0; i < 4; ++i) REQUIRE(v.joints[i] < 24);
   }
-  const ModelMesh& mesh = fox.meshes[0];
+  const Mesh& mesh = fox.meshes[0];
   for (std::uint32_t i = 0; i < mesh.indexCount; i += 3) {
-    const ModelVertex* corner[3];
+    const Vertex* corner[3];
     for (std::uint32_t k = 0; k < 3; ++k)
       corner[k] = &fox.vertices[mesh.firstVertex + fox.indices[mesh.firstIndex + i + k]];
     REQUIRE(corner[0]->normal == corner[1]->normal);
     REQUIRE(corner[0]->normal == corner[2]->normal);
     double edge[2][3], dot = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (int c = 0; c < 3; ++c) {
       edge[0][c] = corner[1]->position[c] - corner[0]->position[c];
       edge[1][c] = corner[2]->position[c] - corner[0]->position[c];
     }
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
+    for (int c = 0; c < 3; ++c) {
+      const int d = (c + 1) % 3, e = (c + 2) % 3;
       dot += (edge[0][d] * edge[1][e] - edge[0][e] * edge[1][d]) * corner[0]->normal[c];
     }
     REQUIRE(dot >= 0);  // counter-clockwise seen from where the normal points
@@ -164,8 +162,8 @@ TEST_CASE(".glb and .gltf with a data URI are the same model") {
   CHECK(a.indices == b.indices);
   for (std::size_t v = 0; v < 4; ++v) CHECK(a.vertices[v].position == b.vertices[v].position);
   // uv goes right and up in the square, so that the tangent is +X and the bitangent, cross(n, t) * w, is +Y.
-  CHECK(a.vertices[0].tangent == Float4{1, 0, 0, 1});
-  CHECK(a.vertices[0].uv == Float2{0, 1});
+  CHECK(a.vertices[0].tangent == glm::vec4{1, 0, 0, 1});
+  CHECK(a.vertices[0].uv == glm::vec2{0, 1});
 }
 
 TEST_CASE("every value of a material arrives") {
@@ -195,24 +193,24 @@ TEST_CASE("every value of a material arrives") {
   const std::string uri = "data:image/png;base64," + GltfMaker::base64(kRedPng);
   maker.document["images"] = {{{"uri", uri}}, {{"uri", uri}}};
   const Model model = make(maker);
-  const ModelMaterial& all = model.materials[0];
-  CHECK(all.baseColor == Float3{0.1f, 0.2f, 0.3f});
+  const Material& all = model.materials[0];
+  CHECK(all.albedo == glm::vec3{0.1f, 0.2f, 0.3f});
   CHECK(all.alpha == 0.5f);
   CHECK(all.blend);
   CHECK(all.metallic == 0.25f);
   CHECK(all.roughness == 0.75f);
   CHECK(all.normalScale == 0.5f);
   CHECK(all.occlusionStrength == 0.25f);
-  CHECK(all.emissive == Float3{8, 4, 0});
+  CHECK(all.emissive == glm::vec3{8, 4, 0});
   CHECK(all.doubleSided);
   CHECK_FALSE(all.blinnPhong);
   // Two images of equal bytes, used as colours and as numbers: two textures, not five.
   CHECK(model.textures.size() == 2);
-  CHECK(all.baseColorMap == all.emissiveMap);
+  CHECK(all.albedoMap == all.emissiveMap);
   CHECK(all.normalMap == all.metallicRoughnessMap);
-  CHECK(model.textures[all.baseColorMap].image->texels == std::vector<std::uint8_t>{128, 0, 0, 255});
-  CHECK(model.textures[all.baseColorMap].content != model.textures[all.normalMap].content);
-  const ModelMaterial& mask = model.materials[1];
+  CHECK(model.textures[all.albedoMap].image->texels == std::vector<std::uint8_t>{128, 0, 0, 255});
+  CHECK(model.textures[all.albedoMap].content != model.textures[all.normalMap].content);
+  const Material& mask = model.materials[1];
   CHECK(mask.alphaCutoff == 1);  // 0.5 of 0.5: the factor is in it
   CHECK_FALSE(mask.blend);
   CHECK(mask.metallic == 1);
@@ -239,7 +237,7 @@ TEST_CASE("uv are moved as KHR_texture_transform says; maps that want another se
   const Model model = make(maker, 1);
   CHECK(model.materials[0].emissiveMap == kNoRow);
   // Scaled, turned counter-clockwise as uv are drawn (v downwards), then moved: (1, 1) to (2, 4) to (4, -2).
-  const Float2 uv = model.vertices[1].uv;  // of (1, 1)
+  const glm::vec2 uv = model.vertices[1].uv;  // of (1, 1)
   CHECK(uv[0] == doctest::Approx(0.5 + 4));
   CHECK(uv[1] == doctest::Approx(0.25 - 2));
 }
@@ -251,7 +249,7 @@ TEST_CASE("normalised and whole components, strips, fans, and sparse accessors")
   primitive["attributes"]["TEXCOORD_0"] =
       maker.accessor(std::vector<std::uint16_t>{0, 65535, 65535, 65535, 65535, 0, 0, 0}, 2, "VEC2", 5123);
   maker.document["accessors"].back()["normalized"] = true;
-  CHECK(make(maker).vertices[2].uv == Float2{1, 0});
+  CHECK(make(maker).vertices[2].uv == glm::vec2{1, 0});
 
   primitive["mode"] = 5;
   primitive["indices"] = maker.shorts({0, 1, 3, 2});
@@ -268,8 +266,8 @@ TEST_CASE("normalised and whole components, strips, fans, and sparse accessors")
        {{"bufferView", maker.document["accessors"][index]["bufferView"]}, {"componentType", 5123}}},
       {"values", {{"bufferView", maker.document["accessors"][value]["bufferView"]}}}};
   const Model sparse = make(maker);
-  CHECK(sparse.vertices[2].position == Float3{5, 6, 7});
-  CHECK(sparse.vertices[1].position == Float3{1, 0, 0});
+  CHECK(sparse.vertices[2].position == glm::vec3{5, 6, 7});
+  CHECK(sparse.vertices[1].position == glm::vec3{1, 0, 0});
 }
 
 TEST_CASE("points are left out, with a warning") {
@@ -292,9 +290,9 @@ TEST_CASE("nodes: matrices are taken apart, mirrors turn the winding, and what n
   maker.document["scenes"] = {{{"nodes", {0, 1}}}};
   const Model model = make(maker);
   REQUIRE(model.instances.size() == 3);
-  const Matrix4 wanted = {0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 3, 0, 7, 8, 9, 1};
-  const Matrix4 got = worldOf(model, model.instances[0].node);
-  for (std::size_t i = 0; i < 16; ++i) CHECK(got[i] == doctest::Approx(wanted[i]).scale(1));
+  const glm::mat4 wanted(0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 3, 0, 7, 8, 9, 1);
+  const glm::mat4 got = worldOf(model, model.instances[0].node);
+  for (int i = 0; i < 16; ++i) CHECK(got[i / 4][i % 4] == doctest::Approx(wanted[i / 4][i % 4]).scale(1));
   REQUIRE(model.meshes.size() == 2);  // as it is, and turned: sharing the vertices
   CHECK(model.vertices.size() == 4);
   CHECK(model.instances[0].mesh == 0);
@@ -313,7 +311,7 @@ TEST_CASE("tangents are split where uv are mirrored, and stand at right angles t
   CHECK(model.vertices.size() == 6);
   int negative = 0;
   for (std::size_t corner = 0; corner < 6; ++corner) {
-    const ModelVertex& v = model.vertices[model.indices[corner]];
+    const Vertex& v = model.vertices[model.indices[corner]];
     CHECK(std::abs(v.tangent[0] * v.normal[0] + v.tangent[1] * v.normal[1] + v.tangent[2] * v.normal[2]) <
           1e-6f);
     negative += v.tangent[3] < 0 ? 1 : 0;
@@ -349,9 +347,9 @@ TEST_CASE("a vertex keeps its four heaviest joints") {
   CHECK(model.instances[1].skin == kNoRow);
   CHECK(model.meshes[model.instances[0].mesh].skinned);
   CHECK_FALSE(model.meshes[model.instances[1].mesh].skinned);  // the same mesh without its weights
-  const ModelSkinVertex& v = model.skinVertices[0];
+  const SkinVertex& v = model.skin[0];
   CHECK(v.joints == std::array<std::uint16_t, 4>{1, 1, 0, 0});
   CHECK(v.weights[0] == doctest::Approx(0.3 / 0.85));
   CHECK(v.weights[3] == doctest::Approx(0.1 / 0.85));
-  for (const float weight : model.skinVertices[4].weights) CHECK(weight == 0);
+  for (const float weight : model.skin[4].weights) CHECK(weight == 0);
 }

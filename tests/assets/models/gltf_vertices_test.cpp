@@ -59,7 +59,8 @@ TEST_CASE(
   GltfMaker maker = squareModel();
   // Floats are clamped, as glTF 2.0, 3.7.2.1 says.
   const Model floats = make(colored(maker, maker.floats({1, 0, 0, 0, 0.5, 0, 2, -1, 0.25f, 1, 1, 1}, 3)));
-  CHECK(floats.colors == std::vector<Float4>{{1, 0, 0, 1}, {0, 0.5f, 0, 1}, {1, 0, 0.25f, 1}, {1, 1, 1, 1}});
+  CHECK(floats.colors ==
+        std::vector<glm::vec4>{{1, 0, 0, 1}, {0, 0.5f, 0, 1}, {1, 0, 0.25f, 1}, {1, 1, 1, 1}});
 
   maker = squareModel();
   const std::vector<std::uint8_t> bytes = {255, 0, 51, 255, 0, 255, 0, 0, 102, 102, 102, 153, 0, 0, 0, 255};
@@ -92,9 +93,9 @@ TEST_CASE(
   REQUIRE(mixed.colors.size() == 12);
   for (std::size_t v = 0; v < 12; ++v)
     CHECK(mixed.colors[v] == (v / 4 == 1
-                                  ? Float4{mixed.vertices[v].position[0], mixed.vertices[v].position[1],
-                                           mixed.vertices[v].position[2], 1}
-                                  : Float4{1, 1, 1, 1}));
+                                  ? glm::vec4{mixed.vertices[v].position[0], mixed.vertices[v].position[1],
+                                              mixed.vertices[v].position[2], 1}
+                                  : glm::vec4{1, 1, 1, 1}));
 }
 
 TEST_CASE("vertex colours are those that Assimp reads, also where vertices are taken apart") {
@@ -116,8 +117,8 @@ TEST_CASE("vertex colours are those that Assimp reads, also where vertices are t
     for (unsigned f = 0; f < other.mNumFaces; ++f)
       for (unsigned i = 0; i < 3; ++i) {
         const aiColor4D& theirs = other.mColors[0][other.mFaces[f].mIndices[i]];
-        const Float4& mine = model.colors[model.indices[3 * f + i]];
-        CHECK(mine == Float4{theirs.r, theirs.g, theirs.b, theirs.a});
+        const glm::vec4& mine = model.colors[model.indices[3 * f + i]];
+        CHECK(mine == glm::vec4{theirs.r, theirs.g, theirs.b, theirs.a});
       }
   }
 }
@@ -139,13 +140,13 @@ TEST_CASE("vertex colours that lie") {
 }
 
 TEST_CASE("morph targets move a mesh as far as its weights or its node's say") {
-  CHECK(make(morphed()).vertices[2].position == Float3{1, 1, 0});  // no weights
+  CHECK(make(morphed()).vertices[2].position == glm::vec3{1, 1, 0});  // no weights
   GltfMaker maker = morphed();
   maker.document["meshes"][0]["weights"] = {0.5, 2};
   const Model model = make(maker);
-  CHECK(model.vertices[2].position == Float3{3, 1, 0.5f});
-  CHECK(model.vertices[0].position == Float3{2, 0, 0});
-  CHECK(model.vertices[0].normal == Float3{0, 0, 1});
+  CHECK(model.vertices[2].position == glm::vec3{3, 1, 0.5f});
+  CHECK(model.vertices[0].position == glm::vec3{2, 0, 0});
+  CHECK(model.vertices[0].normal == glm::vec3{0, 0, 1});
   // (0, 0, 1) and half of (1, 0, -1).
   for (const std::size_t c : {0u, 2u}) CHECK(model.vertices[2].normal[c] == doctest::Approx(std::sqrt(0.5)));
 
@@ -157,8 +158,8 @@ TEST_CASE("morph targets move a mesh as far as its weights or its node's say") {
   REQUIRE(own.meshes.size() == 2);
   REQUIRE(own.instances.size() == 3);
   CHECK(own.instances[1].mesh == own.instances[2].mesh);
-  const ModelMesh& second = own.meshes[own.instances[1].mesh];
-  CHECK(own.vertices[second.firstVertex + 2].position == Float3{1, 1, 1});
+  const Mesh& second = own.meshes[own.instances[1].mesh];
+  CHECK(own.vertices[second.firstVertex + 2].position == glm::vec3{1, 1, 1});
 
   // Without normals those of the moved triangles.
   maker = morphed();
@@ -183,7 +184,7 @@ TEST_CASE("moving morph targets are left out with one warning; the mesh stays as
   REQUIRE_MESSAGE(diagnostics.size() == 1, diagnostics.text());
   CHECK(diagnostics.items()[0].code == Code::modelPartLeftOut);
   CHECK(diagnostics.items()[0].message == "the moving morph targets of animation 'smile' were left out");
-  CHECK(model->vertices[2].position == Float3{1, 1, 1});
+  CHECK(model->vertices[2].position == glm::vec3{1, 1, 1});
 }
 
 TEST_CASE("morph targets that lie") {
@@ -195,7 +196,7 @@ TEST_CASE("morph targets that lie") {
   CHECK(failureOf(weighted({1e300, 0})).code == Code::badModelValue);
   CHECK(failureOf(weighted({"x"})).code == Code::badModelValue);
   CHECK(make(weighted({0, 0, 5, 5, 5})).vertices[0].position ==
-        Float3{0, 0, 0});  // of targets that are not there
+        glm::vec3{0, 0, 0});  // of targets that are not there
   GltfMaker maker = weighted({0, 1e9});
   primitive(maker)["targets"][1]["POSITION"] = maker.floats({3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 3);
   CHECK(failureOf(maker).expected == "positions within 1000000000");

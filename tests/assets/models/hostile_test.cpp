@@ -175,7 +175,7 @@ TEST_CASE("numbers that are none, or too large") {
   base::Diagnostics diagnostics;
   const auto model = loadModel(folder.write("m.gltf", maker.gltf()), diagnostics);
   REQUIRE_MESSAGE(model, diagnostics.text());
-  for (const ModelVertex& v : model->vertices) CHECK(v.normal == Float3{0, 0, 1});
+  for (const Vertex& v : model->vertices) CHECK(v.normal == glm::vec3{0, 0, 1});
 }
 
 TEST_CASE("nodes that are their own ancestors, or have two parents") {

@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <utility>
 
 #include "engine/assets/models/model_file.h"
 #include "tests/assets/models/gltf_maker.h"
-#include "tests/assets/models/matrices.h"
 #include "tests/temporary_folder.h"
 
 namespace weft::test {
@@ -29,10 +29,16 @@ inline assets::Model make(const GltfMaker& maker, std::size_t warnings = 0) {
   return loadGood(folder.write("m.gltf", maker.gltf()), warnings);
 }
 
-inline assets::Matrix4 worldOf(const assets::Model& model, std::uint32_t node) {
-  assets::Matrix4 world = matrixOf(model.nodes[node]);
+inline glm::mat4 matrixOf(const assets::ModelNode& node) {
+  const assets::Transform& local = node.local;
+  return glm::translate(glm::mat4(1), local.translation) * glm::mat4_cast(local.rotation) *
+         glm::scale(glm::mat4(1), local.scale);
+}
+
+inline glm::mat4 worldOf(const assets::Model& model, std::uint32_t node) {
+  glm::mat4 world = matrixOf(model.nodes[node]);
   for (std::uint32_t up = model.nodes[node].parent; up != assets::kNoRow; up = model.nodes[up].parent)
-    world = multiply(matrixOf(model.nodes[up]), world);
+    world = matrixOf(model.nodes[up]) * world;
   return world;
 }
 

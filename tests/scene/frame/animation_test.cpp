@@ -19,7 +19,7 @@ using assets::TrackPath;
 
 namespace {
 
-ModelTrack translation(TrackInterpolation how, std::vector<float> times, std::vector<assets::Float4> values) {
+ModelTrack translation(TrackInterpolation how, std::vector<float> times, std::vector<glm::vec4> values) {
   return {.node = 0,
           .path = TrackPath::translation,
           .interpolation = how,

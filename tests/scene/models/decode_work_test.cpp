@@ -45,7 +45,7 @@ void checkSame(const std::string& path, std::size_t textures) {
     CHECK(other.said == turn.said);
     REQUIRE(other.model.textures.size() == textures);
     for (std::size_t i = 0; i < textures; ++i) {
-      const assets::ModelTexture &a = turn.model.textures[i], &b = other.model.textures[i];
+      const assets::Texture &a = turn.model.textures[i], &b = other.model.textures[i];
       CHECK(a.name == b.name);
       CHECK(a.srgb == b.srgb);
       CHECK(a.content == b.content);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <memory>
 #include <utility>
@@ -23,13 +24,13 @@ namespace {
 
 constexpr double kFarthestVertex = 1e9;
 
-Float3 toFloat3(const aiVector3D& v) {
+glm::vec3 toVec3(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
 
 // Assimp's matrices are rows.
-Matrix4 toMatrix(const aiMatrix4x4& m) {
-  return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+glm::mat4 toMatrix(const aiMatrix4x4& m) {
+  return glm::transpose(glm::make_mat4(&m.a1));
 }
 
 class AssimpReader {
@@ -83,7 +84,7 @@ class AssimpReader {
       ModelNode node;
       node.name = from->mName.C_Str();
       node.parent = parent;
-      if (!decompose(toMatrix(from->mTransformation), node)) {
+      if (!decompose(toMatrix(from->mTransformation), node.local)) {
         fail(fmt::format("the matrix of node '{}' is none of translation, rotation and scale", node.name));
         return false;
       }
@@ -151,23 +152,23 @@ class AssimpReader {
   static float unitOf(float value, float otherwise) {
     return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
   }
-  static Float3 colorOf(const aiMaterial& from, const char* key, unsigned type, unsigned index,
-                        Float3 otherwise) {
+  static glm::vec3 colorOf(const aiMaterial& from, const char* key, unsigned type, unsigned index,
+                           glm::vec3 otherwise) {
     aiColor3D color;
     if (from.Get(key, type, index, color) != aiReturn_SUCCESS) return otherwise;
     return {unitOf(color.r, 0), unitOf(color.g, 0), unitOf(color.b, 0)};
   }
 
   void readMaterial(const aiMaterial& from) {
-    ModelMaterial material;
+    Material material;
     material.name = from.GetName().C_Str();
-    material.baseColor = colorOf(from, AI_MATKEY_COLOR_DIFFUSE, {0.6f, 0.6f, 0.6f});
+    material.albedo = colorOf(from, AI_MATKEY_COLOR_DIFFUSE, {0.6f, 0.6f, 0.6f});
     material.specular = colorOf(from, AI_MATKEY_COLOR_SPECULAR, {0, 0, 0});
     material.emissive = colorOf(from, AI_MATKEY_COLOR_EMISSIVE, {0, 0, 0});
     float shininess = 0, strength = 1, opacity = 1, metallic = 0, roughness = 0;
     from.Get(AI_MATKEY_SHININESS, shininess);
     if (from.Get(AI_MATKEY_SHININESS_STRENGTH, strength) == aiReturn_SUCCESS && std::isfinite(strength))
-      for (float& c : material.specular) c = unitOf(c * strength, 0);
+      for (int c = 0; c < 3; ++c) material.specular[c] = unitOf(material.specular[c] * strength, 0);
     if (from.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS) material.alpha = unitOf(opacity, 1);
     material.blend = material.alpha < 1;
     material.shininess = std::isfinite(shininess) ? std::clamp(shininess, 0.0f, 10000.0f) : 0;
@@ -180,8 +181,8 @@ class AssimpReader {
     } else {
       toMetallicRoughness(material);
     }
-    material.baseColorMap = mapOf(from, kColorMaps[0], true);
-    if (material.baseColorMap == kNoRow) material.baseColorMap = mapOf(from, kColorMaps[1], true);
+    material.albedoMap = mapOf(from, kColorMaps[0], true);
+    if (material.albedoMap == kNoRow) material.albedoMap = mapOf(from, kColorMaps[1], true);
     material.emissiveMap = mapOf(from, aiTextureType_EMISSIVE, true);
     material.normalMap = mapOf(from, kNormalMaps[0], false);
     if (material.normalMap == kNoRow) material.normalMap = normalMapOf(from);
@@ -205,16 +206,17 @@ class AssimpReader {
     return kNoRow;
   }
 
+  static float brightestOf(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
+
   // The exponent of Blinn–Phong as the width of GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness². What
   // has no diffuse colour but a bright highlight is taken for metal.
-  static void toMetallicRoughness(ModelMaterial& material) {
+  static void toMetallicRoughness(Material& material) {
     material.blinnPhong = true;
     material.roughness = std::pow(2 / (material.shininess + 2), 0.25f);
-    const float diffuse = *std::ranges::max_element(material.baseColor);
-    const float specular = *std::ranges::max_element(material.specular);
+    const float diffuse = brightestOf(material.albedo), specular = brightestOf(material.specular);
     if (diffuse >= 0.04f || specular < 0.25f) return;
     material.metallic = 1;
-    material.baseColor = material.specular;
+    material.albedo = material.specular;
   }
 
   bool readInstance(unsigned index, std::uint32_t node) {
@@ -246,7 +248,7 @@ class AssimpReader {
     return false;
   }
   // Neither format says what its colours are; other programs take them for sRGB (Blender 3.4 and later, three.js).
-  static Float4 toLinear(const aiColor4D& color) {
+  static glm::vec4 toLinear(const aiColor4D& color) {
     const auto linear = [](float c) { return decodeSrgb(std::clamp(c, 0.0f, 1.0f)); };
     return {linear(color.r), linear(color.g), linear(color.b), std::clamp(color.a, 0.0f, 1.0f)};
   }
@@ -261,7 +263,7 @@ class AssimpReader {
     mesh.join = true;
     const bool colored = hasColors(from);
     for (unsigned v = 0; v < from.mNumVertices; ++v) {
-      const Float3 position = toFloat3(from.mVertices[v]);
+      const glm::vec3 position = toVec3(from.mVertices[v]);
       const aiVector3D uv = from.HasTextureCoords(0) ? from.mTextureCoords[0][v] : aiVector3D();
       const aiColor4D color = colored ? from.mColors[0][v] : aiColor4D();
       for (const float c :
@@ -275,7 +277,7 @@ class AssimpReader {
           return {};
         }
       mesh.positions.push_back(position);
-      if (from.HasNormals()) mesh.normals.push_back(toFloat3(from.mNormals[v]));
+      if (from.HasNormals()) mesh.normals.push_back(toVec3(from.mNormals[v]));
       if (from.HasTextureCoords(0)) mesh.uvs.push_back({uv.x, 1 - uv.y});  // Assimp's v goes up
       if (colored) mesh.colors.push_back(toLinear(color));
     }
@@ -328,9 +330,8 @@ class AssimpReader {
     ModelTrack track{.node = node, .path = path};
     for (unsigned k = 0; k < count; ++k) {
       const auto time = static_cast<float>(keys[k].mTime / perSecond);
-      const Float4 v = value(keys[k].mValue);
-      const bool finite =
-          std::isfinite(time) && std::ranges::all_of(v, [](float c) { return std::isfinite(c); });
+      const glm::vec4 v = value(keys[k].mValue);
+      const bool finite = std::isfinite(time) && isFinite(v);
       if (!finite || (!track.times.empty() && time < track.times.back())) continue;
       track.times.push_back(time);
       track.values.push_back(v);
@@ -350,10 +351,10 @@ class AssimpReader {
         const aiNodeAnim& channel = *from.mChannels[c];
         const auto node = rowByName_.find(channel.mNodeName.C_Str());
         if (node == rowByName_.end()) continue;
-        const auto vector = [](const aiVector3D& v) { return Float4{v.x, v.y, v.z, 0}; };
+        const auto vector = [](const aiVector3D& v) { return glm::vec4{v.x, v.y, v.z, 0}; };
         const auto rotation = [](aiQuaternion q) {
           q.Normalize();
-          return Float4{q.x, q.y, q.z, q.w};
+          return glm::vec4{q.x, q.y, q.z, q.w};
         };
         addTrack(channel.mPositionKeys, channel.mNumPositionKeys, perSecond, node->second,
                  TrackPath::translation, vector, animation);

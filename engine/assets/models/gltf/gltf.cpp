@@ -167,9 +167,10 @@ class GltfReader {
     return nullptr;
   }
 
-  template <std::size_t N>
+  template <class Vector>
   bool readVectors(const JsonValue& where, const GltfAccessor& accessor, const char* name, float most,
-                   std::vector<std::array<float, N>>& out) {
+                   std::vector<Vector>& out) {
+    constexpr std::size_t N = Vector::length();
     const std::vector<float> values = readFloats(accessor);
     out.resize(accessor.count);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -181,7 +182,7 @@ class GltfReader {
         d.hint = "repair the mesh and export it again";
         return false;
       }
-      out[i / N][i % N] = values[i];
+      out[i / N][static_cast<int>(i % N)] = values[i];
     }
     return true;
   }
@@ -208,7 +209,7 @@ class GltfReader {
     if (uv == GltfUv{.set = uv.set}) return true;
     // Counter-clockwise as uv are drawn, with v downwards: github.com/KhronosGroup/glTF/issues/1563.
     const float c = std::cos(uv.rotation), s = std::sin(uv.rotation);
-    for (Float2& each : mesh.uvs) {
+    for (glm::vec2& each : mesh.uvs) {
       const float u = each[0] * uv.scale[0], v = each[1] * uv.scale[1];
       each = {c * u + s * v + uv.offset[0], -s * u + c * v + uv.offset[1]};
     }
@@ -231,15 +232,15 @@ class GltfReader {
       d.found = fmt::format("componentType {}{}", accessor->type, accessor->normalized ? ", normalised" : "");
       return true;
     }
-    const auto put = [&]<std::size_t N>(std::vector<std::array<float, N>> values) {
+    const auto put = [&](auto values) {
       if (!readVectors(*where, *accessor, "COLOR_0", 1e9f, values)) return false;
       for (const auto& value : values) {
-        Float4& color = mesh.colors.emplace_back(Float4{1, 1, 1, 1});
-        for (std::size_t c = 0; c < N; ++c) color[c] = std::clamp(value[c], 0.0f, 1.0f);
+        glm::vec4& color = mesh.colors.emplace_back(1.0f);
+        for (int c = 0; c < value.length(); ++c) color[c] = std::clamp(value[c], 0.0f, 1.0f);
       }
       return true;
     };
-    return kind == "VEC3" ? put(std::vector<Float3>{}) : put(std::vector<Float4>{});
+    return kind == "VEC3" ? put(std::vector<glm::vec3>{}) : put(std::vector<glm::vec4>{});
   }
 
   // The mesh as its targets move it, each by its weight. glTF 2.0, 3.7.2.2.
@@ -248,23 +249,23 @@ class GltfReader {
       const JsonValue& target = targets.items[t];
       if (weights[t] == 0) continue;
       // The same accessor may serve any number of targets.
-      if (!files_.count(std::uint64_t{count_} * sizeof(Float3) * target.members.size(), target.place))
+      if (!files_.count(std::uint64_t{count_} * sizeof(glm::vec3) * target.members.size(), target.place))
         return false;
       const auto add = [&](const char* name, auto& to) {
         bool good = true;
-        std::vector<Float3> moves;
+        std::vector<glm::vec3> moves;
         const GltfAccessor* accessor = to.empty() ? nullptr : attribute(target, name, "VEC3", true, good);
         if (!accessor) return good;
         if (!readVectors(*target.find(name), *accessor, name, kFarthest, moves)) return false;
         for (std::size_t v = 0; v < count_; ++v)
-          for (std::size_t c = 0; c < 3; ++c) to[v][c] += weights[t] * moves[v][c];
+          for (int c = 0; c < 3; ++c) to[v][c] += weights[t] * moves[v][c];
         return true;
       };
       if (!add("POSITION", mesh.positions) || !add("NORMAL", mesh.normals) || !add("TANGENT", mesh.tangents))
         return false;
     }
-    for (const Float3& position : mesh.positions)
-      if (std::ranges::any_of(position, [](float c) { return !(std::abs(c) <= kFarthest); })) {
+    for (const glm::vec3& position : mesh.positions)
+      if (!glm::all(glm::lessThanEqual(glm::abs(position), glm::vec3(kFarthest)))) {
         document_.fail(targets, fmt::format("the morph targets move mesh '{}' too far", mesh.name)).expected =
             fmt::format("positions within {}", kFarthest);
         return false;
@@ -281,16 +282,16 @@ class GltfReader {
       if (!good) return false;
       if (!joints || !weights) return true;
       const std::vector<std::uint32_t> rows = readWhole(*joints);
-      std::vector<Float4> values;
+      std::vector<glm::vec4> values;
       if (!readVectors(*attributes.find(name), *weights, name.c_str(), 1e6f, values)) return false;
       mesh.joints.resize(count_);
       mesh.weights.resize(count_);
       for (std::size_t v = 0; v < count_; ++v)
         for (std::size_t i = 0; i < 4; ++i) {
           mesh.joints[v][4 * set + i] = rows[4 * v + i];
-          mesh.weights[v][4 * set + i] = std::max(0.0f, values[v][i]);
+          mesh.weights[v][4 * set + i] = std::max(0.0f, values[v][static_cast<int>(i)]);
           // A weight of 0 asks for no joint; a vertex without any weight stands with its first.
-          if (values[v][i] > 0 || (set == 0 && i == 0))
+          if (values[v][static_cast<int>(i)] > 0 || (set == 0 && i == 0))
             part.joints = std::max(part.joints, std::uint64_t{rows[4 * v + i]} + 1);
         }
     }

@@ -68,8 +68,8 @@ class LightReader {
                  : kind == "spot"      ? ModelLightKind::spot
                                        : ModelLightKind::point;
     light.intensity = static_cast<float>(document_.number(value, "intensity", 1, 0, 1e12));
-    if (value.find("color") && document_.numbers(value, "color", 3, light.color.data()) &&
-        std::ranges::any_of(light.color, [](float c) { return c < 0; })) {
+    if (value.find("color") && document_.numbers(value, "color", 3, &light.color.x) &&
+        glm::any(glm::lessThan(light.color, glm::vec3(0)))) {
       base::Diagnostic& d = document_.fail(*value.find("color"), "a light's 'color' is negative");
       d.expected = "3 numbers of at least 0";
       d.found = fmt::format("{}, {}, {}", light.color[0], light.color[1], light.color[2]);
@@ -115,7 +115,7 @@ class LightReader {
   }
 
   static float brightnessOf(const ModelLight& light) {
-    return light.intensity * *std::ranges::max_element(light.color);
+    return light.intensity * std::max({light.color.x, light.color.y, light.color.z});
   }
 
   GltfDocument& document_;

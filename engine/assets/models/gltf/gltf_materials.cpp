@@ -10,6 +10,15 @@ using base::JsonValue;
 
 namespace {
 
+// As glTF has it.
+Material defaultMaterial(const std::string& name) {
+  Material material;
+  material.name = name;
+  material.albedo = glm::vec3(1);
+  material.metallic = material.roughness = 1;
+  return material;
+}
+
 class MaterialReader {
  public:
   MaterialReader(GltfDocument& document, ModelFiles& files, TexturePool& pool, Diagnostics& diagnostics)
@@ -25,14 +34,11 @@ class MaterialReader {
       if (diagnostics_.errorCount() > before) return {};
     }
     if (!pool_.decodeAll(decode, observer)) return {};
-    for (ModelMaterial& material : out_.materials)
-      for (std::uint32_t* map : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
+    for (Material& material : out_.materials)
+      for (std::uint32_t* map : {&material.albedoMap, &material.metallicRoughnessMap, &material.normalMap,
                                  &material.occlusionMap, &material.emissiveMap})
         if (*map != kNoRow) *map = pool_.add(uses_[*map].image, uses_[*map].name, uses_[*map].srgb);
-    ModelMaterial plain;  // glTF's default material
-    plain.name = "default";
-    plain.metallic = 1;
-    out_.materials.push_back(plain);
+    out_.materials.push_back(defaultMaterial("default"));
     out_.uvs.emplace_back();
     return std::move(out_);
   }
@@ -129,20 +135,18 @@ class MaterialReader {
   void readMaterial(const JsonValue& value, std::size_t number) {
     material_ = number;
     uv_.reset();
-    ModelMaterial material;
-    material.name = document_.text(value, "name");
-    if (material.name.empty()) material.name = fmt::format("material {}", number);
-    material.metallic = 1;
+    const std::string name = document_.text(value, "name");
+    Material material = defaultMaterial(name.empty() ? fmt::format("material {}", number) : name);
     const JsonValue* pbr = value.find("pbrMetallicRoughness");
     float factor[4] = {1, 1, 1, 1};
     if (pbr) {
       document_.numbers(*pbr, "baseColorFactor", 4, factor);
       material.metallic = static_cast<float>(document_.number(*pbr, "metallicFactor", 1, 0, 1));
       material.roughness = static_cast<float>(document_.number(*pbr, "roughnessFactor", 1, 0, 1));
-      material.baseColorMap = mapOf(*pbr, "baseColorTexture", true);
+      material.albedoMap = mapOf(*pbr, "baseColorTexture", true);
       material.metallicRoughnessMap = mapOf(*pbr, "metallicRoughnessTexture", false);
     }
-    material.baseColor = {factor[0], factor[1], factor[2]};
+    material.albedo = {factor[0], factor[1], factor[2]};
     material.normalMap = mapOf(value, "normalTexture", false);
     if (const JsonValue* info = value.find("normalTexture"))
       material.normalScale = static_cast<float>(document_.number(*info, "scale", 1, -1e3, 1e3));
@@ -150,7 +154,7 @@ class MaterialReader {
     if (const JsonValue* info = value.find("occlusionTexture"))
       material.occlusionStrength = static_cast<float>(document_.number(*info, "strength", 1, 0, 1));
     material.emissiveMap = mapOf(value, "emissiveTexture", true);
-    document_.numbers(value, "emissiveFactor", 3, material.emissive.data());
+    document_.numbers(value, "emissiveFactor", 3, &material.emissive.x);
     readStrength(value, material);
     const std::string mode = document_.text(value, "alphaMode");
     material.blend = mode == "BLEND";
@@ -166,12 +170,12 @@ class MaterialReader {
     out_.uvs.push_back(uv_.value_or(GltfUv{}));
   }
 
-  void readStrength(const JsonValue& value, ModelMaterial& material) {
+  void readStrength(const JsonValue& value, Material& material) {
     const JsonValue* extensions = value.find("extensions");
     const JsonValue* emissive = extensions ? extensions->find("KHR_materials_emissive_strength") : nullptr;
     if (!emissive) return;
     const double strength = document_.number(*emissive, "emissiveStrength", 1, 0, 1e9);
-    for (float& channel : material.emissive) channel *= static_cast<float>(strength);
+    material.emissive *= static_cast<float>(strength);
   }
 
   GltfDocument& document_;

@@ -21,8 +21,8 @@ struct GltfUv {
 };
 
 struct GltfMaterials {
-  std::vector<ModelMaterial> materials;  // the file's, and then one for meshes without
-  std::vector<GltfUv> uvs;               // parallel
+  std::vector<Material> materials;  // the file's, and then one for meshes without
+  std::vector<GltfUv> uvs;          // parallel
 };
 
 // Decodes what the materials use, by `decode`, or in turn where that is empty. `observer` hears how far it is; empty after errors, or when it gave up.

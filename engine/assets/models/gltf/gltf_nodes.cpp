@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "engine/assets/models/parts/decompose.h"
 
@@ -19,17 +20,21 @@ bool readNode(GltfDocument& document, const JsonValue& value, std::size_t number
   const JsonValue *matrix = value.find("matrix"), *t = value.find("translation"), *r = value.find("rotation"),
                   *s = value.find("scale");
   if (matrix) {
-    Matrix4 m{};
-    if (!document.numbers(value, "matrix", 16, m.data())) return false;
-    if (decompose(m, node)) return true;
+    glm::mat4 m(0);
+    if (!document.numbers(value, "matrix", 16, &m[0].x)) return false;
+    if (decompose(m, node.local)) return true;
     document.fail(*matrix,
                   fmt::format("the matrix of node {} is none of translation, rotation and scale", number));
     return false;
   }
-  if (t && !document.numbers(value, "translation", 3, node.translation.data())) return false;
-  if (s && !document.numbers(value, "scale", 3, node.scale.data())) return false;
-  if (r && !document.numbers(value, "rotation", 4, node.rotation.data())) return false;
-  if (normalizeRotation(node.rotation)) return true;
+  glm::vec4 rotation(0, 0, 0, 1);
+  if (t && !document.numbers(value, "translation", 3, &node.local.translation.x)) return false;
+  if (s && !document.numbers(value, "scale", 3, &node.local.scale.x)) return false;
+  if (r && !document.numbers(value, "rotation", 4, &rotation.x)) return false;
+  if (normalizeRotation(rotation)) {
+    node.local.rotation = toRotation(rotation);
+    return true;
+  }
   document.fail(*r, fmt::format("the rotation of node {} has no length", number)).expected =
       "a quaternion x, y, z, w";
   return false;
@@ -122,7 +127,7 @@ bool readGltfSkins(GltfDocument& document, const GltfNodes& nodes, Model& model)
       if (!joint) return false;
       skin.joints.push_back(nodes.rowOf[*joint]);
     }
-    skin.inverseBind.assign(skin.joints.size(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    skin.inverseBind.assign(skin.joints.size(), glm::mat4(1));
     const JsonValue* matrices = row.find("inverseBindMatrices");
     if (!matrices) continue;
     const GltfAccessor* accessor = document.accessor(matrices, "MAT4", true);
@@ -139,7 +144,7 @@ bool readGltfSkins(GltfDocument& document, const GltfNodes& nodes, Model& model)
       return false;
     }
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(16 * j), 16, skin.inverseBind[j].begin());
+      skin.inverseBind[j] = glm::make_mat4(values.data() + 16 * j);
   }
   return true;
 }
@@ -221,8 +226,9 @@ class AnimationReader {
     track.times = readFloats(*input);
     const std::vector<float> numbers = readFloats(*output);
     for (std::size_t i = 0; i < values; ++i) {
-      Float4& value = track.values.emplace_back();
-      for (std::size_t c = 0; c < output->components; ++c) value[c] = numbers[i * output->components + c];
+      glm::vec4& value = track.values.emplace_back(0.0f);
+      for (std::size_t c = 0; c < output->components; ++c)
+        value[static_cast<int>(c)] = numbers[i * output->components + c];
     }
     return check(sampler, track);
   }
@@ -237,8 +243,8 @@ class AnimationReader {
       }
     const bool cubic = track.interpolation == TrackInterpolation::cubic;
     for (std::size_t i = 0; i < track.values.size(); ++i) {
-      Float4& v = track.values[i];
-      bool good = std::ranges::all_of(v, [](float c) { return std::isfinite(c); });
+      glm::vec4& v = track.values[i];
+      bool good = isFinite(v);
       if (good && track.path == TrackPath::rotation && (!cubic || i % 3 == 1)) good = normalizeRotation(v);
       if (good) continue;
       document_

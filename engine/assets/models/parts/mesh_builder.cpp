@@ -17,34 +17,12 @@ namespace weft::assets {
 
 namespace {
 
-struct Vec {
-  double x = 0, y = 0, z = 0;
-};
-Vec toVec(const Float3& v) {
-  return {v[0], v[1], v[2]};
-}
-Vec operator+(Vec a, Vec b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vec operator-(Vec a, Vec b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vec operator*(Vec a, double s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
-double dot(Vec a, Vec b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Vec cross(Vec a, Vec b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+using Vec = glm::dvec3;
+
 // `otherwise` for a vector without length.
 Vec unit(Vec v, Vec otherwise) {
-  const double length = std::sqrt(dot(v, v));
+  const double length = glm::length(v);
   return length > 1e-30 && std::isfinite(length) ? v * (1 / length) : otherwise;
-}
-Float3 toFloat3(Vec v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 // Any unit vector at right angles to `n`. Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
 Vec perpendicular(Vec n) {
@@ -79,30 +57,29 @@ void makeNormals(RawMesh& mesh) {
   mesh.tangents.clear();
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Vec a = toVec(mesh.positions[i]);
-    const Vec n = cross(toVec(mesh.positions[i + 1]) - a, toVec(mesh.positions[i + 2]) - a);
-    mesh.normals[i] = mesh.normals[i + 1] = mesh.normals[i + 2] = toFloat3(unit(n, {0, 0, 1}));
+    const Vec a = Vec(mesh.positions[i]);
+    const Vec n = glm::cross(Vec(mesh.positions[i + 1]) - a, Vec(mesh.positions[i + 2]) - a);
+    mesh.normals[i] = mesh.normals[i + 1] = mesh.normals[i + 2] = glm::vec3(unit(n, {0, 0, 1}));
   }
 }
 
 void cleanNormals(RawMesh& mesh) {
-  for (Float3& normal : mesh.normals) {
-    for (float& c : normal)
-      if (!std::isfinite(c)) normal = {0, 0, 0};
-    normal = toFloat3(unit(toVec(normal), {0, 0, 1}));
+  for (glm::vec3& normal : mesh.normals) {
+    if (!std::isfinite(normal.x + normal.y + normal.z)) normal = {0, 0, 0};
+    normal = glm::vec3(unit(Vec(normal), {0, 0, 1}));
   }
 }
 
 struct TriangleFrame {
-  Vec tangent;
+  Vec tangent{0};
   double sign = 0;  // of the bitangent; 0: the triangle has no area in uv
 };
 
 // Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; v upwards, as normal maps have green.
 TriangleFrame frameOf(const RawMesh& mesh, std::size_t corner) {
   const std::uint32_t a = mesh.indices[corner], b = mesh.indices[corner + 1], c = mesh.indices[corner + 2];
-  const Vec e1 = toVec(mesh.positions[b]) - toVec(mesh.positions[a]);
-  const Vec e2 = toVec(mesh.positions[c]) - toVec(mesh.positions[a]);
+  const Vec e1 = Vec(mesh.positions[b]) - Vec(mesh.positions[a]);
+  const Vec e2 = Vec(mesh.positions[c]) - Vec(mesh.positions[a]);
   const double u1 = mesh.uvs[b][0] - mesh.uvs[a][0], v1 = mesh.uvs[a][1] - mesh.uvs[b][1];
   const double u2 = mesh.uvs[c][0] - mesh.uvs[a][0], v2 = mesh.uvs[a][1] - mesh.uvs[c][1];
   const double area = u1 * v2 - u2 * v1;
@@ -119,7 +96,7 @@ void repeatRow(std::vector<T>& values, std::uint32_t row) {
 }
 
 void makeTangents(RawMesh& mesh) {
-  std::vector<Vec> sums(mesh.positions.size());
+  std::vector<Vec> sums(mesh.positions.size(), Vec(0));
   std::vector<double> signs(mesh.positions.size(), 0);
   std::unordered_map<std::uint32_t, std::uint32_t> mirrored;  // vertex to its copy with the other sign
   for (std::size_t corner = 0; corner + 2 < mesh.indices.size() && !mesh.uvs.empty(); corner += 3) {
@@ -136,7 +113,7 @@ void makeTangents(RawMesh& mesh) {
           repeatRow(mesh.colors, vertex);
           repeatRow(mesh.joints, vertex);
           repeatRow(mesh.weights, vertex);
-          sums.emplace_back();
+          sums.emplace_back(0);
           signs.push_back(frame.sign);
         }
         mesh.indices[i] = vertex = found->second;
@@ -147,25 +124,25 @@ void makeTangents(RawMesh& mesh) {
   }
   mesh.tangents.resize(mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const Vec n = toVec(mesh.normals[v]);
-    const Float3 t = toFloat3(unit(sums[v] - n * dot(n, sums[v]), perpendicular(n)));
-    mesh.tangents[v] = {t[0], t[1], t[2], signs[v] < 0 ? -1.0f : 1.0f};
+    const Vec n = Vec(mesh.normals[v]);
+    const glm::vec3 t(unit(sums[v] - n * glm::dot(n, sums[v]), perpendicular(n)));
+    mesh.tangents[v] = {t, signs[v] < 0 ? -1.0f : 1.0f};
   }
 }
 
 bool soundTangents(const RawMesh& mesh) {
   return mesh.tangents.size() == mesh.positions.size() &&
-         std::ranges::all_of(mesh.tangents, [](const Float4& t) {
-           const double length = double(t[0]) * t[0] + double(t[1]) * t[1] + double(t[2]) * t[2];
+         std::ranges::all_of(mesh.tangents, [](const glm::vec4& t) {
+           const double length = glm::dot(Vec(t), Vec(t));
            return std::isfinite(length) && length > 1e-12 && (t[3] == 1 || t[3] == -1);
          });
 }
 
 // The four heaviest, adding up to 1.
-ModelSkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights) {
+SkinVertex heaviest(const std::array<std::uint32_t, 8>& joints, const std::array<float, 8>& weights) {
   std::array<std::size_t, 8> order{0, 1, 2, 3, 4, 5, 6, 7};
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
-  ModelSkinVertex out;
+  SkinVertex out;
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) sum += std::max(0.0f, weights[order[i]]);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -185,7 +162,7 @@ struct BytesHash {
 void joinVertices(RawMesh& mesh) {
   const bool normals = !mesh.normals.empty(), uvs = !mesh.uvs.empty(), colors = !mesh.colors.empty(),
              skin = !mesh.weights.empty();
-  constexpr std::size_t kBytes = sizeof(Float3) * 2 + sizeof(Float2) + sizeof(Float4) + 64;
+  constexpr std::size_t kBytes = sizeof(glm::vec3) * 2 + sizeof(glm::vec2) + sizeof(glm::vec4) + 64;
   std::vector<char> keys(mesh.positions.size() * kBytes, 0);
   std::unordered_map<std::string_view, std::uint32_t, BytesHash> known;
   known.reserve(mesh.positions.size());
@@ -240,7 +217,7 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
     cleanNormals(mesh);
   if (!soundTangents(mesh)) makeTangents(mesh);
 
-  ModelMesh row;
+  Mesh row;
   row.name = std::move(mesh.name);
   row.firstVertex = static_cast<std::uint32_t>(model_.vertices.size());
   row.vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
@@ -248,13 +225,23 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
   row.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
   row.skinned = !mesh.weights.empty();
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    model_.vertices.push_back(
-        {mesh.positions[v], mesh.normals[v], mesh.tangents[v], mesh.uvs.empty() ? Float2{} : mesh.uvs[v]});
-  if (row.skinned || !model_.skinVertices.empty()) {
-    model_.skinVertices.resize(row.firstVertex);
+    model_.vertices.push_back({mesh.positions[v], mesh.normals[v], mesh.tangents[v],
+                               mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[v]});
+  if (row.skinned || !model_.skin.empty()) {
+    model_.skin.resize(row.firstVertex);
     for (std::size_t v = 0; v < mesh.weights.size(); ++v)
-      model_.skinVertices.push_back(heaviest(mesh.joints[v], mesh.weights[v]));
-    model_.skinVertices.resize(model_.vertices.size());
+      model_.skin.push_back(heaviest(mesh.joints[v], mesh.weights[v]));
+    model_.skin.resize(model_.vertices.size());
+  }
+  for (std::uint32_t v = row.firstVertex; v < model_.vertices.size(); ++v) {
+    const glm::vec3 position = model_.vertices[v].position;
+    row.bounds.add(position);
+    for (std::size_t i = 0; row.skinned && i < 4; ++i) {
+      const std::size_t joint = model_.skin[v].joints[i];
+      if (!(model_.skin[v].weights[i] > 0)) continue;
+      if (row.jointBounds.size() <= joint) row.jointBounds.resize(joint + 1);
+      row.jointBounds[joint].add(position);
+    }
   }
   if (!mesh.colors.empty() || !model_.colors.empty()) {
     model_.colors.resize(row.firstVertex, {1, 1, 1, 1});
@@ -271,7 +258,8 @@ void windMirrored(Model& model) {
   std::vector<bool> mirrors(model.nodes.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const ModelNode& node = model.nodes[i];
-    const bool own = (node.scale[0] < 0) != ((node.scale[1] < 0) != (node.scale[2] < 0));
+    const glm::vec3 scale = node.local.scale;
+    const bool own = (scale.x < 0) != ((scale.y < 0) != (scale.z < 0));
     mirrors[i] = own != (node.parent != kNoRow && mirrors[node.parent]);
   }
   std::map<std::uint32_t, std::uint32_t> turned;
@@ -280,7 +268,7 @@ void windMirrored(Model& model) {
     const auto [found, isNew] =
         turned.try_emplace(instance.mesh, static_cast<std::uint32_t>(model.meshes.size()));
     if (isNew) {
-      ModelMesh copy = model.meshes[instance.mesh];
+      Mesh copy = model.meshes[instance.mesh];
       const std::uint32_t from = copy.firstIndex;
       copy.firstIndex = static_cast<std::uint32_t>(model.indices.size());
       for (std::uint32_t i = 0; i + 2 < copy.indexCount; i += 3)

@@ -15,10 +15,10 @@ namespace weft::assets {
 // One mesh before it is finished; arrays are parallel to positions, or empty where the file has none.
 struct RawMesh {
   std::string name;
-  std::vector<Float3> positions, normals;
-  std::vector<Float4> tangents;
-  std::vector<Float2> uvs;     // (0,0) top left
-  std::vector<Float4> colors;  // linear, 0 to 1
+  std::vector<glm::vec3> positions, normals;
+  std::vector<glm::vec4> tangents;
+  std::vector<glm::vec2> uvs;     // (0,0) top left
+  std::vector<glm::vec4> colors;  // linear, 0 to 1
   std::vector<std::array<std::uint32_t, 8>> joints;
   std::vector<std::array<float, 8>> weights;
   std::vector<std::uint32_t> indices;  // triangles; below the number of positions

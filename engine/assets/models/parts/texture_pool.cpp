@@ -113,7 +113,7 @@ std::uint32_t TexturePool::add(std::uint32_t number, const std::string& name, bo
   const std::uint64_t content = base::hashCombine(entry.content, srgb ? 1 : 0);
   const auto [from, to] = byContent_.equal_range(content);
   for (auto each = from; each != to; ++each) {
-    const ModelTexture& known = textures_[each->second];
+    const Texture& known = textures_[each->second];
     if (known.srgb == srgb && known.image->width == entry.image->width &&
         known.image->texels == entry.image->texels)
       return each->second;

@@ -35,7 +35,7 @@ class TexturePool : private DecodeJob {
   std::uint32_t add(std::uint32_t image, const std::string& name, bool srgb);
 
   bool full() const { return full_; }
-  std::vector<ModelTexture> take() { return std::move(textures_); }
+  std::vector<Texture> take() { return std::move(textures_); }
 
  private:
   struct Entry {
@@ -52,7 +52,7 @@ class TexturePool : private DecodeJob {
   base::Diagnostics& diagnostics_;
   std::vector<Entry> images_;
   std::size_t first_ = 0;  // that is not decoded
-  std::vector<ModelTexture> textures_;
+  std::vector<Texture> textures_;
   std::multimap<std::uint64_t, std::uint32_t> byContent_;
   std::uint32_t standIn_ = kNoRow;  // its number
   std::uint64_t texels_ = 0;

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 
-namespace weft::scene {
+namespace weft::assets {
 
 struct Box {
   glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
@@ -36,4 +36,4 @@ inline Box transformBox(const glm::mat4& transform, const Box& box) {
   return out;
 }
 
-}  // namespace weft::scene
+}  // namespace weft::assets
