@@ -1,8 +1,7 @@
 // An import: something that graphs take from outside (`@environment`, `{ "import": "camera" }`). A plug-in says what a
 // graph may write (reflect) and what is known before anything runs (facts), and makes the Provider that gives the import
 // to passes frame after frame (provide). Plug-ins hold no state and are shared by devices; a provider belongs to one
-// device. No code outside the folder of a plug-in knows its name. To add an import, make a folder here with a class, and
-// add a line to import_registry.cpp.
+// device. No code outside the folder of a plug-in knows its name. CONTRIBUTING.md says how to add one.
 #pragma once
 
 #include <cstdint>

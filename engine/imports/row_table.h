@@ -39,10 +39,11 @@ struct Column {
   void (*write)(std::span<const Row> rows, std::byte* out, std::size_t stride) = nullptr;
 };
 
-// `Get` is a member of Row or a function of a row. What it gives says the type of the column.
+// `Get` is a member of Row or a function of a row. What it gives says the type of the column; a bool is a uint.
 template <class Row, auto Get>
 Column<Row> column(std::string name, std::string doc) {
-  using Value = std::remove_cvref_t<std::invoke_result_t<decltype(Get), const Row&>>;
+  using Given = std::remove_cvref_t<std::invoke_result_t<decltype(Get), const Row&>>;
+  using Value = std::conditional_t<std::is_same_v<Given, bool>, std::uint32_t, Given>;
   return {{std::move(name), glslTypeOf<Value>(), std::move(doc)},
           [](std::span<const Row> rows, std::byte* out, std::size_t stride) {
             for (const Row& row : rows) {

@@ -1,10 +1,9 @@
-#include "engine/imports/camera/camera.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "engine/base/nearest.h"
+#include "engine/imports/builtin.h"
 #include "engine/imports/camera_views.h"
 
 namespace weft::imports {
@@ -114,33 +113,43 @@ class CameraProvider : public Provider {
   CameraViews views_;
 };
 
+class Camera : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "camera",
+        .kind = graph::ImportKind::view,
+        .doc =
+            "The scene's camera, or one that stands elsewhere. Declared under the name `camera` it is the "
+            "view of every pass.",
+        .arguments = arguments(),
+        .everyPass = true};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files&) const override {
+    graph::ImportFacts facts{.exists = true};
+    const std::string& name = request.arguments[kName].second.symbol;
+    if (name.empty() || world.cameras.empty() ||
+        std::ranges::find(world.cameras, name) != world.cameras.end())
+      return facts;
+    base::Diagnostics said;
+    base::Diagnostic& d =
+        said.error(base::Code::badImportArgument, {}, fmt::format("the scene has no camera '{}'", name));
+    d.hint = base::nearestHint(name, world.cameras);
+    facts.problems = said.items();
+    return facts;
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<CameraProvider>(request);
+  }
+};
+
 }  // namespace
 
-graph::ImportType Camera::reflect() const {
-  return {.name = "camera",
-          .kind = graph::ImportKind::view,
-          .doc =
-              "The scene's camera, or one that stands elsewhere. Declared under the name `camera` it is the "
-              "view of every pass.",
-          .arguments = arguments(),
-          .everyPass = true};
-}
-
-graph::ImportFacts Camera::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {
-  graph::ImportFacts facts{.exists = true};
-  const std::string& name = request.arguments[kName].second.symbol;
-  if (name.empty() || world.cameras.empty() || std::ranges::find(world.cameras, name) != world.cameras.end())
-    return facts;
-  base::Diagnostics said;
-  base::Diagnostic& d =
-      said.error(base::Code::badImportArgument, {}, fmt::format("the scene has no camera '{}'", name));
-  d.hint = base::nearestHint(name, world.cameras);
-  facts.problems = said.items();
-  return facts;
-}
-
-std::unique_ptr<Provider> Camera::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<CameraProvider>(request);
+std::unique_ptr<Import> makeCamera() {
+  return std::make_unique<Camera>();
 }
 
 }  // namespace weft::imports

@@ -1,5 +1,4 @@
-#include "engine/imports/cube_lut/cube_lut.h"
-
+#include "engine/imports/builtin.h"
 #include "engine/imports/cube_lut/lut_texture.h"
 
 namespace weft::imports {
@@ -43,39 +42,46 @@ class CubeLutProvider : public Provider {
   bool stale_ = true;
 };
 
+class CubeLut : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {.name = "cube_lut",
+            .kind = graph::ImportKind::texture,
+            .doc =
+                "A .cube table, 3D or 1D, as an RGBA16F 3D texture for composite/lut.glsl; not there when "
+                "`file` is empty.",
+            .arguments = {{.name = "file",
+                           .initial = graph::Value::text(""),
+                           .choices = {},
+                           .doc = "path of the .cube file"}}};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&,
+                           Files& files) const override {
+    graph::ImportFacts result;
+    if (fileOf(request).empty()) return result;
+    base::Diagnostics said;
+    if (const auto lut = tableOf(files, fileOf(request), said)) {
+      const gl::Extent extent = lutExtent(*lut);
+      result.exists = true;
+      result.format = graph::Format::rgba16f;
+      result.width = extent.width;
+      result.height = extent.height;
+      result.depth = extent.layers;
+    }
+    result.problems = said.items();
+    return result;
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<CubeLutProvider>(fileOf(request));
+  }
+};
+
 }  // namespace
 
-graph::ImportType CubeLut::reflect() const {
-  return {.name = "cube_lut",
-          .kind = graph::ImportKind::texture,
-          .doc =
-              "A .cube table, 3D or 1D, as an RGBA16F 3D texture for composite/lut.glsl; not there when "
-              "`file` is empty.",
-          .arguments = {{.name = "file",
-                         .initial = graph::Value::text(""),
-                         .choices = {},
-                         .doc = "path of the .cube file"}}};
-}
-
-graph::ImportFacts CubeLut::facts(const graph::ImportRequest& request, const WorldFacts&,
-                                  Files& files) const {
-  graph::ImportFacts result;
-  if (fileOf(request).empty()) return result;
-  base::Diagnostics said;
-  if (const auto lut = tableOf(files, fileOf(request), said)) {
-    const gl::Extent extent = lutExtent(*lut);
-    result.exists = true;
-    result.format = graph::Format::rgba16f;
-    result.width = extent.width;
-    result.height = extent.height;
-    result.depth = extent.layers;
-  }
-  result.problems = said.items();
-  return result;
-}
-
-std::unique_ptr<Provider> CubeLut::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<CubeLutProvider>(fileOf(request));
+std::unique_ptr<Import> makeCubeLut() {
+  return std::make_unique<CubeLut>();
 }
 
 }  // namespace weft::imports

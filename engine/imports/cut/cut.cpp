@@ -1,4 +1,4 @@
-#include "engine/imports/cut/cut.h"
+#include "engine/imports/builtin.h"
 
 namespace weft::imports {
 
@@ -10,17 +10,24 @@ class CutProvider : public Provider {
   bool isStill(const World&) const override { return true; }
 };
 
+class Cut : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {.name = "cut",
+            .kind = graph::ImportKind::event,
+            .doc = "Changes when the camera jumps.",
+            .arguments = {}};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<CutProvider>();
+  }
+};
+
 }  // namespace
 
-graph::ImportType Cut::reflect() const {
-  return {.name = "cut",
-          .kind = graph::ImportKind::event,
-          .doc = "Changes when the camera jumps.",
-          .arguments = {}};
-}
-
-std::unique_ptr<Provider> Cut::provide(const graph::ImportRequest&) const {
-  return std::make_unique<CutProvider>();
+std::unique_ptr<Import> makeCut() {
+  return std::make_unique<Cut>();
 }
 
 }  // namespace weft::imports

@@ -1,10 +1,9 @@
-#include "engine/imports/draw_order/draw_order.h"
-
 #include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "engine/imports/builtin.h"
 #include "engine/imports/camera_views.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/scene/sort.h"
@@ -68,39 +67,47 @@ class DrawOrderProvider : public Provider {
   std::vector<scene::SortElement> elements_, scratch_;
 };
 
+class DrawOrder : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "draw_order",
+        .kind = graph::ImportKind::buffer,
+        .doc = "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame.",
+        .arguments = {{.name = "list",
+                       .initial = Value::text(scene::drawListNames().front()),
+                       .choices = {},
+                       .doc = "a draw list",
+                       .drawList = true},
+                      {.name = "by",
+                       .initial = Value::text("power"),
+                       .choices = scene::sortByNames(),
+                       .doc = "what is compared: power, the squared distance from the eye less the squared "
+                              "radius, right for all "
+                              "spheres that do not meet; depth, of the centres along the view axis"},
+                      {.name = "method",
+                       .initial = Value::text("cpu_radix"),
+                       .choices = {"cpu_std", "cpu_radix", "gpu_bitonic"},
+                       .doc = "how; gpu_bitonic leaves the buffer to a graph's own passes"}}};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files&) const override {
+    const double count = world.countOf(orderedList(request));
+    return {.exists = true,
+            .bytes = static_cast<std::uint64_t>(std::max(count, 1.0)) * sizeof(scene::SortElement),
+            .count = count};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<DrawOrderProvider>(request);
+  }
+};
+
 }  // namespace
 
-graph::ImportType DrawOrder::reflect() const {
-  return {.name = "draw_order",
-          .kind = graph::ImportKind::buffer,
-          .doc = "uvec2(key, index) per instance of `list`, back to front, sorted on the CPU every frame.",
-          .arguments = {{.name = "list",
-                         .initial = Value::text(scene::drawListNames().front()),
-                         .choices = {},
-                         .doc = "a draw list",
-                         .drawList = true},
-                        {.name = "by",
-                         .initial = Value::text("power"),
-                         .choices = scene::sortByNames(),
-                         .doc = "what is compared: power, the squared distance from the eye less the squared "
-                                "radius, right for all "
-                                "spheres that do not meet; depth, of the centres along the view axis"},
-                        {.name = "method",
-                         .initial = Value::text("cpu_radix"),
-                         .choices = {"cpu_std", "cpu_radix", "gpu_bitonic"},
-                         .doc = "how; gpu_bitonic leaves the buffer to a graph's own passes"}}};
-}
-
-graph::ImportFacts DrawOrder::facts(const graph::ImportRequest& request, const WorldFacts& world,
-                                    Files&) const {
-  const double count = world.countOf(orderedList(request));
-  return {.exists = true,
-          .bytes = static_cast<std::uint64_t>(std::max(count, 1.0)) * sizeof(scene::SortElement),
-          .count = count};
-}
-
-std::unique_ptr<Provider> DrawOrder::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<DrawOrderProvider>(request);
+std::unique_ptr<Import> makeDrawOrder() {
+  return std::make_unique<DrawOrder>();
 }
 
 }  // namespace weft::imports

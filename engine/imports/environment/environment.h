@@ -5,15 +5,6 @@
 
 namespace weft::imports {
 
-class Environment : public Import {
- public:
-  graph::ImportType reflect() const override;
-  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
-                           Files& files) const override;
-  std::string standInGraph() const override;
-  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override;
-};
-
 class EnvironmentProvider : public Provider {
  public:
   // For sending the next environment beside the one in use.

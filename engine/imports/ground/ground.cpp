@@ -1,7 +1,7 @@
-#include "engine/imports/ground/ground.h"
-
+// The import `ground`: the plane that the scene stands on, as a table of one row.
 #include <array>
 
+#include "engine/imports/builtin.h"
 #include "engine/imports/row_table.h"
 
 namespace weft::imports {
@@ -32,22 +32,29 @@ class GroundProvider : public Provider {
   RowTable<scene::Ground> table_{"ground", groundColumns()};
 };
 
+class Ground : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {.name = "ground",
+            .kind = graph::ImportKind::buffer,
+            .doc = "The plane that the scene stands on: one row.",
+            .arguments = {},
+            .columns = tell(groundColumns())};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
+    return {.exists = world.ground, .count = world.ground ? 1.0 : 0.0};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<GroundProvider>();
+  }
+};
+
 }  // namespace
 
-graph::ImportType Ground::reflect() const {
-  return {.name = "ground",
-          .kind = graph::ImportKind::buffer,
-          .doc = "The plane that the scene stands on: one row.",
-          .arguments = {},
-          .columns = tell(groundColumns())};
-}
-
-graph::ImportFacts Ground::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
-  return {.exists = world.ground, .count = world.ground ? 1.0 : 0.0};
-}
-
-std::unique_ptr<Provider> Ground::provide(const graph::ImportRequest&) const {
-  return std::make_unique<GroundProvider>();
+std::unique_ptr<Import> makeGround() {
+  return std::make_unique<Ground>();
 }
 
 }  // namespace weft::imports

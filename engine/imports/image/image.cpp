@@ -1,5 +1,3 @@
-#include "engine/imports/image/image.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "engine/assets/images/stored_image.h"
 #include "engine/base/limits.h"
+#include "engine/imports/builtin.h"
 #include "engine/imports/files.h"
 #include "engine/imports/image/image_sequence.h"
 
@@ -225,71 +224,81 @@ bool fitsMemory(const StoredHeader& header, const ImageRequest& request, const s
   return false;
 }
 
+class Image : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "image",
+        .kind = graph::ImportKind::texture,
+        .doc =
+            "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .tga as "
+            "rgba8 "
+            "or rgba16, "
+            ".hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` is empty.",
+        .arguments = {
+            {.name = "file",
+             .initial = Value::text(""),
+             .choices = {},
+             .doc = "path of the file; of a sequence with #### or %04d for the number"},
+            {.name = "frame",
+             .initial = Value::number(-1),
+             .choices = {},
+             .doc = "number of the picture of a sequence; -1: it plays from its first number on"},
+            {.name = "fps",
+             .initial = Value::number(0),
+             .choices = {},
+             .doc = "pictures per second of a sequence that plays; 0: one per frame"},
+            {.name = "end",
+             .initial = Value::text("loop"),
+             .choices = {"loop", "hold"},
+             .doc = "what follows the last picture of a sequence: the first, or itself"},
+            {.name = "srgb",
+             .initial = Value::boolean(false),
+             .choices = {},
+             .doc =
+                 "decode red, green and blue from sRGB, as pictures are stored; not for .hdr and .exr, which "
+                 "are linear"},
+            {.name = "mips",
+             .initial = Value::boolean(false),
+             .choices = {},
+             .doc = "all levels down to one texel"}}};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&,
+                           Files& files) const override {
+    graph::ImportFacts result;
+    const ImageRequest image = imageRequestOf(request);
+    if (image.file.empty()) return result;
+    base::Diagnostics said;
+    if (image.fps < 0) {
+      base::Diagnostic& d = said.error(base::Code::badImportArgument, {}, "\"fps\" is below 0");
+      d.expected = "pictures per second, or 0 for one per frame";
+      d.found = fmt::format("{}", image.fps);
+    }
+    const std::string path = firstFileOf(image, files, said);
+    const auto header =
+        path.empty() ? nullptr : files.get<StoredHeader>(path, assets::loadStoredHeader, said);
+    if (header && fitsMemory(*header, image, path, said)) {
+      result.exists = true;
+      result.format = formatOf(header->type, image.srgb);
+      result.width = static_cast<std::uint32_t>(header->width);
+      result.height = static_cast<std::uint32_t>(header->height);
+      result.mips = levelsOf(*header, image.mips);
+    }
+    result.changing = image.frame < 0 && sequencePatternOf(image.file).has_value();
+    result.problems = said.items();
+    return result;
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<ImageProvider>(request);
+  }
+};
+
 }  // namespace
 
-graph::ImportType Image::reflect() const {
-  return {
-      .name = "image",
-      .kind = graph::ImportKind::texture,
-      .doc =
-          "A picture file as a 2D texture of its size, upright, with four channels: .png .jpg .tga as rgba8 "
-          "or rgba16, "
-          ".hdr .exr as rgba32f; or a sequence of numbered files. Not there when `file` is empty.",
-      .arguments = {
-          {.name = "file",
-           .initial = Value::text(""),
-           .choices = {},
-           .doc = "path of the file; of a sequence with #### or %04d for the number"},
-          {.name = "frame",
-           .initial = Value::number(-1),
-           .choices = {},
-           .doc = "number of the picture of a sequence; -1: it plays from its first number on"},
-          {.name = "fps",
-           .initial = Value::number(0),
-           .choices = {},
-           .doc = "pictures per second of a sequence that plays; 0: one per frame"},
-          {.name = "end",
-           .initial = Value::text("loop"),
-           .choices = {"loop", "hold"},
-           .doc = "what follows the last picture of a sequence: the first, or itself"},
-          {.name = "srgb",
-           .initial = Value::boolean(false),
-           .choices = {},
-           .doc =
-               "decode red, green and blue from sRGB, as pictures are stored; not for .hdr and .exr, which "
-               "are linear"},
-          {.name = "mips",
-           .initial = Value::boolean(false),
-           .choices = {},
-           .doc = "all levels down to one texel"}}};
-}
-
-graph::ImportFacts Image::facts(const graph::ImportRequest& request, const WorldFacts&, Files& files) const {
-  graph::ImportFacts result;
-  const ImageRequest image = imageRequestOf(request);
-  if (image.file.empty()) return result;
-  base::Diagnostics said;
-  if (image.fps < 0) {
-    base::Diagnostic& d = said.error(base::Code::badImportArgument, {}, "\"fps\" is below 0");
-    d.expected = "pictures per second, or 0 for one per frame";
-    d.found = fmt::format("{}", image.fps);
-  }
-  const std::string path = firstFileOf(image, files, said);
-  const auto header = path.empty() ? nullptr : files.get<StoredHeader>(path, assets::loadStoredHeader, said);
-  if (header && fitsMemory(*header, image, path, said)) {
-    result.exists = true;
-    result.format = formatOf(header->type, image.srgb);
-    result.width = static_cast<std::uint32_t>(header->width);
-    result.height = static_cast<std::uint32_t>(header->height);
-    result.mips = levelsOf(*header, image.mips);
-  }
-  result.changing = image.frame < 0 && sequencePatternOf(image.file).has_value();
-  result.problems = said.items();
-  return result;
-}
-
-std::unique_ptr<Provider> Image::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<ImageProvider>(request);
+std::unique_ptr<Import> makeImage() {
+  return std::make_unique<Image>();
 }
 
 }  // namespace weft::imports

@@ -1,5 +1,5 @@
-#include "engine/imports/joints/joints.h"
-
+// The import `joints`: matrices of the joints of skinned meshes, now and in the frame before.
+#include "engine/imports/builtin.h"
 #include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
 
@@ -27,23 +27,30 @@ class JointsProvider : public Provider {
   RowTable<scene::Joint> table_{"joints", jointColumns()};
 };
 
+class Joints : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {.name = "joints",
+            .kind = graph::ImportKind::buffer,
+            .doc =
+                "Of the joints of skinned meshes: bind pose to world, so that a vertex is the mean of its "
+                "joints' matrices, by weight, times its position.",
+            .columns = tell(jointColumns())};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
+    return {.exists = world.skins > 0, .count = static_cast<double>(world.skins)};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<JointsProvider>();
+  }
+};
+
 }  // namespace
 
-graph::ImportType Joints::reflect() const {
-  return {.name = "joints",
-          .kind = graph::ImportKind::buffer,
-          .doc =
-              "Of the joints of skinned meshes: bind pose to world, so that a vertex is the mean of its "
-              "joints' matrices, by weight, times its position.",
-          .columns = tell(jointColumns())};
-}
-
-graph::ImportFacts Joints::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
-  return {.exists = world.skins > 0, .count = static_cast<double>(world.skins)};
-}
-
-std::unique_ptr<Provider> Joints::provide(const graph::ImportRequest&) const {
-  return std::make_unique<JointsProvider>();
+std::unique_ptr<Import> makeJoints() {
+  return std::make_unique<Joints>();
 }
 
 }  // namespace weft::imports

@@ -1,9 +1,9 @@
-#include "engine/imports/lamps/lamps.h"
-
+// The import `lamps`: the scene's point and spot lights as a table, and six views of each that its shadows are drawn from.
 #include <algorithm>
 #include <span>
 #include <vector>
 
+#include "engine/imports/builtin.h"
 #include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/scene/light_views.h"
@@ -16,29 +16,24 @@ bool isCasting(const graph::ImportRequest& request) {
   return request.arguments[0].second.truth();
 }
 
-struct LampRow {
-  const scene::Lamp* lamp = nullptr;
-  std::int32_t shadow = -1;
+struct LampRow : scene::Lamp {
+  float nearPlane = 0;
+  std::int32_t caster = -1;
 };
 
 const Columns<LampRow>& lampColumns() {
   using Row = LampRow;
   static const Columns<Row> columns = {
-      column<Row, [](const Row& row) { return row.lamp->position; }>("position", "world"),
-      column<Row, [](const Row& row) { return row.lamp->range; }>("range",
-                                                                  "world units; nothing beyond is lit"),
-      column<Row, [](const Row& row) { return row.lamp->intensity; }>(
-          "intensity", "linear RGB; irradiance times squared distance, scene-referred"),
-      column<Row, [](const Row& row) { return row.lamp->cosInner; }>(
-          "cos_inner", "of a spot: cosine within which it is full; -1 all round"),
-      column<Row, [](const Row& row) { return row.lamp->direction; }>("direction",
-                                                                      "unit, away from it, of a spot"),
-      column<Row, [](const Row& row) { return row.lamp->cosOuter; }>("cos_outer",
-                                                                     "cosine beyond which nothing is lit"),
-      column<Row, [](const Row& row) { return scene::nearPlaneOf(*row.lamp); }>("near_plane", "of its views"),
-      column<Row, [](const Row& row) { return row.lamp->radius; }>("radius",
-                                                                   "world units: its own, for soft shadows"),
-      column<Row, &Row::shadow>("shadow", "index among those that cast shadows, or -1")};
+      column<Row, &Row::position>("position", "world"),
+      column<Row, &Row::range>("range", "world units; nothing beyond is lit"),
+      column<Row, &Row::intensity>("intensity",
+                                   "linear RGB; irradiance times squared distance, scene-referred"),
+      column<Row, &Row::cosInner>("cos_inner", "of a spot: cosine within which it is full; -1 all round"),
+      column<Row, &Row::direction>("direction", "unit, away from it, of a spot"),
+      column<Row, &Row::cosOuter>("cos_outer", "cosine beyond which nothing is lit"),
+      column<Row, &Row::nearPlane>("near_plane", "of its views"),
+      column<Row, &Row::radius>("radius", "world units: its own, for soft shadows"),
+      column<Row, &Row::caster>("shadow", "index among those that cast shadows, or -1")};
   return columns;
 }
 
@@ -92,7 +87,7 @@ class LampsProvider : public Provider {
     std::vector<LampRow> rows;
     std::int32_t casters = 0;
     for (const std::uint32_t row : rows_)
-      rows.push_back({.lamp = &lamps_[row], .shadow = lamps_[row].shadow ? casters++ : -1});
+      rows.push_back({lamps_[row], scene::nearPlaneOf(lamps_[row]), lamps_[row].shadow ? casters++ : -1});
     return rows;
   }
 
@@ -106,29 +101,37 @@ class LampsProvider : public Provider {
   RowTable<LampRow> table_{"lamps", lampColumns()};
 };
 
+class Lamps : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {.name = "lamps",
+            .kind = graph::ImportKind::buffer,
+            .doc =
+                "The scene's point and spot lights, one row each, and views of 90 degrees from them: "
+                "@lamps[l].face[f], faces as of a cube map.",
+            .arguments = {{.name = "casting",
+                           .initial = graph::Value::boolean(false),
+                           .choices = {},
+                           .doc = "only those that cast shadows"}},
+            .columns = tell(lampColumns()),
+            .views = true};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files&) const override {
+    const std::uint32_t count = isCasting(request) ? world.castingLamps : world.lamps;
+    return {.exists = count > 0, .count = static_cast<double>(count)};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<LampsProvider>(isCasting(request));
+  }
+};
+
 }  // namespace
 
-graph::ImportType Lamps::reflect() const {
-  return {.name = "lamps",
-          .kind = graph::ImportKind::buffer,
-          .doc =
-              "The scene's point and spot lights, one row each, and views of 90 degrees from them: "
-              "@lamps[l].face[f], faces as of a cube map.",
-          .arguments = {{.name = "casting",
-                         .initial = graph::Value::boolean(false),
-                         .choices = {},
-                         .doc = "only those that cast shadows"}},
-          .columns = tell(lampColumns()),
-          .views = true};
-}
-
-graph::ImportFacts Lamps::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {
-  const std::uint32_t count = isCasting(request) ? world.castingLamps : world.lamps;
-  return {.exists = count > 0, .count = static_cast<double>(count)};
-}
-
-std::unique_ptr<Provider> Lamps::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<LampsProvider>(isCasting(request));
+std::unique_ptr<Import> makeLamps() {
+  return std::make_unique<Lamps>();
 }
 
 }  // namespace weft::imports

@@ -1,5 +1,5 @@
-#include "engine/imports/material_maps/material_maps.h"
-
+// The import `material_maps`: the textures of the scene's materials, in arrays by size and kind.
+#include "engine/imports/builtin.h"
 #include "engine/imports/scene_tables.h"
 
 namespace weft::imports {
@@ -20,32 +20,39 @@ class MaterialMapsProvider : public Provider {
   std::uint32_t element_;
 };
 
+class MaterialMaps : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {.name = "material_maps",
+            .kind = graph::ImportKind::texture,
+            .doc =
+                "The textures of the scene's materials, all levels, batched by size: an array of 8 "
+                "sampler2DArray, which shaders/scene/materials.glsl looks up. Not there when no material has "
+                "one.",
+            .array = kMaterialArrays};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
+    const WorldFacts::Maps& maps = world.maps;
+    return {.exists = maps.arrays > 0,
+            .format = graph::Format::rgba8,
+            .width = maps.width,
+            .height = maps.height,
+            .layers = maps.layers,
+            .mips = maps.mips,
+            .layered = true,
+            .count = static_cast<double>(maps.arrays)};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<MaterialMapsProvider>(graph::elementOf(request));
+  }
+};
+
 }  // namespace
 
-graph::ImportType MaterialMaps::reflect() const {
-  return {.name = "material_maps",
-          .kind = graph::ImportKind::texture,
-          .doc =
-              "The textures of the scene's materials, all levels, batched by size: an array of 8 "
-              "sampler2DArray, which shaders/scene/materials.glsl looks up. Not there when no material has "
-              "one.",
-          .array = kMaterialArrays};
-}
-
-graph::ImportFacts MaterialMaps::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
-  const WorldFacts::Maps& maps = world.maps;
-  return {.exists = maps.arrays > 0,
-          .format = graph::Format::rgba8,
-          .width = maps.width,
-          .height = maps.height,
-          .layers = maps.layers,
-          .mips = maps.mips,
-          .layered = true,
-          .count = static_cast<double>(maps.arrays)};
-}
-
-std::unique_ptr<Provider> MaterialMaps::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<MaterialMapsProvider>(graph::elementOf(request));
+std::unique_ptr<Import> makeMaterialMaps() {
+  return std::make_unique<MaterialMaps>();
 }
 
 }  // namespace weft::imports

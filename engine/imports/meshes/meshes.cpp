@@ -1,5 +1,5 @@
-#include "engine/imports/meshes/meshes.h"
-
+// The import `meshes`: the rows of the meshes of a draw list, as a table.
+#include "engine/imports/builtin.h"
 #include "engine/imports/scene_tables.h"
 
 namespace weft::imports {
@@ -28,29 +28,38 @@ class MeshesProvider : public Provider {
   scene::DrawList list_;
 };
 
+class Meshes : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "meshes",
+        .kind = graph::ImportKind::buffer,
+        .doc =
+            "The meshes of a draw list, one row each, as a draw of them has in its block `instances`. Not "
+            "there when there are none.",
+        .arguments = {{.name = "list",
+                       .initial = graph::Value::text(kOpaque),
+                       .choices = {},
+                       .doc = "a draw list",
+                       .drawList = true}},
+        .columns = tell(meshColumns())};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files&) const override {
+    const double count = world.meshesOf(listOf(request));
+    return {.exists = count > 0, .count = count};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<MeshesProvider>(listOf(request));
+  }
+};
+
 }  // namespace
 
-graph::ImportType Meshes::reflect() const {
-  return {.name = "meshes",
-          .kind = graph::ImportKind::buffer,
-          .doc =
-              "The meshes of a draw list, one row each, as a draw of them has in its block `instances`. Not "
-              "there when there are none.",
-          .arguments = {{.name = "list",
-                         .initial = graph::Value::text(kOpaque),
-                         .choices = {},
-                         .doc = "a draw list",
-                         .drawList = true}},
-          .columns = tell(meshColumns())};
-}
-
-graph::ImportFacts Meshes::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {
-  const double count = world.meshesOf(listOf(request));
-  return {.exists = count > 0, .count = count};
-}
-
-std::unique_ptr<Provider> Meshes::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<MeshesProvider>(listOf(request));
+std::unique_ptr<Import> makeMeshes() {
+  return std::make_unique<Meshes>();
 }
 
 }  // namespace weft::imports

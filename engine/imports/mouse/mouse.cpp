@@ -1,7 +1,6 @@
-#include "engine/imports/mouse/mouse.h"
-
 #include <array>
 
+#include "engine/imports/builtin.h"
 #include "engine/imports/row_table.h"
 
 namespace weft::imports {
@@ -14,10 +13,8 @@ const Columns<Pointer>& mouseColumns() {
       column<Row, &Row::position>("position", "pixels, where it was last over the picture"),
       column<Row, &Row::dragged>("dragged", "pixels, where it was last while the button was held"),
       column<Row, &Row::pressed>("pressed", "pixels, where the button last went down"),
-      column<Row, [](const Row& row) { return std::uint32_t{row.down}; }>(
-          "down", "1 while the button is held, else 0"),
-      column<Row, [](const Row& row) { return std::uint32_t{row.clicked}; }>(
-          "clicked", "1 in the frame in which the button went down, else 0")};
+      column<Row, &Row::down>("down", "1 while the button is held, else 0"),
+      column<Row, &Row::clicked>("clicked", "1 in the frame in which the button went down, else 0")};
   return columns;
 }
 
@@ -43,24 +40,32 @@ class MouseProvider : public Provider {
   RowTable<Pointer> table_{"mouse", mouseColumns()};
 };
 
+class Mouse : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "mouse",
+        .kind = graph::ImportKind::buffer,
+        .doc =
+            "Where the mouse points in the presented picture, and its left button: one row. Points are in "
+            "pixels from the lower left corner, as gl_FragCoord counts them.",
+        .arguments = {},
+        .columns = tell(mouseColumns())};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts&, Files&) const override {
+    return {.exists = true, .count = 1, .changing = true};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<MouseProvider>();
+  }
+};
+
 }  // namespace
 
-graph::ImportType Mouse::reflect() const {
-  return {.name = "mouse",
-          .kind = graph::ImportKind::buffer,
-          .doc =
-              "Where the mouse points in the presented picture, and its left button: one row. Points are in "
-              "pixels from the lower left corner, as gl_FragCoord counts them.",
-          .arguments = {},
-          .columns = tell(mouseColumns())};
-}
-
-graph::ImportFacts Mouse::facts(const graph::ImportRequest&, const WorldFacts&, Files&) const {
-  return {.exists = true, .count = 1, .changing = true};
-}
-
-std::unique_ptr<Provider> Mouse::provide(const graph::ImportRequest&) const {
-  return std::make_unique<MouseProvider>();
+std::unique_ptr<Import> makeMouse() {
+  return std::make_unique<Mouse>();
 }
 
 }  // namespace weft::imports

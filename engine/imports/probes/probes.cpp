@@ -1,5 +1,3 @@
-#include "engine/imports/probes/probes.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "engine/graph/language/value.h"
+#include "engine/imports/builtin.h"
 #include "engine/imports/probes/probe_worker.h"
 #include "engine/imports/scene_tables.h"
 
@@ -142,71 +141,80 @@ class ProbesProvider : public Provider {
   bool stale_ = true;
 };
 
+class Probes : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "probes",
+        .kind = graph::ImportKind::buffer,
+        .doc =
+            "A grid of light probes over the box of `list`: what its spheres throw back of the "
+            "environment, computed "
+            "on the CPU beside the frames, in the layout of gi/probes.glsl.",
+        .arguments = {
+            {.name = "list",
+             .initial = Value::text(scene::drawListNames().front()),
+             .choices = {},
+             .doc = "a draw list",
+             .drawList = true},
+            {.name = "grid",
+             .initial = {Value::Type::list, 3, {21, 21, 3, 0}, {}},
+             .choices = {},
+             .doc = "probes along x, y and z: 1 to 256, together at most 262144"},
+            {.name = "near",
+             .initial = Value::number(1.05),
+             .choices = {},
+             .doc = "a sphere lights no probe nearer than that to its centre, in radii; 1 at least"},
+            {.name = "far",
+             .initial = Value::number(10),
+             .choices = {},
+             .doc = "nor one that is as far as that, in radii; more than `near`"},
+            {.name = "shape",
+             .initial = Value::text("cap"),
+             .choices = {"cap", "point"},
+             .doc = "how a sphere is seen: as the cap of the sky that it covers, or as a point as strong"},
+            {.name = "window",
+             .initial = Value::text("smooth"),
+             .choices = {"smooth", "hard"},
+             .doc = "how its light ends at `far`"}}};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts&, Files&) const override {
+    graph::ImportFacts facts{.exists = true};
+    const auto refuse = [&](const char* argument, const char* expected, std::string found) {
+      base::Diagnostic problem;
+      problem.code = base::Code::badImportArgument;
+      problem.message = fmt::format("import 'probes': argument '{}' does not fit", argument);
+      problem.expected = expected;
+      problem.found = std::move(found);
+      problem.hint = fmt::format("give \"{}\" such a value, or leave it out", argument);
+      facts.problems.push_back(std::move(problem));
+    };
+    const Value& grid = gridOf(request);
+    const bool whole = std::ranges::all_of(std::span(grid.v).first(3), [](double along) {
+      return along >= 1 && along <= kMostAlong && along == std::floor(along);
+    });
+    if (!whole || grid.v[0] * grid.v[1] * grid.v[2] > kMostProbes)
+      refuse("grid", "three whole numbers from 1 to 256 whose product is at most 262144",
+             graph::toText(grid));
+    if (!(nearOf(request) >= 1)) refuse("near", "1 or more", fmt::format("{}", nearOf(request)));
+    if (!(farOf(request) > nearOf(request)) || !(farOf(request) <= 1e6))
+      refuse("far", "more than `near`, at most 1000000", fmt::format("{}", farOf(request)));
+    const glm::uvec3 count = countOf(grid);
+    facts.count = static_cast<double>(std::size_t{count.x} * count.y * count.z);
+    facts.bytes = bytesOf(count);
+    return facts;
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<ProbesProvider>(request);
+  }
+};
+
 }  // namespace
 
-graph::ImportType Probes::reflect() const {
-  return {.name = "probes",
-          .kind = graph::ImportKind::buffer,
-          .doc =
-              "A grid of light probes over the box of `list`: what its spheres throw back of the "
-              "environment, computed "
-              "on the CPU beside the frames, in the layout of gi/probes.glsl.",
-          .arguments = {
-              {.name = "list",
-               .initial = Value::text(scene::drawListNames().front()),
-               .choices = {},
-               .doc = "a draw list",
-               .drawList = true},
-              {.name = "grid",
-               .initial = {Value::Type::list, 3, {21, 21, 3, 0}, {}},
-               .choices = {},
-               .doc = "probes along x, y and z: 1 to 256, together at most 262144"},
-              {.name = "near",
-               .initial = Value::number(1.05),
-               .choices = {},
-               .doc = "a sphere lights no probe nearer than that to its centre, in radii; 1 at least"},
-              {.name = "far",
-               .initial = Value::number(10),
-               .choices = {},
-               .doc = "nor one that is as far as that, in radii; more than `near`"},
-              {.name = "shape",
-               .initial = Value::text("cap"),
-               .choices = {"cap", "point"},
-               .doc = "how a sphere is seen: as the cap of the sky that it covers, or as a point as strong"},
-              {.name = "window",
-               .initial = Value::text("smooth"),
-               .choices = {"smooth", "hard"},
-               .doc = "how its light ends at `far`"}}};
-}
-
-graph::ImportFacts Probes::facts(const graph::ImportRequest& request, const WorldFacts&, Files&) const {
-  graph::ImportFacts facts{.exists = true};
-  const auto refuse = [&](const char* argument, const char* expected, std::string found) {
-    base::Diagnostic problem;
-    problem.code = base::Code::badImportArgument;
-    problem.message = fmt::format("import 'probes': argument '{}' does not fit", argument);
-    problem.expected = expected;
-    problem.found = std::move(found);
-    problem.hint = fmt::format("give \"{}\" such a value, or leave it out", argument);
-    facts.problems.push_back(std::move(problem));
-  };
-  const Value& grid = gridOf(request);
-  const bool whole = std::ranges::all_of(std::span(grid.v).first(3), [](double along) {
-    return along >= 1 && along <= kMostAlong && along == std::floor(along);
-  });
-  if (!whole || grid.v[0] * grid.v[1] * grid.v[2] > kMostProbes)
-    refuse("grid", "three whole numbers from 1 to 256 whose product is at most 262144", graph::toText(grid));
-  if (!(nearOf(request) >= 1)) refuse("near", "1 or more", fmt::format("{}", nearOf(request)));
-  if (!(farOf(request) > nearOf(request)) || !(farOf(request) <= 1e6))
-    refuse("far", "more than `near`, at most 1000000", fmt::format("{}", farOf(request)));
-  const glm::uvec3 count = countOf(grid);
-  facts.count = static_cast<double>(std::size_t{count.x} * count.y * count.z);
-  facts.bytes = bytesOf(count);
-  return facts;
-}
-
-std::unique_ptr<Provider> Probes::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<ProbesProvider>(request);
+std::unique_ptr<Import> makeProbes() {
+  return std::make_unique<Probes>();
 }
 
 }  // namespace weft::imports

@@ -1,12 +1,12 @@
-#include "engine/imports/silhouettes/silhouettes.h"
+#include "engine/scene/silhouettes.h"
 
 #include <algorithm>
 #include <optional>
 #include <span>
 
+#include "engine/imports/builtin.h"
 #include "engine/imports/camera_views.h"
 #include "engine/imports/scene_tables.h"
-#include "engine/scene/silhouettes.h"
 
 namespace weft::imports {
 
@@ -76,43 +76,52 @@ class SilhouettesProvider : public Provider {
   float pixel_ = 0;
 };
 
+class Silhouettes : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "silhouettes",
+        .kind = graph::ImportKind::buffer,
+        .doc =
+            "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
+            "uvec4(first, number, 0, 0) per "
+            "instance, then per such sphere the bits of vec4(centre from the eye, radius); empty with more "
+            "than 4096, or 131072 pairs that meet.",
+        .arguments = {{.name = "list",
+                       .initial = Value::text(scene::drawListNames().front()),
+                       .choices = {},
+                       .doc = "a draw list",
+                       .drawList = true},
+                      {.name = "height",
+                       .initial = Value::number(720),
+                       .choices = {},
+                       .doc = "of the picture, pixels"}}};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files&) const override {
+    graph::ImportFacts facts{.exists = true, .count = world.countOf(listOf(request))};
+    const double height = request.arguments[1].second.v[0];
+    if (height >= 1 && height <= kHighest) return facts;
+    base::Diagnostics said;
+    base::Diagnostic& d =
+        said.error(base::Code::badImportArgument, {}, "import 'silhouettes': argument 'height' does not fit");
+    d.expected = "the height of the picture, 1 to 65536 pixels";
+    d.found = graph::toText(request.arguments[1].second);
+    d.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";
+    facts.problems = said.items();
+    return facts;
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    return std::make_unique<SilhouettesProvider>(request);
+  }
+};
+
 }  // namespace
 
-graph::ImportType Silhouettes::reflect() const {
-  return {
-      .name = "silhouettes",
-      .kind = graph::ImportKind::buffer,
-      .doc =
-          "Of each sphere of `list`, those before it whose silhouettes meet its own in the picture. "
-          "uvec4(first, number, 0, 0) per "
-          "instance, then per such sphere the bits of vec4(centre from the eye, radius); empty with more "
-          "than 4096, or 131072 pairs that meet.",
-      .arguments = {
-          {.name = "list",
-           .initial = Value::text(scene::drawListNames().front()),
-           .choices = {},
-           .doc = "a draw list",
-           .drawList = true},
-          {.name = "height", .initial = Value::number(720), .choices = {}, .doc = "of the picture, pixels"}}};
-}
-
-graph::ImportFacts Silhouettes::facts(const graph::ImportRequest& request, const WorldFacts& world,
-                                      Files&) const {
-  graph::ImportFacts facts{.exists = true, .count = world.countOf(listOf(request))};
-  const double height = request.arguments[1].second.v[0];
-  if (height >= 1 && height <= kHighest) return facts;
-  base::Diagnostics said;
-  base::Diagnostic& d =
-      said.error(base::Code::badImportArgument, {}, "import 'silhouettes': argument 'height' does not fit");
-  d.expected = "the height of the picture, 1 to 65536 pixels";
-  d.found = graph::toText(request.arguments[1].second);
-  d.hint = "write \"height\": \"size(hdr).y\", with the picture's name in place of hdr";
-  facts.problems = said.items();
-  return facts;
-}
-
-std::unique_ptr<Provider> Silhouettes::provide(const graph::ImportRequest& request) const {
-  return std::make_unique<SilhouettesProvider>(request);
+std::unique_ptr<Import> makeSilhouettes() {
+  return std::make_unique<Silhouettes>();
 }
 
 }  // namespace weft::imports

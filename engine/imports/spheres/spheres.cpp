@@ -1,5 +1,4 @@
-#include "engine/imports/spheres/spheres.h"
-
+#include "engine/imports/builtin.h"
 #include "engine/imports/scene_tables.h"
 
 namespace weft::imports {
@@ -17,22 +16,29 @@ class SpheresProvider : public Provider {
   bool isStill(const World& world) const override { return !scene::isMoving(world.scene(), kList); }
 };
 
+class Spheres : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {.name = "spheres",
+            .kind = graph::ImportKind::buffer,
+            .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
+            .arguments = {},
+            .columns = tell(sphereColumns())};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
+    return {.exists = true, .count = world.countOf(scene::drawListNames()[static_cast<std::size_t>(kList)])};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<SpheresProvider>();
+  }
+};
+
 }  // namespace
 
-graph::ImportType Spheres::reflect() const {
-  return {.name = "spheres",
-          .kind = graph::ImportKind::buffer,
-          .doc = "The instances of the draw list `spheres`, in the layout of scene/instances.glsl.",
-          .arguments = {},
-          .columns = tell(sphereColumns())};
-}
-
-graph::ImportFacts Spheres::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
-  return {.exists = true, .count = world.countOf(scene::drawListNames()[static_cast<std::size_t>(kList)])};
-}
-
-std::unique_ptr<Provider> Spheres::provide(const graph::ImportRequest&) const {
-  return std::make_unique<SpheresProvider>();
+std::unique_ptr<Import> makeSpheres() {
+  return std::make_unique<Spheres>();
 }
 
 }  // namespace weft::imports

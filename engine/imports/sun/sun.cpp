@@ -1,11 +1,11 @@
-#include "engine/imports/sun/sun.h"
-
+// The import `sun`: the scene's sun as a table of one row, and as a view that its shadow is drawn from.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "engine/imports/builtin.h"
 #include "engine/imports/row_table.h"
 #include "engine/imports/scene_tables.h"
 #include "engine/scene/light_views.h"
@@ -25,25 +25,20 @@ std::optional<glm::vec3> directionOf(const graph::ImportRequest& request) {
   return glm::vec3(towards / length);
 }
 
-struct SunRow {
-  scene::Sun sun;
-  scene::SunView fitted;
+struct SunRow : scene::Sun {
+  float cosAngle = 1, texel = 0;
+  glm::mat4 shadowMatrix{1};
 };
 
 const Columns<SunRow>& sunColumns() {
   using Row = SunRow;
   static const Columns<Row> columns = {
-      column<Row, [](const Row& row) { return row.sun.direction; }>("direction", "unit, towards it, world"),
-      column<Row,
-             [](const Row& row) {
-               return static_cast<float>(std::cos(row.sun.angle / 2 * std::numbers::pi / 180));
-             }>("cos_angle", "of half its diameter in the sky"),
-      column<Row, [](const Row& row) { return row.sun.irradiance; }>(
-          "irradiance", "linear RGB on what faces it, scene-referred"),
-      column<Row, [](const Row& row) { return row.fitted.texel; }>("texel",
-                                                                   "world units across a texel of its map"),
-      column<Row, [](const Row& row) { return row.fitted.shadowMatrix; }>(
-          "shadow_matrix", "world to u, v and reversed-Z depth of its map, 0 to 1")};
+      column<Row, &Row::direction>("direction", "unit, towards it, world"),
+      column<Row, &Row::cosAngle>("cos_angle", "of half its diameter in the sky"),
+      column<Row, &Row::irradiance>("irradiance", "linear RGB on what faces it, scene-referred"),
+      column<Row, &Row::texel>("texel", "world units across a texel of its map"),
+      column<Row, &Row::shadowMatrix>("shadow_matrix",
+                                      "world to u, v and reversed-Z depth of its map, 0 to 1")};
   return columns;
 }
 
@@ -54,12 +49,11 @@ class SunProvider : public Provider {
 
   BufferRef buffer(const Frame& frame, const RowLayout& layout, base::Diagnostics& diagnostics) override {
     follow(frame);
-    return table_.get(
-        layout, generation_,
-        [this] {
-          return std::array{SunRow{sun_, fitted_}};
-        },
-        diagnostics);
+    const auto row = [&] {
+      const auto cosAngle = static_cast<float>(std::cos(sun_.angle / 2 * std::numbers::pi / 180));
+      return std::array{SunRow{sun_, cosAngle, fitted_.texel, fitted_.shadowMatrix}};
+    };
+    return table_.get(layout, generation_, row, diagnostics);
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart&) override {
     follow(frame);
@@ -102,40 +96,48 @@ class SunProvider : public Provider {
   RowTable<SunRow> table_{"sun", sunColumns()};
 };
 
+class Sun : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "sun",
+        .kind = graph::ImportKind::buffer,
+        .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
+        .arguments =
+            {{.name = "texels",
+              .initial = graph::Value::number(2048),
+              .choices = {},
+              .doc = "a side of the map that its shadow is drawn into"},
+             {.name = "direction",
+              .initial = graph::Value{graph::Value::Type::list, 3, {}, {}},
+              .choices = {},
+              .doc = "towards it, in place of the scene's; then it is there without a sun, too, and gives no "
+                     "light then. [0, 0, 0]: the scene's"},
+             {.name = "casting",
+              .initial = graph::Value::boolean(false),
+              .choices = {},
+              .doc = "true: there only if the scene's sun casts shadows"}},
+        .columns = tell(sunColumns()),
+        .views = true};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world,
+                           Files&) const override {
+    const bool casting = request.arguments[2].second.truth();
+    const bool exists = directionOf(request) || (casting ? world.castingSun : world.sun);
+    return {.exists = exists, .count = exists ? 1.0 : 0.0};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest& request) const override {
+    const double texels = std::clamp(std::floor(request.arguments[0].second.v[0]), 1.0, kMostTexels);
+    return std::make_unique<SunProvider>(static_cast<std::uint32_t>(texels), directionOf(request));
+  }
+};
+
 }  // namespace
 
-graph::ImportType Sun::reflect() const {
-  return {
-      .name = "sun",
-      .kind = graph::ImportKind::buffer,
-      .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
-      .arguments =
-          {{.name = "texels",
-            .initial = graph::Value::number(2048),
-            .choices = {},
-            .doc = "a side of the map that its shadow is drawn into"},
-           {.name = "direction",
-            .initial = graph::Value{graph::Value::Type::list, 3, {}, {}},
-            .choices = {},
-            .doc = "towards it, in place of the scene's; then it is there without a sun, too, and gives no "
-                   "light then. [0, 0, 0]: the scene's"},
-           {.name = "casting",
-            .initial = graph::Value::boolean(false),
-            .choices = {},
-            .doc = "true: there only if the scene's sun casts shadows"}},
-      .columns = tell(sunColumns()),
-      .views = true};
-}
-
-graph::ImportFacts Sun::facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) const {
-  const bool casting = request.arguments[2].second.truth();
-  const bool exists = directionOf(request) || (casting ? world.castingSun : world.sun);
-  return {.exists = exists, .count = exists ? 1.0 : 0.0};
-}
-
-std::unique_ptr<Provider> Sun::provide(const graph::ImportRequest& request) const {
-  const double texels = std::clamp(std::floor(request.arguments[0].second.v[0]), 1.0, kMostTexels);
-  return std::make_unique<SunProvider>(static_cast<std::uint32_t>(texels), directionOf(request));
+std::unique_ptr<Import> makeSun() {
+  return std::make_unique<Sun>();
 }
 
 }  // namespace weft::imports

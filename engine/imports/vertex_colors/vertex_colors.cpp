@@ -1,5 +1,5 @@
-#include "engine/imports/vertex_colors/vertex_colors.h"
-
+// The import `vertex_colors`: a colour for each vertex of the scene's meshes, where one of them has any.
+#include "engine/imports/builtin.h"
 #include "engine/imports/row_table.h"
 
 namespace weft::imports {
@@ -26,24 +26,31 @@ class VertexColorsProvider : public Provider {
   RowTable<glm::vec4> table_{"vertex colours", colorColumns()};
 };
 
+class VertexColors : public Import {
+ public:
+  graph::ImportType reflect() const override {
+    return {
+        .name = "vertex_colors",
+        .kind = graph::ImportKind::buffer,
+        .doc =
+            "A row for each vertex of the scene's meshes, which a vertex shader of geometry `mesh` finds by "
+            "gl_VertexID. It exists where a mesh has vertex colours; those of the others are white.",
+        .columns = tell(colorColumns())};
+  }
+
+  graph::ImportFacts facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const override {
+    return {.exists = world.coloredVertices > 0, .count = static_cast<double>(world.coloredVertices)};
+  }
+
+  std::unique_ptr<Provider> provide(const graph::ImportRequest&) const override {
+    return std::make_unique<VertexColorsProvider>();
+  }
+};
+
 }  // namespace
 
-graph::ImportType VertexColors::reflect() const {
-  return {
-      .name = "vertex_colors",
-      .kind = graph::ImportKind::buffer,
-      .doc =
-          "A row for each vertex of the scene's meshes, which a vertex shader of geometry `mesh` finds by "
-          "gl_VertexID. It exists where a mesh has vertex colours; those of the others are white.",
-      .columns = tell(colorColumns())};
-}
-
-graph::ImportFacts VertexColors::facts(const graph::ImportRequest&, const WorldFacts& world, Files&) const {
-  return {.exists = world.coloredVertices > 0, .count = static_cast<double>(world.coloredVertices)};
-}
-
-std::unique_ptr<Provider> VertexColors::provide(const graph::ImportRequest&) const {
-  return std::make_unique<VertexColorsProvider>();
+std::unique_ptr<Import> makeVertexColors() {
+  return std::make_unique<VertexColors>();
 }
 
 }  // namespace weft::imports
